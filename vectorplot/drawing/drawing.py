@@ -1,0 +1,79 @@
+"""The display list: what a backend needs to know, and nothing else."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+
+
+@dataclass(frozen=True)
+class Pen:
+    """A pen: width of the stroke in mm, colour as #rrggbb."""
+
+    width_mm: float = 0.3
+    colour: str = "#000000"
+
+
+@dataclass(frozen=True, eq=False)
+class Paths:
+    """Many stroked polylines on the page.
+
+    points (p,2) in mm, y upwards from the lower left corner; offsets (m+1,); closed (m,): the last point joins the first
+    (which is not repeated); kind (m,) LineKind values; item (m,) indices into Drawing.items; hidden_by (m,) number of
+    items in front, 0 = visible; points3d (p,3) the same points in the world.
+    """
+
+    points: Floats
+    offsets: Ints
+    closed: Bools
+    kind: Ints
+    item: Ints
+    hidden_by: Ints
+    points3d: Floats
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    @classmethod
+    def empty(cls) -> Paths:
+        none = np.zeros(0, dtype=np.intp)
+        return cls(
+            np.zeros((0, 2)), np.zeros(1, dtype=np.intp), np.zeros(0, dtype=np.bool_), none, none, none, np.zeros((0, 3))
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Layer:
+    """Marks drawn with one pen. name: what the layer holds, such as ``visible``; plotted: False for a layer that is there
+    to be looked at only (its label gets the prefix % that plotter drivers skip)."""
+
+    name: str
+    pen: Pen
+    marks: tuple[Paths, ...]
+    plotted: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class Drawing:
+    """A page in mm and its layers in drawing order. page_from_world (4,4) acts on columns (x,y,z,1); divide by the last
+    component to get mm. items: the names of the items the marks belong to."""
+
+    width_mm: float
+    height_mm: float
+    layers: tuple[Layer, ...]
+    items: tuple[str, ...] = ()
+    title: str = ""
+    page_from_world: Floats = field(default_factory=lambda: np.eye(4))
+
+    def _repr_svg_(self) -> str:
+        from vectorplot.backends.svg import svg_text
+
+        return svg_text(self)
+
+    def _repr_png_(self) -> bytes:
+        from vectorplot.backends.cairo import png_bytes
+
+        return png_bytes(self)

@@ -1,0 +1,116 @@
+"""Where one looks from, and how: central and parallel projection alike."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats
+
+Point = tuple[float, float, float]
+
+VIEWS: dict[str, tuple[Point, Point]] = {
+    "front": ((0.0, -1.0, 0.0), (0.0, 0.0, 1.0)),
+    "back": ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+    "left": ((-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    "right": ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    "top": ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
+    "bottom": ((0.0, 0.0, -1.0), (0.0, -1.0, 0.0)),
+    "iso": ((1.0, -1.0, 1.0), (0.0, 0.0, 1.0)),
+}
+"""Main views: direction from the target to the eye, and the direction that is up in the picture."""
+
+
+@dataclass(frozen=True)
+class Camera:
+    """An eye, the target it looks at, and the projection.
+
+    up: a direction that is up in the picture; without it z is up (straight from above or below: as if the eye stood on
+    the positive x-axis). twist_deg turns the camera about its principal ray, on top of either. fov_deg: the full
+    angle over the picture height. parallel: rays parallel to eye - target; height is then the height of the picture in
+    world units (None: as the central projection from this eye would have in the plane through the target).
+    Errors: InputError for an eye in the target, an up vector along the view, a field of vision outside 0 to 180 degrees,
+    a height that is not positive, and numbers that are not finite.
+    Source: Glaeser, section 2.1, equations 1 to 5; the twist is his tau.
+    """
+
+    eye: Point
+    target: Point = (0.0, 0.0, 0.0)
+    up: Point | None = None
+    twist_deg: float = 0.0
+    fov_deg: float = 30.0
+    parallel: bool = False
+    height: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("eye", "target", "up"):
+            value = getattr(self, name)
+            if value is not None:
+                point = tuple(float(x) for x in value)
+                if len(point) != 3 or not all(np.isfinite(point)):
+                    raise InputError(f"camera: {name} must be three finite numbers")
+                object.__setattr__(self, name, point)
+        if not np.isfinite(self.twist_deg):
+            raise InputError("camera: twist must be a finite number of degrees")
+        if not 0.0 < self.fov_deg < 180.0:
+            raise InputError(f"camera: field of vision {self.fov_deg:g} must lie between 0 and 180 degrees")
+        if self.height is not None and not 0.0 < self.height < np.inf:
+            raise InputError(f"camera: height {self.height:g} must be positive and finite")
+        if self.eye == self.target or not self.distance > 0.0:
+            raise InputError("camera: the eye is in the target")
+        if self.up is not None:
+            length = float(np.linalg.norm(self.up))
+            across = np.linalg.norm(np.cross(self.up, self.direction))
+            if not across > 1e-9 * length:
+                raise InputError("camera: the up vector lies along the view")
+
+    @cached_property
+    def distance(self) -> float:
+        """From the eye to the target, in world units."""
+        return float(np.linalg.norm(np.subtract(self.eye, self.target)))
+
+    @cached_property
+    def direction(self) -> Floats:
+        """(3,) unit vector from the target to the eye."""
+        ray = np.subtract(self.eye, self.target)
+        ray = ray / np.abs(ray).max()
+        return np.asarray(ray / np.linalg.norm(ray), dtype=np.float64)
+
+    @cached_property
+    def axes(self) -> Floats:
+        """(3,3) rows: right, up, and back towards the eye, unit vectors in world coordinates; right-handed."""
+        back = self.direction
+        if self.up is not None:
+            right = np.cross(self.up, back)
+        elif np.hypot(back[0], back[1]) <= 1e-12:
+            right = np.array([0.0, 1.0, 0.0])
+        else:
+            right = np.array([-back[1], back[0], 0.0])
+        right = right / np.linalg.norm(right)
+        upward = np.cross(back, right)
+        angle = np.radians(self.twist_deg)
+        cos, sin = np.cos(angle), np.sin(angle)
+        return np.array([cos * right + sin * upward, cos * upward - sin * right, back])
+
+    @property
+    def picture_height(self) -> float:
+        """Height of the picture in world units, in the plane through the target that faces the eye."""
+        if self.parallel and self.height is not None:
+            return self.height
+        return 2.0 * self.distance * float(np.tan(np.radians(self.fov_deg) / 2.0))
+
+    @classmethod
+    def view(cls, name: str, target: Point = (0.0, 0.0, 0.0), distance: float = 1.0) -> Camera:
+        """A main view (front, back, left, right, top, bottom) or iso: a parallel projection.
+
+        Source: Glaeser, section 2.1 and appendix A.3, keys 1 to 6.
+        """
+        if name not in VIEWS:
+            raise InputError(f"view {name!r}: expected one of {', '.join(VIEWS)}")
+        direction, up = VIEWS[name]
+        ray = np.array(direction) * (distance / np.linalg.norm(direction))
+        eye = (target[0] + ray[0], target[1] + ray[1], target[2] + ray[2])
+        return cls(eye=eye, target=target, up=up, parallel=True)

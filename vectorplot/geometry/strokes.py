@@ -1,0 +1,48 @@
+"""Polylines in space, and the kinds of lines a drawing is made of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+from vectorplot.geometry.mesh import Floats, Ints
+
+
+class LineKind(IntEnum):
+    """What a line is; the smaller value wins where one line is several things at once."""
+
+    CONTOUR = 0
+    """One neighbouring face looks at the eye, the other away from it."""
+    BOUNDARY = 1
+    """An edge of a single face."""
+    CREASE = 2
+    """Two faces meet at an angle sharper than the crease angle."""
+    INTERSECTION = 3
+    """Two shapes, or two parts of one, pierce each other."""
+    EDGES = 4
+    """Any other edge of a face."""
+    PATTERN = 5
+    """The outline of a pattern on a face."""
+
+    @property
+    def word(self) -> str:
+        """The kind as the command line and the JSON file spell it."""
+        return self.name.lower()
+
+
+@dataclass(frozen=True, eq=False)
+class Strokes:
+    """Polylines in space.
+
+    points (p,3); offsets (m+1,): stroke i has the points offsets[i] to offsets[i+1]; kind (m,) LineKind values;
+    item (m,) index of the item a stroke belongs to.
+    Degenerate: no strokes at all is points (0,3), offsets (1,).
+    """
+
+    points: Floats
+    offsets: Ints
+    kind: Ints
+    item: Ints
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1

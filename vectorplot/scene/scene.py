@@ -1,0 +1,102 @@
+"""What stands in a picture: items, lights, and how one looks at them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Floats, Mesh
+
+
+@dataclass(frozen=True)
+class Material:
+    """How a surface takes light. word: normal, metallic, shiny, mat, wood, plastic, transparent or mirror;
+    opacity 0 (clear) to 1; refraction: the constant sin(alpha)/sin(beta) of Snell's law."""
+
+    word: str = "normal"
+    opacity: float = 1.0
+    refraction: float = 1.0
+
+
+@dataclass(frozen=True)
+class Light:
+    """A light source at a point, or with parallel rays coming from the direction ``position``; intensity 0 to 1."""
+
+    position: tuple[float, float, float]
+    parallel: bool = False
+    intensity: float | None = None
+    name: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Pattern:
+    """A coloured polygon lying on a face: points (k,2) in the face's own coordinates (origin at its barycentre, x along
+    its first edge, y to the left of it), face an index from 0. Source: Glaeser, section 6.5."""
+
+    name: str
+    colour: str
+    face: int
+    points: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Item:
+    """A shape in the scene, and how it is drawn.
+
+    colour: the name of a palette; lines: the words of the kinds to draw (None: what the drawing asks for);
+    occludes: whether it hides what is behind it; convex: whether its maker declares it convex (checked before use).
+    """
+
+    name: str
+    shape: Mesh
+    colour: str = "gray"
+    material: Material = field(default_factory=Material)
+    patterns: tuple[Pattern, ...] = ()
+    lines: tuple[str, ...] | None = None
+    occludes: bool = True
+
+
+@dataclass(frozen=True)
+class Page:
+    """The sheet of paper, in mm."""
+
+    width_mm: float = 210.0
+    height_mm: float = 297.0
+    margin_mm: float = 10.0
+
+    def __post_init__(self) -> None:
+        sizes = (self.width_mm, self.height_mm, self.margin_mm)
+        if not all(np.isfinite(sizes)) or min(self.width_mm, self.height_mm) <= 0.0 or self.margin_mm < 0.0:
+            raise InputError(f"page {self.width_mm:g}x{self.height_mm:g} mm, margin {self.margin_mm:g} mm: not a page")
+        if 2.0 * self.margin_mm >= min(self.width_mm, self.height_mm):
+            raise InputError(f"a margin of {self.margin_mm:g} mm leaves nothing of the page")
+
+    @property
+    def landscape(self) -> Page:
+        """The same sheet lying on its longer side."""
+        long, short = max(self.width_mm, self.height_mm), min(self.width_mm, self.height_mm)
+        return Page(long, short, self.margin_mm)
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Items in the order of the file, lights, and what the file says about camera, page and background (None: nothing)."""
+
+    items: tuple[Item, ...]
+    lights: tuple[Light, ...] = ()
+    camera: Camera | None = None
+    page: Page | None = None
+    background: str | None = None
+    title: str = ""
+
+    @property
+    def bounds(self) -> Floats:
+        """(2,3) smallest and largest coordinates over all items; zeros for an empty scene."""
+        boxes = [item.shape.bounds for item in self.items if len(item.shape.vertices)]
+        if not boxes:
+            return np.zeros((2, 3))
+        stacked = np.array(boxes)
+        return np.array([stacked[:, 0].min(axis=0), stacked[:, 1].max(axis=0)])
