@@ -1,0 +1,215 @@
+"""The lines that a polygon mesh draws by itself: contours, boundaries, creases, edges."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.strokes import LineKind
+
+
+BLOCK = 1 << 16
+"""Faces handled at once: few enough for the processor's cache."""
+
+
+HASH = np.uint64(0x9E3779B97F4A7C15)
+"""Fibonacci hashing: an odd multiplier that scrambles consecutive numbers."""
+
+
+@dataclass(frozen=True, eq=False)
+class Edges:
+    """Edges of a mesh: start and end (e,) vertices, kind (e,), face (e,) one of the faces there, front (e,): whether a face
+    there shows its outside."""
+
+    start: Ints
+    end: Ints
+    kind: Ints
+    face: Ints
+    front: Bools
+
+
+@dataclass(frozen=True, eq=False)
+class Faces:
+    """What edges are told from: points (3,v); corners, next_corner, inner (c,) and offsets (f+1,) of the faces; facing (f,)
+    1, -1 or 0 as a face shows its outside, its inside or its edge."""
+
+    points: Floats
+    corners: Ints
+    next_corner: Ints
+    offsets: Ints
+    inner: Bools
+    facing: NDArray[np.int8]
+
+
+def mesh_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: float) -> Edges:
+    """The edges of the mesh that are of one of the kinds, each edge once, ordered by its vertices.
+
+    An edge is a contour where all its faces lie on one side of it in the image, a boundary with one face only, a crease
+    where two faces turn by more than crease_angle_deg or three meet. It gets the first of the kinds asked for that it is.
+    Neighbours wound in opposite senses are compared as if one were turned over.
+    Degenerate: diagonals of cut polygons count as contours only; edges between two faces seen edge-on are no contours.
+    Source: Glaeser, sections 3.3, 6.1 and 9.3; erratum G3-09.
+    """
+    half = _candidates(faces, kinds, crease_angle_deg)
+    if not len(half):
+        none = np.zeros(0, dtype=np.intp)
+        return Edges(none, none, none, none, np.zeros(0, dtype=np.bool_))
+    a, b = faces.corners[half], faces.corners[faces.next_corner[half]]
+    low, high = np.minimum(a, b), np.maximum(a, b)
+    key = low * faces.points.shape[1] + high
+    order = np.argsort(key, kind="stable")
+    key, half, forward = key[order], half[order], (a < b)[order]
+    first = np.flatnonzero(np.concatenate([[True], key[1:] != key[:-1]]))
+    count = np.diff(np.append(first, len(key)))
+    face = np.searchsorted(faces.offsets, half, side="right") - 1
+    facing = faces.facing[face]
+    side = np.where(forward, facing, -facing)
+    least, most = np.minimum.reduceat(side, first), np.maximum.reduceat(side, first)
+    outer = ~np.logical_and.reduceat(faces.inner[half], first)
+    is_kind = {
+        LineKind.CONTOUR: (count > 1) & ((least >= 0) | (most <= 0)) & (least != most) | (count > 1) & (least * most > 0),
+        LineKind.BOUNDARY: (count == 1) & outer,
+        LineKind.CREASE: outer & (count > 2),
+        LineKind.EDGES: outer,
+    }
+    if LineKind.CREASE in kinds:
+        pairs = np.flatnonzero((count == 2) & outer)
+        is_kind[LineKind.CREASE][pairs] = _sharp_pairs(faces, face, forward, first[pairs], crease_angle_deg)
+    kind = np.full(len(first), -1)
+    for one in sorted(set(kinds) & set(is_kind), reverse=True):
+        kind[is_kind[one]] = one
+    kept = kind >= 0
+    front = np.maximum.reduceat(facing, first)[kept] > 0
+    first = first[kept]
+    return Edges(low[order][first], high[order][first], kind[kept], face[first], front)
+
+
+def _sharp_pairs(faces: Faces, face: Ints, forward: Bools, first: Ints, angle_deg: float) -> Bools:
+    """Which edges with the two faces at first and first + 1 are creases."""
+    one, two = unit_normals(faces, face[first]), unit_normals(faces, face[first + 1])
+    cosine = (one * two).sum(axis=0)
+    cosine = np.where(forward[first] == forward[first + 1], -cosine, cosine)
+    return np.asarray(cosine < np.cos(np.radians(angle_deg)), dtype=np.bool_)
+
+
+def unit_normals(faces: Faces, which: Ints) -> Floats:
+    """(3,n) unit normals of some faces; zero for a face without area."""
+    p, start = faces.points, faces.offsets[which]
+    size = faces.offsets[which + 1] - start
+    a = p[:, faces.corners[start]]
+    normal = np.zeros_like(a)
+    before = p[:, faces.corners[start + 1]] - a
+    for step in range(2, int(size.max(initial=0))):
+        has = step < size
+        arm = p[:, faces.corners[start + np.where(has, step, 1)]] - a
+        normal += np.cross(before, arm, axis=0) * has
+        before = arm
+    length = np.sqrt((normal * normal).sum(axis=0))
+    return normal / np.where(length > 0.0, length, 1.0)
+
+
+def _candidates(faces: Faces, kinds: Collection[LineKind], angle_deg: float) -> Ints:
+    """Half-edges (positions of corners) both ends of which could lie on a line of these kinds.
+
+    What an edge is shows at both its ends: a vertex all of whose faces look the same way is on no contour. So most
+    half-edges of a fine mesh need not be sorted.
+    """
+    if LineKind.EDGES in kinds:
+        return np.flatnonzero(~faces.inner) if LineKind.CONTOUR not in kinds else np.arange(len(faces.corners))
+    odd = np.zeros(faces.points.shape[1], dtype=np.bool_)
+    if LineKind.CONTOUR in kinds:
+        odd |= _turning_vertices(faces)
+    unbalanced = unbalanced_vertices(faces.points.shape[1], faces.corners, faces.next_corner)
+    chosen = _both_ends(faces, odd | unbalanced)
+    if LineKind.CREASE in kinds:
+        chosen |= _both_ends(faces, _sharp_vertices(faces, angle_deg) | unbalanced)
+    return np.flatnonzero(chosen)
+
+
+def _both_ends(faces: Faces, vertices: Bools) -> Bools:
+    """(c,) half-edges with both ends among the vertices."""
+    at_corner = vertices[faces.corners]
+    if len(at_corner) == 3 * (len(faces.offsets) - 1):
+        rows = at_corner.reshape(-1, 3)
+        return np.asarray((rows & rows[:, [1, 2, 0]]).ravel(), dtype=np.bool_)
+    return np.asarray(at_corner & at_corner[faces.next_corner], dtype=np.bool_)
+
+
+def _turning_vertices(faces: Faces) -> Bools:
+    """Vertices between faces of different facing."""
+    sizes = np.diff(faces.offsets)
+    facing = np.repeat(faces.facing, sizes)
+    seen = np.zeros((2, faces.points.shape[1]), dtype=np.bool_)
+    seen[0, faces.corners[facing > 0]] = True
+    seen[1, faces.corners[facing <= 0]] = True
+    return np.asarray(seen[0] & seen[1], dtype=np.bool_)
+
+
+def unbalanced_vertices(count: int, corners: Ints, next_corner: Ints) -> Bools:
+    """(count,) vertices that do not have an edge going out for every edge coming in: ends of boundaries, of edges with an
+    odd number of faces, and of edges between faces wound in opposite senses. None: the mesh is closed and oriented.
+
+    Edges are told apart by a scrambled number at their other end, large enough that no boundary is missed by chance in
+    practice, small enough (40 bits) that the sums are exact.
+    """
+    label = ((np.arange(1, count + 1, dtype=np.uint64) * HASH) >> np.uint64(24)).astype(np.float64)
+    at_corner = label[corners]
+    difference = at_corner[next_corner]
+    before = np.empty_like(at_corner)
+    before[next_corner] = at_corner
+    difference -= before
+    return np.asarray(np.bincount(corners, weights=difference, minlength=count) != 0.0, dtype=np.bool_)
+
+
+def _sharp_vertices(faces: Faces, angle_deg: float) -> Bools:
+    """Vertices with a face that turns by more than half the angle from one chosen face there: only between such vertices
+    can two faces turn by the whole angle."""
+    count = faces.points.shape[1]
+    chosen = np.zeros((3, count), dtype=np.float32)
+    sharp = np.zeros(count, dtype=np.bool_)
+    limit = np.float32(np.cos(np.radians(angle_deg) / 2.0) + 1e-5)
+    sizes = np.diff(faces.offsets)
+    triangular = len(faces.corners) == 3 * len(sizes)
+    normals = np.empty((3, len(sizes)), dtype=np.float32)
+    for low in range(0, len(sizes), BLOCK):
+        block = slice(low, min(low + BLOCK, len(sizes)))
+        if triangular:
+            normals[:, block] = _triangle_normals(faces.points, faces.corners[3 * low : 3 * block.stop].reshape(-1, 3).T)
+        else:
+            normals[:, block] = unit_normals(faces, np.arange(low, block.stop))
+        for corners, at_corner in _corner_runs(faces, normals, sizes, block):
+            for axis in range(3):
+                chosen[axis, corners] = at_corner[axis]
+    for low in range(0, len(sizes), BLOCK):
+        block = slice(low, min(low + BLOCK, len(sizes)))
+        for corners, at_corner in _corner_runs(faces, normals, sizes, block):
+            cosine = chosen[0, corners] * at_corner[0]
+            cosine += chosen[1, corners] * at_corner[1]
+            cosine += chosen[2, corners] * at_corner[2]
+            sharp[corners[cosine < limit]] = True
+    return sharp
+
+
+def _corner_runs(
+    faces: Faces, normals: NDArray[np.float32], sizes: Ints, block: slice
+) -> list[tuple[Ints, NDArray[np.float32]]]:
+    """Corners of a block of faces, with the normal of the face at each."""
+    corners = faces.corners[faces.offsets[block.start] : faces.offsets[block.stop]]
+    if len(faces.corners) == 3 * len(sizes):
+        return [(corners[k::3], normals[:, block]) for k in range(3)]
+    return [(corners, np.repeat(normals[:, block], sizes[block], axis=1))]
+
+
+def _triangle_normals(points: Floats, triangles: Ints) -> Floats:
+    """(3,n) unit normals of triangles (3,n); zero for one without area."""
+    a, b, c = triangles
+    ux, uy, uz = (p[b] - p[a] for p in points)
+    vx, vy, vz = (p[c] - p[a] for p in points)
+    normal = np.stack([uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx])
+    square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]
+    normal *= 1.0 / np.sqrt(np.where(square > 0.0, square, 1.0))
+    return normal

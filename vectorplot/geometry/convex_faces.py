@@ -1,0 +1,174 @@
+"""Polygonal faces as planar convex ones: what hides must be convex."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.errors import InputWarning
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+
+
+@dataclass(frozen=True, eq=False)
+class ConvexFaces:
+    """Planar convex faces: corners (c,), offsets (f+1,); source (f,): the face each one is (a part of); inner (c,): the side
+    from this corner to the next is a diagonal, not an edge of the source."""
+
+    corners: Ints
+    offsets: Ints
+    source: Ints
+    inner: Bools
+
+
+def convex_faces(points: Floats, corners: Ints, offsets: Ints, tolerance: float) -> ConvexFaces:
+    """Faces with every polygon that is not planar and convex cut into triangles.
+
+    points (3,v); a polygon is planar where no corner is further than tolerance from its mean plane. Quadrilaterals are
+    cut along a diagonal that folds neither triangle over (the shorter one if both do), larger polygons by a constrained
+    Delaunay triangulation in their mean plane.
+    Degenerate: a polygon that crosses itself is cut as a fan and reported by an InputWarning.
+    """
+    sizes = np.diff(offsets)
+    faces = np.arange(len(sizes))
+    if not len(sizes) or sizes.max() == 3:
+        return ConvexFaces(corners, offsets, faces, np.zeros(len(corners), dtype=np.bool_))
+    bad = np.zeros(len(sizes), dtype=np.bool_)
+    large = np.flatnonzero(sizes > 3)
+    positions, starts, owner = _runs(offsets, large)
+    bad[large] = ~_planar_convex(points[:, corners[positions]], starts, owner, tolerance)
+    if not bad.any():
+        return ConvexFaces(corners, offsets, faces, np.zeros(len(corners), dtype=np.bool_))
+    kept = np.repeat(~bad, sizes)
+    quads = np.flatnonzero(bad & (sizes == 4))
+    more = np.flatnonzero(bad & (sizes > 4))
+    quad_triangles, quad_inner = _cut_quads(points, corners[offsets[quads][:, None] + np.arange(4)])
+    triangles, inner, source = _cut_polygons(points, corners, offsets, more)
+    all_sizes = np.concatenate([sizes[~bad], np.full(len(quad_triangles) + len(triangles), 3)])
+    all_source = np.concatenate([faces[~bad], np.repeat(quads, 2), source])
+    all_corners = np.concatenate([corners[kept], quad_triangles.ravel(), triangles.ravel()])
+    all_inner = np.concatenate([np.zeros(int(kept.sum()), dtype=np.bool_), quad_inner.ravel(), inner.ravel()])
+    order = np.argsort(all_source, kind="stable")
+    ends = np.concatenate([[0], np.cumsum(all_sizes)])
+    positions, starts, _ = _runs(ends, order)
+    return ConvexFaces(all_corners[positions], starts, all_source[order], all_inner[positions])
+
+
+def _runs(offsets: Ints, faces: Ints) -> tuple[Ints, Ints, Ints]:
+    """Positions of the corners of some faces, where each face starts in them, and the face (0, 1, ...) of each."""
+    sizes = offsets[faces + 1] - offsets[faces]
+    starts = np.concatenate([[0], np.cumsum(sizes)])
+    owner = np.repeat(np.arange(len(faces)), sizes)
+    return np.arange(starts[-1]) - np.repeat(starts[:-1] - offsets[faces], sizes), starts, owner
+
+
+def _planar_convex(p: Floats, starts: Ints, owner: Ints, tolerance: float) -> Bools:
+    """Which polygons, given by their corners p (3,c), are planar and convex."""
+    following = np.arange(1, len(owner) + 1)
+    following[starts[1:] - 1] = starts[:-1]
+    arm = p - p[:, starts[:-1]][:, owner]
+    normal = np.add.reduceat(np.cross(arm, arm[:, following], axis=0), starts[:-1], axis=1)
+    length = np.sqrt((normal * normal).sum(axis=0))
+    normal = normal / np.where(length > 0.0, length, 1.0)
+    away = np.abs((arm * normal[:, owner]).sum(axis=0))
+    side = p[:, following] - p
+    turn_sin = (np.cross(side, side[:, following], axis=0) * normal[:, owner]).sum(axis=0)
+    turn_cos = (side * side[:, following]).sum(axis=0)
+    lengths = np.sqrt((side * side).sum(axis=0))
+    left = turn_sin >= -tolerance * np.maximum(lengths, lengths[following])
+    once = np.add.reduceat(np.arctan2(turn_sin, turn_cos), starts[:-1]) < 3.0 * np.pi
+    planar = np.maximum.reduceat(away, starts[:-1]) <= tolerance
+    return np.asarray(planar & once & np.logical_and.reduceat(left, starts[:-1]), dtype=np.bool_)
+
+
+def _cut_quads(points: Floats, quads: Ints) -> tuple[Ints, Bools]:
+    """Two triangles (2q,3) for each quadrilateral (q,4), and which of their sides is the diagonal."""
+    if not len(quads):
+        return np.zeros((0, 3), dtype=np.intp), np.zeros((0, 3), dtype=np.bool_)
+    p = points[:, quads]
+    mean = np.cross(p[:, :, 2] - p[:, :, 0], p[:, :, 3] - p[:, :, 1], axis=0)
+
+    def folds(a: int, b: int, c: int) -> Bools:
+        normal = np.cross(p[:, :, b] - p[:, :, a], p[:, :, c] - p[:, :, a], axis=0)
+        return np.asarray((normal * mean).sum(axis=0) <= 0.0, dtype=np.bool_)
+
+    first_bad, second_bad = folds(0, 1, 2) | folds(0, 2, 3), folds(1, 2, 3) | folds(1, 3, 0)
+    first = ((p[:, :, 2] - p[:, :, 0]) ** 2).sum(axis=0) <= ((p[:, :, 3] - p[:, :, 1]) ** 2).sum(axis=0)
+    use_first = np.where(first_bad == second_bad, first, second_bad)
+    turned = np.where(use_first[:, None], quads, np.roll(quads, -1, axis=1))
+    triangles = np.stack([turned[:, [0, 1, 2]], turned[:, [0, 2, 3]]], axis=1).reshape(-1, 3)
+    return triangles, np.tile(np.array([[False, False, True], [True, False, False]]), (len(quads), 1))
+
+
+def _cut_polygons(points: Floats, corners: Ints, offsets: Ints, faces: Ints) -> tuple[Ints, Bools, Ints]:
+    """Triangles of larger polygons: (t,3) vertices, which sides are diagonals, and the face each belongs to."""
+    if not len(faces):
+        return np.zeros((0, 3), dtype=np.intp), np.zeros((0, 3), dtype=np.bool_), faces
+    import shapely
+
+    positions, starts, owner = _runs(offsets, faces)
+    flat = _in_mean_plane(points[:, corners[positions]], starts, owner)
+    ring_points, ring_of = _closed(flat, starts, owner)
+    polygons = shapely.polygons(shapely.linearrings(ring_points, indices=ring_of))
+    sound = shapely.is_valid(polygons) & (shapely.area(polygons) > 0.0)
+    cut = shapely.constrained_delaunay_triangles(polygons[sound])
+    parts, part_of = shapely.get_parts(cut, return_index=True)
+    part_of = np.flatnonzero(sound)[part_of]
+    corner_of = _nearest_corner(shapely.get_coordinates(parts).reshape(-1, 4, 2)[:, :3], part_of, flat, starts, owner)
+    local = _counter_clockwise(corner_of, flat)
+    if not sound.all():
+        warnings.warn(f"{int((~sound).sum())} faces cross themselves: cut as fans", InputWarning, stacklevel=4)
+        fans, fan_of = _fans(starts, np.flatnonzero(~sound))
+        local, part_of = np.concatenate([local, fans]), np.concatenate([part_of, fan_of])
+    following = np.arange(1, len(owner) + 1)
+    following[starts[1:] - 1] = starts[:-1]
+    inner = following[local] != np.roll(local, -1, axis=1)
+    return corners[positions][local], inner, faces[part_of]
+
+
+def _in_mean_plane(p: Floats, starts: Ints, owner: Ints) -> Floats:
+    """(c,2) coordinates of polygon corners in their polygon's mean plane, counter-clockwise."""
+    following = np.arange(1, len(owner) + 1)
+    following[starts[1:] - 1] = starts[:-1]
+    arm = p - p[:, starts[:-1]][:, owner]
+    normal = np.add.reduceat(np.cross(arm, arm[:, following], axis=0), starts[:-1], axis=1)
+    normal = normal / np.maximum(np.sqrt((normal * normal).sum(axis=0)), np.finfo(float).tiny)
+    helper = np.eye(3)[np.argmin(np.abs(normal), axis=0)].T
+    u = np.cross(helper, normal, axis=0)
+    u = u / np.sqrt(np.maximum((u * u).sum(axis=0), np.finfo(float).tiny))
+    w = np.cross(normal, u, axis=0)
+    return np.stack([(arm * u[:, owner]).sum(axis=0), (arm * w[:, owner]).sum(axis=0)], axis=1)
+
+
+def _closed(flat: Floats, starts: Ints, owner: Ints) -> tuple[Floats, Ints]:
+    """Ring coordinates with each first point repeated, and the ring each belongs to."""
+    order = np.insert(np.arange(len(owner)), starts[1:], starts[:-1])
+    return flat[order], np.insert(owner, starts[1:], np.arange(len(starts) - 1))
+
+
+def _nearest_corner(triangles: Floats, part_of: Ints, flat: Floats, starts: Ints, owner: Ints) -> Ints:
+    """(t,3) the polygon corners that have exactly these coordinates."""
+    asked = np.column_stack([np.repeat(part_of, 3), triangles.reshape(-1, 2)])
+    known = np.column_stack([owner, flat])
+    both = np.concatenate([known, asked])
+    _, label = np.unique(both, axis=0, return_inverse=True)
+    label = label.ravel()
+    first = np.full(int(label.max()) + 1, -1, dtype=np.intp)
+    first[label[: len(known)][::-1]] = np.arange(len(known))[::-1]
+    return np.asarray(first[label[len(known) :]].reshape(-1, 3), dtype=np.intp)
+
+
+def _counter_clockwise(local: Ints, flat: Floats) -> Ints:
+    a, b, c = (flat[local[:, k]] for k in range(3))
+    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    return np.where(area[:, None] < 0.0, local[:, ::-1], local)
+
+
+def _fans(starts: Ints, polygons: Ints) -> tuple[Ints, Ints]:
+    """Triangles from each polygon's first corner, and the polygon of each."""
+    counts = starts[polygons + 1] - starts[polygons] - 2
+    of = np.repeat(np.arange(len(polygons)), counts)
+    step = np.arange(int(counts.sum())) - np.repeat(np.cumsum(counts) - counts, counts)
+    first = starts[polygons][of]
+    return np.column_stack([first, first + step + 1, first + step + 2]), polygons[of]

@@ -1,0 +1,229 @@
+"""Exact hidden lines: straight segments against convex occluders."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.exact import intervals
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.scene.view import View
+from vectorplot.visibility import grid as grids
+from vectorplot.visibility.grid import Grid, Pieces
+from vectorplot.visibility.occluders import Occluders, face_occluders, joined, solid_items, solid_occluders
+from vectorplot.visibility.pairs import Hits, Segments, clip_pairs, covered_cells
+from vectorplot.visibility.projected_faces import ProjectedFaces
+
+PAIRS_AT_ONCE = 1 << 17
+"""Pairs of a piece and an occluder handled at once."""
+
+SLABS = (0.0, 1 / 64, 1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2, 1.0)
+"""Occluders are tried front to back in these parts of their number, so that most hidden lines drop out early."""
+
+SLIVER = 10.0
+"""Parts shorter than so many tolerances are none."""
+
+Progress = Callable[[float], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Visibility:
+    """Parts of segments: segment (k,), from parameter low to high (k,), and hidden_by (k,): by how many items each part is
+    hidden, 0 for visible ones. Ascending along each segment."""
+
+    segment: Ints
+    low: Floats
+    high: Floats
+    hidden_by: Ints
+
+
+def visible_parts(view: View, faces: ProjectedFaces, segments: Segments, progress: Progress) -> Visibility:
+    """The visible parts of segments.
+
+    What lies on an occluder or on the border of its shadow is visible; a line along a border is hidden where both its sides
+    are. Parts below ten tolerances of the view are left out.
+    Source: Glaeser, section 7.2.
+    """
+    gap = _gaps(view, segments)
+    if not len(segments):
+        return Visibility(*intervals.complement(0, *_nothing(), gap), np.zeros(0, dtype=np.intp))
+    grid, pieces = _pieces(view, faces, segments)
+    occluders = _occluders(view, faces, grid, grids.deepest(grid, pieces))
+    cover = covered_cells(view, grid, occluders)
+    covered = pieces.nearest > cover[pieces.row * grid.columns[0] + pieces.column]
+    zones = [(pieces.segment[covered], pieces.low[covered], pieces.high[covered], np.zeros(int(covered.sum()), dtype=np.intp))]
+    pieces = pieces.some(~covered)
+    alive = np.ones(len(pieces), dtype=np.bool_)
+    for piece, hits, _ in _all_hits(view, grid, segments, pieces, occluders, alive, SLABS, progress):
+        of = piece[hits.pair]
+        zones.append((pieces.segment[of], hits.low, hits.high, hits.side))
+        whole = (hits.side == 0) & (hits.low <= pieces.low[of]) & (hits.high >= pieces.high[of])
+        alive[of[whole]] = False
+    segment, low, high, side = (np.concatenate(column) for column in zip(*zones, strict=True))
+    owner, low, high = _resolved(segment, low, high, side, gap)
+    owner, low, high = intervals.complement(len(segments), owner, low, high, gap)
+    return Visibility(owner, low, high, np.zeros(len(owner), dtype=np.intp))
+
+
+def counted_parts(view: View, faces: ProjectedFaces, segments: Segments, progress: Progress) -> Visibility:
+    """All parts of segments with the number of items that hide each; an item that hides itself counts once.
+
+    The visible parts are those of visible_parts.
+    """
+    gap = _gaps(view, segments)
+    if not len(segments):
+        return Visibility(*_nothing(), np.zeros(0, dtype=np.intp))
+    grid, pieces = _pieces(view, faces, segments)
+    occluders = _occluders(view, faces, grid, grids.deepest(grid, pieces))
+    alive = np.ones(len(pieces), dtype=np.bool_)
+    items = len(view.item_vertices)
+    found = [(np.zeros(0, dtype=np.intp), *_nothing()[1:], np.zeros(0, dtype=np.intp))]
+    for piece, hits, occluder in _all_hits(view, grid, segments, pieces, occluders, alive, (0.0, 1.0), progress):
+        key = pieces.segment[piece[hits.pair]] * items + occluders.item[occluder[hits.pair]]
+        found.append((key, hits.low, hits.high, hits.side))
+    key, low, high, side = (np.concatenate(column) for column in zip(*found, strict=True))
+    parts = _by_item(key, low, high, side, items, gap)
+    owner, low, high, count = intervals.coverage(*parts)
+    long = high - low > gap[owner]
+    owner, low, high, count = owner[long], low[long], high[long], count[long]
+    hidden, hidden_low, hidden_high = intervals.union(owner, low, high, gap)
+    free = intervals.complement(len(segments), hidden, hidden_low, hidden_high, gap)
+    owner, low, high = (np.concatenate([a, b]) for a, b in zip((owner, low, high), free, strict=True))
+    count = np.concatenate([count, np.zeros(len(free[0]), dtype=np.intp)])
+    order = np.lexsort((low, owner))
+    return Visibility(owner[order], low[order], high[order], count[order])
+
+
+def _nothing() -> tuple[Ints, Floats, Floats]:
+    return np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros(0)
+
+
+def _gaps(view: View, segments: Segments) -> Floats:
+    """(n,) the parameter length of what is too short to count."""
+    along = segments.end - segments.start
+    length = np.sqrt((along * along).sum(axis=0))
+    return np.minimum(SLIVER * view.tolerance / np.where(length > 0.0, length, 1.0), 1.0)
+
+
+def _pieces(view: View, faces: ProjectedFaces, segments: Segments) -> tuple[Grid, Pieces]:
+    """The segments cut by a grid that suits them."""
+    start, end = view.image_of(segments.start), view.image_of(segments.end)
+    near, far = view.depth_of(segments.start), view.depth_of(segments.end)
+    low, high = np.minimum(start, end).min(axis=1), np.maximum(start, end).max(axis=1)
+    extent = np.float32(max(high - low))
+    sizes = np.minimum(np.maximum(faces.box[1] - faces.box[0], faces.box[3] - faces.box[2]), extent)
+    typical = float(sizes.mean()) if len(sizes) else float(extent)
+    cell = grids.cell_size(start, end, typical)
+    area = float(np.prod(high - low))
+    cell = max(cell, np.sqrt(area / (4.0 * (len(segments) + len(sizes)) + 1024.0)))
+    grid = Grid.over((low[0], high[0], low[1], high[1]), cell)
+    return grid, grids.cut(grid, start, end, near, far, view.eye is not None)
+
+
+def _occluders(view: View, faces: ProjectedFaces, grid: Grid, deepest: grids.Floats32) -> Occluders:
+    """Everything that could hide a piece: convex solids as such, of other items the faces that reach a piece's cell."""
+    solid = solid_items(view, faces)
+    candidates = (faces.facing != 0) & (view.occludes & ~solid)[view.face_item]
+    which = np.flatnonzero(candidates) if not candidates.all() else np.arange(len(candidates))
+    kept = [
+        block[grids.reaching(grid, deepest, faces.box[:, block], faces.nearest[block])]
+        for block in np.array_split(which, max(1, len(which) >> 16))
+    ]
+    by_face = face_occluders(view, faces, np.concatenate(kept))
+    if not solid.any():
+        return by_face
+    return joined(by_face, solid_occluders(view, faces, np.flatnonzero(solid)))
+
+
+def _all_hits(
+    view: View,
+    grid: Grid,
+    segments: Segments,
+    pieces: Pieces,
+    occluders: Occluders,
+    alive: Bools,
+    slabs: tuple[float, ...],
+    progress: Progress,
+) -> Iterator[tuple[Ints, Hits, Ints]]:
+    """Hidden zones of pieces, front to back, with the piece and the occluder of every pair.
+
+    Pieces that the caller marks as no longer alive are not tried again.
+    """
+    order = np.argsort(occluders.nearest, kind="stable")
+    bounds = np.round(np.array(slabs) * len(order)).astype(np.intp)
+    for begin, end in zip(bounds[:-1], bounds[1:], strict=True):
+        if begin == end:
+            continue
+        slab = order[begin:end]
+        cell, thing = grids.entries(grid, occluders.box[:, slab])
+        by_cell = np.lexsort((thing, cell))
+        cell, thing = cell[by_cell], slab[thing[by_cell]]
+        starts = np.concatenate([[0], np.cumsum(np.bincount(cell, minlength=int(grid.first[-1])))])
+        used = np.unique(np.searchsorted(grid.first, cell[np.flatnonzero(np.diff(cell, prepend=-1))], side="right") - 1)
+        for level in used:
+            which = np.flatnonzero(alive & (pieces.farthest > occluders.nearest[slab[0]]))
+            at = grid.numbers(pieces.column[which] >> level, pieces.row[which] >> level, level)
+            for piece, entry in _expanded(starts, at, which):
+                occluder = thing[entry]
+                close = _overlapping(pieces, occluders, piece, occluder) & alive[piece]
+                piece, occluder = piece[close], occluder[close]
+                low, high = pieces.low[piece], pieces.high[piece]
+                yield piece, clip_pairs(view, segments, occluders, pieces.segment[piece], occluder, low, high), occluder
+        progress(float(end) / len(order))
+
+
+def _expanded(starts: Ints, at: Ints, which: Ints) -> Iterator[tuple[Ints, Ints]]:
+    """Blocks of (piece, entry) for every entry of every piece's cell."""
+    counts = starts[at + 1] - starts[at]
+    full = np.flatnonzero(counts)
+    counts, at, which = counts[full], at[full], which[full]
+    total = np.cumsum(counts)
+    cuts = np.searchsorted(total, np.arange(PAIRS_AT_ONCE, int(total[-1]) if len(total) else 0, PAIRS_AT_ONCE)) + 1
+    edges = np.unique(np.concatenate([[0], cuts, [len(counts)]]))
+    for low, high in zip(edges[:-1], edges[1:], strict=True):
+        size = counts[low:high]
+        owner = np.repeat(np.arange(low, high), size)
+        step = np.arange(len(owner)) - np.repeat(np.cumsum(size) - size, size)
+        yield which[owner], starts[at[owner]] + step
+
+
+def _overlapping(pieces: Pieces, occluders: Occluders, piece: Ints, occluder: Ints) -> Bools:
+    """Which pairs have overlapping boxes, the occluder not wholly behind the piece."""
+    close = occluders.nearest[occluder] < pieces.farthest[piece]
+    one, two = pieces.box, occluders.box
+    close &= two[0, occluder] < one[1, piece]
+    close &= two[1, occluder] > one[0, piece]
+    close &= two[2, occluder] < one[3, piece]
+    close &= two[3, occluder] > one[2, piece]
+    return np.asarray(close, dtype=np.bool_)
+
+
+def _resolved(segment: Ints, low: Floats, high: Floats, side: Ints, gap: Floats) -> tuple[Ints, Floats, Floats]:
+    """Disjoint hidden zones; zones of one side count where they meet zones of the other."""
+    if not side.any():
+        return intervals.union(segment, low, high, gap)
+    halved = np.zeros(len(gap), dtype=np.bool_)
+    halved[segment[side != 0]] = True
+    some = halved[segment]
+    part = intervals.coverage(segment[some], low[some], high[some], side[some])[:3]
+    rest = (segment[~some], low[~some], high[~some])
+    return intervals.union(*(np.concatenate(pair) for pair in zip(part, rest, strict=True)), gap)
+
+
+def _by_item(
+    key: Ints, low: Floats, high: Floats, side: Ints, items: int, gap: Floats
+) -> tuple[Ints, Floats, Floats, Ints]:
+    """Zones (segment, low, high, side), disjoint within each key = segment * items + item and side."""
+    unique, owner = np.unique(key, return_inverse=True)
+    segment = unique // items
+    halved = np.zeros(len(unique), dtype=np.bool_)
+    halved[owner[side != 0]] = True
+    both = ~halved[owner]
+    parts = []
+    for chosen, mark in ((both, 0), (~both & (side != -1), 1), (~both & (side != 1), -1)):
+        of, start, end = intervals.union(owner[chosen], low[chosen], high[chosen], gap[segment])
+        parts.append((segment[of], start, end, np.full(len(of), mark)))
+    merged = [np.concatenate(column) for column in zip(*parts, strict=True)]
+    return merged[0], merged[1], merged[2], merged[3]

@@ -1,0 +1,149 @@
+"""One segment against one convex occluder, for many pairs at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.scene.view import View
+from vectorplot.visibility.grid import MAX_COVER_TESTS, Floats32, Grid
+from vectorplot.visibility.occluders import Occluders
+from vectorplot.visibility.projected_faces import cross
+
+COVER_MARGIN = 1e-7
+"""A cell counts as covered only where it is so far inside."""
+
+
+@dataclass(frozen=True, eq=False)
+class Segments:
+    """Straight segments in the view's coordinates: start and end (3,n), all of them beyond the near plane."""
+
+    start: Floats
+    end: Floats
+
+    def __len__(self) -> int:
+        return self.start.shape[1]
+
+
+@dataclass(frozen=True, eq=False)
+class Hits:
+    """Hidden zones of single pairs: pair (h,) which one, low and high (h,) parameters, and side (h,): 0, or where the segment
+    runs along a border of the occluder's shadow, 1 with the shadow on its left, -1 on its right."""
+
+    pair: Ints
+    low: Floats
+    high: Floats
+    side: Ints
+
+
+def clip_pairs(
+    view: View, segments: Segments, occluders: Occluders, segment: Ints, occluder: Ints, low: Floats, high: Floats
+) -> Hits:
+    """What occluders hide of segments between the parameters low and high, pair by pair.
+
+    The points that a convex thing hides, itself included, form a convex set, so a zone is one interval: the segment clipped
+    by the occluder's planes, those towards the eye first. A distance below the view's tolerance is zero, and zero does
+    not hide; where a segment lies in a plane of the outline, only the shadow's side counts.
+    Source: Glaeser, section 7.2; errata G7-01 and G7-02.
+    """
+    pair = np.arange(len(segment))
+    side = np.zeros(len(segment), dtype=np.intp)
+    s, e = segments.start[:, segment], segments.end[:, segment]
+    first, count, behind = occluders.first[occluder], np.diff(occluders.first)[occluder], occluders.behind[occluder]
+    tolerance = view.tolerance
+    for step in range(int(count.max(initial=0))):
+        plane = first + np.minimum(step, count - 1)
+        a, b, c, d = occluders.planes[:, plane]
+        at_start = a * s[0] + b * s[1] + c * s[2] - d
+        at_end = a * e[0] + b * e[1] + c * e[2] - d
+        at_start[np.abs(at_start) <= tolerance] = 0.0
+        at_end[np.abs(at_end) <= tolerance] = 0.0
+        inside = (at_start > 0.0) | (at_end > 0.0)
+        along = np.flatnonzero((at_start == 0.0) & (at_end == 0.0) & (step >= behind) & (step < count))
+        if len(along):
+            new = _shadow_side(view, s[:, along], e[:, along], np.stack([a, b, c])[:, along])
+            inside[along] = (side[along] == 0) | (side[along] == new)
+            side[along] = new
+        crossing = np.flatnonzero(at_start * at_end < 0.0)
+        if len(crossing):
+            where = at_start[crossing] / (at_start[crossing] - at_end[crossing])
+            leaving = at_start[crossing] > 0.0
+            low[crossing] = np.where(leaving, low[crossing], np.maximum(low[crossing], where))
+            high[crossing] = np.where(leaving, np.minimum(high[crossing], where), high[crossing])
+        inside &= low < high
+        inside |= (step >= count) & (low < high)
+        if not inside.all():
+            kept = np.flatnonzero(inside)
+            pair, side, low, high = pair[kept], side[kept], low[kept], high[kept]
+            s, e, first, count, behind = s[:, kept], e[:, kept], first[kept], count[kept], behind[kept]
+        if not len(pair):
+            break
+    return Hits(pair, low, high, side)
+
+
+def _shadow_side(view: View, start: Floats, end: Floats, inward: Floats) -> Ints:
+    """(n,) 1 where the inward normals (3,n) point to the left of start -> end in the image, else -1."""
+    along = end - start
+    if view.eye is None:
+        left = np.stack([-along[1], along[0], np.zeros(along.shape[1])])
+    else:
+        left = cross(along, start - view.eye[:, None])
+    return np.where((left * inward).sum(axis=0) > 0.0, 1, -1)
+
+
+def covered_cells(view: View, grid: Grid, occluders: Occluders) -> Floats32:
+    """(cells,) for each cell of the finest level, a depth beyond which everything in it is hidden by one occluder alone;
+    infinite where there is none."""
+    table = np.full(int(grid.first[-1]), np.inf, dtype=np.float32)
+    occluder, column, row, level = _inner_cells(grid, occluders.box)
+    if len(occluder):
+        size = grid.cell * (1 << level)
+        corner = np.stack([grid.left + column * size, grid.bottom + row * size])
+        base = np.concatenate([corner + view.target[:2, None], np.zeros((1, len(corner[0])))])
+        if view.eye is not None:
+            base = np.concatenate([corner + view.eye[:2, None], np.full((1, len(corner[0])), view.eye[2] - view.focus)])
+        kept = np.arange(len(occluder))
+        count = np.diff(occluders.first)
+        for step in range(int(count.max())):
+            which = occluder[kept]
+            number = occluders.behind[which] + step
+            done = number >= count[which]
+            plane = occluders.planes[:, occluders.first[which] + np.minimum(number, count[which] - 1)]
+            least = (plane[:3] * base[:, kept]).sum(axis=0) - plane[3]
+            least += (np.minimum(plane[0], 0.0) + np.minimum(plane[1], 0.0)) * size[kept]
+            kept = kept[done | (least > COVER_MARGIN)]
+            if not len(kept) or done.all():
+                break
+        np.minimum.at(table, grid.numbers(column[kept], row[kept], level[kept]), occluders.farthest[occluder[kept]])
+    for level_above in range(grid.levels - 1, 0, -1):
+        rows, columns = int(grid.rows[level_above - 1]), int(grid.columns[level_above - 1])
+        above = table[grid.first[level_above] : grid.first[level_above + 1]].reshape(int(grid.rows[level_above]), -1)
+        below = table[grid.first[level_above - 1] : grid.first[level_above]].reshape(rows, columns)
+        np.minimum(below, above.repeat(2, axis=0)[:rows].repeat(2, axis=1)[:, :columns], out=below)
+    return table[: grid.first[1]]
+
+
+def _inner_cells(grid: Grid, box: Floats32) -> tuple[Ints, Ints, Ints, Ints]:
+    """(occluder, column, row, level) of cells wholly inside the boxes (4,n)."""
+    box = box.astype(np.float64)
+    limits = [
+        np.clip((box[0] - grid.left) / grid.cell, 0, grid.columns[0]),
+        np.clip((box[1] - grid.left) / grid.cell, 0, grid.columns[0]),
+        np.clip((box[2] - grid.bottom) / grid.cell, 0, grid.rows[0]),
+        np.clip((box[3] - grid.bottom) / grid.cell, 0, grid.rows[0]),
+    ]
+    cells = (limits[1] - limits[0]) * (limits[3] - limits[2])
+    level = np.ceil(np.log2(np.maximum(cells / MAX_COVER_TESTS, 1.0)) / 2.0).astype(np.intp)
+    level = np.minimum(level, grid.levels - 1)
+    scale = (1 << level).astype(np.float64)
+    c0, c1 = np.ceil(limits[0] / scale).astype(np.intp), np.floor(limits[1] / scale).astype(np.intp)
+    r0, r1 = np.ceil(limits[2] / scale).astype(np.intp), np.floor(limits[3] / scale).astype(np.intp)
+    c1, r1 = np.minimum(c1, grid.columns[level]), np.minimum(r1, grid.rows[level])
+    wide, tall = np.maximum(c1 - c0, 0), np.maximum(r1 - r0, 0)
+    count = wide * tall
+    occluder = np.repeat(np.arange(box.shape[1]), count)
+    step = np.arange(len(occluder)) - np.repeat(np.cumsum(count) - count, count)
+    width = wide[occluder]
+    return occluder, c0[occluder] + step % width, r0[occluder] + step // width, level[occluder]

@@ -1,0 +1,135 @@
+"""Faces in the image: which side they show, and the box each one fills."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.scene.view import View
+
+Floats32 = NDArray[np.float32]
+Bytes = NDArray[np.int8]
+
+CHUNK = 1 << 16
+"""Faces handled at once: few enough for the processor's cache."""
+
+EVERYWHERE = np.float32(1e30)
+
+
+@dataclass(frozen=True, eq=False)
+class ProjectedFaces:
+    """facing (f,): 1 for a face that shows its outside, -1 its inside, 0 edge-on: then it hides nothing.
+
+    box (4,f): smallest and largest x, smallest and largest y in the image, rounded outwards; nearest (f,) smallest depth.
+    A face behind the near plane has an infinite nearest depth, one that reaches through it fills the whole image.
+    """
+
+    facing: Bytes
+    box: Floats32
+    nearest: Floats32
+
+
+def project_faces(view: View) -> ProjectedFaces:
+    """The faces of the view in the image.
+
+    A face is edge-on where its image is narrower than the view's tolerance.
+    Source: Glaeser, section 5.1 (backfaces and frontfaces).
+    """
+    count = view.face_count
+    faces = ProjectedFaces(np.empty(count, np.int8), np.empty((4, count), np.float32), np.empty(count, np.float32))
+    x, y = view.image
+    depth = view.depth
+    stages = _triangles if view.is_triangular else _polygons
+    for low in range(0, count, CHUNK):
+        stages(view, faces, x, y, depth, low, min(low + CHUNK, count))
+    _through_near_plane(view, faces)
+    return faces
+
+
+def _store(faces: ProjectedFaces, low: int, high: int, box: list[Floats], nearest: Floats, area: Floats, tol: float) -> None:
+    left, right, bottom, top = box
+    size = np.maximum(right - left, top - bottom)
+    faces.facing[low:high] = (area > tol * size).astype(np.int8) - (area < -tol * size).astype(np.int8)
+    for row, (value, outward) in enumerate(((left, -1.0), (right, 1.0), (bottom, -1.0), (top, 1.0))):
+        faces.box[row, low:high] = value + outward * (2e-7 * np.abs(value) + 1e-7)
+    faces.nearest[low:high] = nearest - (2e-7 * np.abs(nearest) + 1e-7)
+
+
+def _triangles(view: View, faces: ProjectedFaces, x: Floats, y: Floats, depth: Floats, low: int, high: int) -> None:
+    a, b, c = view.corners[3 * low : 3 * high].reshape(-1, 3).T
+    xa, xb, xc = x[a], x[b], x[c]
+    ya, yb, yc = y[a], y[b], y[c]
+    area = (xb - xa) * (yc - ya) - (xc - xa) * (yb - ya)
+    box = [
+        np.minimum(np.minimum(xa, xb), xc),
+        np.maximum(np.maximum(xa, xb), xc),
+        np.minimum(np.minimum(ya, yb), yc),
+        np.maximum(np.maximum(ya, yb), yc),
+    ]
+    nearest = np.minimum(np.minimum(depth[a], depth[b]), depth[c])
+    _store(faces, low, high, box, nearest, area, view.tolerance)
+
+
+def _polygons(view: View, faces: ProjectedFaces, x: Floats, y: Floats, depth: Floats, low: int, high: int) -> None:
+    first, last = view.offsets[low], view.offsets[high]
+    starts = view.offsets[low:high] - first
+    px, py = x[view.corners[first:last]], y[view.corners[first:last]]
+    following = view.next_corner[first:last] - first
+    owner = np.repeat(np.arange(high - low), view.face_sizes[low:high])
+    rx, ry = px - px[starts][owner], py - py[starts][owner]
+    area = np.add.reduceat(rx * ry[following] - rx[following] * ry, starts)
+    box = [
+        np.minimum.reduceat(px, starts),
+        np.maximum.reduceat(px, starts),
+        np.minimum.reduceat(py, starts),
+        np.maximum.reduceat(py, starts),
+    ]
+    nearest = np.minimum.reduceat(depth[view.corners[first:last]], starts)
+    _store(faces, low, high, box, nearest, area, view.tolerance)
+
+
+def _through_near_plane(view: View, faces: ProjectedFaces) -> None:
+    """Faces with corners behind the near plane: their images are no polygons, so decide in space."""
+    if view.eye is None or not (behind := view.depth < view.near).any():
+        return
+    corner_behind = behind[view.corners]
+    some = np.logical_or.reduceat(corner_behind, view.offsets[:-1])
+    every = np.logical_and.reduceat(corner_behind, view.offsets[:-1])
+    faces.nearest[every] = np.inf
+    through = np.flatnonzero(some & ~every)
+    if len(through):
+        faces.box[:, through] = np.array([[-EVERYWHERE], [EVERYWHERE], [-EVERYWHERE], [EVERYWHERE]])
+        faces.nearest[through] = 0.0
+        normal, arm_length, first = newell(view, through)
+        toward = view.eye[:, None] - view.points[:, first]
+        distance = np.sqrt((toward * toward).sum(axis=0))
+        area = (normal * toward).sum(axis=0)
+        limit = view.tolerance * arm_length * np.maximum(distance, view.tolerance)
+        faces.facing[through] = np.where(np.abs(area) <= limit, 0, np.sign(area)).astype(np.int8)
+
+
+def newell(view: View, faces: Ints) -> tuple[Floats, Floats, Ints]:
+    """Area vectors (3,n) of some faces, the length of the longest arm from their first corner, and that corner."""
+    first = view.corners[view.offsets[faces]]
+    if view.is_triangular:
+        a = view.points[:, first]
+        b = view.points[:, view.corners[view.offsets[faces] + 1]] - a
+        c = view.points[:, view.corners[view.offsets[faces] + 2]] - a
+        return cross(b, c), np.sqrt(np.maximum((b * b).sum(axis=0), (c * c).sum(axis=0))), first
+    sizes = view.face_sizes[faces]
+    starts = np.cumsum(sizes) - sizes
+    owner = np.repeat(np.arange(len(faces)), sizes)
+    position = np.arange(len(owner)) - (starts - view.offsets[faces])[owner]
+    origin = view.points[:, first][:, owner]
+    arm = view.points[:, view.corners[position]] - origin
+    after = view.points[:, view.corners[view.next_corner[position]]] - origin
+    length = np.sqrt((arm * arm).sum(axis=0))
+    return np.add.reduceat(cross(arm, after), starts, axis=1), np.maximum.reduceat(length, starts), first
+
+
+def cross(a: Floats, b: Floats) -> Floats:
+    """(3,n) cross products of columns."""
+    return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
