@@ -1,0 +1,142 @@
+#!/bin/sh
+# Installs what is missing to run vectorplot from this checkout, and nothing when nothing is missing.
+#
+#   sh setup.sh             system packages, the virtual environment .venv, the package
+#   sh setup.sh test        the same with what the tests need; then ruff, mypy and pytest
+#   sh setup.sh test ARGS   the same, ARGS go to pytest
+#
+# PYTHON=/path/to/python3 chooses the interpreter (3.11 or newer).
+set -eu
+
+fail() {
+    echo "setup.sh: $*" >&2
+    exit 1
+}
+
+cd -- "$(dirname -- "$0")" || exit 1
+here=$(pwd -P)
+goal=run
+if [ $# -gt 0 ]; then
+    [ "$1" = test ] || fail "unknown word '$1'; usage: sh setup.sh [test [pytest arguments]]"
+    goal=test
+    shift
+fi
+
+# The stamp lies inside the environment, so it vanishes with it; it names the checkout's path because
+# an environment that was moved does not work.
+key="$(cat setup.sh pyproject.toml | cksum) $here"
+stamp=.venv/vectorplot-setup
+
+is_installed() {
+    [ -x .venv/bin/python ] && [ -x .venv/bin/vectorplot ] && [ -f "$stamp" ] || return 1
+    case $(cat "$stamp") in
+        "test $key") return 0 ;;
+        "run $key") [ "$goal" = run ] ;;
+        *) return 1 ;;
+    esac
+}
+
+is_new_enough() {
+    "$1" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null
+}
+
+find_python() {
+    for candidate in ${PYTHON:+"$PYTHON"} python3 python3.11 python3.12 python3.13 python3.14; do
+        if is_new_enough "$candidate"; then
+            echo "$candidate"
+            return 0
+        fi
+    done
+    return 1
+}
+
+# What is missing, as names of Debian packages.
+missing() {
+    if python=$(find_python); then
+        dev=python3
+        case $python in python3.*) dev=$python ;; esac
+        "$python" -c 'import ensurepip, venv' 2>/dev/null || printf '%s ' "$dev-venv"
+        headers=$("$python" -c 'import sysconfig; print(sysconfig.get_path("include"))')
+        [ -f "$headers/Python.h" ] || printf '%s ' "$dev-dev"
+    else
+        printf 'python3 python3-venv python3-dev '
+    fi
+    command -v cc >/dev/null || command -v gcc >/dev/null || printf 'gcc '
+    if ! command -v pkg-config >/dev/null; then
+        printf 'pkg-config libcairo2-dev '
+    elif ! pkg-config --exists cairo; then
+        printf 'libcairo2-dev '
+    fi
+    [ "$goal" = test ] || return 0
+    command -v gs >/dev/null || printf 'ghostscript '
+    command -v pdftoppm >/dev/null || printf 'poppler-utils '
+    command -v rsvg-convert >/dev/null || printf 'librsvg2-bin '
+}
+
+please_install() {
+    if [ "$(uname)" = Darwin ]; then
+        # The same things under the names that Homebrew gives them.
+        packages=$(echo "$*" | sed -e 's/python3[^ ]*/python@3.12/g' -e 's/libcairo2-dev/cairo/' \
+            -e 's/poppler-utils/poppler/' -e 's/librsvg2-bin/librsvg/' | tr ' ' '\n' | sort -u | tr '\n' ' ')
+        fail "please install (brew install ${packages% }) and run this again"
+    fi
+    fail "please install (as root: apt-get install $*) or their like on your system, and run this again"
+}
+
+install_packages() {
+    command -v apt-get >/dev/null || please_install "$@"
+    if [ "$(id -u)" = 0 ]; then
+        root=
+    elif command -v sudo >/dev/null && sudo -n true 2>/dev/null; then
+        root='sudo -n'
+    else
+        please_install "$@"
+    fi
+    echo "setup.sh: installing $*" >&2
+    log=$(mktemp)
+    # A package list that could not be renewed need not matter, a package that cannot be installed does.
+    $root apt-get update >"$log" 2>&1 || true
+    if ! $root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@" >>"$log" 2>&1; then
+        tail -n 20 "$log" >&2
+        rm -f "$log"
+        please_install "$@"
+    fi
+    rm -f "$log"
+}
+
+install_all() {
+    if command -v python3 >/dev/null && ! find_python >/dev/null; then
+        fail "Python 3.11 or newer is needed, python3 is $(python3 -V 2>&1); set PYTHON=/path/to/another"
+    fi
+    packages=$(missing)
+    if [ -n "$packages" ]; then
+        # shellcheck disable=SC2086  # one word a package
+        install_packages $packages
+        packages=$(missing)
+        # shellcheck disable=SC2086
+        [ -z "$packages" ] || please_install $packages
+    fi
+    python=$(find_python) || fail "Python 3.11 or newer is needed; set PYTHON=/path/to/python3 if it has another name"
+    if ! is_new_enough .venv/bin/python || [ ! -f "$stamp" ] || [ "$(sed 's/^[a-z]* [0-9]* [0-9]* //' "$stamp")" != "$here" ]; then
+        echo "setup.sh: making the virtual environment .venv" >&2
+        "$python" -m venv --clear .venv
+    fi
+    rm -f "$stamp"
+    echo "setup.sh: installing vectorplot and what it needs" >&2
+    what=.
+    [ "$goal" = run ] || what='.[test]'
+    .venv/bin/python -m pip install --quiet --disable-pip-version-check -e "$what" ||
+        fail "pip could not install the Python packages; is there a way to the package index?"
+    echo "$goal $key" >"$stamp"
+}
+
+is_installed || install_all
+
+if [ "$goal" = test ]; then
+    PATH="$here/.venv/bin:$PATH"
+    export PATH
+    ruff check .
+    ruff format --check --quiet . || fail "the files above are not formatted; run: .venv/bin/ruff format ."
+    mypy
+    python -m pytest "$@"
+fi

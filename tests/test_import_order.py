@@ -1,0 +1,108 @@
+"""What stands left never imports what stands right, and nothing heavy loads before it is called."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import vectorplot
+
+PACKAGE = Path(vectorplot.__file__).parent
+
+ORDER = [
+    *("errors", "exact", "geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
+    *("drawing", "effects", "animation", "backends"),
+    *("verbs", "testing", "cli"),
+]
+VERBS = {"draw", "paint", "render", "save", "plan"}
+
+# A Drawing shows itself in a notebook; the import happens when the notebook asks.
+ALLOWED = {("drawing/drawing.py", "backends")}
+
+HEAVY = {"cairo", "scipy", "shapely", "svgwrite", "trimesh", "click", "tqdm", "HersheyFonts", "embreex"}
+
+FILES = sorted(path.relative_to(PACKAGE).as_posix() for path in PACKAGE.rglob("*.py"))
+
+
+def room(parts: tuple[str, ...]) -> str:
+    name = parts[0].removesuffix(".py")
+    return "verbs" if name in VERBS else name
+
+
+def imported_modules(tree: ast.AST, package: tuple[str, ...]) -> set[tuple[str, ...]]:
+    """The modules of vectorplot a file imports, at the top or inside a function."""
+    found: set[tuple[str, ...]] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            found |= {tuple(alias.name.split(".")) for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            base = package[: len(package) - node.level + 1] if node.level else ()
+            base += tuple((node.module or "").split(".")) if node.module else ()
+            found |= {(*base, alias.name) for alias in node.names}
+    return {module[1:] for module in found if module[0] == "vectorplot" and len(module) > 1}
+
+
+@pytest.mark.parametrize("file", [file for file in FILES if file != "__init__.py"])
+def test_a_room_imports_only_what_stands_left_of_it(file):
+    path = Path(file)
+    home = room(path.parts)
+    assert home in ORDER, f"{file}: {home} has no place in the import order"
+    tree = ast.parse((PACKAGE / path).read_text(encoding="utf-8"))
+    for module in imported_modules(tree, ("vectorplot", *path.parts[:-1])):
+        target = room(module)
+        if target not in ORDER:  # a name of the package itself, such as __version__
+            assert not (PACKAGE / target).exists() and not (PACKAGE / f"{target}.py").exists()
+            continue
+        right = ORDER.index(target) > ORDER.index(home)
+        assert not right or (file, target) in ALLOWED, f"{file} imports {'.'.join(module)}, which stands right of it"
+
+
+@pytest.mark.parametrize("file", [file for file in FILES if not file.startswith(("backends/", "cli/"))])
+def test_heavy_packages_are_imported_inside_functions(file):
+    tree = ast.parse((PACKAGE / file).read_text(encoding="utf-8"))
+    for node in tree.body:
+        names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+        names += [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+        assert not {name.split(".")[0] for name in names} & HEAVY, f"{file}:{node.lineno} imports {names} at the top"
+
+
+def loaded_after(statement: str) -> set[str]:
+    script = f"import sys\n{statement}\nprint(*(name.split('.')[0] for name in sys.modules))"
+    result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    return set(result.stdout.split())
+
+
+def test_import_of_the_package_loads_nothing_heavy():
+    assert not loaded_after("import vectorplot") & (HEAVY | {"numpy"})
+
+
+def test_the_types_load_numpy_and_nothing_heavier():
+    loaded = loaded_after("import vectorplot as vp\nvp.Scene, vp.Camera, vp.Mesh, vp.Drawing, vp.InputError")
+    assert "numpy" in loaded
+    assert not loaded & HEAVY
+
+
+def test_import_of_the_package_takes_less_than_a_tenth_of_a_second():
+    script = "import time; t = time.perf_counter(); import vectorplot; print(time.perf_counter() - t)"
+    run = [sys.executable, "-c", script]
+    times = [float(subprocess.run(run, capture_output=True, text=True, check=True).stdout) for _ in range(3)]
+    assert min(times) < 0.1
+
+
+def test_every_exported_name_has_a_home_and_the_others_do_not_exist():
+    assert set(vectorplot._HOME) == set(vectorplot.__all__)
+    assert set(vectorplot.__all__) <= set(dir(vectorplot))
+    for name in vectorplot.__all__:
+        assert getattr(vectorplot, name).__name__ == name
+    with pytest.raises(AttributeError, match="rubber"):
+        _ = vectorplot.rubber
+
+
+@pytest.mark.parametrize("verb", ["draw", "save"])
+def test_a_verb_stays_a_verb_when_its_module_was_imported_first(verb):
+    script = f"import vectorplot.{verb}, vectorplot as vp; assert callable(vp.{verb}), vp.{verb}"
+    subprocess.run([sys.executable, "-c", script], check=True)
