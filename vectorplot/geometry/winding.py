@@ -1,0 +1,249 @@
+"""Which way round faces are listed: found out, and made consistent."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+
+_PIECE = 1 << 15
+
+
+@dataclass(frozen=True, eq=False)
+class EdgeUses:
+    """The undirected edges of a mesh and the face corners that run along them.
+
+    corner (c,) positions of corners, sorted by the edge from this corner to the next; forward (c,) whether that way
+    leads to the larger vertex number; first (e,) where the uses of an edge begin; count (e,) how many there are.
+    """
+
+    corner: Ints
+    forward: Bools
+    first: Ints
+    count: Ints
+
+    @property
+    def agree(self) -> Bools:
+        """(e,) True where two faces run along the edge, in opposite directions."""
+        return self._pairs & (self.forward[self.first] != self._second_forward)
+
+    @property
+    def conflict(self) -> Bools:
+        """(e,) True where two faces run along the edge in the same direction."""
+        return self._pairs & (self.forward[self.first] == self._second_forward)
+
+    @property
+    def _pairs(self) -> Bools:
+        return self.count == 2
+
+    @property
+    def _second_forward(self) -> Bools:
+        return self.forward[np.minimum(self.first + 1, max(len(self.forward) - 1, 0))]
+
+
+def edge_uses(mesh: Mesh) -> EdgeUses:
+    """The edges of the mesh with their uses, by one sort of packed integers."""
+    start, end = mesh.corners, mesh.corners[mesh.next_corner]
+    keys = np.minimum(start, end) * len(mesh.vertices) + np.maximum(start, end)
+    bits = len(keys).bit_length()
+    if len(keys) and int(keys.max()).bit_length() + bits < 64:
+        packed = np.sort((keys << bits) | np.arange(len(keys)))
+        corner, keys = packed & ((1 << bits) - 1), packed >> bits
+    else:
+        corner = np.argsort(keys, kind="stable")
+        keys = keys[corner]
+    first = np.flatnonzero(np.concatenate([np.ones(min(len(keys), 1), dtype=np.bool_), keys[1:] != keys[:-1]]))
+    count = np.diff(first, append=len(keys))
+    return EdgeUses(corner, (start < end)[corner], first, count)
+
+
+def is_closed_oriented(mesh: Mesh) -> bool:
+    """Whether every edge is run along as often in one direction as in the other.
+
+    That is: the mesh bounds a solid and its faces agree about the outside. No sort: every directed edge from a to b adds
+    r(a) s(b) - r(b) s(a) modulo 2^64 for fixed random r and s, which cancels. A mesh that is not closed passes with a
+    probability of about 2^-63. Degenerate: a mesh without faces is closed.
+    """
+    return int(_circulation(mesh).sum()) == 0
+
+
+def _circulation(mesh: Mesh) -> NDArray[np.uint64]:
+    """(f,) the sum of r(a) s(b) - r(b) s(a) over the edges of every face, modulo 2^64."""
+    numbers = np.arange(2 * len(mesh.vertices), dtype=np.uint64)
+    r, s = _scrambled(numbers).reshape(2, -1)
+    if not mesh.is_triangular:
+        following = mesh.corners[mesh.next_corner]
+        terms = r[mesh.corners] * s[following] - r[following] * s[mesh.corners]
+        return np.add.reduceat(terms, mesh.offsets[:-1])
+    sums = np.zeros(mesh.face_count, dtype=np.uint64)
+    for start in range(0, mesh.face_count, _PIECE):
+        corners = mesh.corners[3 * start : 3 * (start + _PIECE)]
+        ra, rb, rc = r[corners].reshape(-1, 3).T
+        sa, sb, sc = s[corners].reshape(-1, 3).T
+        sums[start : start + _PIECE] = ra * (sb - sc) + rb * (sc - sa) + rc * (sa - sb)
+    return sums
+
+
+def _scrambled(numbers: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """Numbers mixed beyond recognition. Source: Steele, Lea, Flood, Fast splittable pseudorandom number generators."""
+    mixed = (numbers + np.uint64(1)) * np.uint64(0x9E3779B97F4A7C15)
+    for shift, factor in ((30, 0xBF58476D1CE4E5B9), (27, 0x94D049BB133111EB)):
+        mixed ^= mixed >> np.uint64(shift)
+        mixed *= np.uint64(factor)
+    return mixed ^ (mixed >> np.uint64(31))
+
+
+def repeated_faces(mesh: Mesh) -> Bools:
+    """(f,) True for a face listed before with the same corners the same way round."""
+    if mesh.face_count == 0:
+        return np.zeros(0, dtype=np.bool_)
+    marks = _scrambled(np.arange(len(mesh.vertices), dtype=np.uint64) ^ np.uint64(1 << 63))
+    signature = _scrambled(_circulation(mesh)) + np.add.reduceat(marks[mesh.corners], mesh.offsets[:-1])
+    _, first = np.unique(signature, return_index=True)
+    repeated = np.ones(mesh.face_count, dtype=np.bool_)
+    repeated[first] = False
+    return repeated
+
+
+def _face_pairs(mesh: Mesh, uses: EdgeUses, chosen: Bools) -> tuple[Ints, Ints]:
+    first = uses.first[chosen]
+    return mesh.corner_face[uses.corner[first]], mesh.corner_face[uses.corner[first + 1]]
+
+
+def components(mesh: Mesh, uses: EdgeUses) -> tuple[int, Ints]:
+    """How many pieces the mesh has, and (f,) the piece of every face; pieces are joined across edges of two faces."""
+    one, other = _face_pairs(mesh, uses, uses.count == 2)
+    return _connected(mesh.face_count, one, other)
+
+
+def _connected(count: int, one: Ints, other: Ints) -> tuple[int, Ints]:
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    graph = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(count, count))
+    number, label = connected_components(graph, directed=False)
+    return int(number), np.asarray(label, dtype=np.intp)
+
+
+def consistent_winding(mesh: Mesh, uses: EdgeUses) -> tuple[Bools, bool]:
+    """(f,) the faces to turn round so that neighbours agree, as few as possible, and whether all agree then.
+
+    Every face is taken twice, as listed and turned; across an edge each state of a face goes with one state of its
+    neighbour. In a one-sided piece (a Moebius band) both states of a face are connected: such a piece stays as it is.
+    """
+    faces = mesh.face_count
+    same = _face_pairs(mesh, uses, uses.agree)
+    odd = _face_pairs(mesh, uses, uses.conflict)
+    one = np.concatenate([same[0], same[0] + faces, odd[0], odd[0] + faces])
+    other = np.concatenate([same[1], same[1] + faces, odd[1] + faces, odd[1]])
+    number, label = _connected(2 * faces, one, other)
+    listed, turned = label[:faces], label[faces:]
+    kept = np.bincount(listed, minlength=number)
+    # A tie between a state and its mirror image is broken by the label, so that a piece does not choose both.
+    better = (kept[turned] > kept[listed]) | ((kept[turned] == kept[listed]) & (turned < listed))
+    return better & (listed != turned), bool((listed != turned).all())
+
+
+def turned_faces(mesh: Mesh, turn: Bools) -> Mesh:
+    """The mesh with the chosen faces (f,) listed the other way round."""
+    where = np.arange(len(mesh.corners))
+    face = mesh.corner_face
+    mirrored = mesh.offsets[:-1][face] + mesh.offsets[1:][face] - 1 - where
+    return Mesh(mesh.vertices, mesh.corners[np.where(turn[face], mirrored, where)], mesh.offsets, mesh.present)
+
+
+def joined_pieces(mesh: Mesh) -> tuple[int, Ints]:
+    """How many pieces the mesh has, and (f,) the piece of every face; pieces are joined where they share a vertex.
+
+    No sort: every vertex hangs on a neighbour of smaller number, trees are flattened, and edges between different trees
+    do the same with their roots until none is left.
+    """
+    root = np.arange(len(mesh.vertices))
+    one, other = mesh.corners, mesh.corners[mesh.next_corner]
+    while len(one):
+        root[np.maximum(one, other)] = np.minimum(one, other)
+        while True:
+            higher = root[root]
+            if np.array_equal(higher, root):
+                break
+            root = higher
+        one, other = root[one], root[other]
+        apart = one != other
+        one, other = one[apart], other[apart]
+    roots = root[mesh.corners[mesh.offsets[:-1]]]
+    used = np.zeros(len(mesh.vertices), dtype=np.bool_)
+    used[roots] = True
+    return int(used.sum()), (np.cumsum(used) - 1)[roots]
+
+
+def signed_volumes(mesh: Mesh) -> Floats:
+    """(f,) six times the volume between every face and the centre of the mesh, positive where it shows its inside there.
+
+    Their sum over a closed piece is six times its volume; in units of the cube of the extent.
+    """
+    low, high = mesh.bounds
+    scale = 1.0 / max(float((high - low).max()), np.finfo(np.float64).tiny)
+    volumes = np.zeros(mesh.face_count)
+    for start in range(0, mesh.face_count, _PIECE):
+        end = min(start + _PIECE, mesh.face_count)
+        corners = mesh.corners[mesh.offsets[start] : mesh.offsets[end]]
+        points = (np.take(mesh.vertices, corners, axis=0) - 0.5 * (low + high)) * scale
+        if len(corners) == 3 * (end - start):
+            volumes[start:end] = _determinants(points[0::3], points[1::3], points[2::3])
+            continue
+        offsets = mesh.offsets[start:end] - mesh.offsets[start]
+        first = np.repeat(points[offsets], mesh.face_sizes[start:end], axis=0)
+        following = mesh.next_corner[mesh.offsets[start] : mesh.offsets[end]] - mesh.offsets[start]
+        volumes[start:end] = np.add.reduceat(_determinants(first, points, points[following]), offsets)
+    return volumes
+
+
+def _determinants(a: Floats, b: Floats, c: Floats) -> Floats:
+    x = b[:, 1] * c[:, 2] - b[:, 2] * c[:, 1]
+    y = b[:, 2] * c[:, 0] - b[:, 0] * c[:, 2]
+    z = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
+    return np.asarray(a[:, 0] * x + a[:, 1] * y + a[:, 2] * z)
+
+
+def inside_out(mesh: Mesh, piece: Ints, number: int) -> Bools:
+    """(f,) True for the faces of closed pieces with negative volume, cavities left alone.
+
+    piece (f,) the piece of every face, number how many. A cavity is a piece whose bounding box lies in that of a closed
+    piece of positive volume.
+    """
+    volume = np.bincount(piece, weights=signed_volumes(mesh), minlength=number)
+    flip = np.zeros(number, dtype=np.bool_)
+    if not (volume < 0.0).any():
+        return np.asarray(flip[piece])
+    order = np.argsort(piece, kind="stable")
+    starts = np.searchsorted(piece[order], np.arange(number))
+    closed = np.add.reduceat(_circulation(mesh)[order], starts) == 0
+    negative = np.flatnonzero(closed & (volume < 0.0))
+    solid = np.flatnonzero(closed & (volume > 0.0))
+    if len(negative) and len(solid):
+        low, high = _boxes(mesh, piece, number)
+        negative = negative[~_boxed_in(low, high, negative, solid)]
+    flip[negative] = True
+    return np.asarray(flip[piece])
+
+
+def _boxes(mesh: Mesh, piece: Ints, number: int) -> tuple[Floats, Floats]:
+    corner_piece = piece[mesh.corner_face]
+    order = np.argsort(corner_piece, kind="stable")
+    starts = np.searchsorted(corner_piece[order], np.arange(number))
+    points = mesh.vertices[mesh.corners[order]]
+    return np.minimum.reduceat(points, starts, axis=0), np.maximum.reduceat(points, starts, axis=0)
+
+
+def _boxed_in(low: Floats, high: Floats, inner: Ints, outer: Ints) -> Bools:
+    """(k,) whether the box of each inner piece lies in the box of some outer one."""
+    found = np.zeros(len(inner), dtype=np.bool_)
+    rows = max(1, (1 << 20) // len(outer))
+    for start in range(0, len(inner), rows):
+        some = inner[start : start + rows]
+        within = (low[some][:, None] > low[outer]).all(axis=2) & (high[some][:, None] < high[outer]).all(axis=2)
+        found[start : start + rows] = within.any(axis=1)
+    return found

@@ -1,0 +1,138 @@
+"""A file -> a scene."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.mesh import Ints, Mesh
+from vectorplot.geometry.repair import Mending, is_closed_oriented, mended
+from vectorplot.io.mesh_file import MeshFile, check_file, shown
+from vectorplot.scene.scene import Item, Scene
+
+MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".glb")
+SCENE_SUFFIXES = (".scene", ".txt")
+
+
+def read(path: str | os.PathLike[str]) -> Scene:
+    """The scene in a file: a mesh (obj, stl, ply, off, glb) or a text in the scene language (any other suffix).
+
+    A mesh file gives one item named after the file, or one for every object (OBJ) or node (glb) if there are several.
+    Meshes are mended (see geometry.repair); what was mended, and what could not be, is said in one InputWarning a file.
+    Errors: InputError, one line with the file, the line where there is one, and the cause.
+    """
+    path = Path(path)
+    check_file(path)
+    reader = _mesh_reader(path.suffix.lower())
+    if reader is None:
+        _check_text(path)
+        from vectorplot.io.scene_language import read_scene
+
+        return read_scene(path)
+    try:
+        return _mesh_scene(path, reader(path))
+    except MemoryError:
+        raise InputError("too large for the memory", file=shown(path)) from None
+    except OSError as error:
+        raise InputError(error.strerror or "cannot be read", file=shown(path)) from None
+
+
+def _mesh_reader(suffix: str) -> Callable[[Path], MeshFile] | None:
+    """The reader of a mesh format; None for what must be text in the scene language. Imported when called for."""
+    if suffix == ".obj":
+        from vectorplot.io.obj import read_obj
+
+        return read_obj
+    if suffix == ".off":
+        from vectorplot.io.off import read_off
+
+        return read_off
+    if suffix == ".ply":
+        from vectorplot.io.ply import read_ply
+
+        return read_ply
+    if suffix == ".stl":
+        from vectorplot.io.stl import read_stl
+
+        return read_stl
+    if suffix == ".glb":
+        from vectorplot.io.glb import read_glb
+
+        return read_glb
+    return None
+
+
+def _check_text(path: Path) -> None:
+    """An InputError for a file that cannot be a scene text: other 3-D formats are XML, JSON or binary."""
+    if path.suffix.lower() in SCENE_SUFFIXES:
+        return
+    with path.open("rb") as file:
+        head = file.read(4096)
+    if b"\0" in head or head.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] in (b"<", b"{"):
+        known = " ".join((*SCENE_SUFFIXES, *MESH_SUFFIXES))
+        raise InputError(f"unknown suffix '{path.suffix}', known are {known}", file=shown(path))
+
+
+def _mesh_scene(path: Path, content: MeshFile) -> Scene:
+    parts, mending = _mended_parts(path.stem, content)
+    items = tuple(Item(name, mesh) for name, mesh in parts if mesh.face_count)
+    if not items:
+        raise InputError(f"no face with an area ({mending})", file=shown(path))
+    if str(mending):
+        warnings.warn(f"{shown(path)}: {mending}", InputWarning, stacklevel=3)
+    return Scene(items)
+
+
+def _mended_parts(stem: str, content: MeshFile) -> tuple[list[tuple[str, Mesh]], Mending]:
+    """The parts by name, mended, and the sum of what was done to them."""
+    if len(content.names) == 1 or _share_vertices(content.mesh, content.first_faces):
+        # Objects that share vertices are one body: taken apart, their seams would be borders.
+        name = content.names[0] if len(content.names) == 1 else stem
+        mesh, mending = mended(content.mesh, content.precision)
+        return [(name, mesh)], mending
+    if is_closed_oriented(content.mesh):
+        mesh, mending = mended(content.mesh, content.precision)
+        if mending == Mending():
+            return list(zip(content.names, _split(mesh, content.first_faces), strict=True)), mending
+    total = Mending()
+    parts: list[tuple[str, Mesh]] = []
+    for name, part in zip(content.names, _split(content.mesh, content.first_faces), strict=True):
+        mesh, mending = mended(part, content.precision)
+        parts.append((name, mesh))
+        total = total + mending
+    return parts, total
+
+
+def _face_parts(mesh: Mesh, first_faces: tuple[int, ...]) -> Ints:
+    return np.repeat(np.arange(len(first_faces)), np.diff([*first_faces, mesh.face_count]))
+
+
+def _share_vertices(mesh: Mesh, first_faces: tuple[int, ...]) -> bool:
+    part = np.repeat(_face_parts(mesh, first_faces), mesh.face_sizes)
+    owner = np.zeros(len(mesh.vertices), dtype=np.intp)
+    owner[mesh.corners] = part
+    return bool((owner[mesh.corners] != part).any())
+
+
+def _split(mesh: Mesh, first_faces: tuple[int, ...]) -> list[Mesh]:
+    """The parts as meshes of their own."""
+    order = np.zeros(len(mesh.vertices), dtype=np.intp)
+    owner = np.full(len(mesh.vertices), -1)
+    owner[mesh.corners] = np.repeat(_face_parts(mesh, first_faces), mesh.face_sizes)
+    sorted_vertices = np.argsort(owner, kind="stable")
+    first_vertices = np.searchsorted(owner[sorted_vertices], np.arange(len(first_faces) + 1))
+    order[sorted_vertices] = np.arange(len(order))
+    vertices, corners = mesh.vertices[sorted_vertices], order[mesh.corners]
+    ends = [*first_faces[1:], mesh.face_count]
+    parts = []
+    for k, (begin, end) in enumerate(zip(first_faces, ends, strict=True)):
+        offsets = mesh.offsets[begin : end + 1]
+        low, high = first_vertices[k], first_vertices[k + 1]
+        own = corners[offsets[0] : offsets[-1]] - low
+        parts.append(Mesh(vertices[low:high], own, offsets - offsets[0]))
+    return parts
