@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.degenerate import chosen_faces, without_degenerate
+from vectorplot.geometry.mesh import Floats, Mesh
 from vectorplot.geometry.weld import close_points, distinct_points
 from vectorplot.geometry.winding import (
     EdgeUses,
@@ -21,10 +22,6 @@ from vectorplot.geometry.winding import (
 )
 
 __all__ = ["Mending", "MeshReport", "is_closed_oriented", "mended", "mesh_report", "welded"]
-
-_PIECE = 1 << 15
-# Below this ratio of height to longest side a triangle has no direction any more (a sliver of 1:1e8 still has).
-_THIN = 1e-10
 
 
 @dataclass(frozen=True)
@@ -115,8 +112,8 @@ def mesh_report(mesh: Mesh, mending: Mending | None = None) -> MeshReport:
 def _is_convex(mesh: Mesh, uses: EdgeUses) -> bool:
     """Whether a closed, oriented, connected manifold mesh is convex.
 
-    Convex at every edge, and star-shaped about its centre with one cover of the sphere of directions: locally convex and
-    embedded, hence convex (Tietze, Nakajima).
+    Convex at every edge, and star-shaped about its centre with one cover of the sphere of directions: locally convex
+    and embedded, hence convex (Tietze, Nakajima).
     """
     low, high = mesh.bounds
     zero = 1e-9 * float((high - low).max())
@@ -154,16 +151,17 @@ def _solid_angles(mesh: Mesh, eye: Floats) -> Floats:
 
 
 def mended(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:
-    """The mesh without degenerate faces, welded where it is open, its faces agreeing about the outside; and what was done.
+    """The mesh without degenerate faces, welded where it is open, faces agreeing about the outside; and what was done.
 
     precision: relative spacing of the coordinates in the file (2^-23 for 32-bit floats, 2^-52 for 64-bit). What cannot
     be mended (open, non-manifold, one-sided) is kept and counted. A closed consistent mesh is left as it is.
     """
-    mesh, mending = _without_degenerate(mesh)
+    mesh, dropped = without_degenerate(mesh)
+    mending = Mending(degenerate=dropped)
     if not is_closed_oriented(mesh):
         mesh, welds = _welded_where_open(mesh, precision)
-        mesh, collapsed = _without_degenerate(mesh)
-        mending = mending + welds + collapsed
+        mesh, dropped = without_degenerate(mesh)
+        mending = mending + welds + Mending(degenerate=dropped)
         mesh, turns = _wound(mesh)
         mending = mending + turns
     elif mesh.face_count:
@@ -203,7 +201,7 @@ def _wound(mesh: Mesh) -> tuple[Mesh, Mending]:
         again = repeated_faces(mesh)
         repeated = int(again.sum())
         if repeated:
-            mesh = _only(mesh, ~again)
+            mesh = chosen_faces(mesh, ~again)
             uses = edge_uses(mesh)
     turn = np.zeros(mesh.face_count, dtype=np.bool_)
     two_sided = True
@@ -224,38 +222,6 @@ def _wound(mesh: Mesh) -> tuple[Mesh, Mending]:
     )
 
 
-def _without_degenerate(mesh: Mesh) -> tuple[Mesh, Mending]:
-    """The mesh without faces that have no area, and without a corner that follows itself."""
-    mesh, short = _without_stutter(mesh)
-    thin = _thin_faces(mesh)
-    dropped = short + int(thin.sum())
-    return (_only(mesh, ~thin) if thin.any() else mesh), Mending(degenerate=dropped)
-
-
-def _without_stutter(mesh: Mesh) -> tuple[Mesh, int]:
-    """The mesh without corners equal to the next one, and the number of faces that left fewer than three."""
-    if mesh.is_triangular:
-        a, b, c = mesh.corners[0::3], mesh.corners[1::3], mesh.corners[2::3]
-        bad = (a == b) | (b == c) | (c == a)
-        return (_only(mesh, ~bad), int(bad.sum())) if bad.any() else (mesh, 0)
-    stutter = mesh.corners == mesh.corners[mesh.next_corner]
-    if not stutter.any():
-        return mesh, 0
-    sizes = mesh.face_sizes - np.bincount(mesh.corner_face[stutter], minlength=mesh.face_count)
-    alive = sizes >= 3
-    corners = mesh.corners[~stutter & alive[mesh.corner_face]]
-    offsets = np.concatenate([[0], np.cumsum(sizes[alive])])
-    present = None if mesh.present is None else mesh.present[alive]
-    return Mesh(mesh.vertices, corners, offsets, present), int((~alive).sum())
-
-
-def _only(mesh: Mesh, chosen: Bools) -> Mesh:
-    """The mesh with the chosen faces (f,) alone; vertices stay."""
-    corners = mesh.corners[np.repeat(chosen, mesh.face_sizes)]
-    offsets = np.concatenate([[0], np.cumsum(mesh.face_sizes[chosen])])
-    return Mesh(mesh.vertices, corners, offsets, None if mesh.present is None else mesh.present[chosen])
-
-
 def _without_loose_vertices(mesh: Mesh) -> Mesh:
     """The mesh without vertices that no face names."""
     used = np.zeros(len(mesh.vertices), dtype=np.bool_)
@@ -264,43 +230,3 @@ def _without_loose_vertices(mesh: Mesh) -> Mesh:
         return mesh
     number = np.cumsum(used) - 1
     return Mesh(mesh.vertices[used], number[mesh.corners], mesh.offsets, mesh.present)
-
-
-def _thin_faces(mesh: Mesh) -> Bools:
-    """(f,) True for faces without area: height below 1e-10 of the longest side, or within the noise of the coordinates."""
-    thin = np.zeros(mesh.face_count, dtype=np.bool_)
-    low, high = mesh.bounds
-    extent = float((high - low).max())
-    if extent == 0.0 or mesh.face_count == 0:
-        return np.asarray(~thin)
-    noise = 4.0 * np.finfo(np.float64).eps * float(np.abs(mesh.bounds).max()) / extent
-    for start in range(0, mesh.face_count, _PIECE):
-        end = min(start + _PIECE, mesh.face_count)
-        corners = mesh.corners[mesh.offsets[start] : mesh.offsets[end]]
-        offsets = mesh.offsets[start : end + 1] - mesh.offsets[start]
-        area, length = _squares(mesh.vertices, corners, offsets, 1.0 / extent)
-        thin[start:end] = (area <= _THIN**2 * length * length) | (area <= noise**2 * length)
-    return thin
-
-
-def _squares(vertices: Floats, corners: Ints, offsets: Ints, scale: float) -> tuple[Floats, Floats]:
-    """(f,) squares of twice the areas, and (f,) squared lengths of the order of the longest side, after scaling."""
-    points = np.take(vertices, corners, axis=0)
-    if len(corners) == 3 * (len(offsets) - 1):
-        a = points[0::3]
-        p, q = (points[1::3] - a) * scale, (points[2::3] - a) * scale
-        return _cross_square(p, q), np.einsum("ij,ij->i", p, p) + np.einsum("ij,ij->i", q, q)
-    sizes = np.diff(offsets)
-    arms = (points - np.repeat(points[offsets[:-1]], sizes, axis=0)) * scale
-    following = np.arange(1, len(corners) + 1)
-    following[offsets[1:] - 1] = offsets[:-1]
-    vector = np.add.reduceat(np.cross(arms, arms[following]), offsets[:-1], axis=0)
-    longest = np.maximum.reduceat(np.einsum("ij,ij->i", arms, arms), offsets[:-1])
-    return np.einsum("ij,ij->i", vector, vector), longest
-
-
-def _cross_square(p: Floats, q: Floats) -> Floats:
-    x = p[:, 1] * q[:, 2] - p[:, 2] * q[:, 1]
-    y = p[:, 2] * q[:, 0] - p[:, 0] * q[:, 2]
-    z = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
-    return np.asarray(x * x + y * y + z * z)

@@ -28,20 +28,20 @@ class EdgeUses:
     @property
     def agree(self) -> Bools:
         """(e,) True where two faces run along the edge, in opposite directions."""
-        return self._pairs & (self.forward[self.first] != self._second_forward)
+        return np.asarray(self._pairs & (self.forward[self.first] != self._second_forward))
 
     @property
     def conflict(self) -> Bools:
         """(e,) True where two faces run along the edge in the same direction."""
-        return self._pairs & (self.forward[self.first] == self._second_forward)
+        return np.asarray(self._pairs & (self.forward[self.first] == self._second_forward))
 
     @property
     def _pairs(self) -> Bools:
-        return self.count == 2
+        return np.asarray(self.count == 2)
 
     @property
     def _second_forward(self) -> Bools:
-        return self.forward[np.minimum(self.first + 1, max(len(self.forward) - 1, 0))]
+        return np.asarray(self.forward[np.minimum(self.first + 1, max(len(self.forward) - 1, 0))])
 
 
 def edge_uses(mesh: Mesh) -> EdgeUses:
@@ -63,9 +63,9 @@ def edge_uses(mesh: Mesh) -> EdgeUses:
 def is_closed_oriented(mesh: Mesh) -> bool:
     """Whether every edge is run along as often in one direction as in the other.
 
-    That is: the mesh bounds a solid and its faces agree about the outside. No sort: every directed edge from a to b adds
-    r(a) s(b) - r(b) s(a) modulo 2^64 for fixed random r and s, which cancels. A mesh that is not closed passes with a
-    probability of about 2^-63. Degenerate: a mesh without faces is closed.
+    That is: the mesh bounds a solid and its faces agree about the outside. No sort: every directed edge from a to b
+    adds r(a) s(b) - r(b) s(a) modulo 2^64 for fixed random r and s, which cancels. A mesh that is not closed passes with
+    a probability of about 2^-63. Degenerate: a mesh without faces is closed.
     """
     return int(_circulation(mesh).sum()) == 0
 
@@ -180,7 +180,7 @@ def joined_pieces(mesh: Mesh) -> tuple[int, Ints]:
 
 
 def signed_volumes(mesh: Mesh) -> Floats:
-    """(f,) six times the volume between every face and the centre of the mesh, positive where it shows its inside there.
+    """(f,) six times the volume between every face and the centre of the mesh, positive if that is behind it.
 
     Their sum over a closed piece is six times its volume; in units of the cube of the extent.
     """
@@ -244,6 +244,7 @@ def _boxed_in(low: Floats, high: Floats, inner: Ints, outer: Ints) -> Bools:
     rows = max(1, (1 << 20) // len(outer))
     for start in range(0, len(inner), rows):
         some = inner[start : start + rows]
-        within = (low[some][:, None] > low[outer]).all(axis=2) & (high[some][:, None] < high[outer]).all(axis=2)
-        found[start : start + rows] = within.any(axis=1)
+        above = np.all(low[some][:, None] > low[outer], axis=2)
+        below = np.all(high[some][:, None] < high[outer], axis=2)
+        found[start : start + rows] = np.any(above & below, axis=1)
     return found

@@ -142,13 +142,13 @@ class TextFile:
             yield self._piece(begin, end, comment, slashed)
             begin = end
 
-    def sections(self, counts: list[int], names: list[str]) -> Iterator[tuple[int, Lines]]:
+    def sections(self, counts: list[int], names: list[str], *, comment: bytes = b"#") -> Iterator[tuple[int, Lines]]:
         """The lines of consecutive sections with the given counts of lines, each piece with the number of its section.
 
         Errors: InputError if the file ends before.
         """
         section, missing = 0, counts[0]
-        for lines in self.lines():
+        for lines in self.lines(comment=comment):
             at = 0
             while at < len(lines.first) and section < len(counts):
                 take = min(missing, len(lines.first) - at)

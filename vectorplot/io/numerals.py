@@ -65,11 +65,11 @@ def decimals(text: Bytes, starts: Ints, ends: Ints) -> Floats:
     if not good.all():
         odd = np.flatnonzero(~good)
         values[odd] = _one_by_one(text, starts, ends, odd)
-    return values
+    return np.asarray(values)
 
 
 def integers(text: Bytes, starts: Ints, ends: Ints) -> Ints:
-    """(n,) the integers written in text[starts:ends]. Errors: NumeralError for a word that is no integer, or too long."""
+    """(n,) the integers written in text[starts:ends]. Errors: NumeralError for a word that is no integer."""
     lead = text[starts]
     negative = lead == ord("-")
     begin = starts + (negative | (lead == ord("+")))

@@ -26,10 +26,10 @@ class _Found:
 def read_obj(path: Path) -> MeshFile:
     """The polygons of an OBJ file; a part for every object (o).
 
-    Faces of the forms v, v/vt, v//vn, v/vt/vn, with indices from 1 or negative ones that count back from the last vertex
-    read; comments; lines continued by a backslash. z is not turned: the format does not say which way is up.
-    Errors: InputError with the line for a word that is no number, a coordinate that is not finite, an index out of range,
-    a face of fewer than three corners; without faces.
+    Faces of the forms v, v/vt, v//vn, v/vt/vn, with indices from 1 or negative ones that count back from the last
+    vertex read; comments; lines continued by a backslash. z is not turned: the format does not say which way is up.
+    Errors: InputError with the line for a word that is no number, a coordinate that is not finite, an index out of
+    range, a face of fewer than three corners; without faces.
     Source: Wavefront, Advanced Visualizer manual, appendix B1.
     """
     text = _with_joined_lines(text_file(path))

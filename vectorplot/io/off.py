@@ -32,8 +32,8 @@ _PLAIN = {b"", b"OFF", b"COFF", b"NOFF", b"CNOFF", b"STOFF", b"STCOFF", b"STNOFF
 def read_off(path: Path) -> MeshFile:
     """The polygons of an OFF file, one vertex or face a line; normals, colours and texture coordinates are passed over.
 
-    Errors: InputError with the line for bad numbers, indices out of range, missing lines; for counts that the file cannot
-    hold; for binary and four- or n-dimensional files. Degenerate: faces of one or two corners are left out.
+    Errors: InputError with the line for bad numbers, indices out of range, missing lines; for counts that the file
+    cannot hold; for binary and four- or n-dimensional files. Degenerate: faces of one or two corners are left out.
     Source: Geomview manual, section 4.2.5.
     """
     text, vertex_count, face_count = _header(text_file(path))
@@ -83,8 +83,8 @@ def _faces(lines: Lines, vertex_count: int) -> tuple[Ints, Ints]:
 def face_corners(lines: Lines, first: Ints, sizes: Ints, stop: Ints, vertex_count: int) -> tuple[Ints, Ints]:
     """Corners and sizes of the polygons whose indices, from 0, begin at the words first in lines that end before stop.
 
-    Polygons of fewer than three corners are left out. Errors: InputError with the line for a size that the line does not
-    hold, and for indices out of range.
+    Polygons of fewer than three corners are left out. Errors: InputError with the line for a size that the line does
+    not hold, and for indices out of range.
     """
     bad = (sizes < 0) | (sizes > stop - first)
     if bad.any():

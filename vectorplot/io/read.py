@@ -17,6 +17,7 @@ from vectorplot.scene.scene import Item, Scene
 
 MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".glb")
 SCENE_SUFFIXES = (".scene", ".txt")
+_LARGEST = 1e60
 
 
 def read(path: str | os.PathLike[str]) -> Scene:
@@ -33,9 +34,12 @@ def read(path: str | os.PathLike[str]) -> Scene:
         _check_text(path)
         from vectorplot.io.scene_language import read_scene
 
-        return read_scene(path)
+        scene: Scene = read_scene(path)
+        return scene
     try:
         return _mesh_scene(path, reader(path))
+    except InputError as error:
+        raise (error if error.file else InputError(error.cause, file=shown(path))) from None
     except MemoryError:
         raise InputError("too large for the memory", file=shown(path)) from None
     except OSError as error:
@@ -78,7 +82,16 @@ def _check_text(path: Path) -> None:
         raise InputError(f"unknown suffix '{path.suffix}', known are {known}", file=shown(path))
 
 
+def _check_extent(mesh: Mesh) -> None:
+    """An InputError for sizes whose powers leave the range of floating point numbers."""
+    largest = float(np.abs(mesh.bounds).max())
+    extent = float((mesh.bounds[1] / 2.0 - mesh.bounds[0] / 2.0).max())
+    if largest > _LARGEST or 0.0 < extent < 1.0 / _LARGEST:
+        raise InputError(f"coordinates up to {largest:g} and an extent of {extent:g} are out of range")
+
+
 def _mesh_scene(path: Path, content: MeshFile) -> Scene:
+    _check_extent(content.mesh)
     parts, mending = _mended_parts(path.stem, content)
     items = tuple(Item(name, mesh) for name, mesh in parts if mesh.face_count)
     if not items:

@@ -45,7 +45,9 @@ def read_stl(path: Path) -> MeshFile:
 def _binary_points(path: Path, size: int, count: int) -> NDArray[np.float32]:
     """(3t,3) the corners of all triangles, read in pieces."""
     if count < 0:
-        raise InputError(f"truncated: {size} bytes, an STL file has {_HEAD} before the first triangle", file=shown(path))
+        raise InputError(
+            f"truncated: {size} bytes, an STL file has {_HEAD} before the first triangle", file=shown(path)
+        )
     check_announced(shown(path), {"triangles": count}, _HEAD + _RECORD.itemsize * count, size)
     points = np.zeros((count, 9), dtype=np.float32)
     with path.open("rb") as file:
