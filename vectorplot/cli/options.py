@@ -1,0 +1,124 @@
+"""Values of options: text to numbers, points, pages and words. What does not fit is bad usage."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Sequence
+from typing import TypeVar
+
+import click
+
+Value = TypeVar("Value")
+
+KINDS = ("contour", "boundary", "crease", "intersection", "edges", "pattern")
+
+DRAWN = ("contour", "boundary", "crease", "intersection", "pattern")
+"""The kinds of lines that are drawn unless the user says otherwise."""
+
+PAGES = {
+    "a0": (841.0, 1189.0),
+    "a1": (594.0, 841.0),
+    "a2": (420.0, 594.0),
+    "a3": (297.0, 420.0),
+    "a4": (210.0, 297.0),
+    "a5": (148.0, 210.0),
+    "a6": (105.0, 148.0),
+    "letter": (215.9, 279.4),
+    "legal": (215.9, 355.6),
+    "tabloid": (279.4, 431.8),
+    "ledger": (431.8, 279.4),
+    "executive": (184.15, 266.7),
+}
+"""Named sheets, width and height in mm."""
+
+
+def number(text: str) -> float:
+    """The finite number that a text spells."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise click.BadParameter(f"{text!r} is not a finite number")
+    return value
+
+
+def at_least(low: float) -> Callable[[str], float]:
+    """How to read a number that is not smaller than low."""
+
+    def read(text: str) -> float:
+        value = number(text)
+        if value < low:
+            raise click.BadParameter(f"{text} is less than {low:g}")
+        return value
+
+    return read
+
+
+def between(low: float, high: float) -> Callable[[str], float]:
+    """How to read a number that lies between low and high and is neither of them."""
+
+    def read(text: str) -> float:
+        value = number(text)
+        if not low < value < high:
+            upper = "" if high == math.inf else f" and less than {high:g}"
+            raise click.BadParameter(f"{text} is not greater than {low:g}{upper}")
+        return value
+
+    return read
+
+
+def point(text: str) -> tuple[float, float, float]:
+    """Three finite numbers with commas between them, such as -3,4,5."""
+    parts = text.split(",")
+    if len(parts) != 3:
+        raise click.BadParameter(f"{text!r} is not three numbers X,Y,Z")
+    x, y, z = (number(part.strip()) for part in parts)
+    return (x, y, z)
+
+
+def sheet(text: str) -> tuple[float, float]:
+    """Width and height in mm of a named page or of WIDTHxHEIGHT."""
+    word = text.strip().lower()
+    if word in PAGES:
+        return PAGES[word]
+    sides = re.fullmatch(r"([0-9.]+)\s*[x×]\s*([0-9.]+)\s*(?:mm)?", word)
+    if sides is None:
+        raise click.BadParameter(f"{text!r} is neither WIDTHxHEIGHT in mm nor one of {', '.join(PAGES)}")
+    width, height = (between(0.0, math.inf)(side) for side in sides.groups())
+    return (width, height)
+
+
+def kinds(text: str) -> tuple[str, ...]:
+    """Kinds of lines with commas between them, each once."""
+    words = [word.strip().lower() for word in text.split(",")]
+    for word in words:
+        if word not in KINDS:
+            raise click.BadParameter(f"{word!r} is none of {', '.join(KINDS)}")
+    return tuple(dict.fromkeys(words))
+
+
+def exclusive(given: Iterable[tuple[str, object]]) -> None:
+    """Bad usage where more than one of some options is given (None and False: not given)."""
+    used = [name for name, value in given if value is not None and value is not False]
+    if len(used) > 1:
+        raise click.UsageError(f"{used[0]} and {used[1]} exclude each other")
+
+
+def chosen(value: Value | None, fallback: Value) -> Value:
+    """The value, or the fallback where none is given."""
+    return fallback if value is None else value
+
+
+def format_of(path: str, given: str | None, known: Sequence[str]) -> str:
+    """The format to write: the one given, or the suffix of the path."""
+    if given is not None:
+        return given
+    if path == "-":
+        raise click.UsageError("-o - needs --format")
+    suffix = path.rpartition("/")[2].rpartition(".")
+    word = suffix[2].lower() if suffix[1] and suffix[0] else ""
+    if word not in known:
+        raise click.UsageError(f"{path}: the name must end in one of {', '.join('.' + name for name in known)}")
+    return word

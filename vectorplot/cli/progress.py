@@ -1,0 +1,72 @@
+"""What the command says on stderr while it works, and afterwards."""
+
+from __future__ import annotations
+
+import sys
+import time
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import click
+
+from vectorplot.errors import InputWarning
+
+PATIENCE_S = 0.5
+"""Work shorter than this shows no bar."""
+
+
+class Progress:
+    """A progress bar that appears when the work takes long; call it with a stage and the fraction done, 0 to 1."""
+
+    def __init__(self) -> None:
+        self.start = time.perf_counter()
+        self.bar: Any = None
+
+    def __call__(self, stage: str, fraction: float) -> None:
+        """Show the stage and how far it has come."""
+        if self.bar is None:
+            if time.perf_counter() - self.start < PATIENCE_S:
+                return
+            from tqdm import tqdm
+
+            shape = "{desc} {percentage:3.0f}%|{bar}| {elapsed}"
+            self.bar = tqdm(total=1.0, file=sys.stderr, leave=False, bar_format=shape)
+        self.bar.set_description_str(stage, refresh=False)
+        self.bar.n = min(max(fraction, 0.0), 1.0)
+        self.bar.refresh()
+
+    def close(self) -> None:
+        """Take the bar away."""
+        if self.bar is not None:
+            self.bar.close()
+
+
+@contextmanager
+def progress_bar(*, quiet: bool) -> Iterator[Progress | None]:
+    """A progress bar on a terminal; None where stderr is no terminal or the user wants silence."""
+    if quiet or not sys.stderr.isatty():
+        yield None
+        return
+    bar = Progress()
+    try:
+        yield bar
+    finally:
+        bar.close()
+
+
+@contextmanager
+def told_warnings(*, quiet: bool) -> Iterator[None]:
+    """Print every InputWarning of the work as one line on stderr, after the work.
+
+    Work that fails says why in one line, and nothing else.
+    """
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", InputWarning)
+        yield
+    if quiet:
+        return
+    lines = [" ".join(str(entry.message).split()) for entry in caught if issubclass(entry.category, InputWarning)]
+    for line in dict.fromkeys(lines):
+        click.echo(f"vectorplot: warning: {line}", err=True)

@@ -1,0 +1,90 @@
+"""Triangles for the rays: polygons cut by their ears, on their own and as plainly as possible."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+
+FLAT = 1e-12
+"""A corner whose sine is smaller counts as straight."""
+
+
+def triangulated(mesh: Mesh) -> tuple[Ints, Ints]:
+    """Triangles (t,3) of vertex indices that cover the faces that are there, and (t,) the face each belongs to.
+
+    Degenerate: a face without area gives triangles without area.
+    """
+    present = np.ones(mesh.face_count, dtype=np.bool_) if mesh.present is None else mesh.present
+    convex = faces_are_convex(mesh)
+    triangles, faces = fans(mesh, present & convex)
+    ears = [(ear_clipping(mesh, face), face) for face in np.flatnonzero(present & ~convex).tolist()]
+    more = [np.asarray(cut, dtype=np.intp).reshape(-1, 3) for cut, _ in ears]
+    owner = [np.full(len(cut), face, dtype=np.intp) for cut, (_, face) in zip(more, ears, strict=True)]
+    return np.concatenate([triangles, *more]), np.concatenate([faces, *owner])
+
+
+def faces_are_convex(mesh: Mesh) -> Bools:
+    """(f,) whether a face turns left at every corner."""
+    here = mesh.vertices[mesh.corners]
+    leaving = here[mesh.next_corner] - here
+    arriving = np.empty_like(leaving)
+    arriving[mesh.next_corner] = leaving
+    turn = np.cross(arriving, leaving)
+    scale = np.linalg.norm(arriving, axis=1) * np.linalg.norm(leaving, axis=1)
+    left = np.einsum("ij,ij->i", turn, mesh.face_normals[mesh.corner_face]) >= -FLAT * scale
+    return np.asarray(np.bincount(mesh.corner_face[~left], minlength=mesh.face_count) == 0)
+
+
+def fans(mesh: Mesh, wanted: Bools) -> tuple[Ints, Ints]:
+    """Triangles around the first corner of each wanted face, and their faces."""
+    count = np.where(wanted, mesh.face_sizes - 2, 0)
+    faces = np.repeat(np.arange(mesh.face_count), count)
+    step = np.arange(len(faces)) - np.repeat(np.cumsum(count) - count, count)
+    first = mesh.offsets[:-1][faces]
+    positions = np.stack([first, first + step + 1, first + step + 2], axis=1)
+    return mesh.corners[positions], faces
+
+
+def ear_clipping(mesh: Mesh, face: int) -> list[list[int]]:
+    """Triangles of one simple polygon of any form, as vertex indices."""
+    ring = mesh.corners[mesh.offsets[face] : mesh.offsets[face + 1]].tolist()
+    normal = mesh.face_normals[face]
+    axis = int(np.argmax(np.abs(normal)))
+    keep = [(axis + 1) % 3, (axis + 2) % 3]
+    plane = mesh.vertices[ring][:, keep] - mesh.vertices[ring[0]][keep]
+    if normal[axis] < 0.0:
+        plane = plane[:, ::-1]
+    left = list(range(len(ring)))
+    triangles = []
+    while len(left) > 3:
+        k = next_ear(plane, left)
+        corners = [left[k - 1], left[k], left[(k + 1) % len(left)]]
+        triangles.append([ring[corner] for corner in corners])
+        del left[k]
+    triangles.append([ring[corner] for corner in left])
+    return triangles
+
+
+def next_ear(plane: Floats, left: list[int]) -> int:
+    """Position of a corner that can be cut off: a straight one, else one whose triangle holds no other corner."""
+    here = plane[left]
+    before, after = np.roll(here, 1, axis=0), np.roll(here, -1, axis=0)
+    turns = area(before, here, after)
+    scale = np.linalg.norm(here - before, axis=1) * np.linalg.norm(after - here, axis=1)
+    straight = np.flatnonzero(np.abs(turns) <= FLAT * scale)
+    if len(straight):
+        return int(straight[0])
+    for k in np.flatnonzero(turns > 0.0).tolist():
+        a, b, c = before[k], here[k], after[k]
+        inside = (area(a, b, here) >= 0.0) & (area(b, c, here) >= 0.0) & (area(c, a, here) >= 0.0)
+        corner = (here == a).all(axis=1) | (here == b).all(axis=1) | (here == c).all(axis=1)
+        if not (inside & ~corner).any():
+            return int(k)
+    return int(np.argmax(turns))
+
+
+def area(a: Floats, b: Floats, c: Floats) -> Floats:
+    """Twice the signed area of triangles in the plane, positive when counter-clockwise."""
+    u, v = b - a, c - a
+    return np.asarray(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
