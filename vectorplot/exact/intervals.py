@@ -21,14 +21,14 @@ def union(owner: Ints, low: Floats, high: Floats, gap: Floats) -> tuple[Ints, Fl
     """
     if not len(owner):
         return owner, low, high
-    order = np.lexsort((low, owner))
+    order = np.argsort(owner + 0.5 * low)
     owner, low, high = owner[order], low[order], high[order]
     rank = np.concatenate([[0], np.cumsum(owner[1:] != owner[:-1])])
     reach = (rank << (BITS + 1)) + ((high + gap[owner]) * (1 << BITS)).astype(np.int64)
     reach = np.maximum.accumulate(reach)
     begin = (rank << (BITS + 1)) + (low * (1 << BITS)).astype(np.int64)
     starts = np.flatnonzero(np.concatenate([[True], begin[1:] > reach[:-1]]))
-    return owner[starts], low[starts], np.maximum.reduceat(high, starts)
+    return owner[starts], np.minimum.reduceat(low, starts), np.maximum.reduceat(high, starts)
 
 
 def complement(count: int, owner: Ints, low: Floats, high: Floats, gap: Floats) -> tuple[Ints, Floats, Floats]:

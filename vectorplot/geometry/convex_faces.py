@@ -35,9 +35,10 @@ def convex_faces(points: Floats, corners: Ints, offsets: Ints, tolerance: float)
     if not len(sizes) or sizes.max() == 3:
         return ConvexFaces(corners, offsets, faces, np.zeros(len(corners), dtype=np.bool_))
     bad = np.zeros(len(sizes), dtype=np.bool_)
-    large = np.flatnonzero(sizes > 3)
-    positions, starts, owner = _runs(offsets, large)
-    bad[large] = ~_planar_convex(points[:, corners[positions]], starts, owner, tolerance)
+    for size in np.unique(sizes[sizes > 3]).tolist():
+        same = np.flatnonzero(sizes == size)
+        corner = [corners[offsets[same] + k] for k in range(size)]
+        bad[same] = ~_planar_convex([points[:, c] for c in corner], tolerance)
     if not bad.any():
         return ConvexFaces(corners, offsets, faces, np.zeros(len(corners), dtype=np.bool_))
     kept = np.repeat(~bad, sizes)
@@ -63,23 +64,32 @@ def _runs(offsets: Ints, faces: Ints) -> tuple[Ints, Ints, Ints]:
     return np.arange(starts[-1]) - np.repeat(starts[:-1] - offsets[faces], sizes), starts, owner
 
 
-def _planar_convex(p: Floats, starts: Ints, owner: Ints, tolerance: float) -> Bools:
-    """Which polygons, given by their corners p (3,c), are planar and convex."""
-    following = np.arange(1, len(owner) + 1)
-    following[starts[1:] - 1] = starts[:-1]
-    arm = p - p[:, starts[:-1]][:, owner]
-    normal = np.add.reduceat(np.cross(arm, arm[:, following], axis=0), starts[:-1], axis=1)
-    length = np.sqrt((normal * normal).sum(axis=0))
-    normal = normal / np.where(length > 0.0, length, 1.0)
-    away = np.abs((arm * normal[:, owner]).sum(axis=0))
-    side = p[:, following] - p
-    turn_sin = (np.cross(side, side[:, following], axis=0) * normal[:, owner]).sum(axis=0)
-    turn_cos = (side * side[:, following]).sum(axis=0)
-    lengths = np.sqrt((side * side).sum(axis=0))
-    left = turn_sin >= -tolerance * np.maximum(lengths, lengths[following])
-    once = np.add.reduceat(np.arctan2(turn_sin, turn_cos), starts[:-1]) < 3.0 * np.pi
-    planar = np.maximum.reduceat(away, starts[:-1]) <= tolerance
-    return np.asarray(planar & once & np.logical_and.reduceat(left, starts[:-1]), dtype=np.bool_)
+def _planar_convex(p: list[Floats], tolerance: float) -> Bools:
+    """Which polygons of one size, given by their first, second, ... corners (3,n), are planar and convex."""
+    side = [after - here for here, after in zip(p, [*p[1:], p[0]], strict=True)]
+    turn = [_cross(here, after) for here, after in zip([side[-1], *side[:-1]], side, strict=True)]
+    normal = _cross(p[1] - p[0], p[2] - p[0])
+    for k in range(3, len(p)):
+        normal = normal + _cross(p[k - 1] - p[0], p[k] - p[0])
+    normal = normal / np.maximum(np.sqrt(_dot(normal, normal)), np.finfo(float).tiny)
+    planar = np.ones(normal.shape[1], dtype=np.bool_)
+    left = np.ones(normal.shape[1], dtype=np.bool_)
+    length = [np.sqrt(_dot(s, s)) for s in side]
+    for k in range(len(p)):
+        planar &= np.abs(_dot(p[k] - p[0], normal)) <= tolerance
+        left &= _dot(turn[k], normal) >= -tolerance * np.maximum(length[k - 1], length[k])
+    if len(p) == 4:
+        return planar & left
+    angle = sum(np.arctan2(_dot(turn[k], normal), _dot(side[k - 1], side[k])) for k in range(len(p)))
+    return np.asarray(planar & left & (angle < 3.0 * np.pi), dtype=np.bool_)
+
+
+def _cross(a: Floats, b: Floats) -> Floats:
+    return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+
+
+def _dot(a: Floats, b: Floats) -> Floats:
+    return np.asarray(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], dtype=np.float64)
 
 
 def _cut_quads(points: Floats, quads: Ints) -> tuple[Ints, Bools]:

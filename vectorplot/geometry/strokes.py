@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 
+from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Floats, Ints
 
 
@@ -28,6 +29,13 @@ class LineKind(IntEnum):
     def word(self) -> str:
         """The kind as the command line and the JSON file spell it."""
         return self.name.lower()
+
+    @classmethod
+    def from_word(cls, word: str) -> LineKind:
+        """The kind spelled that way; InputError for another word."""
+        if word.upper() not in cls.__members__:
+            raise InputError(f"line kind {word!r}: expected one of {', '.join(kind.word for kind in cls)}")
+        return cls[word.upper()]
 
 
 @dataclass(frozen=True, eq=False)

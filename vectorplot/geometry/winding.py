@@ -64,8 +64,8 @@ def is_closed_oriented(mesh: Mesh) -> bool:
     """Whether every edge is run along as often in one direction as in the other.
 
     That is: the mesh bounds a solid and its faces agree about the outside. No sort: every directed edge from a to b
-    adds r(a) s(b) - r(b) s(a) modulo 2^64 for fixed random r and s, which cancels. A mesh that is not closed passes with
-    a probability of about 2^-63. Degenerate: a mesh without faces is closed.
+    adds r(a) s(b) - r(b) s(a) modulo 2^64 for fixed random r and s, which cancels. A mesh that is not closed passes
+    with a probability of about 2^-63. Degenerate: a mesh without faces is closed.
     """
     return int(_circulation(mesh).sum()) == 0
 
@@ -156,13 +156,18 @@ def turned_faces(mesh: Mesh, turn: Bools) -> Mesh:
 
 
 def joined_pieces(mesh: Mesh) -> tuple[int, Ints]:
-    """How many pieces the mesh has, and (f,) the piece of every face; pieces are joined where they share a vertex.
+    """How many pieces the mesh has, and (f,) the piece of every face; pieces are joined where they share a vertex."""
+    return pieces_of_faces(len(mesh.vertices), mesh.corners, mesh.next_corner, mesh.offsets)
+
+
+def pieces_of_faces(vertices: int, corners: Ints, next_corner: Ints, offsets: Ints) -> tuple[int, Ints]:
+    """How many pieces faces make, and (f,) the piece of every face; pieces are joined where they share a vertex.
 
     No sort: every vertex hangs on a neighbour of smaller number, trees are flattened, and edges between different trees
     do the same with their roots until none is left.
     """
-    root = np.arange(len(mesh.vertices))
-    one, other = mesh.corners, mesh.corners[mesh.next_corner]
+    root = np.arange(vertices)
+    one, other = corners, corners[next_corner]
     while len(one):
         root[np.maximum(one, other)] = np.minimum(one, other)
         while True:
@@ -173,8 +178,8 @@ def joined_pieces(mesh: Mesh) -> tuple[int, Ints]:
         one, other = root[one], root[other]
         apart = one != other
         one, other = one[apart], other[apart]
-    roots = root[mesh.corners[mesh.offsets[:-1]]]
-    used = np.zeros(len(mesh.vertices), dtype=np.bool_)
+    roots = root[corners[offsets[:-1]]]
+    used = np.zeros(vertices, dtype=np.bool_)
     used[roots] = True
     return int(used.sum()), (np.cumsum(used) - 1)[roots]
 

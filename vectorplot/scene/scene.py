@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -92,11 +93,15 @@ class Scene:
     background: str | None = None
     title: str = ""
 
-    @property
+    @cached_property
+    def vertices(self) -> Floats:
+        """(v,3) the vertices of all items, one item after the other."""
+        shapes = [item.shape.vertices for item in self.items]
+        return shapes[0] if len(shapes) == 1 else np.concatenate([np.zeros((0, 3)), *shapes])
+
+    @cached_property
     def bounds(self) -> Floats:
         """(2,3) smallest and largest coordinates over all items; zeros for an empty scene."""
-        boxes = [item.shape.bounds for item in self.items if len(item.shape.vertices)]
-        if not boxes:
+        if not len(self.vertices):
             return np.zeros((2, 3))
-        stacked = np.array(boxes)
-        return np.array([stacked[:, 0].min(axis=0), stacked[:, 1].max(axis=0)])
+        return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)])

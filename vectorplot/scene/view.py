@@ -99,6 +99,10 @@ class View:
         factor = self.focus / np.maximum(self.depth_of(points), self.near)
         return (points[:2] - self.eye[:2, None]) * factor
 
+    def points_of(self, world: Floats) -> Floats:
+        """(3,n) points (n,3) of the world in the view's coordinates."""
+        return np.asarray((self.axes / self.scale) @ (world - self.centre).T, dtype=np.float64)
+
     def world_of(self, points: Floats) -> Floats:
         """(n,3) points (n,3) of the view in world coordinates."""
         return self.centre + self.scale * (points @ self.axes)
@@ -137,10 +141,7 @@ def look(scene: Scene, camera: Camera) -> View:
         raise InputError("the scene is too small for its distance from the origin: its coordinates have no digits left")
     counts = np.array([len(mesh.vertices) for mesh in meshes], dtype=np.intp)
     first_vertex = np.concatenate([[0], np.cumsum(counts)])
-    vertices = meshes[0].vertices if len(meshes) == 1 else np.concatenate([m.vertices for m in meshes] or [np.zeros((0, 3))])
-    points = np.empty((3, len(vertices)))
-    shifted = vertices - centre
-    np.matmul(camera.axes / scale, shifted.T, out=points)
+    points = np.ascontiguousarray((camera.axes / scale) @ (scene.vertices - centre).T)
     corners, offsets, face_item = _faces(scene, first_vertex)
     tolerance = max(ZERO_OF_EXTENT, noise)
     faces = convex_faces(points, corners, offsets, tolerance)

@@ -134,8 +134,8 @@ def cut(grid: Grid, start: Floats, end: Floats, start_depth: Floats, end_depth: 
         where = (origin + line * grid.cell - start[axis][owner]) / (end[axis] - start[axis])[owner]
         slot = first[owner] + 1 + step + (crossings[0][owner] if axis else 0)
         at[slot] = np.clip(where, 0.0, 1.0)
-    order = np.lexsort((at, segment)) if (pieces > 2).any() else np.arange(len(segment))
-    at = at[order]
+    mixed = np.flatnonzero(np.repeat((crossings[0] > 0) & (crossings[1] > 0), pieces))
+    at[mixed] = at[mixed[np.argsort(segment[mixed] + 0.5 * at[mixed])]]
     after = np.append(at[1:], 1.0)
     after[first + pieces - 1] = 1.0
     return _pieces(grid, start, end, start_depth, end_depth, central, segment, at, after)

@@ -6,13 +6,14 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vectorplot.exact import intervals
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility import grid as grids
-from vectorplot.visibility.grid import Grid, Pieces
-from vectorplot.visibility.occluders import Occluders, face_occluders, joined, solid_items, solid_occluders
+from vectorplot.visibility.grid import Floats32, Grid, Pieces
+from vectorplot.visibility.occluders import Occluders, face_occluders, joined, solid_occluders
 from vectorplot.visibility.pairs import Hits, Segments, clip_pairs, covered_cells
 from vectorplot.visibility.projected_faces import ProjectedFaces
 
@@ -39,8 +40,8 @@ class Visibility:
     hidden_by: Ints
 
 
-def visible_parts(view: View, faces: ProjectedFaces, segments: Segments, progress: Progress) -> Visibility:
-    """The visible parts of segments.
+def visible_parts(view: View, faces: ProjectedFaces, solid: Bools, segments: Segments, progress: Progress) -> Visibility:
+    """The visible parts of segments; solid (i,) as solid_items tells.
 
     What lies on an occluder or on the border of its shadow is visible; a line along a border is hidden where both its sides
     are. Parts below ten tolerances of the view are left out.
@@ -50,7 +51,7 @@ def visible_parts(view: View, faces: ProjectedFaces, segments: Segments, progres
     if not len(segments):
         return Visibility(*intervals.complement(0, *_nothing(), gap), np.zeros(0, dtype=np.intp))
     grid, pieces = _pieces(view, faces, segments)
-    occluders = _occluders(view, faces, grid, grids.deepest(grid, pieces))
+    occluders = _occluders(view, faces, solid, grid, grids.deepest(grid, pieces))
     cover = covered_cells(view, grid, occluders)
     covered = pieces.nearest > cover[pieces.row * grid.columns[0] + pieces.column]
     zones = [(pieces.segment[covered], pieces.low[covered], pieces.high[covered], np.zeros(int(covered.sum()), dtype=np.intp))]
@@ -67,7 +68,7 @@ def visible_parts(view: View, faces: ProjectedFaces, segments: Segments, progres
     return Visibility(owner, low, high, np.zeros(len(owner), dtype=np.intp))
 
 
-def counted_parts(view: View, faces: ProjectedFaces, segments: Segments, progress: Progress) -> Visibility:
+def counted_parts(view: View, faces: ProjectedFaces, solid: Bools, segments: Segments, progress: Progress) -> Visibility:
     """All parts of segments with the number of items that hide each; an item that hides itself counts once.
 
     The visible parts are those of visible_parts.
@@ -76,7 +77,7 @@ def counted_parts(view: View, faces: ProjectedFaces, segments: Segments, progres
     if not len(segments):
         return Visibility(*_nothing(), np.zeros(0, dtype=np.intp))
     grid, pieces = _pieces(view, faces, segments)
-    occluders = _occluders(view, faces, grid, grids.deepest(grid, pieces))
+    occluders = _occluders(view, faces, solid, grid, grids.deepest(grid, pieces))
     alive = np.ones(len(pieces), dtype=np.bool_)
     items = len(view.item_vertices)
     found = [(np.zeros(0, dtype=np.intp), *_nothing()[1:], np.zeros(0, dtype=np.intp))]
@@ -122,9 +123,8 @@ def _pieces(view: View, faces: ProjectedFaces, segments: Segments) -> tuple[Grid
     return grid, grids.cut(grid, start, end, near, far, view.eye is not None)
 
 
-def _occluders(view: View, faces: ProjectedFaces, grid: Grid, deepest: grids.Floats32) -> Occluders:
+def _occluders(view: View, faces: ProjectedFaces, solid: Bools, grid: Grid, deepest: Floats32) -> Occluders:
     """Everything that could hide a piece: convex solids as such, of other items the faces that reach a piece's cell."""
-    solid = solid_items(view, faces)
     candidates = (faces.facing != 0) & (view.occludes & ~solid)[view.face_item]
     which = np.flatnonzero(candidates) if not candidates.all() else np.arange(len(candidates))
     kept = [
@@ -152,6 +152,10 @@ def _all_hits(
     Pieces that the caller marks as no longer alive are not tried again.
     """
     order = np.argsort(occluders.nearest, kind="stable")
+    left, right, bottom, top = occluders.box
+    boxes = _packed(np.stack([left, -right, bottom, -top]))
+    left, right, bottom, top = pieces.box
+    piece_boxes = _packed(np.stack([right, -left, top, -bottom]))
     bounds = np.round(np.array(slabs) * len(order)).astype(np.intp)
     for begin, end in zip(bounds[:-1], bounds[1:], strict=True):
         if begin == end:
@@ -167,7 +171,9 @@ def _all_hits(
             at = grid.numbers(pieces.column[which] >> level, pieces.row[which] >> level, level)
             for piece, entry in _expanded(starts, at, which):
                 occluder = thing[entry]
-                close = _overlapping(pieces, occluders, piece, occluder) & alive[piece]
+                close = _overlapping(piece_boxes[piece], boxes[occluder])
+                close &= occluders.nearest[occluder] < pieces.farthest[piece]
+                close &= alive[piece]
                 piece, occluder = piece[close], occluder[close]
                 low, high = pieces.low[piece], pieces.high[piece]
                 yield piece, clip_pairs(view, segments, occluders, pieces.segment[piece], occluder, low, high), occluder
@@ -189,15 +195,16 @@ def _expanded(starts: Ints, at: Ints, which: Ints) -> Iterator[tuple[Ints, Ints]
         yield which[owner], starts[at[owner]] + step
 
 
-def _overlapping(pieces: Pieces, occluders: Occluders, piece: Ints, occluder: Ints) -> Bools:
-    """Which pairs have overlapping boxes, the occluder not wholly behind the piece."""
-    close = occluders.nearest[occluder] < pieces.farthest[piece]
-    one, two = pieces.box, occluders.box
-    close &= two[0, occluder] < one[1, piece]
-    close &= two[1, occluder] > one[0, piece]
-    close &= two[2, occluder] < one[3, piece]
-    close &= two[3, occluder] > one[2, piece]
-    return np.asarray(close, dtype=np.bool_)
+def _packed(box: Floats32) -> NDArray[np.complex128]:
+    """(n,) boxes (4,n), each packed into one value of 16 bytes: so the processor fetches it at once."""
+    return np.ascontiguousarray(box.T).view(np.complex128).ravel()
+
+
+def _overlapping(piece_box: NDArray[np.complex128], box: NDArray[np.complex128]) -> Bools:
+    """Which pairs of packed boxes overlap; the first ones as (right, -left, top, -bottom), the second ones as
+    (left, -right, bottom, -top)."""
+    below = box.view(np.float32) < piece_box.view(np.float32)
+    return np.asarray(below.view(np.uint32) == np.uint32(0x01010101), dtype=np.bool_)
 
 
 def _resolved(segment: Ints, low: Floats, high: Floats, side: Ints, gap: Floats) -> tuple[Ints, Floats, Floats]:

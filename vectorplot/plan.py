@@ -1,0 +1,108 @@
+"""Which stages a scene calls for, and what each of them cost."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, ParamSpec, TypeVar
+
+from vectorplot.geometry.strokes import LineKind
+from vectorplot.scene.scene import Scene
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A stage of a verb, and why the scene calls for it."""
+
+    name: str
+    why: str
+
+
+@dataclass(frozen=True)
+class StageReport:
+    """What a stage cost: seconds, how many things came out of it, and the process's peak memory so far in MB."""
+
+    name: str
+    why: str
+    seconds: float
+    count: int
+    peak_mb: float
+
+
+def plan_draw(scene: Scene, kinds: frozenset[LineKind], hidden: str, halo_mm: float) -> tuple[Stage, ...]:
+    """The stages that drawing this scene calls for, in their order; nothing else runs."""
+    wanted = kinds.union(*(map(LineKind.from_word, item.lines) for item in scene.items if item.lines is not None))
+    stages = [
+        Stage("look", "the scene in the camera's axes, in the unit box"),
+        Stage("faces", "the faces in the image, and which side they show"),
+    ]
+    if wanted - {LineKind.INTERSECTION, LineKind.PATTERN}:
+        stages.append(Stage("edges", ", ".join(sorted(k.word for k in wanted - {LineKind.INTERSECTION, LineKind.PATTERN}))))
+    if LineKind.INTERSECTION in wanted:
+        stages.append(Stage("intersections", "items, or parts of an item, may pierce each other"))
+    if LineKind.PATTERN in wanted and any(item.patterns for item in scene.items):
+        stages.append(Stage("patterns", "faces carry patterns"))
+    stages.append(Stage("frame", "what is in front of the eye and inside the picture"))
+    if hidden == "none":
+        stages.append(Stage("visible lines", "hidden lines are left out"))
+    else:
+        stages.append(Stage("counted lines", f"hidden lines are drawn {hidden}"))
+    if halo_mm > 0.0:
+        stages.append(Stage("halo", f"lines end {halo_mm:g} mm beside what is in front of them"))
+    stages.append(Stage("ink", "strokes on the page: duplicates out, joined, ordered for the pen"))
+    return tuple(stages)
+
+
+class Walk:
+    """Runs the stages of a plan, and only those; tells a listener about each, and a progress bar how far it is."""
+
+    def __init__(
+        self,
+        stages: Sequence[Stage],
+        explain: Callable[[StageReport], None] | None,
+        progress: Callable[[str, float], None] | None,
+    ) -> None:
+        self._stages = {stage.name: (number, stage) for number, stage in enumerate(stages)}
+        self._explain = explain
+        self._progress = progress
+
+    def calls_for(self, name: str) -> bool:
+        """Whether the plan has this stage."""
+        return name in self._stages
+
+    def fraction(self, name: str) -> Callable[[float], None]:
+        """What a stage calls with the part of it that is done."""
+
+        def report(part: float) -> None:
+            if self._progress is not None:
+                self._progress(name, (self._stages[name][0] + part) / len(self._stages))
+
+        return report
+
+    def run(self, name: str, function: Callable[P, R], *args: P.args, **kwargs: P.kwargs) -> R:
+        """The result of a stage."""
+        stage = self._stages[name][1]
+        self.fraction(name)(0.0)
+        start = time.perf_counter()
+        result = function(*args, **kwargs)
+        seconds = time.perf_counter() - start
+        if self._explain is not None:
+            self._explain(StageReport(name, stage.why, seconds, _count(result), _peak_mb()))
+        self.fraction(name)(1.0)
+        return result
+
+
+def _count(result: Any) -> int:
+    return len(result) if hasattr(result, "__len__") else 1
+
+
+def _peak_mb() -> float:
+    import resource
+    import sys
+
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak / (1024.0 * 1024.0 if sys.platform == "darwin" else 1024.0)

@@ -1,0 +1,124 @@
+"""Every line of a scene that could be drawn, before anything hides it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.features.edges import Faces, mesh_edges
+from vectorplot.features.intersections import face_intersections
+from vectorplot.features.patterns import pattern_outline
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.strokes import LineKind
+from vectorplot.geometry.winding import pieces_of_faces
+from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.view import View
+from vectorplot.visibility.projected_faces import ProjectedFaces
+
+
+@dataclass(frozen=True, eq=False)
+class Lines:
+    """Straight lines in the view's coordinates: start and end (3,n), kind (n,) LineKind values, item (n,)."""
+
+    start: Floats
+    end: Floats
+    kind: Ints
+    item: Ints
+
+    def __len__(self) -> int:
+        return len(self.kind)
+
+    def some(self, which: Ints | Bools) -> Lines:
+        """Some of the lines."""
+        return Lines(self.start[:, which], self.end[:, which], self.kind[which], self.item[which])
+
+
+def joined_lines(parts: Collection[Lines]) -> Lines:
+    """All lines of all parts."""
+    return Lines(
+        np.concatenate([np.zeros((3, 0)), *(p.start for p in parts)], axis=1),
+        np.concatenate([np.zeros((3, 0)), *(p.end for p in parts)], axis=1),
+        np.concatenate([np.zeros(0, dtype=np.intp), *(p.kind for p in parts)]),
+        np.concatenate([np.zeros(0, dtype=np.intp), *(p.item for p in parts)]),
+    )
+
+
+def wanted_kinds(scene: Scene, kinds: frozenset[LineKind]) -> list[tuple[frozenset[LineKind], Bools]]:
+    """The sets of kinds that items want, each with the items (i,) that want it: their own, or else those asked for."""
+    own = [kinds_of(item, kinds) for item in scene.items]
+    return [(one, np.array([other == one for other in own], dtype=np.bool_)) for one in dict.fromkeys(own)]
+
+
+def kinds_of(item: Item, kinds: frozenset[LineKind]) -> frozenset[LineKind]:
+    """The kinds to draw on an item: its own, or else those asked for."""
+    return kinds if item.lines is None else frozenset(map(LineKind.from_word, item.lines))
+
+
+def edge_lines(
+    scene: Scene, view: View, faces: ProjectedFaces, kinds: frozenset[LineKind], crease_angle_deg: float, backs: Bools
+) -> Lines:
+    """Contours, boundaries, creases and other edges of all items.
+
+    backs (i,): items whose edges between faces that all turn away are wanted too; of a closed solid they are hidden.
+    """
+    parts = []
+    for wanted, items in wanted_kinds(scene, kinds):
+        asked = all_faces = _faces(view, faces)
+        which = np.flatnonzero(items[view.face_item])
+        if len(which) < view.face_count:
+            asked = _some_faces(all_faces, which)
+        edges = mesh_edges(asked, wanted, crease_angle_deg)
+        item = view.face_item[which[edges.face]]
+        kept = edges.front | backs[item]
+        start, end = edges.start[kept], edges.end[kept]
+        parts.append(Lines(view.points[:, start], view.points[:, end], edges.kind[kept], item[kept]))
+    return joined_lines(parts)
+
+
+def _faces(view: View, faces: ProjectedFaces) -> Faces:
+    return Faces(view.points, view.corners, view.next_corner, view.offsets, view.inner, faces.facing)
+
+
+def _some_faces(faces: Faces, which: Ints) -> Faces:
+    size = np.diff(faces.offsets)[which]
+    offsets = np.concatenate([[0], np.cumsum(size)])
+    shift = faces.offsets[which] - offsets[:-1]
+    position = np.arange(offsets[-1]) + np.repeat(shift, size)
+    following = faces.next_corner[position] - np.repeat(shift, size)
+    return Faces(faces.points, faces.corners[position], following, offsets, faces.inner[position], faces.facing[which])
+
+
+def intersection_lines(scene: Scene, view: View, faces: ProjectedFaces, kinds: frozenset[LineKind], solid: Bools) -> Lines:
+    """The segments in which different items, or parts of an item that do not hang together, pierce each other.
+
+    A segment belongs to the item that comes first in the scene.
+    """
+    wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
+    if solid.all():
+        part = view.face_item
+    else:
+        part = pieces_of_faces(view.points.shape[1], view.corners, view.next_corner, view.offsets)[1]
+    met = face_intersections(_faces(view, faces), part, view.tolerance)
+    one, two = view.face_item[met.one], view.face_item[met.two]
+    kept = wants[one] | wants[two]
+    kind = np.full(int(kept.sum()), int(LineKind.INTERSECTION))
+    return Lines(met.start[:, kept], met.end[:, kept], kind, np.minimum(one, two)[kept])
+
+
+def pattern_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines:
+    """The outlines of all patterns on faces that are present."""
+    starts, ends, items = [], [], []
+    for number, item in enumerate(scene.items):
+        if LineKind.PATTERN not in kinds_of(item, kinds):
+            continue
+        for pattern in item.patterns:
+            if item.shape.present is None or item.shape.present[pattern.face]:
+                outline = pattern_outline(item.shape, pattern.face, pattern.points)
+                starts.append(outline)
+                ends.append(np.roll(outline, -1, axis=0))
+                items.append(np.full(len(outline), number))
+    start, end = (view.points_of(np.concatenate([np.zeros((0, 3)), *part])) for part in (starts, ends))
+    item = np.concatenate([np.zeros(0, dtype=np.intp), *items])
+    return Lines(start, end, np.full(len(item), int(LineKind.PATTERN)), item)
