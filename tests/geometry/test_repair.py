@@ -25,7 +25,9 @@ def test_a_closed_mesh_is_left_as_it_is() -> None:
 
 
 def test_touching_closed_bodies_keep_their_own_vertices() -> None:
-    mesh = Mesh.from_polygons(np.concatenate([UNIT, UNIT + [1, 0, 0]]), CUBE + [[c + 8 for c in f] for f in CUBE])
+    mesh = Mesh.from_polygons(
+        np.concatenate([UNIT, UNIT + np.array([1, 0, 0])]), CUBE + [[c + 8 for c in f] for f in CUBE]
+    )
     after, mending = mended(mesh, EPS32)
     assert len(after.vertices) == 16
     assert mending == Mending()

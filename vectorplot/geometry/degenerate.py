@@ -13,7 +13,7 @@ _ROUNDS = 8
 
 
 def without_degenerate(mesh: Mesh) -> tuple[Mesh, int]:
-    """The mesh without faces that have no area and without corners that follow themselves, and how many faces that were.
+    """The mesh without faces that have no area and corners that follow themselves, and how many faces went.
 
     In a mesh of triangles, one without area whose third corner lies in its longest side first trades places with the
     neighbour there, which is split at that corner: so no hole is left between the sides.

@@ -124,6 +124,9 @@ def _check_accessor(name: str, tree: dict[str, Any], k: int) -> None:
 
 def _check_nodes(name: str, tree: dict[str, Any]) -> None:
     """Nodes must form trees: a node that is its own ancestor would never end."""
+    for k, node in enumerate(tree.get("nodes", [])):
+        if not 0 <= node.get("mesh", 0) < max(len(tree.get("meshes", [])), 1):
+            _fail(name, f"node {k} shows mesh {node['mesh']}, which does not exist")
     children = [child for node in tree.get("nodes", []) for child in node.get("children", [])]
     roots = [root for scene in tree.get("scenes", []) for root in set(scene.get("nodes", []))]
     if len(set(children)) != len(children) or set(children) & set(roots):
@@ -135,7 +138,7 @@ def _bare(tree: dict[str, Any]) -> dict[str, Any]:
     bare = {key: value for key, value in tree.items() if key not in _UNUSED}
     bare["meshes"] = [
         {
-            "name": str(mesh.get("name", "")),
+            "name": f"mesh{k}",
             "primitives": [
                 {
                     "attributes": {"POSITION": primitive["attributes"]["POSITION"]},
@@ -145,7 +148,7 @@ def _bare(tree: dict[str, Any]) -> dict[str, Any]:
                 if primitive.get("mode", 4) in (4, 5)
             ],
         }
-        for mesh in tree.get("meshes", [])
+        for k, mesh in enumerate(tree.get("meshes", []))
     ]
     plain = ("name", "children", "mesh", "matrix", "translation", "rotation", "scale")
     bare["nodes"] = [{key: node[key] for key in plain if key in node} for node in tree.get("nodes", [])]
@@ -153,7 +156,38 @@ def _bare(tree: dict[str, Any]) -> dict[str, Any]:
 
 
 def _parts(name: str, tree: dict[str, Any], binary: bytes) -> list[tuple[str, Floats, Ints]]:
-    """Name, vertices in world coordinates and triangles of every node with a mesh."""
+    """Name, vertices in world coordinates and triangles of every node with triangles, in the order of the file."""
+    # trimesh keeps no order and makes names of its own: nodes are called by their numbers in between.
+    titles = [str(node.get("name", "")) for node in tree["nodes"]]
+    for k, node in enumerate(tree["nodes"]):
+        node["name"] = str(k)
+    pieces: dict[int, list[tuple[Floats, Ints]]] = {}
+    for node, matrix, vertices, triangles in _placed(name, tree, binary):
+        if triangles.min() < 0 or triangles.max() >= len(vertices):
+            _fail(name, f"node {node}: an index names vertex {triangles.max()}, there are {len(vertices)}")
+        if not (np.isfinite(vertices).all() and np.isfinite(matrix).all()):
+            _fail(name, f"node {node}: a coordinate is not a finite number")
+        if np.linalg.det(matrix[:3, :3]) < 0.0:
+            triangles = triangles[:, ::-1]
+        x, y, z = (vertices @ matrix[:3, :3].T + matrix[:3, 3]).T
+        pieces.setdefault(node, []).append((np.stack([x, -z, y], axis=1), triangles))
+    return [(titles[node], *_one_body(pieces[node])) for node in sorted(pieces)]
+
+
+def _one_body(pieces: list[tuple[Floats, Ints]]) -> tuple[Floats, Ints]:
+    """Vertices and triangles of the primitives of a node together.
+
+    Vertices are doubled wherever normals, colours or primitives meet: equal points become one vertex.
+    """
+    starts = np.cumsum([0, *(len(vertices) for vertices, _ in pieces)])
+    points = np.concatenate([vertices for vertices, _ in pieces])
+    triangles = np.concatenate([piece[1] + start for piece, start in zip(pieces, starts[:-1], strict=True)])
+    first, number = distinct_points(points)
+    return points[first], number[triangles]
+
+
+def _placed(name: str, tree: dict[str, Any], binary: bytes) -> list[tuple[int, Floats, Floats, Ints]]:
+    """Node, its 4x4 matrix, vertices and triangles of every primitive, as trimesh reads them."""
     import trimesh
 
     text = json.dumps(tree).encode()
@@ -163,24 +197,17 @@ def _parts(name: str, tree: dict[str, Any], binary: bytes) -> list[tuple[str, Fl
     packed = head + text + struct.pack("<II", len(binary), _BINARY) + binary
     try:
         scene = trimesh.load_scene(io.BytesIO(packed), file_type="glb", process=False)
-        placed = [(str(node), *scene.graph[node]) for node in scene.graph.nodes_geometry]
+        order = {geometry: k for k, geometry in enumerate(scene.geometry)}
+        # A node with several primitives becomes several nodes, called by its name, _ and a random number.
+        found = [(int(node.split("_")[0]), *scene.graph[node]) for node in scene.graph.nodes_geometry]
+        found.sort(key=lambda entry: (entry[0], order[entry[2]]))
     except Exception as error:
         # Whatever trimesh trips over was in the file.
         _fail(name, f"damaged glTF: {type(error).__name__} {error}")
-    parts = []
-    for node, matrix, geometry in placed:
+    placed = []
+    for node, matrix, geometry in found:
         shape = scene.geometry[geometry]
-        if not isinstance(shape, trimesh.Trimesh) or len(shape.faces) == 0:
-            continue
-        vertices, triangles = np.asarray(shape.vertices, dtype=np.float64), np.asarray(shape.faces, dtype=np.intp)
-        if triangles.min() < 0 or triangles.max() >= len(vertices):
-            _fail(name, f"node {node}: an index names vertex {triangles.max()}, there are {len(vertices)}")
-        if not (np.isfinite(vertices).all() and np.isfinite(matrix).all()):
-            _fail(name, f"node {node}: a coordinate is not a finite number")
-        if np.linalg.det(matrix[:3, :3]) < 0.0:
-            triangles = triangles[:, ::-1]
-        x, y, z = (vertices @ matrix[:3, :3].T + matrix[:3, 3]).T
-        # Vertices are doubled wherever normals or texture coordinates differ: equal points are one vertex here.
-        first, number = distinct_points(np.stack([x, -z, y], axis=1))
-        parts.append((node, np.stack([x, -z, y], axis=1)[first], number[triangles]))
-    return parts
+        if isinstance(shape, trimesh.Trimesh) and len(shape.faces):
+            vertices = np.asarray(shape.vertices, dtype=np.float64)
+            placed.append((node, np.asarray(matrix), vertices, np.asarray(shape.faces, dtype=np.intp)))
+    return placed

@@ -61,6 +61,8 @@ def check_file(path: Path) -> int:
             raise InputError("is not a regular file", file=shown(path))
         with path.open("rb"):
             size = path.stat().st_size
+    except InputError:
+        raise
     except OSError as error:
         raise InputError(error.strerror or "cannot be read", file=shown(path)) from None
     except ValueError:
@@ -167,7 +169,8 @@ class TextFile:
         breaks = np.flatnonzero(text == ord("\n"))
         if comment and self.data.find(comment, begin, end) >= 0:
             _blank_comments(text, breaks, ord(comment))
-        inked = text > 32
+        # Blanks are the space and the characters 9 to 13 (below 9 the difference wraps round).
+        inked = (text != 32) & (text - np.uint8(9) > 4)
         cut = slashed and self.data.find(b"/", begin, end) >= 0
         if cut:
             inked &= text != ord("/")

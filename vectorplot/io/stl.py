@@ -68,18 +68,22 @@ def _text_points(path: Path) -> Floats:
     """(3t,3) the corners of all triangles."""
     text = text_file(path)
     pieces: list[Floats] = []
-    facets = 0
+    facets, ended = 0, False
     for lines in text.lines(comment=b""):
         length = lines.ends[lines.first] - lines.starts[lines.first]
         letter = lines.text[lines.starts[lines.first]] | 32
         vertex = (length == len("vertex")) & (letter == ord("v"))
         facets += int(((length == len("facet")) & (letter == ord("f"))).sum())
+        fourth = lines.text[lines.starts[lines.first] + 3] | 32
+        ended |= bool(((length == len("endsolid")) & (letter == ord("e")) & (fourth == ord("s"))).any())
         first = lines.first[vertex]
         short = lines.count[vertex] < 4
         if short.any():
             lines.fail(int(first[short][0]), "a vertex needs three coordinates")
         pieces.append(lines.decimals(first[:, None] + np.array([1, 2, 3])))
     points = joined(pieces, 3)
+    if not ended:
+        text.fail_at_end("truncated: no endsolid")
     if len(points) != 3 * facets:
         text.fail_at_end(f"{facets} facets, but {len(points)} vertices: truncated, or not triangles")
     return points
