@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+import sys
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from vectorplot.cli.options import DRAWN, KINDS, at_least, between, format_of, kinds, number, point, sheet
-from vectorplot.cli.output import write_whole
-from vectorplot.cli.progress import progress_bar, told_warnings
+from vectorplot.cli.progress import progress_bar, table, told_warnings
 from vectorplot.cli.view import CameraOptions, camera_from, page_from
+
+if TYPE_CHECKING:
+    from vectorplot.plan import StageReport
 
 FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
 VIEW_WORDS = ("front", "back", "left", "right", "top", "bottom", "iso")
@@ -50,20 +53,33 @@ def draw(scene_file: str, out: str, format_: str | None, quiet: bool, explain: b
     look.check()
     word = format_of(out, format_, FORMATS)
 
+    reports: list[StageReport] = []
     with told_warnings(quiet=quiet):
-        draw_file(scene_file, out, word, look, options, quiet=quiet)
+        draw_file(scene_file, out, word, look, options, quiet=quiet, reports=reports)
+    if explain:
+        click.echo(table(reports), err=True)
 
 
 def draw_file(
-    scene_file: str, out: str, format_: str, look: CameraOptions, options: dict[str, Any], *, quiet: bool
+    scene_file: str,
+    out: str,
+    format_: str,
+    look: CameraOptions,
+    options: dict[str, Any],
+    *,
+    quiet: bool,
+    reports: list[StageReport],
 ) -> None:
-    """Read, draw and write; nothing is written unless all of it succeeds."""
+    """Read, draw and write, and note what each stage cost; nothing is written unless all of it succeeds."""
     from vectorplot.draw import draw as draw_scene
     from vectorplot.io.read import read
+    from vectorplot.plan import Stage, Walk
     from vectorplot.save import write
 
+    stages = (Stage("read", scene_file), Stage("write", f"as {format_}"))
+    walk = Walk(stages, reports.append, None)
     with progress_bar(quiet=quiet) as progress:
-        scene = read(scene_file)
+        scene = walk.run("read", read, scene_file)
         drawing = draw_scene(
             scene,
             camera_from(look, scene),
@@ -76,6 +92,18 @@ def draw_file(
             layers=options["layers"],
             tolerance_mm=options["tolerance"],
             progress=progress,
+            explain=reports.append,
         )
-        content = write(drawing, format_)
-        write_whole(out, content)
+        content = walk.run("write", write, drawing, format_)
+        write_out(out, content)
+
+
+def write_out(out: str, content: bytes) -> None:
+    """Write to a file, whole or not at all, or to stdout for ``-``."""
+    if out == "-":
+        sys.stdout.buffer.write(content)
+        sys.stdout.buffer.flush()
+        return
+    from vectorplot.save import write_whole
+
+    write_whole(out, content)

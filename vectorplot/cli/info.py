@@ -13,7 +13,8 @@ from vectorplot.cli.progress import told_warnings
 def info(file: str, quiet: bool) -> None:
     """Say what FILE holds: counts, whether it is closed and convex, its size, and what is wrong with it."""
     from vectorplot.io.info import describe
+    from vectorplot.io.read import read
 
     with told_warnings(quiet=quiet):
-        text = describe(file)
-    click.echo(text)
+        lines = describe(read(file))
+    click.echo("\n".join(lines))

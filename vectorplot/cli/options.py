@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterable, Sequence
 from typing import TypeVar
 
 import click
+
+from vectorplot.errors import InputError
 
 Value = TypeVar("Value")
 
@@ -15,22 +16,6 @@ KINDS = ("contour", "boundary", "crease", "intersection", "edges", "pattern")
 
 DRAWN = ("contour", "boundary", "crease", "intersection", "pattern")
 """The kinds of lines that are drawn unless the user says otherwise."""
-
-PAGES = {
-    "a0": (841.0, 1189.0),
-    "a1": (594.0, 841.0),
-    "a2": (420.0, 594.0),
-    "a3": (297.0, 420.0),
-    "a4": (210.0, 297.0),
-    "a5": (148.0, 210.0),
-    "a6": (105.0, 148.0),
-    "letter": (215.9, 279.4),
-    "legal": (215.9, 355.6),
-    "tabloid": (279.4, 431.8),
-    "ledger": (431.8, 279.4),
-    "executive": (184.15, 266.7),
-}
-"""Named sheets, width and height in mm."""
 
 
 def number(text: str) -> float:
@@ -80,14 +65,12 @@ def point(text: str) -> tuple[float, float, float]:
 
 def sheet(text: str) -> tuple[float, float]:
     """Width and height in mm of a named page or of WIDTHxHEIGHT."""
-    word = text.strip().lower()
-    if word in PAGES:
-        return PAGES[word]
-    sides = re.fullmatch(r"([0-9.]+)\s*[x×]\s*([0-9.]+)\s*(?:mm)?", word)
-    if sides is None:
-        raise click.BadParameter(f"{text!r} is neither WIDTHxHEIGHT in mm nor one of {', '.join(PAGES)}")
-    width, height = (between(0.0, math.inf)(side) for side in sides.groups())
-    return (width, height)
+    from vectorplot.scene.paper import sheet_size
+
+    try:
+        return sheet_size(text)
+    except InputError as error:
+        raise click.BadParameter(str(error)) from None
 
 
 def kinds(text: str) -> tuple[str, ...]:

@@ -5,13 +5,16 @@ from __future__ import annotations
 import sys
 import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from vectorplot.errors import InputWarning
+
+if TYPE_CHECKING:
+    from vectorplot.plan import StageReport
 
 PATIENCE_S = 0.5
 """Work shorter than this shows no bar."""
@@ -70,3 +73,16 @@ def told_warnings(*, quiet: bool) -> Iterator[None]:
     lines = [" ".join(str(entry.message).split()) for entry in caught if issubclass(entry.category, InputWarning)]
     for line in dict.fromkeys(lines):
         click.echo(f"vectorplot: warning: {line}", err=True)
+
+
+def table(reports: Sequence[StageReport]) -> str:
+    """What the stages cost, a line each: time, how much came out, the process's peak memory by then, and why."""
+    name = max((len(report.name) for report in reports), default=0)
+    lines = [f"{'stage':<{name}}  {'ms':>9}  {'count':>9}  {'peak MB':>8}  why"]
+    for report in reports:
+        cost = f"{1000.0 * report.seconds:9.1f}  {report.count:9d}  {report.peak_mb:8.1f}"
+        lines.append(f"{report.name:<{name}}  {cost}  {report.why}")
+    peak = max((report.peak_mb for report in reports), default=0.0)
+    total = sum(report.seconds for report in reports)
+    lines.append(f"{'total':<{name}}  {1000.0 * total:9.1f}  {'':>9}  {peak:8.1f}")
+    return "\n".join(lines)

@@ -1,0 +1,70 @@
+"""The README's commands and snippets are what the project has, and the pages written by programs are fresh."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+import shutil
+import stat
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"```(\w+)\n(.*?)```", README, flags=re.DOTALL)
+
+
+def shell_blocks():
+    return [text.strip() for language, text in BLOCKS if language == "sh"]
+
+
+def test_the_readme_starts_with_a_picture_and_two_commands():
+    picture = re.match(r"!\[[^\]]+\]\(([^)]+)\)", README)
+    assert picture is not None
+    assert (ROOT / picture.group(1)).is_file()
+    assert shell_blocks()[0] == "sh setup.sh && .venv/bin/vectorplot draw data/pencil.scene -o pencil.svg"
+    assert shell_blocks()[1] == "sh setup.sh test"
+
+
+def test_ci_runs_the_test_command_of_the_readme():
+    run = ROOT / ".ci" / "run"
+    assert shell_blocks()[1] in run.read_text(encoding="utf-8")
+    assert run.stat().st_mode & stat.S_IXUSR
+
+
+def test_the_links_of_the_readme_and_the_docs_lead_somewhere():
+    for page in (ROOT / "README.md", ROOT / "docs" / "index.md"):
+        for target in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")):
+            assert (page.parent / target).exists(), f"{page.name}: {target}"
+
+
+def test_the_python_of_the_readme_runs(tmp_path, monkeypatch):
+    shutil.copytree(ROOT / "data", tmp_path / "data")
+    monkeypatch.chdir(tmp_path)
+    (code,) = (text for language, text in BLOCKS if language == "python")
+    exec(compile(code, "README.md", "exec"), {})
+    assert (tmp_path / "pencil.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_every_option_of_the_command_is_in_the_readme():
+    from vectorplot.cli.draw import draw
+
+    for parameter in draw.params:
+        for option in (*parameter.opts, *parameter.secondary_opts):
+            if option.startswith("--") and option != "--out":
+                assert option in README, option
+
+
+def test_every_dependency_is_in_the_readme():
+    import tomllib
+
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = [name for extra in project["optional-dependencies"].values() for name in extra]
+    for requirement in (*project["dependencies"], *extras):
+        assert re.split(r"[<>=]", requirement)[0] in README, requirement
+
+
+def test_the_page_of_coverage_is_fresh():
+    spec = importlib.util.spec_from_file_location("coverage_page", ROOT / "docs" / "coverage.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    assert module.PAGE.read_text(encoding="utf-8") == module.page(), "run: python docs/coverage.py"
