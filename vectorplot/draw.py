@@ -81,3 +81,36 @@ def draw(
     framed, window = walk.run("frame", in_frame, view, joined_lines(found), page, fit)
     seen = _visibility(walk, view, faces, solid, framed)
     return walk.run("ink", ink, scene, view, framed, seen, page, window, hidden, layers)
+
+
+def in_frame(view: View, lines: Lines, page: Page, fit: bool) -> tuple[Lines, bool]:
+    """The lines in front of the eye and inside the picture, and whether the picture is the camera's rather than fitted.
+
+    Without fit, and where the scene reaches too far to be fitted, the picture is the camera's field of vision.
+    """
+    fitted = fit and not reaches_too_far(view, lines.start, lines.end)
+    planes = near_plane(view)
+    if not fitted:
+        half = view.picture_height / 2.0
+        width, height = page.width_mm - 2.0 * page.margin_mm, page.height_mm - 2.0 * page.margin_mm
+        if fit:
+            planes = np.concatenate([planes, window_planes(view, half * width / height, half)])
+        else:
+            unit = half / (page.height_mm / 2.0)
+            planes = np.concatenate([planes, window_planes(view, unit * width / 2.0, unit * height / 2.0)])
+    if len(planes):
+        low, high = inside(planes, lines.start, lines.end)
+        kept = np.flatnonzero(low < high)
+        lines, low, high = lines.some(kept), low[kept], high[kept]
+        along = lines.end - lines.start
+        start = np.where(low > 0.0, lines.start + low * along, lines.start)
+        end = np.where(high < 1.0, lines.start + high * along, lines.end)
+        lines = Lines(start, end, lines.kind, lines.item, lines.side)
+    return lines, not fitted
+
+
+def _visibility(walk: Walk, view: View, faces: ProjectedFaces, solid: Bools, lines: Lines) -> Visibility:
+    segments = Segments(lines.start, lines.end)
+    if walk.calls_for("visible lines"):
+        return walk.run("visible lines", visible_parts, view, faces, solid, segments, walk.fraction("visible lines"))
+    return walk.run("counted lines", counted_parts, view, faces, solid, segments, walk.fraction("counted lines"))

@@ -23,13 +23,15 @@ HASH = np.uint64(0x9E3779B97F4A7C15)
 @dataclass(frozen=True, eq=False)
 class Edges:
     """Edges of a mesh: start and end (e,) vertices, kind (e,), face (e,) one of the faces there, front (e,): whether a face
-    there shows its outside."""
+    there shows its outside; side (e,): 1 where all faces there lie to the left of start -> end in the image, -1 where they
+    lie to the right, 0 elsewhere."""
 
     start: Ints
     end: Ints
     kind: Ints
     face: Ints
     front: Bools
+    side: Ints
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +59,7 @@ def mesh_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: floa
     half = _candidates(faces, kinds, crease_angle_deg)
     if not len(half):
         none = np.zeros(0, dtype=np.intp)
-        return Edges(none, none, none, none, np.zeros(0, dtype=np.bool_))
+        return Edges(none, none, none, none, np.zeros(0, dtype=np.bool_), none)
     a, b = faces.corners[half], faces.corners[faces.next_corner[half]]
     low, high = np.minimum(a, b), np.maximum(a, b)
     key = low * faces.points.shape[1] + high
@@ -84,8 +86,9 @@ def mesh_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: floa
         kind[is_kind[one]] = one
     kept = kind >= 0
     front = np.maximum.reduceat(facing, first)[kept] > 0
-    first = first[kept]
-    return Edges(low[order][first], high[order][first], kind[kept], face[first], front)
+    first, one_sided = first[kept], (least * most >= 0)[kept]
+    only = np.where(one_sided, np.sign(least + most)[kept], 0).astype(np.intp)
+    return Edges(low[order][first], high[order][first], kind[kept], face[first], front, only)
 
 
 def _sharp_pairs(faces: Faces, face: Ints, forward: Bools, first: Ints, angle_deg: float) -> Bools:

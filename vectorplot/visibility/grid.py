@@ -161,7 +161,7 @@ def _pieces(
     middle = 0.5 * (at + after)
     xs, ys = (x0 + at * dx, x0 + after * dx), (y0 + at * dy, y0 + after * dy)
     near, far = start_depth[segment], end_depth[segment]
-    low, high = (_in_space(t, near, far) if central else t for t in (at, after))
+    low, high = (in_space(t, near, far) if central else t for t in (at, after))
     z0, z1 = near + low * (far - near), near + high * (far - near)
     box = np.stack([np.minimum(*xs), np.maximum(*xs), np.minimum(*ys), np.maximum(*ys)])
     return Pieces(
@@ -176,7 +176,7 @@ def _pieces(
     )
 
 
-def _in_space(t: Floats, near: Floats, far: Floats) -> Floats:
+def in_space(t: Floats, near: Floats, far: Floats) -> Floats:
     """Parameter in space of the point whose image divides the image of a segment at t; exact at 0 and 1."""
     return np.asarray(t * near / (near * t + far * (1.0 - t)), dtype=np.float64)
 

@@ -20,19 +20,21 @@ from vectorplot.visibility.projected_faces import ProjectedFaces
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """Straight lines in the view's coordinates: start and end (3,n), kind (n,) LineKind values, item (n,)."""
+    """Straight lines in the view's coordinates: start and end (3,n), kind (n,) LineKind values, item (n,); side (n,): 1 or -1
+    for an outline, where its surface lies to the left or right of start -> end in the image, 0 for other lines."""
 
     start: Floats
     end: Floats
     kind: Ints
     item: Ints
+    side: Ints
 
     def __len__(self) -> int:
         return len(self.kind)
 
     def some(self, which: Ints | Bools) -> Lines:
         """Some of the lines."""
-        return Lines(self.start[:, which], self.end[:, which], self.kind[which], self.item[which])
+        return Lines(self.start[:, which], self.end[:, which], self.kind[which], self.item[which], self.side[which])
 
 
 def joined_lines(parts: Collection[Lines]) -> Lines:
@@ -42,6 +44,7 @@ def joined_lines(parts: Collection[Lines]) -> Lines:
         np.concatenate([np.zeros((3, 0)), *(p.end for p in parts)], axis=1),
         np.concatenate([np.zeros(0, dtype=np.intp), *(p.kind for p in parts)]),
         np.concatenate([np.zeros(0, dtype=np.intp), *(p.item for p in parts)]),
+        np.concatenate([np.zeros(0, dtype=np.intp), *(p.side for p in parts)]),
     )
 
 
@@ -73,7 +76,7 @@ def edge_lines(
         item = view.face_item[which[edges.face]]
         kept = edges.front | backs[item]
         start, end = edges.start[kept], edges.end[kept]
-        parts.append(Lines(view.points[:, start], view.points[:, end], edges.kind[kept], item[kept]))
+        parts.append(Lines(view.points[:, start], view.points[:, end], edges.kind[kept], item[kept], edges.side[kept]))
     return joined_lines(parts)
 
 
@@ -104,7 +107,7 @@ def intersection_lines(scene: Scene, view: View, faces: ProjectedFaces, kinds: f
     one, two = view.face_item[met.one], view.face_item[met.two]
     kept = wants[one] | wants[two]
     kind = np.full(int(kept.sum()), int(LineKind.INTERSECTION))
-    return Lines(met.start[:, kept], met.end[:, kept], kind, np.minimum(one, two)[kept])
+    return Lines(met.start[:, kept], met.end[:, kept], kind, np.minimum(one, two)[kept], np.zeros_like(kind))
 
 
 def pattern_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines:
@@ -121,4 +124,4 @@ def pattern_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines
                 items.append(np.full(len(outline), number))
     start, end = (view.points_of(np.concatenate([np.zeros((0, 3)), *part])) for part in (starts, ends))
     item = np.concatenate([np.zeros(0, dtype=np.intp), *items])
-    return Lines(start, end, np.full(len(item), int(LineKind.PATTERN)), item)
+    return Lines(start, end, np.full(len(item), int(LineKind.PATTERN)), item, np.zeros_like(item))
