@@ -21,7 +21,7 @@ def test_minus_zero_is_zero() -> None:
 
 
 def test_distinct_points_are_right_when_all_hashes_collide(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(weld, "_slots", lambda words, multipliers: np.zeros(len(words), dtype=np.intp))
+    monkeypatch.setattr(weld, "_slots", lambda points, multipliers, bits: np.zeros(len(points), dtype=np.int64))
     points = np.random.default_rng(2).integers(0, 5, size=(300, 3)).astype(np.float64)
     first, number = distinct_points(points)
     assert np.array_equal(points[first][number], points)

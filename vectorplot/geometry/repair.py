@@ -175,7 +175,7 @@ def mended(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:
 def welded(mesh: Mesh) -> tuple[Mesh, int]:
     """The mesh with equal vertices made one, and how many were lost."""
     first, number = distinct_points(mesh.vertices)
-    return Mesh(mesh.vertices[first], number[mesh.corners], mesh.offsets, mesh.present), len(number) - len(first)
+    return Mesh(mesh.vertices[first] + 0.0, number[mesh.corners], mesh.offsets, mesh.present), len(number) - len(first)
 
 
 def _welded_where_open(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:

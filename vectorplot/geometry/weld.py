@@ -21,67 +21,84 @@ def distinct_points(points: NDArray[np.floating[Any]]) -> tuple[Ints, Ints]:
 
     Points are equal when all coordinates are; -0 equals 0. Exact, whatever the hashes do: every point is compared with
     the one that stands for it, and what shares a slot with a different point goes into a round with another hash.
-    Errors: none; NaN equals NaN of the same bits.
+    Errors: none. Degenerate: a point with a NaN equals itself or nothing.
     """
-    points = points + points.dtype.type(0)  # makes -0 to 0
-    words = points.view(np.uint32 if points.dtype == np.float32 else np.uint64)
     position = np.dtype(np.int32 if len(points) < 2**31 else np.int64)
-    stand_in = np.arange(len(points), dtype=position)
-    pending: NDArray[Any] = stand_in.copy()
+    stand_in = np.zeros(len(points), dtype=position)
+    pending: NDArray[Any] | None = None
     for multipliers in _MULTIPLIERS:
-        mine = words if len(pending) == len(words) else words[pending]
-        slots = _slots(mine, multipliers)
-        table = np.zeros(1 << _bits(len(pending)), dtype=position)
-        table[slots] = pending
-        found = table[slots]
-        del slots, table
-        same = _equal_rows(words, found, mine)
-        stand_in[pending[same]] = found[same]
-        pending = pending[~same]
+        pending = _round(points, pending, multipliers, stand_in)
         if len(pending) == 0:
             break
     else:
-        stand_in[pending] = pending[_first_equal(words[pending])]
+        assert pending is not None
+        stand_in[pending] = pending[_first_equal(points[pending])]
     chosen = np.zeros(len(points), dtype=np.bool_)
     chosen[stand_in] = True
-    number = np.cumsum(chosen, dtype=position)
-    number -= 1
-    return np.flatnonzero(chosen), number[stand_in].astype(np.intp)
+    order = np.cumsum(chosen, dtype=position)
+    order -= 1
+    number = np.zeros(len(points), dtype=np.intp)
+    for start in range(0, len(points), _PIECE):
+        number[start : start + _PIECE] = order[stand_in[start : start + _PIECE]]
+    return np.flatnonzero(chosen), number
 
 
-def _bits(count: int) -> int:
-    return max(4, count.bit_length())
+def _round(
+    points: NDArray[Any], pending: NDArray[Any] | None, multipliers: NDArray[np.uint64], stand_in: NDArray[Any]
+) -> NDArray[Any]:
+    """The positions still without an equal point that stands for them; stand_in gets those that were found.
+
+    pending: the positions to look at, None for all. Of the points that share a slot one stands for all equal to it.
+    """
+    count = len(points) if pending is None else len(pending)
+    bits = max(4, count.bit_length())
+    table = np.zeros(1 << bits, dtype=stand_in.dtype)
+    slots = np.zeros(count, dtype=stand_in.dtype)
+    for start in range(0, count, _PIECE):
+        which, piece = _piece(points, pending, start, count)
+        slot = _slots(piece, multipliers, bits)
+        slots[start : start + _PIECE] = slot
+        table[slot] = which
+    left = [np.zeros(0, dtype=stand_in.dtype)]
+    for start in range(0, count, _PIECE):
+        which, piece = _piece(points, pending, start, count)
+        found = table[slots[start : start + _PIECE]]
+        other = np.take(points, found, axis=0)
+        same = (piece[:, 0] == other[:, 0]) & (piece[:, 1] == other[:, 1]) & (piece[:, 2] == other[:, 2])
+        same |= found == which
+        stand_in[which] = np.where(same, found, which)
+        left.append(which[~same].astype(stand_in.dtype))
+    return np.concatenate(left)
 
 
-def _slots(words: NDArray[Any], multipliers: NDArray[np.uint64]) -> Ints:
-    """(n,) table slots of points given as words (n,3): a multiplicative hash."""
-    slots = np.zeros(len(words), dtype=np.intp)
-    shift = np.uint64(64 - _bits(len(words)))
-    for start in range(0, len(words), _PIECE):
-        piece = words[start : start + _PIECE]
-        key = piece[:, 0] * multipliers[0]
-        for axis in (1, 2):
-            key ^= key >> np.uint64(29)
-            key += piece[:, axis]
-            key *= multipliers[axis]
-        slots[start : start + _PIECE] = key >> shift
-    return slots
+def _piece(
+    points: NDArray[Any], pending: NDArray[Any] | None, start: int, count: int
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """The next positions to look at, and their points."""
+    if pending is None:
+        return np.arange(start, min(start + _PIECE, count)), points[start : start + _PIECE]
+    which = pending[start : start + _PIECE]
+    return which, np.take(points, which, axis=0)
 
 
-def _equal_rows(words: NDArray[Any], found: NDArray[Any], mine: NDArray[Any]) -> NDArray[np.bool_]:
-    same = np.zeros(len(found), dtype=np.bool_)
-    for start in range(0, len(found), _PIECE):
-        a, b = np.take(words, found[start : start + _PIECE], axis=0), mine[start : start + _PIECE]
-        same[start : start + _PIECE] = (a[:, 0] == b[:, 0]) & (a[:, 1] == b[:, 1]) & (a[:, 2] == b[:, 2])
-    return same
+def _slots(points: NDArray[Any], multipliers: NDArray[np.uint64], bits: int) -> NDArray[np.int64]:
+    """(n,) numbers of the given bits: a multiplicative hash of the coordinates."""
+    # Adding zero makes -0 to 0.
+    words = (points + points.dtype.type(0)).view(np.uint32 if points.dtype == np.float32 else np.uint64)
+    key = words[:, 0] * multipliers[0]
+    for axis in (1, 2):
+        key ^= key >> np.uint64(29)
+        key += words[:, axis]
+        key *= multipliers[axis]
+    return np.asarray((key >> np.uint64(64 - bits)).astype(np.int64))
 
 
-def _first_equal(words: NDArray[Any]) -> Ints:
+def _first_equal(points: NDArray[Any]) -> Ints:
     """(n,) for every row the position of one row equal to it, by sorting."""
-    order = np.lexsort((words[:, 2], words[:, 1], words[:, 0]))
-    ordered = words[order]
+    order = np.lexsort((points[:, 2], points[:, 1], points[:, 0]))
+    ordered = points[order]
     new = np.concatenate([[True], (ordered[1:] != ordered[:-1]).any(axis=1)])
-    first = np.zeros(len(words), dtype=np.intp)
+    first = np.zeros(len(points), dtype=np.intp)
     first[order] = order[new][np.cumsum(new) - 1]
     return first
 

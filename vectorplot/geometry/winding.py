@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -157,31 +158,64 @@ def turned_faces(mesh: Mesh, turn: Bools) -> Mesh:
 
 def joined_pieces(mesh: Mesh) -> tuple[int, Ints]:
     """How many pieces the mesh has, and (f,) the piece of every face; pieces are joined where they share a vertex."""
-    return pieces_of_faces(len(mesh.vertices), mesh.corners, mesh.next_corner, mesh.offsets)
+    return _pieces(len(mesh.vertices), lambda: _sides(mesh), mesh.corners[mesh.offsets[:-1]])
 
 
 def pieces_of_faces(vertices: int, corners: Ints, next_corner: Ints, offsets: Ints) -> tuple[int, Ints]:
-    """How many pieces faces make, and (f,) the piece of every face; pieces are joined where they share a vertex.
+    """How many pieces faces make, and (f,) the piece of every face; pieces are joined where they share a vertex."""
+    return _pieces(vertices, lambda: iter([(corners, corners[next_corner])]), corners[offsets[:-1]])
 
-    No sort: every vertex hangs on a neighbour of smaller number, trees are flattened, and edges between different trees
+
+def _pieces(vertices: int, sides: Callable[[], Iterator[tuple[Ints, Ints]]], inside: Ints) -> tuple[int, Ints]:
+    """How many pieces the sides make, and (f,) the piece that holds the vertices inside.
+
+    No sort: every vertex hangs on a neighbour of smaller number, trees are flattened, and sides between different trees
     do the same with their roots until none is left.
     """
     root = np.arange(vertices)
-    one, other = corners, corners[next_corner]
+    for one, other in sides():
+        root[np.maximum(one, other)] = np.minimum(one, other)
+    root = _flattened(root)
+    left = [_apart(root, one, other) for one, other in sides()]
+    one, other = (np.concatenate([np.zeros(0, dtype=np.intp), *(pair[k] for pair in left)]) for k in (0, 1))
     while len(one):
         root[np.maximum(one, other)] = np.minimum(one, other)
-        while True:
-            higher = root[root]
-            if np.array_equal(higher, root):
-                break
-            root = higher
-        one, other = root[one], root[other]
-        apart = one != other
-        one, other = one[apart], other[apart]
-    roots = root[corners[offsets[:-1]]]
+        root = _flattened(root)
+        one, other = _apart(root, one, other)
+    roots = root[inside]
     used = np.zeros(vertices, dtype=np.bool_)
     used[roots] = True
     return int(used.sum()), (np.cumsum(used) - 1)[roots]
+
+
+def _flattened(root: Ints) -> Ints:
+    """The trees with everything hanging on the root itself."""
+    while True:
+        higher = root[root]
+        if np.array_equal(higher, root):
+            return root
+        root = higher
+
+
+def _apart(root: Ints, one: Ints, other: Ints) -> tuple[Ints, Ints]:
+    """The roots of both ends of the sides between different trees."""
+    one, other = root[one], root[other]
+    apart = one != other
+    return one[apart], other[apart]
+
+
+def _sides(mesh: Mesh) -> Iterator[tuple[Ints, Ints]]:
+    """The ends of all sides but the last one of every face, which connect it as well, in pieces."""
+    for start in range(0, mesh.face_count, _PIECE):
+        offsets = mesh.offsets[start : start + _PIECE + 1]
+        corners = mesh.corners[offsets[0] : offsets[-1]]
+        if len(corners) == 3 * (len(offsets) - 1):
+            triangles = corners.reshape(-1, 3)
+            yield triangles[:, :2].ravel(), triangles[:, 1:].ravel()
+            continue
+        inner = np.ones(len(corners), dtype=np.bool_)
+        inner[offsets[1:] - offsets[0] - 1] = False
+        yield corners[inner], corners[np.flatnonzero(inner) + 1]
 
 
 def signed_volumes(mesh: Mesh) -> Floats:

@@ -36,7 +36,7 @@ def read_stl(path: Path) -> MeshFile:
     if len(points) == 0:
         raise InputError("no triangles in this file", file=shown(path))
     first, corners = distinct_points(points)
-    vertices = points[first].astype(np.float64)
+    vertices = points[first].astype(np.float64) + 0.0  # makes -0 to 0
     del points
     mesh = Mesh(vertices, corners, np.arange(0, len(corners) + 1, 3))
     return MeshFile(mesh, (path.stem,), (0,), FLOAT32)
