@@ -101,3 +101,26 @@ def test_the_second_time_nothing_is_installed(tmp_path):
     assert (folder / "calls").read_text(encoding="utf-8").count("install") == 2
     assert set_up(folder, "test", path=real).returncode != 0  # the stub installs no ruff, but it is asked to
     assert ".[test]" in (folder / "calls").read_text(encoding="utf-8")
+
+
+def test_what_is_missing_is_installed_by_apt_with_the_right_names(tmp_path):
+    """The stand-in of apt-get brings the programs; what pip does comes after it."""
+    path = programs(
+        tmp_path,
+        "mkdir",
+        "chmod",
+        "touch",
+        id="echo 0",
+        python3="case $* in *-m\\ venv*) exit 7 ;; *ensurepip*) [ -f venv ] ;; *sysconfig*) echo . ;; esac",
+        apt_get=f'echo "$@" >>"{tmp_path}/calls"; case $1 in install) touch venv Python.h; '
+        f'for name in cc gs pdftoppm rsvg-convert pkg-config; do printf "#!/bin/sh\n" >"{tmp_path}/programs/$name"; '
+        f'chmod +x "{tmp_path}/programs/$name"; done ;; esac',
+    )
+    result = set_up(tmp_path, "test", path=path)
+    assert result.returncode != 0  # the stand-in of Python makes no environment
+    update, install = (tmp_path / "calls").read_text(encoding="utf-8").splitlines()
+    assert update == "update"
+    assert install == (
+        "install -y --no-install-recommends python3-venv python3-dev gcc pkg-config libcairo2-dev "
+        "ghostscript poppler-utils librsvg2-bin"
+    )

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import errno
 import math
+import os
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -78,6 +81,7 @@ def draw_file(
 
     stages = (Stage("read", scene_file), Stage("write", f"as {format_}"))
     walk = Walk(stages, reports.append, None)
+    check_place(out)
     with progress_bar(quiet=quiet) as progress:
         scene = walk.run("read", read, scene_file)
         drawing = draw_scene(
@@ -96,6 +100,13 @@ def draw_file(
         )
         content = walk.run("write", write, drawing, format_)
         write_out(out, content)
+
+
+def check_place(out: str) -> None:
+    """An OSError before the work where there is no folder to write into."""
+    folder = Path(out).parent
+    if out != "-" and not folder.is_dir():
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(folder))
 
 
 def write_out(out: str, content: bytes) -> None:

@@ -1,0 +1,82 @@
+import click
+import numpy as np
+import pytest
+
+from vectorplot.cli.view import CameraOptions, camera_from, page_from
+from vectorplot.draw import default_camera
+from vectorplot.geometry.camera import VIEWS, Camera
+from vectorplot.scene.scene import Page, Scene
+from vectorplot.testing.shapes import box, scene_of
+
+SCENE = scene_of(BOX=box((0, 0, 0), (2, 1, 1)))
+OWN = Camera((5.0, 6.0, 7.0), (1.0, 1.0, 1.0), up=(0.0, 1.0, 0.0), twist_deg=10.0, fov_deg=40.0)
+WITH_CAMERA = Scene(SCENE.items, camera=OWN, page=Page(100.0, 50.0, 5.0))
+
+
+def test_without_options_the_camera_is_that_of_the_scene():
+    assert camera_from(CameraOptions(), WITH_CAMERA) == OWN
+    assert camera_from(CameraOptions(), SCENE) == default_camera(SCENE)
+
+
+@pytest.mark.parametrize(
+    ("given", "changed"),
+    [
+        ({"eye": (-3.0, 4.0, 5.0)}, {"eye": (-3.0, 4.0, 5.0)}),
+        ({"target": (0.0, 0.0, 0.0)}, {"target": (0.0, 0.0, 0.0)}),
+        ({"up": (0.0, 0.0, 1.0)}, {"up": (0.0, 0.0, 1.0)}),
+        ({"twist": -5.0}, {"twist_deg": -5.0}),
+        ({"fov": 20.0}, {"fov_deg": 20.0}),
+        ({"parallel": True}, {"parallel": True}),
+        ({"parallel": True, "height": 3.0}, {"parallel": True, "height": 3.0}),
+    ],
+)
+def test_options_replace_fields_one_by_one(given, changed):
+    camera = camera_from(CameraOptions(**given), WITH_CAMERA)
+    for name in ("eye", "target", "up", "twist_deg", "fov_deg", "parallel", "height"):
+        assert getattr(camera, name) == changed.get(name, getattr(OWN, name)), name
+
+
+def test_a_field_of_vision_makes_a_parallel_camera_central():
+    scene = Scene(SCENE.items, camera=Camera((5.0, 5.0, 5.0), parallel=True, height=4.0))
+    camera = camera_from(CameraOptions(fov=25.0), scene)
+    assert (camera.parallel, camera.height, camera.fov_deg) == (False, None, 25.0)
+    assert camera_from(CameraOptions(height=9.0), scene).height == 9.0
+
+
+@pytest.mark.parametrize("name", sorted(VIEWS))
+def test_a_view_looks_at_the_middle_from_its_direction(name):
+    camera = camera_from(CameraOptions(view=name), SCENE)
+    direction, up = VIEWS[name]
+    assert camera.parallel and camera.up == up
+    assert camera.target == (1.0, 0.5, 0.5)
+    assert camera.direction == pytest.approx(np.array(direction) / np.linalg.norm(direction))
+    assert camera.distance > 2.0
+    assert not camera_from(CameraOptions(view=name, fov=30.0), SCENE).parallel
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"up": (0.0, 0.0, 1.0), "twist": 5.0},
+        {"fov": 30.0, "parallel": True},
+        {"fov": 30.0, "height": 2.0},
+        {"view": "top", "eye": (1.0, 1.0, 1.0)},
+    ],
+)
+def test_options_that_contradict_each_other_are_bad_usage(given):
+    with pytest.raises(click.UsageError, match="exclude each other"):
+        CameraOptions(**given).check()
+
+
+def test_a_height_needs_a_parallel_projection():
+    with pytest.raises(click.UsageError, match="--height needs --parallel"):
+        camera_from(CameraOptions(height=2.0), SCENE)
+
+
+def test_the_page_is_that_of_the_scene_but_for_the_options():
+    assert page_from(None, False, None, SCENE) == Page()
+    assert page_from(None, False, None, WITH_CAMERA) == WITH_CAMERA.page
+    assert page_from((210.0, 297.0), True, None, WITH_CAMERA) == Page(297.0, 210.0, 5.0)
+    assert page_from(None, False, 0.0, WITH_CAMERA) == Page(100.0, 50.0, 0.0)
+    with pytest.raises(click.UsageError, match="leaves nothing"):
+        page_from(None, False, 25.0, WITH_CAMERA)
