@@ -1,0 +1,211 @@
+"""Non-convex polygons, prisms and bodies of revolution as unions of convex parts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.revolution import FULL_TURN, HALF_TURN, revolution
+from vectorplot.geometry.solids import ZERO, checked_points, polyhedron, prism
+
+
+def convex_polygon_parts(outline: ArrayLike, holes: Sequence[ArrayLike] = ()) -> list[Ints]:
+    """Convex polygons that together cover a plane polygon: lists of point numbers, counter-clockwise.
+
+    outline (n,2) counter-clockwise, holes (k,2) clockwise; the points are numbered through, the outline first. The
+    parts are triangles of a constrained Delaunay triangulation, joined over the diagonals that convexity does not need.
+    Errors: InputError for an outline that crosses itself. Degenerate: a convex outline without holes is its own part.
+    Source: Glaeser, section 3.5; the joining is that of Hertel and Mehlhorn.
+    """
+    rings = [np.asarray(ring, dtype=np.float64).reshape(-1, 2) for ring in (outline, *holes)]
+    if not len(rings) > 1 and is_convex_polygon(rings[0]):
+        return [np.arange(len(rings[0]))]
+    points = np.concatenate(rings)
+    return _joined(points, _triangles(points, rings))
+
+
+def is_convex_polygon(points: Floats) -> bool:
+    """Whether a polygon (n,2) turns left or goes straight on at every corner, and once round in all."""
+    sides = np.roll(points, -1, axis=0) - points
+    after = np.roll(sides, -1, axis=0)
+    turn = sides[:, 0] * after[:, 1] - sides[:, 1] * after[:, 0]
+    zero = ZERO * float(np.ptp(points, axis=0).max()) ** 2
+    angles = np.arctan2(turn, np.einsum("ij,ij->i", sides, after))
+    return bool((turn >= -zero).all() and abs(angles.sum() - 2.0 * np.pi) < 1.0)
+
+
+def _triangles(points: Floats, rings: list[Floats]) -> Ints:
+    """(t,3) counter-clockwise triangles of a polygon with holes, as point numbers."""
+    import shapely
+
+    polygon = shapely.Polygon(rings[0], rings[1:])
+    if not polygon.is_valid:
+        raise InputError("a polygon crosses itself")
+    pieces = shapely.get_parts(shapely.constrained_delaunay_triangles(polygon))
+    corners = shapely.get_coordinates(pieces).reshape(-1, 4, 2)[:, :3].reshape(-1, 2)
+    both, number = np.unique(np.concatenate([points, corners]), axis=0, return_inverse=True)
+    first = np.full(len(both), -1, dtype=np.intp)
+    first[number[: len(points)]] = np.arange(len(points))
+    triangles = first[number[len(points) :]].reshape(-1, 3)
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    clockwise = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) < (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    triangles[clockwise] = triangles[clockwise, ::-1]
+    return triangles
+
+
+def _joined(points: Floats, triangles: Ints) -> list[Ints]:
+    """The triangles joined to convex polygons, diagonal by diagonal."""
+    polygons: dict[int, list[int]] = dict(enumerate(triangles.tolist()))
+    owner = {(p[k - 1], p[k]): number for number, p in polygons.items() for k in range(3)}
+    zero = ZERO * float(np.ptp(points, axis=0).max()) ** 2
+    flat = points.tolist()
+
+    def bends_left(a: int, b: int, c: int) -> bool:
+        (ax, ay), (bx, by), (cx, cy) = flat[a], flat[b], flat[c]
+        return bool((bx - ax) * (cy - by) - (by - ay) * (cx - bx) >= -zero)
+
+    for a, b in list(owner):
+        left, right = owner.get((a, b)), owner.get((b, a))
+        if left is None or right is None or left == right:
+            continue
+        p, q = polygons[left], polygons[right]
+        i, j = p.index(b), q.index(a)
+        # The left polygon from b round to a, then the right one between a and b.
+        whole = p[i:] + p[:i] + (q[j:] + q[:j])[1:-1]
+        k = len(p) - 1
+        if bends_left(whole[k - 1], whole[k], whole[k + 1]) and bends_left(whole[-1], whole[0], whole[1]):
+            polygons[left] = whole
+            del polygons[right], owner[a, b], owner[b, a]
+            for n in range(len(whole)):
+                owner[whole[n - 1], whole[n]] = left
+    return [np.array(polygon, dtype=np.intp) for polygon in polygons.values()]
+
+
+def convex_prism_parts(base_points: ArrayLike, vector: ArrayLike) -> list[Mesh]:
+    """Convex prisms that together fill the prism over a planar base.
+
+    Errors: as prism. Source: Glaeser, section 3.5.
+    """
+    whole = prism(base_points, vector)
+    count = len(whole.vertices) // 2
+    base, step = whole.vertices[:count], whole.vertices[count] - whole.vertices[0]
+    normal = whole.area_vectors[-1]
+    flat, turned = _flattened(base, normal)
+    parts = convex_polygon_parts(flat)
+    return [prism(base[turned[part]], step) for part in parts]
+
+
+def _flattened(points: Floats, normal: Floats) -> tuple[Floats, Ints]:
+    """(n,2) a planar polygon in its plane, counter-clockwise about the normal, and the numbers (n,) of its points."""
+    x, y = plane_axes(normal)
+    flat = (points - points[0]) @ np.stack([x, y], axis=1)
+    numbers = np.arange(len(points))
+    if signed_area(flat) < 0.0:
+        flat, numbers = flat[::-1], numbers[::-1]
+    return flat, numbers
+
+
+def plane_axes(normal: Floats) -> tuple[Floats, Floats]:
+    """Two unit vectors that span the plane across a normal; right-handed with it."""
+    x = np.cross(normal, np.eye(3)[int(np.argmin(np.abs(normal)))])
+    x = x / np.linalg.norm(x)
+    y = np.cross(normal, x)
+    return x, y / np.linalg.norm(y)
+
+
+def signed_area(points: Floats) -> float:
+    """Area of a polygon (n,2), positive if it runs counter-clockwise."""
+    arm = points - points[0]
+    after = np.roll(arm, -1, axis=0)
+    return 0.5 * float((arm[:, 0] * after[:, 1] - arm[:, 1] * after[:, 0]).sum())
+
+
+def convex_revolution_parts(meridian: ArrayLike, order: int, *, angle_deg: float = FULL_TURN) -> list[Mesh]:
+    """Convex polyhedra that together fill a body of revolution.
+
+    Where every horizontal plane meets the meridian once, slices between horizontal planes, in parts of at most half a
+    turn; else the convex parts of the profile, swept step by step. The meridian lies in a half-plane through the axis.
+    Errors: as revolution. Source: Glaeser, section 3.4, figure 4.
+    """
+    whole = revolution(meridian, order, angle_deg=angle_deg)
+    points = checked_points(meridian, "meridian")
+    profile = np.stack([np.hypot(points[:, 0], points[:, 1]), points[:, 2]], axis=1)
+    if profile[-1, 1] < profile[0, 1]:
+        profile = profile[::-1]
+    extent = float(np.abs(profile - [0.0, profile[0, 1]]).max())
+    azimuth = points[int(np.argmax(np.hypot(points[:, 0], points[:, 1]))), :2]
+    azimuth = azimuth / np.linalg.norm(azimuth)
+    if (np.diff(profile[:, 1]) > ZERO * extent).all() and (angle_deg == FULL_TURN or angle_deg <= HALF_TURN):
+        slices = [_in_space(profile[a : b + 1], azimuth) for a, b in _arches(profile)]
+        return [revolution(piece, order, angle_deg=angle_deg) for piece in slices]
+    return _sectors(whole, profile, azimuth, order, angle_deg)
+
+
+def _in_space(profile: Floats, azimuth: Floats) -> Floats:
+    return np.column_stack([profile[:, :1] * azimuth, profile[:, 1]])
+
+
+def _arches(profile: Floats) -> Iterable[tuple[int, int]]:
+    """First and last point of the pieces of a rising profile that bulge outwards."""
+    sides = np.diff(profile, axis=0)
+    turn = sides[:-1, 0] * sides[1:, 1] - sides[:-1, 1] * sides[1:, 0]
+    zero = ZERO * float(np.abs(sides).max()) ** 2
+    cuts = [0, *(np.flatnonzero(turn < -zero) + 1).tolist(), len(profile) - 1]
+    return pairwise(cuts)
+
+
+def _sectors(whole: Mesh, profile: Floats, azimuth: Floats, order: int, angle_deg: float) -> list[Mesh]:
+    """The convex parts of the profile, closed along the axis, between every two neighbouring meridians."""
+    closed = bool((profile[0] == profile[-1]).all())
+    outline = profile[:-1] if closed else profile
+    if not closed:
+        feet = [[[0.0, z]] if r > 0.0 else np.zeros((0, 2)) for r, z in (profile[0], profile[-1])]
+        outline = np.concatenate([feet[0], outline, feet[1]])
+    if signed_area(outline) < 0.0:
+        outline = outline[::-1]
+    steps = order if angle_deg == FULL_TURN else order - 1
+    angle = np.radians(angle_deg * np.arange(steps + 1) / steps) + np.arctan2(azimuth[1], azimuth[0])
+    parts = [outline[part] for part in convex_polygon_parts(outline)]
+    return [_wedge(part, a, b) for part in parts for a, b in pairwise(angle.tolist())]
+
+
+def _wedge(profile: Floats, first: float, second: float) -> Mesh:
+    """The convex polyhedron between a convex profile in two half-planes through the axis."""
+    r, z = profile[:, 0], profile[:, 1]
+    count = len(r)
+    rings = [np.column_stack([r * np.cos(a), r * np.sin(a), z]) for a in (first, second)]
+    here = np.arange(count)
+    there = np.roll(here, -1)
+    on_axis = r <= 0.0
+    twin = np.where(on_axis, here, here + count)
+    sides = np.stack([here, twin, twin[there], there], axis=1)
+    faces = [_without_repeats(side) for side in sides.tolist()]
+    faces = [face for face in faces if len(face) > 2]
+    used = np.unique(np.concatenate([here, twin]))
+    place = dict(zip(used.tolist(), range(len(used)), strict=True))
+    lists = [[place[v] for v in face] for face in [*faces, here.tolist(), twin[::-1].tolist()]]
+    return polyhedron(np.concatenate(rings)[used], lists)
+
+
+def _without_repeats(face: list[int]) -> list[int]:
+    return [v for k, v in enumerate(face) if v != face[k - 1]]
+
+
+def split_faces(mesh: Mesh, chosen: Bools) -> Mesh:
+    """The mesh with the chosen faces cut into convex parts; the others first, in their order."""
+    polygons = mesh.polygons()
+    present = np.ones(mesh.face_count, dtype=np.bool_) if mesh.present is None else mesh.present
+    numbers = np.flatnonzero(~chosen).tolist()
+    faces = [polygons[k] for k in numbers]
+    for k in np.flatnonzero(chosen).tolist():
+        polygon = np.array(polygons[k])
+        flat, order = _flattened(mesh.vertices[polygon], mesh.area_vectors[k])
+        parts = convex_polygon_parts(flat)
+        faces.extend(polygon[order[part]].tolist() for part in parts)
+        numbers.extend([k] * len(parts))
+    return Mesh.from_polygons(mesh.vertices, faces, present=present[numbers])

@@ -1,0 +1,168 @@
+"""Solids as meshes: boxes, prisms, and polyhedra given by their faces."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Collection, Sequence
+from functools import cache
+from math import isfinite
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+
+BOTTOM, TOP = "bottom", "top"
+BOTH_CAPS = (BOTTOM, TOP)
+
+ZERO = 1e-9
+"""Part of the extent below which a distance is zero."""
+
+IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
+"""A placement: the three rows of a 3x4 matrix (rotation and translation) acting on columns, one after the other."""
+
+_BOX = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7), (3, 2, 1, 0), (4, 5, 6, 7))
+
+
+def box(lengths: Sequence[float], *, caps: Collection[str] = BOTH_CAPS, placement: Sequence[float] = IDENTITY) -> Mesh:
+    """The box with one corner in the origin and edges of three lengths along the axes, then placed.
+
+    caps: which of ``bottom`` and ``top`` are present; a hollow box has none. Faces: the four sides, beginning at y = 0,
+    then bottom and top. A negative length points the other way.
+    Errors: InputError for a length that is zero or not finite. Source: Glaeser, section 3.5.
+    """
+    x, y, z = lengths
+    a, b, c, t, d, e, f, u, g, h, i, v = placement
+    if not isfinite(abs(x) + abs(y) + abs(z) + abs(t) + abs(u) + abs(v)) or x == 0.0 or y == 0.0 or z == 0.0:
+        raise InputError(f"box {x:g} {y:g} {z:g}: three finite lengths other than zero are needed")
+    # The corners written out: a scene may hold thousands of boxes, and matrix products cost several times as much.
+    ax, dx, gx = a * x + t, d * x + u, g * x + v
+    by, ey, hy = b * y, e * y, h * y
+    cz, fz, iz = c * z, f * z, i * z
+    ty, uy, vy = t + by, u + ey, v + hy
+    axy, dxy, gxy = ax + by, dx + ey, gx + hy
+    low = [t, u, v, ax, dx, gx, axy, dxy, gxy, ty, uy, vy]
+    high = [t + cz, u + fz, v + iz, ax + cz, dx + fz, gx + iz, axy + cz, dxy + fz, gxy + iz, ty + cz, uy + fz, vy + iz]
+    vertices = np.array(low + high).reshape(8, 3)
+    turned = (x < 0.0) ^ (y < 0.0) ^ (z < 0.0)
+    corners, offsets, present = _box_faces(turned, BOTTOM in caps, TOP in caps)
+    return Mesh._trusted(vertices, corners, offsets, present)
+
+
+@cache
+def _box_faces(turned: bool, bottom: bool, top: bool) -> tuple[Ints, Ints, Bools | None]:
+    """Corners, offsets and presence of the faces of a box: one set of arrays that all alike boxes share."""
+    corners = np.array([face[::-1] if turned else face for face in _BOX], dtype=np.intp).reshape(-1)
+    offsets = np.arange(0, 25, 4, dtype=np.intp)
+    present = None if bottom and top else np.array([True, True, True, True, bottom, top])
+    for array in (corners, offsets, present):
+        if array is not None:
+            array.flags.writeable = False
+    return corners, offsets, present
+
+
+def placed(mesh: Mesh, placement: Sequence[float]) -> Mesh:
+    """The mesh under a placement (twelve numbers, see IDENTITY)."""
+    if tuple(placement) == IDENTITY:
+        return mesh
+    return mesh.transformed(np.array([*placement, 0.0, 0.0, 0.0, 1.0]).reshape(4, 4))
+
+
+def prism(base_points: ArrayLike, vector: ArrayLike, *, caps: Collection[str] = BOTH_CAPS) -> Mesh:
+    """The body that a planar polygon sweeps when it is moved along a vector.
+
+    base_points (b,3), vector (3,). 2b vertices (the base, then the top), 3b edges; faces: the b sides in the order of
+    the edges of the base, then bottom and top. A base that runs clockwise about the vector is turned round.
+    Errors: InputError for fewer than three points, a vector in the plane of the base. A base that is not planar is used
+    with an InputWarning. Source: Glaeser, section 3.5.
+    """
+    base = checked_points(base_points, "base_points")
+    step = np.asarray(vector, dtype=np.float64)
+    if len(base) < 3:
+        raise InputError(f"a base needs at least three points, not {len(base)}")
+    if step.shape != (3,) or not np.isfinite(step).all():
+        raise InputError("trans_vector must be three finite numbers")
+    arm = base - base[0]
+    extent = max(float(np.ptp(base, axis=0).max()), np.finfo(np.float64).tiny)
+    area = np.cross(arm, np.roll(arm, -1, axis=0)).sum(axis=0)
+    size = float(np.linalg.norm(area))
+    height = float(area @ step)
+    if not abs(height) > ZERO * size * float(np.linalg.norm(step)) or not size > ZERO * extent * extent:
+        raise InputError("trans_vector lies in the plane of the base, or the base has no area")
+    if np.abs(arm @ area).max() > 1e-6 * extent * size:
+        warnings.warn("base_points do not lie in one plane", InputWarning, stacklevel=2)
+    count = len(base)
+    here = np.arange(count)
+    there = np.roll(here, -1)
+    sides = np.stack([here, there, there + count, here + count], axis=1)
+    corners = np.concatenate([sides.reshape(-1), here[::-1], here + count])
+    offsets = np.concatenate([np.arange(0, 4 * count + 1, 4), [5 * count, 6 * count]])
+    body = Mesh(np.concatenate([base, base + step]), corners, offsets, presence(count + 2, caps, BOTH_CAPS))
+    return body if height > 0.0 else body.reversed()
+
+
+def checked_points(points: ArrayLike, word: str) -> Floats:
+    """(n,3) the points. Errors: InputError for anything but points of three finite numbers; word: what they go by."""
+    array = np.asarray(points, dtype=np.float64)
+    if array.ndim != 2 or array.shape[1:] != (3,) or not np.isfinite(array).all():
+        raise InputError(f"{word} must be points of three finite numbers")
+    return array
+
+
+def presence(count: int, shown: Collection[str], stored: Sequence[str]) -> Bools:
+    """(count,) flags: all True but for the stored caps, which come last, that are not shown."""
+    present = np.ones(count, dtype=np.bool_)
+    present[count - len(stored) :] = [cap in shown for cap in stored]
+    return present
+
+
+def polyhedron(vertices: ArrayLike, faces: Sequence[Sequence[int]]) -> Mesh:
+    """The polyhedron with these faces (indices from 0), turned outwards if its outline is convex.
+
+    So a convex body may list its faces either way round. Others are left as they are listed.
+    Errors: as Mesh. Source: Glaeser, sections 3.2 and 3.3; erratum G3-18.
+    """
+    mesh = Mesh.from_polygons(vertices, faces)
+    turned = turned_outwards(mesh)
+    return turned if has_convex_outline(turned) else mesh
+
+
+def turned_outwards(mesh: Mesh) -> Mesh:
+    """The mesh with every face turned so that its normal leads away from the barycentre of the vertices.
+
+    Right for convex bodies and parts of their surfaces, whichever way their faces are listed.
+    Source: Glaeser, section 3.2.
+    """
+    used = np.unique(mesh.corners)
+    if not len(used):
+        return mesh
+    centre = mesh.vertices[used].mean(axis=0)
+    inward = np.einsum("ij,ij->i", mesh.area_vectors, mesh.vertices[mesh.corners[mesh.offsets[:-1]]] - centre) < 0.0
+    if not inward.any():
+        return mesh
+    turned = mesh.reversed()
+    corners = np.where(inward[mesh.corner_face], turned.corners, mesh.corners)
+    return Mesh(mesh.vertices, corners, mesh.offsets, mesh.present)
+
+
+def has_convex_outline(mesh: Mesh) -> bool:
+    """Whether no vertex lies outside the plane of any face: true for convex bodies and for parts of their surfaces.
+
+    Degenerate: faces without area say nothing; a vertex within 1e-9 of the extent from a plane lies in it.
+    """
+    used = np.unique(mesh.corners)
+    if not len(used):
+        return True
+    points = mesh.vertices[used]
+    zero = ZERO * float(np.ptp(points, axis=0).max())
+    first = mesh.vertices[mesh.corners[mesh.offsets[:-1]]]
+    centre = points.mean(axis=0)
+    constants = np.einsum("ij,ij->i", mesh.face_normals, first - centre)
+    # In pieces of planes, so that the table of distances never gets large; most non-convex bodies fail in the first.
+    piece = max(1, (1 << 20) // len(points))
+    for start in range(0, mesh.face_count, piece):
+        normals = mesh.face_normals[start : start + piece]
+        if ((points - centre) @ normals.T - constants[start : start + piece]).max() > zero:
+            return False
+    return True

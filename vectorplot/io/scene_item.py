@@ -1,0 +1,237 @@
+"""One item of a scene file: what the file says about it, gathered word by word, and the item made of it."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.adjacency import mesh_edges
+from vectorplot.geometry.intersect_polyhedra import intersection
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.revolution import FULL_TURN, revolution
+from vectorplot.geometry.solids import (
+    BOTH_CAPS,
+    BOTTOM,
+    IDENTITY,
+    TOP,
+    box,
+    has_convex_outline,
+    placed,
+    prism,
+    turned_outwards,
+)
+from vectorplot.io.scene_words import Words
+from vectorplot.scene.scene import Item, Material, Pattern
+
+Placement = tuple[float, ...]
+
+OPACITY_OF_TRANSPARENT = 0.5
+"""Opacity of a transparent item that names none."""
+
+_NORMAL = Material()
+_QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
+
+NEEDED = {
+    "vertices": ("vertices", "faces"),
+    "revolution": ("meridian", "order"),
+    "translation": ("base_points", "trans_vector"),
+    "box": ("lengths",),
+    "intersection": ("parts",),
+}
+"""What every kind of item cannot be without."""
+
+
+class Draft:
+    """What has been read about an item so far. Attributes of the class are what holds where the file is silent.
+
+    index, kind_index: the words that name it and its kind; owner: how messages about it begin.
+    """
+
+    colour: str | None = None
+    material: str | None = None
+    opacity: float | None = None
+    refraction = 1.0
+    form: str | None = None
+    kind: str | None = None
+    kind_index = 0
+    hollow = False
+    shown_caps: tuple[str, ...] = ()
+    placement: Placement = IDENTITY
+    angle_deg = FULL_TURN
+    lengths: tuple[float, ...] | list[float] | None = None
+    order: int | None = None
+    meridian: list[list[float]] | None = None
+    base_points: list[list[float]] | None = None
+    trans_vector: list[float] | None = None
+    vertices: list[list[float]] | None = None
+    faces: list[list[int]] | None = None
+    edges: list[list[int]] | None = None
+    parts: tuple[str, ...] | None = None
+    removed: list[int] | None = None
+    patterns: tuple[Pattern, ...] = ()
+    lines: tuple[str, ...] | None = None
+    occludes: bool | None = None
+
+    def __init__(self, name: str, index: int) -> None:
+        self.name = name
+        self.index = index
+        self.owner = name + ": "
+
+    def missing(self) -> str | None:
+        """The first word that the item still needs, or None."""
+        if self.kind is None:
+            return "vertices"
+        return next((word for word in NEEDED[self.kind] if getattr(self, word) is None), None)
+
+    @property
+    def caps(self) -> tuple[str, ...]:
+        """Which ends of a swept body are there."""
+        return self.shown_caps if self.hollow else BOTH_CAPS
+
+
+def moved(placement: Placement, x: float, y: float, z: float) -> Placement:
+    """A placement followed by a translation."""
+    a, b, c, t, d, e, f, u, g, h, i, v = placement
+    return (a, b, c, t + x, d, e, f, u + y, g, h, i, v + z)
+
+
+def turned(placement: Placement, axis: str, angle_deg: float) -> Placement:
+    """A placement followed by a rotation about an axis through the origin, counter-clockwise seen from its tip.
+
+    Quarter turns are exact. Source: Glaeser, section 1.6, equations 27 to 29.
+    """
+    quarters = angle_deg / 90.0
+    if quarters == int(quarters):
+        cos, sin = _QUARTERS[int(quarters) % 4]
+    else:
+        cos, sin = math.cos(math.radians(angle_deg)), math.sin(math.radians(angle_deg))
+    # Row by row and written out: thousands of items are turned.
+    a, b, c, t, d, e, f, u, g, h, i, v = placement
+    if axis == "x":
+        second = (cos * d - sin * g, cos * e - sin * h, cos * f - sin * i, cos * u - sin * v)
+        return (a, b, c, t, *second, sin * d + cos * g, sin * e + cos * h, sin * f + cos * i, sin * u + cos * v)
+    if axis == "y":
+        third = (cos * g - sin * a, cos * h - sin * b, cos * i - sin * c, cos * v - sin * t)
+        return (sin * g + cos * a, sin * h + cos * b, sin * i + cos * c, sin * v + cos * t, d, e, f, u, *third)
+    first = (cos * a - sin * d, cos * b - sin * e, cos * c - sin * f, cos * t - sin * u)
+    return (*first, sin * a + cos * d, sin * b + cos * e, sin * c + cos * f, sin * t + cos * u, g, h, i, v)
+
+
+def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
+    """The item that a complete draft describes; parts: the shapes that an intersection is made of.
+
+    Errors: InputError with file, line and the item's name for anything that makes no shape.
+    """
+    try:
+        mesh = _SHAPES[draft.kind or ""](draft, words, parts)
+        if draft.removed is not None:
+            mesh = _without_faces(mesh, draft.removed)
+        if draft.patterns:
+            _check_patterns(draft.patterns, mesh)
+    except InputError as error:
+        if error.file is not None:
+            raise
+        words.fail(draft.kind_index, draft.owner + error.cause)
+    occludes = draft.material != "transparent" if draft.occludes is None else draft.occludes
+    return Item(draft.name, mesh, draft.colour or "gray", _material(draft), draft.patterns, draft.lines, occludes)
+
+
+def _material(draft: Draft) -> Material:
+    if draft.material is None and draft.opacity is None and draft.refraction == 1.0:
+        return _NORMAL
+    word = draft.material or "normal"
+    opacity = draft.opacity
+    if opacity is None:
+        opacity = OPACITY_OF_TRANSPARENT if word == "transparent" else 1.0
+    return Material(word, opacity, draft.refraction)
+
+
+def _box(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    return box(draft.lengths or (), caps=draft.caps, placement=draft.placement)
+
+
+def _revolution(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    meridian = np.array(draft.meridian).T
+    body = revolution(meridian, draft.order or 0, angle_deg=draft.angle_deg, caps=draft.caps)
+    return placed(body, draft.placement)
+
+
+def _translation(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    body = prism(np.array(draft.base_points).T, np.array(draft.trans_vector), caps=draft.caps)
+    return placed(body, draft.placement)
+
+
+def _intersection(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    body = parts[0]
+    for part in parts[1:]:
+        body = intersection(body, part)
+    if not body.face_count:
+        raise InputError(f"{' and '.join(draft.parts or ())} have no volume in common")
+    return placed(body, draft.placement)
+
+
+def _general(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    """A polyhedron from its lists; turned outwards where it is convex and not called general."""
+    vertices = np.array(draft.vertices, dtype=np.float64).reshape(3, -1).T
+    for what, groups in (("face", draft.faces), ("edge", draft.edges)):
+        for number, group in enumerate(groups or (), 1):
+            if min(group) < 1 or max(group) > len(vertices):
+                bad = next(v for v in group if not 1 <= v <= len(vertices))
+                raise InputError(f"{what} {number} names vertex {bad}, there are {len(vertices)}, counted from 1")
+    mesh = Mesh.from_polygons(vertices, [[vertex - 1 for vertex in face] for face in draft.faces or ()])
+    if draft.edges is not None:
+        _check_edges(draft.edges, mesh)
+    if draft.form not in ("general", "concave"):
+        outwards = turned_outwards(mesh)
+        if has_convex_outline(outwards):
+            mesh = outwards
+        elif draft.form == "convex":
+            line = words.line(draft.index)
+            cause = f"{words.name}:{line}: {draft.owner}is not convex; its faces are taken as they are listed"
+            warnings.warn(cause, InputWarning, stacklevel=2)
+    return placed(mesh, draft.placement)
+
+
+def _check_edges(edges: list[list[int]], mesh: Mesh) -> None:
+    """Every listed edge must be a side of a face."""
+    for number, edge in enumerate(edges, 1):
+        if len(edge) != 2 or edge[0] == edge[1]:
+            raise InputError(f"edge {number}: expected two different vertices")
+    count = len(mesh.vertices)
+    sides = mesh_edges(mesh) @ np.array([count, 1])
+    listed = np.sort(np.array(edges).reshape(-1, 2) - 1, axis=1) @ np.array([count, 1])
+    known = np.isin(listed, sides)
+    if not known.all():
+        first = int(np.argmin(known))
+        raise InputError(f"edge {first + 1} ({edges[first][0]} {edges[first][1]}) is no side of a face")
+
+
+def _without_faces(mesh: Mesh, removed: list[int]) -> Mesh:
+    present = np.ones(mesh.face_count, dtype=np.bool_) if mesh.present is None else mesh.present.copy()
+    for number in removed:
+        if not 1 <= number <= mesh.face_count:
+            raise InputError(f"removed_faces: there is no face {number}, faces run from 1 to {mesh.face_count}")
+        present[number - 1] = False
+    return Mesh(mesh.vertices, mesh.corners, mesh.offsets, present)
+
+
+def _check_patterns(patterns: tuple[Pattern, ...], mesh: Mesh) -> None:
+    for pattern in patterns:
+        if not 0 <= pattern.face < mesh.face_count:
+            cause = f"there is no face {pattern.face + 1}, faces run from 1 to {mesh.face_count}"
+            raise InputError(f"patterns, polygon {pattern.name}: {cause}")
+
+
+_SHAPES: dict[str, Callable[[Draft, Words, Sequence[Mesh]], Mesh]] = {
+    "box": _box,
+    "revolution": _revolution,
+    "translation": _translation,
+    "vertices": _general,
+    "intersection": _intersection,
+}
+
+CAP_WORDS = {"+bottom": BOTTOM, "+top": TOP}

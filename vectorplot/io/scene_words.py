@@ -1,0 +1,189 @@
+"""The words of the scene language, and a text cut into words."""
+
+from __future__ import annotations
+
+import json
+import re
+from difflib import get_close_matches
+from math import isfinite
+from typing import NoReturn
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.strokes import LineKind
+
+PALETTES = ("gray", "green", "yellow", "blue", "pink", "cyan", "magenta", "orange")
+"""The parent palettes; each has a ``light`` and a ``dark`` half too."""
+
+PLAIN_COLOURS = ("white", "black", "red")
+"""Colours without shades."""
+
+COLOURS = frozenset([*PALETTES, *("light" + p for p in PALETTES), *("dark" + p for p in PALETTES), *PLAIN_COLOURS])
+
+MATERIALS = {
+    "normal": "normal",
+    "metallic": "metallic",
+    "shiny": "shiny",
+    "reflecting": "shiny",
+    "mat": "mat",
+    "matte": "mat",
+    "wood": "wood",
+    "plastic": "plastic",
+    "transparent": "transparent",
+    "mirror": "mirror",
+}
+"""Words for physical properties, and the material each one names."""
+
+SOLID_WORDS = ("solid", "voll")
+FORM_WORDS = ("convex", *SOLID_WORDS, "hollow", "general", "concave")
+KIND_WORDS = ("vertices", "revolution", "translation", "box", "intersection")
+SCENE_WORDS = ("camera", "light", "page", "background", "title")
+LINE_WORDS = tuple(kind.word for kind in LineKind)
+
+_WORD = re.compile(r'"(?:[^"\\\n]|\\.)*"|,|[^\s,"#]+|(?:#[^\n]*)|"')
+_CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
+_NUMBER = re.compile(r"[-+.]*\d")
+
+PADDING = 4
+"""Empty words after the last one, so that looking ahead needs no test."""
+
+
+class Words:
+    """A text as a list of words and commas, without comments; errors find the line of a word when they need it.
+
+    A word is a run of characters without blanks, commas, quotes and #, or a string in double quotes with the escapes of
+    JSON. The list ends with PADDING empty words.
+    """
+
+    def __init__(self, text: str, name: str) -> None:
+        self.name = name
+        self._text = text
+        bad = _CONTROL.search(text)
+        if bad:
+            line = text.count("\n", 0, bad.start()) + 1
+            raise InputError("a control character: this is no scene file", file=name, line=line)
+        words = _WORD.findall(text)
+        if "#" in text:
+            words = [word for word in words if word[0] != "#"]
+        self.words: list[str] = words
+        if '"' in text and '"' in words:
+            self.fail(words.index('"'), 'a string lacks its closing "')
+        words.extend([""] * PADDING)
+
+    def line(self, index: int) -> int:
+        """The line, from 1, on which a word stands; for a word behind the last one the last line."""
+        seen = -1
+        end = len(self._text.rstrip())
+        for match in _WORD.finditer(self._text):
+            seen += not match[0].startswith("#")
+            if seen == index:
+                end = match.start()
+                break
+        return self._text.count("\n", 0, end) + 1
+
+    def fail(self, index: int, cause: str) -> NoReturn:
+        """Raise InputError with file and line of a word."""
+        raise InputError(cause, file=self.name, line=self.line(index))
+
+    def shown(self, index: int) -> str:
+        """A word as messages quote it."""
+        word = self.words[index]
+        return "the end of the file" if not word else word[:40] if word[0] == '"' else f"'{word[:40]}'"
+
+    def string(self, index: int) -> str:
+        """The text of a word, without its quotes if it has any."""
+        word = self.words[index]
+        if not word.startswith('"'):
+            return word
+        try:
+            return str(json.loads(word))
+        except ValueError:
+            self.fail(index, f"{word[:40]} is not a string: escapes are those of JSON")
+
+    def numbers(self, index: int, count: int, owner: str, what: str) -> tuple[list[float], int]:
+        """count finite numbers from a word on, commas between them allowed, and the word behind them."""
+        try:
+            values = list(map(float, self.words[index : index + count]))
+            if isfinite(sum(values)):
+                return values, index + count
+        except ValueError:
+            pass
+        values = []
+        for place in range(count):
+            if place and self.words[index] == ",":
+                index += 1
+            values.append(self.number(index, owner, what))
+            index += 1
+        return values, index
+
+    def number(self, index: int, owner: str, what: str) -> float:
+        """The finite number that a word spells."""
+        try:
+            value = float(self.words[index])
+        except ValueError:
+            self.fail(index, f"{owner}expected a number for {what}, got {self.shown(index)}")
+        if not isfinite(value):
+            self.fail(index, f"{owner}{what}: {self.shown(index)} is not a finite number")
+        return value
+
+    def whole(self, index: int, owner: str, what: str) -> int:
+        """The whole number that a word spells."""
+        try:
+            return int(self.words[index])
+        except ValueError:
+            self.fail(index, f"{owner}expected a whole number for {what}, got {self.shown(index)}")
+
+    def points(self, index: int, size: int, owner: str, what: str) -> tuple[list[list[float]], int]:
+        """The points of a list, coordinate by coordinate: size numbers each, commas between; and the word behind."""
+        words = self.words
+        end = index + size
+        try:
+            while words[end] == ",":
+                end += size + 1
+            columns = [list(map(float, words[index + k : end : size + 1])) for k in range(size)]
+            if isfinite(sum(map(sum, columns))) and len({len(column) for column in columns}) == 1:
+                return columns, end
+        except (ValueError, IndexError):
+            pass
+        columns = [[] for _ in range(size)]
+        while True:
+            for column in columns:
+                column.append(self.number(index, owner, what))
+                index += 1
+            if words[index] != ",":
+                return columns, index
+            index += 1
+
+    def groups(self, index: int, owner: str, what: str) -> tuple[list[list[int]], int]:
+        """The groups of whole numbers of a list, a comma between groups; and the word behind."""
+        words = self.words
+        groups: list[list[int]] = []
+        group: list[int] = []
+        while True:
+            try:
+                while True:
+                    group.append(int(words[index]))
+                    index += 1
+            except ValueError:
+                pass
+            if not group or _NUMBER.match(words[index]):
+                self.whole(index, owner, what)
+            groups.append(group)
+            if words[index] != ",":
+                return groups, index
+            group = []
+            index += 1
+
+    def is_number(self, index: int) -> bool:
+        """Whether a word begins like a number."""
+        return _NUMBER.match(self.words[index]) is not None
+
+
+def close_to(word: str, known: tuple[str, ...] | list[str]) -> str | None:
+    """The known word that another one resembles, or None."""
+    found = get_close_matches(word, known, n=1, cutoff=0.75)
+    return found[0] if found else None
+
+
+def bare_word(text: str) -> bool:
+    """Whether a text may stand as a name without quotes: ASCII, and neither a number nor more than one word."""
+    return re.fullmatch(r"[A-Za-z_][A-Za-z0-9_.:/()+-]*", text) is not None

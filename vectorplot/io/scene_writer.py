@@ -1,0 +1,119 @@
+"""Scenes as text in the scene language, with every digit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from json import dumps
+
+import numpy as np
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Floats, Mesh
+from vectorplot.io.scene_language import RESERVED
+from vectorplot.io.scene_words import COLOURS, LINE_WORDS, MATERIALS, bare_word
+from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
+
+
+def write_scene(scene: Scene) -> str:
+    """The scene in the scene language: parse_scene gives an equal scene back, to the last bit.
+
+    Every shape is written by its vertices and faces, numbered from 1. The text is ASCII; what is no bare word of the
+    language is quoted.
+    Errors: InputError for words the language lacks (a material or a kind of line of one's own).
+    Source: Glaeser, section 3.6; erratum G3-16.
+    """
+    blocks: list[str] = []
+    if scene.title:
+        blocks.append(f"title {dumps(scene.title)}")
+    if scene.background is not None:
+        blocks.append(f"background {_colour(scene.background)}")
+    if scene.page is not None:
+        blocks.append(_page(scene.page))
+    if scene.camera is not None:
+        blocks.append(_camera(scene.camera))
+    blocks.extend(_light(light) for light in scene.lights)
+    blocks.extend(_item(item) for item in scene.items)
+    return "".join(block + "\n" for block in blocks)
+
+
+def _name(text: str) -> str:
+    return text if bare_word(text) and text not in RESERVED else dumps(text)
+
+
+def _colour(text: str) -> str:
+    return text if text in COLOURS else dumps(text)
+
+
+def _numbers(values: Iterable[float]) -> str:
+    return " ".join(repr(float(value)) for value in values)
+
+
+def _list(points: Floats) -> str:
+    """Points with commas between them, one a line."""
+    return " ,\n  ".join(" ".join(map(repr, point)) for point in points.tolist())
+
+
+def _page(page: Page) -> str:
+    return f"page {page.width_mm!r}x{page.height_mm!r} margin {page.margin_mm!r}"
+
+
+def _camera(camera: Camera) -> str:
+    words = [f"camera eye {_numbers(camera.eye)} target {_numbers(camera.target)}"]
+    if camera.up is not None:
+        words.append(f"up {_numbers(camera.up)}")
+    words.append(f"twist {float(camera.twist_deg)!r} field_of_vision {float(camera.fov_deg)!r}")
+    if camera.parallel:
+        words.append("parallel")
+    if camera.height is not None:
+        words.append(f"height {float(camera.height)!r}")
+    return " ".join(words)
+
+
+def _light(light: Light) -> str:
+    words = ["light", *([_name(light.name)] if light.name else [])]
+    words.append(f"{'direction' if light.parallel else 'position'} {_numbers(light.position)}")
+    if light.intensity is not None:
+        words.append(f"intensity {float(light.intensity)!r}")
+    return " ".join(words)
+
+
+def _item(item: Item) -> str:
+    colour = item.colour if item.colour in COLOURS else f"colour {dumps(item.colour)}"
+    words = [_name(item.name), colour, "general", *_material(item.material)]
+    words.append(f"occludes {'yes' if item.occludes else 'no'}")
+    if item.lines is not None:
+        for word in item.lines:
+            if word not in LINE_WORDS:
+                raise InputError(f"{item.name}: '{word}' is no kind of line")
+        words.append(f"lines {', '.join(item.lines) or 'none'}")
+    return " ".join(words) + _mesh(item.shape) + _patterns(item.patterns)
+
+
+def _material(material: Material) -> list[str]:
+    if material.word not in MATERIALS.values():
+        raise InputError(f"'{material.word}' is no physical property of the scene language")
+    words = [material.word, f"opacity {float(material.opacity)!r}"]
+    if material.refraction != 1.0:
+        words.append(f"refraction {float(material.refraction)!r}")
+    return words
+
+
+def _mesh(mesh: Mesh) -> str:
+    vertices = _list(mesh.vertices) if len(mesh.vertices) else "none"
+    polygons = mesh.polygons()
+    faces = " ,\n  ".join(" ".join(str(corner + 1) for corner in polygon) for polygon in polygons) or "none"
+    text = f"\nvertices\n  {vertices}\nfaces\n  {faces}"
+    if mesh.present is not None:
+        text += "\nremoved_faces " + " , ".join(str(face + 1) for face in np.flatnonzero(~mesh.present).tolist())
+    return text
+
+
+def _patterns(patterns: tuple[Pattern, ...]) -> str:
+    if not patterns:
+        return ""
+    rows = [
+        f"\n  face {p.face + 1} polygon {dumps(p.name)} {_colour(p.colour)}\n  {_list(np.asarray(p.points))}"
+        for p in patterns
+    ]
+    return "\npatterns" + "".join(rows)
