@@ -48,6 +48,26 @@ def test_decimals_of_any_double_in_any_notation(values: list[float], digits: int
     assert decimals(*placed(words)).tolist() == [float(word) for word in words]
 
 
+def test_decimals_of_seventeen_digits_and_ties() -> None:
+    rng = np.random.default_rng(4)
+    values = [
+        *rng.normal(size=20000),
+        *(1.0 + rng.integers(0, 4096, 2000) * 2.0**-52),
+        *(2.0 - 2.0**-53, 1.0 - 2.0**-53),
+    ]
+    words = [f"{value:.17g}" for value in values] + [f"{value:.16f}" for value in values]
+    # Halfway between two doubles, and a hair beside it.
+    words += [
+        "9007199254740993.0",
+        "9007199254740993.01",
+        "9007199254740992.99",
+        "4503599627370496.5",
+        "4503599627370497.5",
+    ]
+    words += [f"{k}.{half}" for k in range(2**51, 2**51 + 40) for half in ("125", "375", "25", "75", "249", "251")]
+    assert decimals(*placed(words)).tolist() == [float(word) for word in words]
+
+
 @pytest.mark.hard(53)
 @pytest.mark.parametrize(
     "word", ["nan", "inf", "-Infinity", "1e999", "1_0", "0x10", "1,5", "--1", "1.2.3", "e", ".", "-", "1e", "١"]

@@ -1,4 +1,6 @@
 import os
+import subprocess
+import sys
 import warnings
 from pathlib import Path
 
@@ -145,3 +147,10 @@ def test_models_read_as_trimesh_reads_them(path: Path) -> None:
     area = np.linalg.norm(np.cross(*(corners[:, k] - corners[:, 0] for k in (1, 2))), axis=1).sum()
     assert np.isclose(area, expected, rtol=1e-3)
     assert np.allclose(mesh.bounds, [other.triangles.min(axis=(0, 1)), other.triangles.max(axis=(0, 1))])
+
+
+def test_reading_a_closed_mesh_loads_neither_scipy_nor_trimesh(tmp_path: Path) -> None:
+    path = written(tmp_path, "cube.obj", CUBE + faces(FACES))
+    code = "import sys; from vectorplot.io.read import read; read(sys.argv[1]); print(*sys.modules)"
+    found = subprocess.run([sys.executable, "-c", code, str(path)], capture_output=True, text=True, check=True)
+    assert not {"scipy", "trimesh", "shapely", "cairo"} & set(found.stdout.split())

@@ -159,11 +159,9 @@ def mended(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:
     mesh, dropped = without_degenerate(mesh)
     mending = Mending(degenerate=dropped)
     if not is_closed_oriented(mesh):
-        mesh, welds = _welded_where_open(mesh, precision)
-        mesh, dropped = without_degenerate(mesh)
-        mending = mending + welds + Mending(degenerate=dropped)
-        mesh, turns = _wound(mesh)
-        mending = mending + turns
+        mesh, uses, welds = _welded_where_open(mesh, precision)
+        mesh, turns = _wound(mesh, uses)
+        mending = mending + welds + turns
     elif mesh.face_count:
         number, piece = joined_pieces(mesh)
         turn = inside_out(mesh, piece, number)
@@ -178,24 +176,27 @@ def welded(mesh: Mesh) -> tuple[Mesh, int]:
     return Mesh(mesh.vertices[first] + 0.0, number[mesh.corners], mesh.offsets, mesh.present), len(number) - len(first)
 
 
-def _welded_where_open(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:
+def _welded_where_open(mesh: Mesh, precision: float) -> tuple[Mesh, EdgeUses, Mending]:
+    """The mesh with equal vertices made one, and close ones on its border; its edges; and what was done."""
     mesh, count = welded(_without_loose_vertices(mesh))
+    mesh, dropped = without_degenerate(mesh) if count else (mesh, 0)
     uses = edge_uses(mesh)
     border = uses.corner[uses.first[uses.count == 1]]
-    if len(border):
-        rim = np.unique(np.concatenate([mesh.corners[border], mesh.corners[mesh.next_corner[border]]]))
-        tolerance = 4.0 * precision * float(np.abs(mesh.bounds).max())
-        kept = rim[close_points(mesh.vertices[rim], tolerance)]
+    rim = np.unique(np.concatenate([mesh.corners[border], mesh.corners[mesh.next_corner[border]]]))
+    kept = rim[close_points(mesh.vertices[rim], 4.0 * precision * float(np.abs(mesh.bounds).max()))]
+    close = int((kept != rim).sum())
+    if close:
         number = np.arange(len(mesh.vertices))
         number[rim] = kept
-        count += int((kept != rim).sum())
         mesh = Mesh(mesh.vertices, number[mesh.corners], mesh.offsets, mesh.present)
-    return mesh, Mending(welded=count)
+        mesh, collapsed = without_degenerate(mesh)
+        dropped += collapsed
+        uses = edge_uses(mesh)
+    return mesh, uses, Mending(welded=count + close, degenerate=dropped)
 
 
-def _wound(mesh: Mesh) -> tuple[Mesh, Mending]:
+def _wound(mesh: Mesh, uses: EdgeUses) -> tuple[Mesh, Mending]:
     """The mesh with consistent winding where there is one, solids outside out; and the counts of what is left."""
-    uses = edge_uses(mesh)
     repeated = 0
     if (uses.count > 2).any():
         again = repeated_faces(mesh)

@@ -39,7 +39,7 @@ def decimals(text: Bytes, starts: Ints, ends: Ints) -> Floats:
     """(n,) the numbers written in text[starts:ends], rounded correctly.
 
     Up to 8 digits before the point and 16 after it, less than 2^53 in all, are a quotient of two exact doubles, rounded
-    once; everything else goes through Python's own conversion.
+    once; up to 18 digits are one of long doubles; everything else goes through Python's own conversion.
     Errors: NumeralError for a word that is no decimal number, and for one that is not finite.
     Source: Clinger, How to read floating point numbers accurately, section 4 (the fast case).
     """
@@ -59,8 +59,11 @@ def decimals(text: Bytes, starts: Ints, ends: Ints) -> Floats:
         good &= fine
     mantissa = whole * _TENS[np.minimum(after, 16)] + low
     # Eight digits before the point and sixteen after it would not fit into 64 bits.
-    good &= (mantissa < np.uint64(1 << 53)) & (before + after <= 18)
+    good &= before + after <= 18
     values = mantissa.astype(np.float64) / _POWERS[np.minimum(after, 22)]
+    large = np.flatnonzero(good & (mantissa >= np.uint64(1 << 53)))
+    if len(large):
+        values[large], good[large] = _long_quotients(mantissa[large], after[large])
     np.negative(values, out=values, where=negative)
     if not good.all():
         odd = np.flatnonzero(~good)
@@ -119,6 +122,20 @@ def _digits(words: Words, ends: Ints, length: Ints) -> tuple[Words, Bools]:
     fours = (window & mask) * np.uint64(0x000F424000000064)
     fours += ((window >> np.uint64(16)) & mask) * np.uint64(0x0000271000000001)
     return fours >> np.uint64(32), good
+
+
+def _long_quotients(mantissa: Words, places: Ints) -> tuple[Floats, Bools]:
+    """(n,) integers below 2^63 over powers of ten, and whether they are rounded correctly for sure.
+
+    The quotient in 64 bits is rounded once, and again to 53: that is wrong only where the first rounding made it a tie,
+    half a unit (below a power of two a quarter) from the result. Nothing is sure without a long double of 64 bits.
+    """
+    if np.finfo(np.longdouble).nmant != 63:
+        return np.zeros(len(places)), np.zeros(len(places), dtype=np.bool_)
+    long = mantissa.astype(np.longdouble) / _POWERS.astype(np.longdouble)[places]
+    values = long.astype(np.float64)
+    rest = np.abs(long - values).astype(np.float64) / np.spacing(values)
+    return values, (rest != 0.5) & (rest != 0.25)
 
 
 def _one_by_one(text: Bytes, starts: Ints, ends: Ints, odd: Ints) -> Floats:
