@@ -64,7 +64,8 @@ def visible_parts(view: View, faces: ProjectedFaces, solid: Bools, segments: Seg
         alive[of[whole]] = False
     segment, low, high, side = (np.concatenate(column) for column in zip(*zones, strict=True))
     owner, low, high = _resolved(segment, low, high, side, gap)
-    owner, low, high = intervals.complement(len(segments), owner, low, high, gap)
+    long = high - low > gap[owner]
+    owner, low, high = intervals.complement(len(segments), owner[long], low[long], high[long], gap)
     return Visibility(owner, low, high, np.zeros(len(owner), dtype=np.intp))
 
 

@@ -98,17 +98,17 @@ def _through_near_plane(view: View, faces: ProjectedFaces) -> None:
     corner_behind = behind[view.corners]
     some = np.logical_or.reduceat(corner_behind, view.offsets[:-1])
     every = np.logical_and.reduceat(corner_behind, view.offsets[:-1])
-    faces.nearest[every] = np.inf
-    through = np.flatnonzero(some & ~every)
-    if len(through):
-        faces.box[:, through] = np.array([[-EVERYWHERE], [EVERYWHERE], [-EVERYWHERE], [EVERYWHERE]])
-        faces.nearest[through] = 0.0
-        normal, arm_length, first = newell(view, through)
-        toward = view.eye[:, None] - view.points[:, first]
-        distance = np.sqrt((toward * toward).sum(axis=0))
-        area = (normal * toward).sum(axis=0)
-        limit = view.tolerance * arm_length * np.maximum(distance, view.tolerance)
-        faces.facing[through] = np.where(np.abs(area) <= limit, 0, np.sign(area)).astype(np.int8)
+    touched = np.flatnonzero(some)
+    if not len(touched):
+        return
+    normal, arm_length, first = newell(view, touched)
+    toward = view.eye[:, None] - view.points[:, first]
+    distance = np.sqrt((toward * toward).sum(axis=0))
+    area = (normal * toward).sum(axis=0)
+    limit = view.tolerance * arm_length * np.maximum(distance, view.tolerance)
+    faces.facing[touched] = np.where(np.abs(area) <= limit, 0, np.sign(area)).astype(np.int8)
+    faces.box[:, touched] = np.array([[-EVERYWHERE], [EVERYWHERE], [-EVERYWHERE], [EVERYWHERE]])
+    faces.nearest[touched] = np.where(every[touched], np.inf, 0.0)
 
 
 def newell(view: View, faces: Ints) -> tuple[Floats, Floats, Ints]:

@@ -1,0 +1,72 @@
+"""The stages up to the visibility of all lines, for tests that look between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.draw import DRAWN, in_frame
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.strokes import LineKind
+from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.view import View, look
+from vectorplot.testing import visible_by_rays
+from vectorplot.visibility.hidden_lines import Visibility, counted_parts, visible_parts
+from vectorplot.visibility.lines import Lines, edge_lines, intersection_lines, joined_lines
+from vectorplot.visibility.occluders import solid_items
+from vectorplot.visibility.pairs import Segments
+from vectorplot.visibility.projected_faces import project_faces
+
+EVERY_EDGE = ("contour", "boundary", "crease", "edges", "intersection")
+
+
+@dataclass(frozen=True)
+class Seen:
+    view: View
+    lines: Lines
+    counted: Visibility
+    visible: Visibility
+
+    def length(self, parts: Visibility) -> float:
+        along = self.lines.end - self.lines.start
+        each = np.sqrt((along * along).sum(axis=0))
+        return float(((parts.high - parts.low) * each[parts.segment]).sum()) * self.view.scale
+
+
+def seen(scene: Scene, camera: Camera, kinds: tuple[str, ...] = DRAWN, fit: bool = True) -> Seen:
+    wanted = frozenset(map(LineKind.from_word, kinds))
+    view = look(scene, camera)
+    faces = project_faces(view)
+    solid = solid_items(view, faces)
+    found = [edge_lines(scene, view, faces, wanted, 25.0, np.ones(len(solid), dtype=np.bool_))]
+    if LineKind.INTERSECTION in wanted:
+        found.append(intersection_lines(scene, view, faces, wanted, solid))
+    lines, _ = in_frame(view, joined_lines(found), Page(), fit)
+    segments = Segments(lines.start, lines.end)
+    counted = counted_parts(view, faces, solid, segments, lambda part: None)
+    visible = visible_parts(view, faces, solid, segments, lambda part: None)
+    return Seen(view, lines, counted, visible)
+
+
+def wrong_samples(scene: Scene, camera: Camera, result: Seen, samples: int, seed: int) -> tuple[int, int, str]:
+    """How many samples disagree with brute-force rays, how many were sure enough to compare, and the first fault."""
+    lines, parts = result.lines, result.counted
+    if not len(lines):
+        return 0, 0, ""
+    random = np.random.default_rng(seed)
+    segment = random.integers(0, len(lines), samples)
+    at = random.random(samples)
+    points = lines.start[:, segment] + at * (lines.end - lines.start)[:, segment]
+    world = result.view.world_of(points.T)
+    truth = visible_by_rays(scene, camera, world)
+    key = parts.segment + 0.5 * parts.high
+    mine = parts.hidden_by[np.minimum(np.searchsorted(key, segment + 0.5 * at), len(key) - 1)]
+    sure = truth.clearance > 1e-6
+    wrong = np.flatnonzero(sure & (mine != truth.hidden_by))
+    fault = ""
+    if len(wrong):
+        first = wrong[0]
+        kind = LineKind(int(lines.kind[segment[first]])).word
+        fault = f"{kind} of item {lines.item[segment[first]]} at {world[first]}: {mine[first]}, rays {truth.hidden_by[first]}"
+    return len(wrong), int(sure.sum()), fault
