@@ -1,0 +1,120 @@
+from __future__ import annotations
+
+import hashlib
+import os
+import subprocess
+import sys
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
+from vectorplot.errors import InputError
+from vectorplot.save import FORMATS, save, write
+
+# Also run in processes of their own.
+BUILD = """
+import numpy as np
+from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
+n = np.zeros(50, dtype=np.intp)
+points = np.random.default_rng(1).uniform(0.0, 90.0, (150, 2))
+paths = Paths(points, np.arange(51) * 3, n > 0, n, n, n, np.zeros((150, 3)))
+layers = (Layer("visible", Pen(), (paths,)), Layer("b", Pen(), (Paths.empty(),)))
+drawing = Drawing(100.0, 90.0, layers, ("x",), "title")
+"""
+HASHES = """
+import hashlib
+from vectorplot.save import FORMATS, write
+print(*(hashlib.sha256(write(drawing, format)).hexdigest() for format in FORMATS))
+"""
+
+
+@pytest.fixture
+def drawing() -> Drawing:
+    names: dict[str, object] = {}
+    exec(BUILD, names)
+    return names["drawing"]  # type: ignore[return-value]
+
+
+@pytest.mark.hard(57)
+def test_hard_57_same_drawing_same_bytes_in_another_second_and_process(drawing):
+    first = [hashlib.sha256(write(drawing, format)).hexdigest() for format in FORMATS]
+    time.sleep(1.1)
+    environment = {**os.environ, "PYTHONHASHSEED": "7", "TZ": "Asia/Tokyo", "LC_ALL": "C"}
+    command = [sys.executable, "-c", BUILD + HASHES]
+    other = subprocess.run(command, capture_output=True, text=True, check=True, env=environment).stdout.split()
+    assert first == other
+
+
+@pytest.mark.parametrize("format", FORMATS)
+def test_save_writes_what_write_returns(drawing, tmp_path, format):
+    for name in (f"a.{format}", f"b.{format.upper()}"):
+        save(drawing, tmp_path / name)
+        save(drawing, str(tmp_path / name))
+        assert (tmp_path / name).read_bytes() == write(drawing, format)
+    assert sorted(path.name for path in tmp_path.iterdir()) == [f"a.{format}", f"b.{format.upper()}"]
+
+
+@pytest.mark.parametrize("name", ["a.gif", "a", ".svg", "a.svg.bak"])
+def test_an_unknown_suffix_is_refused(drawing, tmp_path, name):
+    with pytest.raises(InputError, match=r"unknown suffix .*\.svg, \.ps, \.eps, \.pdf, \.png, \.json"):
+        save(drawing, tmp_path / name)
+    with pytest.raises(InputError, match="unknown format"):
+        write(drawing, "gif")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_refused_drawing_leaves_the_old_file(drawing, tmp_path):
+    file = tmp_path / "a.svg"
+    file.write_text("old")
+    with pytest.raises(InputError):
+        save(replace(drawing, width_mm=np.nan), file)
+    assert file.read_text() == "old" and len(list(tmp_path.iterdir())) == 1
+
+
+@pytest.mark.parametrize("interruption", [OSError(28, "No space left on device"), KeyboardInterrupt()])
+def test_a_write_that_breaks_off_leaves_the_old_file_and_no_other(drawing, tmp_path, monkeypatch, interruption):
+    file = tmp_path / "a.svg"
+    file.write_text("old")
+
+    def fail(*_):
+        raise interruption
+
+    monkeypatch.setattr(os, "replace", fail)
+    with pytest.raises(type(interruption)) as error:
+        save(drawing, file)
+    assert file.read_text() == "old" and len(list(tmp_path.iterdir())) == 1
+    if isinstance(interruption, OSError):
+        assert error.value.filename == str(file)
+
+
+def test_a_folder_that_does_not_exist_is_named(drawing, tmp_path):
+    with pytest.raises(FileNotFoundError) as error:
+        save(drawing, tmp_path / "no" / "a.svg")
+    assert error.value.filename == str(tmp_path / "no" / "a.svg")
+
+
+def test_the_mode_of_a_replaced_file_is_kept_and_a_link_followed(drawing, tmp_path):
+    file, link = tmp_path / "a.svg", tmp_path / "link.svg"
+    file.write_text("old")
+    file.chmod(0o640)
+    link.symlink_to(file)
+    save(drawing, link)
+    assert link.is_symlink() and file.read_bytes() == write(drawing, "svg")
+    assert file.stat().st_mode & 0o777 == 0o640
+
+
+def test_writing_svg_does_not_load_cairo_and_writing_ps_not_svgwrite():
+    for format, absent in (("svg", "cairo"), ("ps", "svgwrite"), ("json", "cairo")):
+        script = f"{BUILD}\nimport sys\nfrom vectorplot.save import write\nwrite(drawing, {format!r})"
+        check = f"{script}\nassert {absent!r} not in sys.modules and 'scipy' not in sys.modules"
+        subprocess.run([sys.executable, "-c", check], check=True)
+
+
+def test_a_drawing_of_several_marks_keeps_them_all():
+    n = np.zeros(1, dtype=np.intp)
+    one = Paths(np.array([[1.0, 1.0], [2.0, 2.0]]), np.array([0, 2]), n > 0, n, n, n, np.zeros((2, 3)))
+    drawing = Drawing(10.0, 10.0, (Layer("a", Pen(), (one, one)), Layer("b", Pen(), ())))
+    assert write(drawing, "svg").count(b"<polyline") == 2

@@ -1,0 +1,108 @@
+"""Choosing, reordering and cutting polylines, all at once."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.drawing.drawing import Paths
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+
+
+def ranges(starts: Ints, counts: Ints) -> Ints:
+    """The indices starts[i], starts[i] + 1, ... (counts[i] of them), range after range."""
+    first = np.cumsum(counts) - counts
+    indices: Ints = np.arange(counts.sum(), dtype=np.intp) + np.repeat(starts - first, counts)
+    return indices
+
+
+def offsets_of(counts: Ints) -> Ints:
+    """Where each of consecutive runs of the given lengths begins, and where the last one ends."""
+    return np.concatenate(([0], np.cumsum(counts))).astype(np.intp)
+
+
+def chosen(paths: Paths, which: Ints | Bools) -> Paths:
+    """The strokes with these indices, in this order; or those where a mask is true."""
+    index = np.flatnonzero(which) if which.dtype == np.bool_ else which
+    counts = np.diff(paths.offsets)[index]
+    points = ranges(paths.offsets[index], counts)
+    return Paths(
+        paths.points[points],
+        offsets_of(counts),
+        paths.closed[index],
+        paths.kind[index],
+        paths.item[index],
+        paths.hidden_by[index],
+        paths.points3d[points],
+    )
+
+
+def concatenated(parts: tuple[Paths, ...]) -> Paths:
+    """The strokes of all parts, one part after the other."""
+    if len(parts) == 1:
+        return parts[0]
+    if not parts:
+        return Paths.empty()
+    return Paths(
+        np.concatenate([part.points for part in parts]),
+        offsets_of(np.concatenate([np.diff(part.offsets) for part in parts])),
+        np.concatenate([part.closed for part in parts]),
+        np.concatenate([part.kind for part in parts]),
+        np.concatenate([part.item for part in parts]),
+        np.concatenate([part.hidden_by for part in parts]),
+        np.concatenate([part.points3d for part in parts]),
+    )
+
+
+def unrolled(paths: Paths, start: Ints, extra: Ints) -> Paths:
+    """The same strokes as open ones: stroke i begins at its point start[i], goes round once, and extra[i] points on.
+
+    extra of 1 closes a loop by repeating its first point; the number of points gives a second lap; 0 is for open
+    strokes, which begin at 0.
+    """
+    counts = np.diff(paths.offsets)
+    longer = counts + extra
+    local = ranges(start, longer)
+    index = np.repeat(paths.offsets[:-1], longer) + local % np.maximum(np.repeat(counts, longer), 1)
+    open_ = np.zeros(len(paths), dtype=np.bool_)
+    return Paths(
+        paths.points[index], offsets_of(longer), open_, paths.kind, paths.item, paths.hidden_by, paths.points3d[index]
+    )
+
+
+def sections(
+    paths: Paths, stroke: Ints, first: Ints, t_first: Floats, last: Ints, t_last: Floats, page_from_world: Floats
+) -> Paths:
+    """Parts of open strokes, as strokes of their own.
+
+    Part i belongs to stroke[i]; it begins on the segment that starts at point first[i], at the fraction t_first[i],
+    and ends on the segment of last[i] at t_last[i]. The points in the world divide their segments so that their
+    images are the points on the page: for a central projection the fraction differs from that on the page.
+    """
+    inner = last - first
+    counts = inner + 2
+    offsets = offsets_of(counts)
+    points = np.empty((offsets[-1], 2))
+    points3d = np.empty((offsets[-1], 3))
+    between = ranges(first + 1, inner)
+    places = ranges(offsets[:-1] + 1, inner)
+    points[places], points3d[places] = paths.points[between], paths.points3d[between]
+    for places, segment, t in ((offsets[:-1], first, t_first), (offsets[1:] - 1, last, t_last)):
+        points[places], points3d[places] = _divided(paths, segment, t, page_from_world)
+    open_ = np.zeros(len(stroke), dtype=np.bool_)
+    return Paths(points, offsets, open_, paths.kind[stroke], paths.item[stroke], paths.hidden_by[stroke], points3d)
+
+
+def _divided(paths: Paths, segment: Ints, t: Floats, page_from_world: Floats) -> tuple[Floats, Floats]:
+    """The points at the fractions t of the segments, on the page and in the world; exact at 0 and 1."""
+    a, b = paths.points[segment], paths.points[segment + 1]
+    a3, b3 = paths.points3d[segment], paths.points3d[segment + 1]
+    row = page_from_world[3]
+    depth_a, depth_b = np.abs(a3 @ row[:3] + row[3]), np.abs(b3 @ row[:3] + row[3])
+    whole = t * depth_a + (1.0 - t) * depth_b
+    # Both depths vanish only for points that have no image; they are divided as on the page.
+    s = np.where(whole > 0.0, t * depth_a / np.where(whole > 0.0, whole, 1.0), t)
+    return _mixed(a, b, t[:, None]), _mixed(a3, b3, s[:, None])
+
+
+def _mixed(a: Floats, b: Floats, t: Floats) -> Floats:
+    return np.where(t < 0.5, a + t * (b - a), b - (1.0 - t) * (b - a))

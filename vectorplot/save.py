@@ -1,0 +1,87 @@
+"""Saving a drawing under a name whose suffix says the format."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+
+from vectorplot.drawing.drawing import Drawing
+from vectorplot.errors import InputError
+
+# Module and function of each format; a backend is imported when it is called for.
+_BACKENDS = {
+    "svg": ("svg", "svg_bytes"),
+    "ps": ("cairo", "ps_bytes"),
+    "eps": ("cairo", "eps_bytes"),
+    "pdf": ("cairo", "pdf_bytes"),
+    "png": ("cairo", "png_bytes"),
+    "json": ("json_file", "json_bytes"),
+}
+
+FORMATS = tuple(_BACKENDS)
+"""The formats that write knows."""
+
+
+def save(drawing: Drawing, path: str | os.PathLike[str]) -> None:
+    """Write the drawing in the format of the suffix: svg, ps, eps, pdf, png or json.
+
+    The file is written whole or not at all; an old one stays until the new one is complete.
+    Errors: InputError for an unknown suffix and for what vectorplot.backends.sheet refuses; OSError.
+    """
+    suffix = Path(path).suffix
+    if suffix[1:].lower() not in _BACKENDS:
+        raise InputError(f"unknown suffix {suffix!r}; known are .{', .'.join(FORMATS)}", file=os.fspath(path))
+    write_whole(path, write(drawing, suffix[1:]))
+
+
+def write(drawing: Drawing, format: str) -> bytes:
+    """The drawing as the content of a file: svg, ps, eps, pdf, png (at 150 dpi) or json.
+
+    Same drawing, same bytes. Errors: InputError for an unknown format and for what vectorplot.backends.sheet refuses.
+    """
+    if format.lower() not in _BACKENDS:
+        raise InputError(f"unknown format {format!r}; known are {', '.join(FORMATS)}")
+    module, function = _BACKENDS[format.lower()]
+    backend: Callable[[Drawing], bytes] = getattr(import_module(f"vectorplot.backends.{module}"), function)
+    return backend(drawing)
+
+
+def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
+    """Put the content into a file beside the path and rename it, so that nobody ever sees half of it.
+
+    The mode bits of a file that is replaced are kept; a link is followed; devices and pipes are written directly.
+    Errors: OSError that names the path.
+    """
+    target = Path(os.path.realpath(path))
+    if target.exists() and not target.is_file():
+        target.write_bytes(content)
+        return
+    try:
+        _replace(target, content)
+    except OSError as error:
+        # The name of the file beside it, which is never seen, would only puzzle the reader.
+        raise type(error)(error.errno, error.strerror, os.fspath(path)) from None
+
+
+def _replace(target: Path, content: bytes) -> None:
+    handle, beside = tempfile.mkstemp(prefix=".vectorplot-", suffix=".part", dir=target.parent)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+        os.chmod(beside, _mode(target))
+        os.replace(beside, target)
+    except BaseException:
+        Path(beside).unlink(missing_ok=True)
+        raise
+
+
+def _mode(target: Path) -> int:
+    """The mode bits of the file that is replaced, or those that a new file would get."""
+    if target.exists():
+        return target.stat().st_mode & 0o7777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask
