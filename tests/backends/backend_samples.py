@@ -40,12 +40,14 @@ def drawing_of(*marks: Paths, width=120.0, height=80.0, pen=None, names=("visibl
 def program(name: str) -> str:
     """The path of a reader; its absence is a failure in CI and a skip elsewhere."""
     path = shutil.which(name) or shutil.which(name, path=str(Path(sys.executable).parent))
-    if path is None:
-        missing = f"{name} is not installed: it reads back what the backends write"
-        if os.environ.get("CI") == "true":
-            pytest.fail(missing)
-        pytest.skip(missing)
-    return path
+    return path or missing(name)
+
+
+def missing(name: str) -> str:
+    reason = f"{name} is not installed: it reads back what the backends write"
+    if os.environ.get("CI") == "true":
+        pytest.fail(reason)
+    pytest.skip(reason)
 
 
 def run(name: str, *arguments: object) -> bytes:

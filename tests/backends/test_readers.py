@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from backend_samples import DPI, assert_same_picture, drawing_of, grey_of_pgm, grey_of_png, paths_of, run
+from backend_samples import DPI, assert_same_picture, drawing_of, grey_of_pgm, grey_of_png, missing, paths_of, run
 
 from vectorplot.backends.cairo import png_bytes
 from vectorplot.save import FORMATS, save, write
@@ -67,8 +67,10 @@ def picture(drawing) -> np.ndarray:
 
 @pytest.mark.capability("G4.X-plotter")
 def test_vpype_reads_layers_lengths_pens_and_page(sample, tmp_path):
-    import vpype
-
+    try:
+        import vpype
+    except ImportError:
+        missing("vpype")
     save(sample, tmp_path / "a.svg")
     document = vpype.read_multilayer_svg(str(tmp_path / "a.svg"), quantization=0.1)
     mm = 96.0 / 25.4

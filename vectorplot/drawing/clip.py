@@ -55,35 +55,44 @@ def _inside(paths: Paths, low: Floats, high: Floats, page_from_world: Floats) ->
     counts = np.diff(paths.offsets)
     owner = np.repeat(np.arange(len(paths)), np.maximum(counts - 1, 0))
     starts = np.delete(np.arange(len(paths.points)), paths.offsets[1:][counts > 0] - 1)
-    t0, t1 = _kept(paths.points[starts], paths.points[starts + 1], low, high)
+    a, b = paths.points[starts], paths.points[starts + 1]
+    t0, axis0 = _entered(a, b, low, high)
+    t1, axis1 = _entered(b, a, low, high)
+    t1 = 1.0 - t1
     kept = np.flatnonzero(t0 < t1)
-    starts, owner, t0, t1 = starts[kept], owner[kept], t0[kept], t1[kept]
-    goes_on = (starts[1:] == starts[:-1] + 1) & (owner[1:] == owner[:-1]) & (t1[:-1] == 1.0) & (t0[1:] == 0.0)
-    begin = np.flatnonzero(np.concatenate(([True], ~goes_on))[: len(kept)])
-    end = np.concatenate((begin[1:], [len(kept)]))[: len(begin)] - 1
-    stroke = owner[begin]
-    parts = sections(paths, stroke, starts[begin], t0[begin], starts[end], t1[end], page_from_world)
-    # Rounding may leave a cut a few ulp outside; backends rely on the border.
+    goes_on = (np.diff(starts[kept]) == 1) & (t1[kept[:-1]] == 1.0) & (t0[kept[1:]] == 0.0)
+    goes_on &= owner[kept[1:]] == owner[kept[:-1]]
+    begin = kept[np.concatenate(([True], ~goes_on))[: len(kept)]]
+    end = kept[np.concatenate((~goes_on, [True]))[: len(kept)]]
+    parts = sections(paths, owner[begin], starts[begin], t0[begin], starts[end], t1[end], page_from_world)
+    # Rounding may leave a cut beside the border it lies on, far beside it if the segment is very long.
+    _pinned(parts.points, parts.offsets[:-1], axis0[begin], (b > a)[begin], low, high)
+    _pinned(parts.points, parts.offsets[1:] - 1, axis1[end], (a > b)[end], low, high)
     np.clip(parts.points, low, high, out=parts.points)
-    return parts, stroke
+    return parts, owner[begin]
 
 
-def _kept(a: Floats, b: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
-    """The interval of each segment's parameter inside the box; empty (t0 >= t1) where it misses it."""
-    t0, t1 = np.zeros(len(a)), np.ones(len(a))
+def _pinned(points: Floats, places: Ints, axis: Ints, rises: Bools, low: Floats, high: Floats) -> None:
+    """Put cut ends on the border they cross: the lower one where the segment rises into the box. axis -1 is no cut."""
+    cut = np.flatnonzero(axis >= 0)
+    side = axis[cut]
+    points[places[cut], side] = np.where(rises[cut, side], low[side], high[side])
+
+
+def _entered(a: Floats, b: Floats, low: Floats, high: Floats) -> tuple[Floats, Ints]:
+    """The parameter at which each segment from a to b enters the box, and through a border across which axis.
+
+    0 and -1 where a is inside; infinite where the segment runs beside the box.
+    """
+    t, across = np.zeros(len(a)), np.full(len(a), -1)
     for axis in (0, 1):
         start, run = a[:, axis], b[:, axis] - a[:, axis]
-        moves = run != 0.0
-        divisor = np.where(moves, run, 1.0)
-        with np.errstate(
-            over="ignore"
-        ):  # a run of almost nothing: far outside the parameter's range is all that counts
-            to_low, to_high = (low[axis] - start) / divisor, (high[axis] - start) / divisor
-        misses = ~moves & ((start < low[axis]) | (start > high[axis]))
-        t0 = np.maximum(t0, np.where(moves, np.minimum(to_low, to_high), -np.inf))
-        t1 = np.minimum(t1, np.where(moves, np.maximum(to_low, to_high), np.inf))
-        t1 = np.where(misses, -np.inf, t1)
-    # An end that is inside belongs to the part, whatever the division rounds to.
-    t0 = np.where(((a >= low) & (a <= high)).all(axis=1), 0.0, t0)
-    t1 = np.where(((b >= low) & (b <= high)).all(axis=1), 1.0, t1)
-    return t0, t1
+        border = np.where(run > 0.0, low[axis], high[axis])
+        before = np.where(run > 0.0, start < border, start > border)
+        outside = (start < low[axis]) | (start > high[axis])
+        with np.errstate(over="ignore"):  # a run of almost nothing: that it ends outside is all that counts
+            entry = (border - start) / np.where(run != 0.0, run, 1.0)
+        entry = np.where(outside & ((run == 0.0) | ~before), np.inf, np.where(before, entry, 0.0))
+        across = np.where(entry > t, axis, across)
+        t = np.maximum(t, entry)
+    return t, across
