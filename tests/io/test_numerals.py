@@ -56,6 +56,9 @@ def test_decimals_of_seventeen_digits_and_ties() -> None:
         *(2.0 - 2.0**-53, 1.0 - 2.0**-53),
     ]
     words = [f"{value:.17g}" for value in values] + [f"{value:.16f}" for value in values]
+    words += ["0.9999999999999999999", "0.9223372036854775808", "0.9223372036854775807", "1.99999999999999999999"]
+    words += ["9.2233720368547758080", "12345678.0000000001", "0.0000000000000000001", "0.00000000000000000001"]
+    words += [f"{value / 37:.19f}" for value in values[:3000]]
     # Halfway between two doubles, and a hair beside it.
     words += [
         "9007199254740993.0",

@@ -15,7 +15,7 @@ PAD = 24
 _ZEROS = np.uint64(0x3030303030303030)
 _HIGH = np.uint64(0x8080808080808080)
 _POWERS = 10.0 ** np.arange(23)
-_TENS = np.array([10**k for k in range(17)], dtype=np.uint64)
+_TENS = np.array([10**k for k in range(20)], dtype=np.uint64)
 _ALLOWED = np.isin(np.arange(256), np.frombuffer(b"0123456789+-.eE", dtype=np.uint8))
 
 
@@ -38,8 +38,8 @@ def padded(data: bytes) -> Bytes:
 def decimals(text: Bytes, starts: Ints, ends: Ints) -> Floats:
     """(n,) the numbers written in text[starts:ends], rounded correctly.
 
-    Up to 8 digits before the point and 16 after it, less than 2^53 in all, are a quotient of two exact doubles, rounded
-    once; up to 18 digits are one of long doubles; everything else goes through Python's own conversion.
+    Up to 8 digits before the point and 19 after it, less than 2^53 in all, are a quotient of two exact doubles, rounded
+    once; less than 2^63 in all, one of long doubles; everything else goes through Python's own conversion.
     Errors: NumeralError for a word that is no decimal number, and for one that is not finite.
     Source: Clinger, How to read floating point numbers accurately, section 4 (the fast case).
     """
@@ -52,14 +52,18 @@ def decimals(text: Bytes, starts: Ints, ends: Ints) -> Floats:
     after = np.maximum(ends - point - 1, 0)
     whole, good = _digits(words, point, np.minimum(before, 8))
     low, fine = _digits(words, ends, np.minimum(after, 8))
-    good &= fine & (before <= 8) & (after <= 16) & (before + after > 0)
+    good &= fine & (before <= 8) & (after <= 19) & (before + after > 0)
     if len(after) and after.max() > 8:
         high, fine = _digits(words, ends - 8, np.clip(after - 8, 0, 8))
         low += high * _TENS[8]
         good &= fine
-    mantissa = whole * _TENS[np.minimum(after, 16)] + low
-    # Eight digits before the point and sixteen after it would not fit into 64 bits.
-    good &= before + after <= 18
+    if len(after) and after.max() > 16:
+        high, fine = _digits(words, ends - 16, np.clip(after - 16, 0, 3))
+        low += high * _TENS[16]
+        good &= fine
+    mantissa = whole * _TENS[np.minimum(after, 19)] + low
+    # More digits than these may not fit into 63 bits.
+    good &= ((before + after <= 18) | (whole == 0)) & (mantissa < np.uint64(1 << 63))
     values = mantissa.astype(np.float64) / _POWERS[np.minimum(after, 22)]
     large = np.flatnonzero(good & (mantissa >= np.uint64(1 << 53)))
     if len(large):
