@@ -155,7 +155,7 @@ def _ink(context: cairo.Context[Any], page: Sheet, scale: float, height: float) 
 
 
 def _stroke(context: cairo.Context[Any], ink: Ink, scale: float, height: float) -> None:
-    """Stroke the polylines. Cairo takes one point a call: the only loop over points in the package."""
+    """Stroke the polylines. Cairo takes one point a call, so this loops over points."""
     points = (ink.microns * (scale, -scale) + (0.0, height)).tolist()
     move_to, line_to = context.move_to, context.line_to
     ends = ink.offsets[1:].tolist()
