@@ -2,7 +2,8 @@
 
 A float filter over whole arrays decides what is clear; the rest is decided in integers, so every sign is right for the
 doubles given.
-Source: Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, section 4 (error bounds).
+Source: Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, section 4 (error
+bounds).
 """
 
 from __future__ import annotations
@@ -44,8 +45,8 @@ def orient2d(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Signs:
 def orient3d(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike) -> Signs:
     """+1 where a, b, c run counter-clockwise as seen from d, -1 where clockwise, 0 where the four are coplanar. Exact.
 
-    a, b, c, d (..., 3) are broadcast; the result has their leading shape. It is the sign of det(b-a, c-a, d-a): for a face
-    a, b, c of a solid +1 means that d is outside.
+    a, b, c, d (..., 3) are broadcast; the result has their leading shape. It is the sign of det(b-a, c-a, d-a): for a
+    face a, b, c of a solid +1 means that d is outside.
     Errors: InputError for coordinates that are not finite.
     """
     points = _broadcast(3, a, b, c, d)

@@ -8,7 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.errors import InputError
+from vectorplot.geometry.lens import field_of_vision_deg
 from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.rotations import euler_angles, rotation_x, rotation_z
 
 Point = tuple[float, float, float]
 
@@ -32,8 +34,8 @@ class Camera:
     the positive x-axis). twist_deg turns the camera about its principal ray, on top of either. fov_deg: the full
     angle over the picture height. parallel: rays parallel to eye - target; height is then the height of the picture in
     world units (None: as the central projection from this eye would have in the plane through the target).
-    Errors: InputError for an eye in the target, an up vector along the view, a field of vision outside 0 to 180 degrees,
-    a height that is not positive, and numbers that are not finite.
+    Errors: InputError for an eye in the target, an up vector along the view, a field of vision outside 0 to 180
+    degrees, a height that is not positive, and numbers that are not finite.
     Source: Glaeser, section 2.1, equations 1 to 5; the twist is his tau.
     """
 
@@ -101,6 +103,53 @@ class Camera:
         if self.parallel and self.height is not None:
             return self.height
         return 2.0 * self.distance * float(np.tan(np.radians(self.fov_deg) / 2.0))
+
+    @property
+    def euler_angles(self) -> tuple[float, float, float]:
+        """The angles alpha, beta, gamma in radians: the twist, from the zenith, a quarter turn more than the azimuth.
+
+        With an up vector that is not vertical alpha is the twist that does the same. The rows of axes are
+        Z(alpha) X(beta) Z(gamma). Source: Glaeser, section 2.1, equations 1 to 3 and 10; erratum G2-01.
+        """
+        return euler_angles(self.axes)
+
+    @classmethod
+    def from_euler(
+        cls,
+        distance: float,
+        alpha: float,
+        beta: float,
+        gamma: float,
+        target: Point = (0.0, 0.0, 0.0),
+        *,
+        fov_deg: float = 30.0,
+        parallel: bool = False,
+        height: float | None = None,
+    ) -> Camera:
+        """The camera that sees what a camera at (0, 0, distance) sees of a scene turned by alpha about z, beta about
+        x and gamma about z, with its target in the origin. Angles in radians, any numbers.
+
+        Source: Glaeser, section 2.1, equations 9 and 10.
+        """
+        if not (0.0 < distance < np.inf and np.isfinite((alpha, beta, gamma)).all()):
+            raise InputError("camera: distance and angles must be finite numbers, the distance positive")
+        axes = rotation_z(alpha) @ rotation_x(beta) @ rotation_z(gamma)
+        x, y, z = (float(t) + distance * float(w) for t, w in zip(target, axes[2], strict=True))
+        # Near the zenith the eye's azimuth has no digits: there the up vector says how the picture stands.
+        upright = float(np.hypot(axes[2, 0], axes[2, 1])) < 1e-6
+        up = (float(axes[1, 0]), float(axes[1, 1]), float(axes[1, 2])) if upright else None
+        twist = 0.0 if upright else float(np.degrees(euler_angles(axes)[0]))
+        return cls((x, y, z), target, up, twist, fov_deg, parallel, height)
+
+    @classmethod
+    def from_focal_length(
+        cls, focal_length_mm: float, eye: Point, target: Point = (0.0, 0.0, 0.0), *, twist_deg: float = 0.0
+    ) -> Camera:
+        """The camera with the field of vision of a miniature camera (24 x 36 mm) with this lens.
+
+        Source: Glaeser, section 2.2, table; erratum G2-15.
+        """
+        return cls(eye, target, twist_deg=twist_deg, fov_deg=field_of_vision_deg(focal_length_mm))
 
     @classmethod
     def view(cls, name: str, target: Point = (0.0, 0.0, 0.0), distance: float = 1.0) -> Camera:

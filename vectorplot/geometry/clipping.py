@@ -1,0 +1,251 @@
+"""Lines and polygons cut off at windows, boxes and frustums, many at once.
+
+In space everything is cut in homogeneous coordinates, before any division: a side of the frustum is then a half-space
+also behind the eye, where images would be mirrored (errata G2-08, G2-09).
+Source: Glaeser, section 2.5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+
+LEFT, RIGHT, ABOVE, BELOW, INFRONT, BEHIND = 1, 2, 4, 8, 16, 32
+"""Region codes; a point outside in two ways has their sum. Source: Cohen and Sutherland."""
+
+Codes = NDArray[np.uint8]
+Drawn = TypeVar("Drawn")
+
+
+@dataclass(frozen=True)
+class Window:
+    """A rectangle of the image: the clipping region. Errors: InputError where it is empty."""
+
+    min_x: float
+    max_x: float
+    min_y: float
+    max_y: float
+
+    def __post_init__(self) -> None:
+        if not (self.min_x < self.max_x and self.min_y < self.max_y):
+            raise InputError("a clipping window needs min_x < max_x and min_y < max_y")
+
+    @classmethod
+    def of_size(cls, width: float, height: float) -> Window:
+        """The whole window, from (0, 0) to (width, height)."""
+        return cls(0.0, width, 0.0, height)
+
+    @property
+    def sides(self) -> tuple[tuple[int, int, float, float], ...]:
+        """Code, axis, limit and sign of each side: sign * (coordinate - limit) is negative outside."""
+        return (
+            (LEFT, 0, self.min_x, 1.0),
+            (RIGHT, 0, self.max_x, -1.0),
+            (ABOVE, 1, self.max_y, -1.0),
+            (BELOW, 1, self.min_y, 1.0),
+        )
+
+
+@dataclass(frozen=True)
+class Box:
+    """A clipping window with depths after T2: far and near plane.
+
+    The initial values are z = -4 d and z = 0.8 d for an eye at the distance d. Errors: InputError where it is empty.
+    """
+
+    window: Window
+    min_z: float = -0.8
+    max_z: float = 4.0
+
+    def __post_init__(self) -> None:
+        if not self.min_z < self.max_z:
+            raise InputError("a clipping box needs min_z < max_z")
+
+    @property
+    def planes(self) -> Floats:
+        """(6, 4) far, near, left, right, above, below: homogeneous points inside have products >= 0 with all rows."""
+        w = self.window
+        return np.array(
+            [
+                [0.0, 0.0, 1.0, -self.min_z],
+                [0.0, 0.0, -1.0, self.max_z],
+                [1.0, 0.0, 0.0, -w.min_x],
+                [-1.0, 0.0, 0.0, w.max_x],
+                [0.0, -1.0, 0.0, w.max_y],
+                [0.0, 1.0, 0.0, -w.min_y],
+            ]
+        )
+
+
+def region_codes(points: ArrayLike, region: Window | Box) -> Codes:
+    """(...) sums of region codes of points (..., 2 or more), 0 inside; in a Box also in front of it or behind it.
+
+    A point is in front of a box also where z* < -1: it lies behind the eye.
+    """
+    p = np.asarray(points, dtype=np.float64)
+    codes = np.zeros(p.shape[:-1], dtype=np.uint8)
+    window = region.window if isinstance(region, Box) else region
+    for code, axis, limit, sign in window.sides:
+        codes |= np.where(sign * (p[..., axis] - limit) < 0.0, code, 0).astype(np.uint8)
+    if isinstance(region, Box):
+        z = p[..., 2]
+        front = (z > region.max_z) | (z < -1.0)
+        codes |= np.where(front, INFRONT, np.where(z < region.min_z, BEHIND, 0)).astype(np.uint8)
+    return codes
+
+
+@dataclass(frozen=True, eq=False)
+class ClippedLines:
+    """Segments after clipping: start and end (n, k); exists (n,): something is left; clipped (n,): something is gone.
+
+    Segments of which nothing is left keep rows with no meaning.
+    """
+
+    start: Floats
+    end: Floats
+    exists: Bools
+    clipped: Bools
+
+
+def clip_lines_2d(start: ArrayLike, end: ArrayLike, window: Window) -> ClippedLines:
+    """The parts of segments (n, 2 or more columns) inside a window; further columns, such as depth, go along linearly.
+
+    New ends lie on the window's sides to the last digit, and segments that are wholly inside keep every digit.
+    Source: Glaeser, section 2.5 (Cohen and Sutherland); errata G2-07, G2-10.
+    """
+    p, q = (np.array(x, dtype=np.float64) for x in (start, end))
+    clipped = (region_codes(p, window) | region_codes(q, window)) != 0
+    gone = np.zeros(len(p), dtype=np.bool_)
+    for _, axis, limit, sign in window.sides:
+        for moved, fixed in ((p, q), (q, p)):
+            out = sign * (moved[:, axis] - limit) < 0.0
+            gone |= out & (sign * (fixed[:, axis] - limit) < 0.0)
+            rows = np.flatnonzero(out & ~gone)
+            a, b = moved[rows], fixed[rows]
+            share = (limit - a[:, axis]) / (b[:, axis] - a[:, axis])
+            moved[rows] = a + share[:, None] * (b - a)
+            moved[rows, axis] = limit
+    return ClippedLines(p, q, ~gone, clipped)
+
+
+def clip_lines_3d(start: ArrayLike, end: ArrayLike, box: Box) -> ClippedLines:
+    """The parts of segments inside a box, given in homogeneous coordinates (n, 4), wherever the eye is; ends (n, 3)
+    after T2.
+
+    Source: Glaeser, section 2.5; errata G2-08 to G2-10.
+    """
+    p, q = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
+    low, high, exists, clipped = _inside_part(p @ box.planes.T, q @ box.planes.T)
+    ends = [
+        np.where((t < 0.5)[:, None], p + t[:, None] * (q - p), q - (1.0 - t)[:, None] * (q - p)) for t in (low, high)
+    ]
+    flat = [_divided(e, exists) for e in ends]
+    return ClippedLines(flat[0], flat[1], exists, clipped)
+
+
+def _inside_part(p: Floats, q: Floats) -> tuple[Floats, Floats, Bools, Bools]:
+    """From distances (n, planes) of both ends: parameters of the part inside, whether there is one, whether any is
+    cut."""
+    out_p, out_q = p < 0.0, q < 0.0
+    share = p / np.where(out_p != out_q, p - q, 1.0)
+    low = np.where(out_p & ~out_q, share, 0.0).max(axis=-1)
+    high = np.where(out_q & ~out_p, share, 1.0).min(axis=-1)
+    exists = ~(out_p & out_q).any(axis=-1) & (low <= high)
+    return low, high, np.asarray(exists), np.asarray((out_p | out_q).any(axis=-1))
+
+
+def _divided(points: Floats, exists: Bools) -> Floats:
+    weight = np.where(exists & (points[:, 3] > 0.0), points[:, 3], 1.0)
+    return np.asarray(points[:, :3] / weight[:, None])
+
+
+@dataclass(frozen=True, eq=False)
+class Polygons:
+    """Polygons one after the other: points (c, k), offsets (n+1,): polygon i has the points offsets[i] to
+    offsets[i+1]."""
+
+    points: Floats
+    offsets: Ints
+
+    @classmethod
+    def of(cls, *polygons: ArrayLike) -> Polygons:
+        """The polygons given as arrays (k, columns) of corners."""
+        arrays = [np.asarray(p, dtype=np.float64) for p in polygons]
+        return cls(np.concatenate(arrays), np.cumsum([0, *(len(a) for a in arrays)], dtype=np.intp))
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __getitem__(self, index: int) -> Floats:
+        return self.points[self.offsets[index] : self.offsets[index + 1]]
+
+
+def cut_polygons(polygons: Polygons, distance: Floats) -> tuple[Polygons, Bools]:
+    """The parts of polygons where a distance (c,), given at their corners and linear in between, is not negative.
+
+    Returns also (c',) which corners are new; those have all columns interpolated linearly. A polygon of which fewer
+    than three corners are left is left empty; the number of polygons does not change. A polygon that is not convex
+    may keep coincident edges along the cut, which enclose no area.
+    Source: Glaeser, section 2.5 (Hodgman and Sutherland); errata G2-10 to G2-12.
+    """
+    count = len(polygons.points)
+    following = np.arange(1, count + 1)
+    filled = polygons.offsets[1:] > polygons.offsets[:-1]
+    following[polygons.offsets[1:][filled] - 1] = polygons.offsets[:-1][filled]
+    beyond = distance[following]
+    crossing = (distance < 0.0) & (beyond > 0.0) | (distance > 0.0) & (beyond < 0.0)
+    share = np.where(crossing, distance / np.where(crossing, distance - beyond, 1.0), 0.0)
+    made = polygons.points + share[:, None] * (polygons.points[following] - polygons.points)
+    # Every corner may leave itself and, after it, a new corner on its side.
+    pairs = np.stack([polygons.points, made], axis=1).reshape(2 * count, -1)
+    kept = np.stack([distance >= 0.0, crossing], axis=1).reshape(2 * count)
+    ends = np.concatenate([[0], np.cumsum(kept)])[2 * polygons.offsets]
+    sizes = np.diff(ends)
+    kept &= np.repeat(np.repeat(sizes >= 3, np.diff(polygons.offsets)), 2)
+    offsets = np.concatenate([[0], np.cumsum(np.where(sizes >= 3, sizes, 0))])
+    is_new = np.tile(np.array([False, True]), count)
+    return Polygons(pairs[kept], offsets), is_new[kept]
+
+
+def clip_polygons_2d(polygons: Polygons, window: Window) -> Polygons:
+    """The parts of polygons (2 or more columns) inside a window; further columns, such as depth, are interpolated.
+
+    New corners lie on the window's sides to the last digit. Source: Glaeser, section 2.5 (Hodgman and Sutherland).
+    """
+    for _, axis, limit, sign in window.sides:
+        polygons, is_new = cut_polygons(polygons, sign * (polygons.points[:, axis] - limit))
+        polygons.points[is_new, axis] = limit
+    return polygons
+
+
+def clip_polygons_3d(polygons: Polygons, box: Box) -> Polygons:
+    """The parts of polygons, given in homogeneous coordinates (4 columns), inside a box; corners (3 columns) after T2.
+
+    Far and near come first, so that few corners are left for the sides. Source: Glaeser, section 2.5; errata G2-09,
+    G2-12.
+    """
+    for plane in box.planes:
+        polygons, _ = cut_polygons(polygons, polygons.points @ plane)
+    points = polygons.points
+    return Polygons(_divided(points, np.ones(len(points), dtype=np.bool_)), polygons.offsets)
+
+
+def clip_and_draw(
+    start: ArrayLike,
+    end: ArrayLike,
+    clip: Callable[[ArrayLike, ArrayLike], ClippedLines],
+    draw: Callable[[Floats, Floats], Drawn],
+) -> Drawn:
+    """What draw makes of the segments that clip leaves: any way of clipping goes with any way of drawing.
+
+    Segments that are not clipped are drawn as they are. Source: Glaeser, section 2.5.
+    """
+    lines = clip(start, end)
+    return draw(lines.start[lines.exists], lines.end[lines.exists])

@@ -1,0 +1,74 @@
+"""Planes in space, many at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.tolerance import PARALLEL_SINE, ROUNDING
+from vectorplot.geometry.vectors import cross, dot, length
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """Planes n.x = c. normal (..., 3), of any length; point (..., 3): a point of each plane.
+
+    The point is kept, and distances are measured from it, because n.x - c loses its digits far from the origin.
+    Errors: InputError for a normal without length.
+    Source: Glaeser, section 1.1, equations 8 to 10.
+    """
+
+    normal: Floats
+    point: Floats
+
+    def __post_init__(self) -> None:
+        for name in ("normal", "point"):
+            object.__setattr__(self, name, np.asarray(getattr(self, name), dtype=np.float64))
+        if not np.all(length(self.normal) > 0.0):
+            raise InputError("a plane needs a normal that has a length")
+
+    @classmethod
+    def through(cls, p: ArrayLike, q: ArrayLike, r: ArrayLike) -> Plane:
+        """The planes through three points (..., 3) each; P, Q, R run counter-clockwise seen from the normal's tip.
+
+        Errors: InputError for three points on a line.
+        """
+        p, q, r = (np.asarray(x, dtype=np.float64) for x in (p, q, r))
+        u, v = q - p, r - p
+        normal = cross(u, v)
+        size = np.maximum(np.abs(p), np.maximum(np.abs(q), np.abs(r))).max(axis=-1)
+        noise = ROUNDING * size * np.maximum(length(u), length(v))
+        if not np.all(length(normal) > np.maximum(PARALLEL_SINE * length(u) * length(v), noise)):
+            raise InputError("three points on a line span no plane")
+        return cls(normal, np.broadcast_to(p, normal.shape))
+
+    @classmethod
+    def of_equation(cls, normal: ArrayLike, constant: ArrayLike) -> Plane:
+        """The planes n.x = c for normals (..., 3) and constants (...)."""
+        n = np.asarray(normal, dtype=np.float64)
+        squared = dot(n, n)
+        if not np.all(squared > 0.0):
+            raise InputError("a plane needs a normal that has a length")
+        return cls(n, n * (np.asarray(constant, dtype=np.float64) / squared)[..., None])
+
+    @property
+    def constant(self) -> Floats:
+        """(...) the c of n.x = c."""
+        return dot(self.normal, self.point)
+
+    def distance(self, points: ArrayLike) -> Floats:
+        """(...) signed distances of points (..., 3), positive on the normal's side."""
+        return np.asarray(dot(self.normal, np.asarray(points, dtype=np.float64) - self.point) / length(self.normal))
+
+    def side(self, points: ArrayLike) -> NDArray[np.int8]:
+        """(...) +1 for points (..., 3) on the normal's side, -1 on the other; a point in the plane counts as +1.
+
+        In the plane means: as near as rounding can tell. Exact signs for three given points: orient3d.
+        """
+        arm = np.asarray(points, dtype=np.float64) - self.point
+        noise = ROUNDING * np.maximum(np.abs(points), np.abs(self.point)).max(axis=-1)
+        return np.where(dot(self.normal, arm) < -noise * length(self.normal), -1, 1).astype(np.int8)

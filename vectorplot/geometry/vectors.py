@@ -1,0 +1,136 @@
+"""Vectors in the plane and in space, many at once: the last axis holds the components.
+
+Sums, differences, multiples and copies are numpy's own; here stands what numpy does not say in one word.
+Source: Glaeser, sections 1.1, 1.2 and 1.4.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.tolerance import ROUNDING
+
+
+def dot(a: ArrayLike, b: ArrayLike) -> Floats:
+    """The scalar products (...) of vectors (..., k)."""
+    return np.asarray((np.asarray(a, dtype=np.float64) * np.asarray(b, dtype=np.float64)).sum(axis=-1))
+
+
+def cross(a: ArrayLike, b: ArrayLike) -> Floats:
+    """The vector products (..., 3) of vectors in space; of vectors in the plane their third component (...)."""
+    a, b = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
+    if a.shape[-1] == 2:
+        return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
+    return np.asarray(np.cross(a, b), dtype=np.float64)
+
+
+def length(vectors: ArrayLike) -> Floats:
+    """The lengths (...) of vectors (..., k), without overflow or underflow on the way."""
+    v = np.asarray(vectors, dtype=np.float64)
+    largest = np.abs(v).max(axis=-1, initial=0.0, keepdims=True)
+    scaled = v / np.where((largest > 0.0) & (largest < np.inf), largest, 1.0)
+    return np.asarray(largest[..., 0] * np.sqrt((scaled * scaled).sum(axis=-1)))
+
+
+def normalize(vectors: ArrayLike, *, magnitude: ArrayLike = 0.0) -> Floats:
+    """Unit vectors (..., k) of the same directions.
+
+    magnitude (...): the largest coordinate the vectors were made of; a difference of points that is no longer than
+    their rounding has no direction.
+    Errors: InputError for a vector without length, or of a length that is not finite.
+    Source: Glaeser, section 1.2, equations 11 and 12; errata G1-03, G1-06.
+    """
+    v = np.asarray(vectors, dtype=np.float64)
+    long = length(v)
+    if not np.all((long > ROUNDING * np.asarray(magnitude)) & (long < np.inf)):
+        raise InputError("a vector without length has no direction")
+    # The first division keeps the second away from overflow and underflow.
+    v = v / np.abs(v).max(axis=-1, keepdims=True)
+    return np.asarray(v / np.sqrt((v * v).sum(axis=-1, keepdims=True)))
+
+
+def point_on_line(p: ArrayLike, q: ArrayLike, parameter: ArrayLike) -> Floats:
+    """The points (..., k) of the lines PQ at the parameters (...): 0 gives P, 1 gives Q, any number is allowed.
+
+    Source: Glaeser, section 1.1, equations 4 and 5.
+    """
+    p, q = np.asarray(p, dtype=np.float64), np.asarray(q, dtype=np.float64)
+    t = np.asarray(parameter, dtype=np.float64)[..., None]
+    # From the nearer end, so that 1 gives Q to the last digit.
+    return np.asarray(np.where(t < 0.5, p + t * (q - p), q - (1.0 - t) * (q - p)))
+
+
+def point_at_distance(p: ArrayLike, q: ArrayLike, distance: ArrayLike) -> Floats:
+    """The points (..., k) of the lines PQ at a distance (...) from P, towards Q; negative distances lie beyond P.
+
+    Errors: InputError where P is Q. Source: Glaeser, section 1.2, equation 13.
+    """
+    p, q = np.asarray(p, dtype=np.float64), np.asarray(q, dtype=np.float64)
+    size = np.maximum(np.abs(p).max(axis=-1), np.abs(q).max(axis=-1))
+    return np.asarray(p + np.asarray(distance)[..., None] * normalize(q - p, magnitude=size))
+
+
+def translated(points: ArrayLike, vector: ArrayLike) -> Floats:
+    """The points (..., k) moved by a vector. Source: Glaeser, section 1.4."""
+    return np.asarray(np.asarray(points, dtype=np.float64) + np.asarray(vector, dtype=np.float64))
+
+
+def angle(a: ArrayLike, b: ArrayLike) -> Floats:
+    """The angles (...) between directions (..., k), 0 to pi, in radians.
+
+    Accurate for tiny and for straight angles, where the cosine alone has lost its digits.
+    Errors: InputError for a vector without length. Source: Glaeser, section 1.2, equations 14 and 15.
+    """
+    a, b = normalize(a), normalize(b)
+    sine = np.abs(cross(a, b)) if a.shape[-1] == 2 else length(cross(a, b))
+    return np.asarray(np.arctan2(sine, dot(a, b)))
+
+
+def angle_line_plane(direction: ArrayLike, normal: ArrayLike) -> Floats:
+    """The angles (...) between lines and planes given by their normals: 0 in the plane, positive towards the normal.
+
+    Source: Glaeser, section 1.2.
+    """
+    return np.asarray(np.pi / 2.0 - angle(direction, normal))
+
+
+def angle_planes(normal: ArrayLike, other: ArrayLike) -> Floats:
+    """The angles (...) between planes: those of their normals. Source: Glaeser, section 1.2."""
+    return angle(normal, other)
+
+
+def lambert_cosine(normal: ArrayLike, point: ArrayLike, light: ArrayLike) -> Floats:
+    """The cosines (...) that say how brightly faces are lit: 1 facing the light, negative on the side turned away.
+
+    normal (..., 3): of the faces; point (..., 3): their barycentres; light: where the light stands (3 components), or
+    (x, y, z, 0) for parallel rays that come from the direction (x, y, z).
+    Errors: InputError for a light in a barycentre. Source: Glaeser, sections 1.2 and 4.5.
+    """
+    light = np.asarray(light, dtype=np.float64)
+    point = np.asarray(point, dtype=np.float64)
+    if light.shape[-1] == 4:
+        ray = light[..., :3] - light[..., 3:] * point
+    else:
+        ray = light - point
+    return dot(normalize(normal), normalize(ray))
+
+
+def spherical_coordinates(points: ArrayLike) -> Floats:
+    """Distance from the origin, azimuth and elevation (..., 3) of points in space, angles in radians.
+
+    Degenerate: on the z-axis the azimuth is 0; the origin is (0, 0, 0). Source: Glaeser, section 2.4.
+    """
+    p = np.asarray(points, dtype=np.float64)
+    across = length(p[..., :2])
+    azimuth = np.where(across > 0.0, np.arctan2(p[..., 1], p[..., 0]), 0.0)
+    return np.stack([length(p), azimuth, np.arctan2(p[..., 2], across)], axis=-1)
+
+
+def from_spherical_coordinates(coordinates: ArrayLike) -> Floats:
+    """The points (..., 3) with these distances, azimuths and elevations."""
+    distance, azimuth, elevation = np.moveaxis(np.asarray(coordinates, dtype=np.float64), -1, 0)
+    across = distance * np.cos(elevation)
+    return np.stack([across * np.cos(azimuth), across * np.sin(azimuth), distance * np.sin(elevation)], axis=-1)
