@@ -11,10 +11,8 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.scene.scene import Scene
-
-ZERO_OF_EXTENT = 1e-9
-"""A distance below this part of the scene's extent counts as zero."""
 
 ULPS = 16.0
 """... and never fewer than so many rounding steps of the largest coordinate."""
