@@ -15,7 +15,7 @@ from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.scene.scene import Scene
 
 ULPS = 16.0
-"""... and never fewer than so many rounding steps of the largest coordinate."""
+"""Fewer rounding steps of the largest coordinate than these count as zero too."""
 
 NEAR_OF_DISTANCE = 1e-4
 """The near plane, as a part of the smaller of the eye's distance from its target and the scene's extent."""
