@@ -53,7 +53,9 @@ def plan_draw(scene: Scene, kinds: frozenset[LineKind], hidden: str, halo_mm: fl
         stages.append(Stage("counted lines", f"hidden lines are drawn {hidden}"))
     if halo_mm > 0.0:
         stages.append(Stage("halo", f"lines end {halo_mm:g} mm beside what is in front of them"))
-    stages.append(Stage("ink", "strokes on the page: duplicates out, joined, ordered for the pen"))
+    stages.append(Stage("strokes", "lines on the page, those that lie on each other once"))
+    stages.append(Stage("layers", "what shares a pen"))
+    stages.append(Stage("pen", "strokes joined, in an order that keeps the pen on the paper"))
     return tuple(stages)
 
 

@@ -1,0 +1,92 @@
+"""What shares a pen: strokes sorted into layers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from vectorplot.drawing.drawing import Layer, Paths, Pen
+from vectorplot.drawing.pieces import chosen
+from vectorplot.geometry.mesh import Ints
+from vectorplot.geometry.strokes import LineKind
+
+BLACK = "#000000"
+
+PENS = {
+    "visible": Pen(0.25, BLACK),
+    "contour": Pen(0.5, BLACK),
+    "intersection": Pen(0.35, BLACK),
+    "hidden": Pen(0.13, BLACK),
+    "pattern": Pen(0.18, BLACK),
+}
+"""The pens of layers by kind, as a draughtsman would choose them."""
+
+KIND_LAYER = {
+    LineKind.CONTOUR: "contour",
+    LineKind.BOUNDARY: "visible",
+    LineKind.CREASE: "visible",
+    LineKind.EDGES: "visible",
+    LineKind.INTERSECTION: "intersection",
+    LineKind.PATTERN: "pattern",
+}
+
+COLOURS = {
+    "gray": "#4d4d4d",
+    "green": "#1a7a1a",
+    "yellow": "#b8860b",
+    "blue": "#1f4fa3",
+    "pink": "#c2185b",
+    "cyan": "#00838f",
+    "magenta": "#a0139f",
+    "orange": "#d35400",
+    "white": "#bdbdbd",
+    "black": BLACK,
+    "red": "#c00000",
+}
+"""Inks for the palettes' names: dark enough for a line on white paper."""
+
+
+def layers_by_kind(paths: Paths) -> tuple[Layer, ...]:
+    """Layers visible, contour, intersection, hidden (not plotted) and pattern, without the empty ones at the end: so
+    each kind keeps its number from drawing to drawing."""
+    names = tuple(PENS)
+    of_kind = np.array([names.index(KIND_LAYER[kind]) for kind in LineKind])
+    which = np.where(paths.hidden_by > 0, names.index("hidden"), of_kind[paths.kind])
+    return _layers(paths, which, [(name, PENS[name], name != "hidden") for name in names])
+
+
+def layers_by_object(paths: Paths, items: Sequence[str]) -> tuple[Layer, ...]:
+    """A layer for every item in the order of the scene, and one for hidden lines, without the empty ones at the end."""
+    which = np.where(paths.hidden_by > 0, len(items), paths.item)
+    pens = [(name, PENS["visible"], True) for name in items]
+    return _layers(paths, which, [*pens, ("hidden", PENS["hidden"], False)])
+
+
+def layers_by_colour(paths: Paths, colours: Sequence[str]) -> tuple[Layer, ...]:
+    """A layer for every colour of items, drawn in its ink, and one for hidden lines.
+
+    colours: the colour of every item.
+    """
+    names = list(dict.fromkeys(colours))
+    of_item = np.array([names.index(colour) for colour in colours], dtype=np.intp)
+    which = np.full(len(paths), len(names))
+    shown = paths.hidden_by == 0
+    which[shown] = of_item[paths.item[shown]]
+    pens = [(name, Pen(PENS["visible"].width_mm, ink(name)), True) for name in names]
+    return _layers(paths, which, [*pens, ("hidden", PENS["hidden"], False)])
+
+
+def ink(colour: str) -> str:
+    """The ink, #rrggbb, for the name of a palette; light and dark ones share that of their parent."""
+    return COLOURS.get(colour.removeprefix("light").removeprefix("dark"), COLOURS["gray"])
+
+
+def _layers(paths: Paths, which: Ints, named: Sequence[tuple[str, Pen, bool]]) -> tuple[Layer, ...]:
+    order = np.argsort(which, kind="stable")
+    bounds = np.searchsorted(which[order], np.arange(len(named) + 1))
+    return tuple(
+        Layer(name, pen, (chosen(paths, order[low:high]),), plotted)
+        for (name, pen, plotted), low, high in zip(named, bounds[:-1].tolist(), bounds[1:].tolist(), strict=True)
+        if low < len(order)
+    )
