@@ -137,7 +137,7 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
             raise
         words.fail(draft.kind_index, draft.owner + error.cause)
     occludes = draft.material != "transparent" if draft.occludes is None else draft.occludes
-    return Item(draft.name, mesh, draft.colour or "gray", _material(draft), draft.patterns, draft.lines, occludes)
+    return Item(draft.name, mesh, "gray" if draft.colour is None else draft.colour, _material(draft), draft.patterns, draft.lines, occludes)
 
 
 def _material(draft: Draft) -> Material:

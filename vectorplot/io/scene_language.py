@@ -166,7 +166,7 @@ class _Reader:
         self.places[draft.name] = len(self.items)
         self.items.append(finished(draft, self.source, parts))
         if len(self.items) > MAX_ITEMS:
-            self.source.fail(draft.index, f"more than {MAX_ITEMS} items")
+            self.source.fail(draft.index, f"{draft.owner}more than {MAX_ITEMS} items")
 
     def ends(self, draft: Draft) -> bool:
         """Whether the item ends before a word that is none of the language's: an unknown colour is taken as gray."""

@@ -1,0 +1,121 @@
+"""Edges, neighbours and records."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from vectorplot.geometry.adjacency import (
+    NO_FACE,
+    body_record,
+    common_edge,
+    face_frames,
+    face_records,
+    mesh_edges,
+    neighbour_faces,
+)
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.solids import box, polyhedron
+
+VERTICES = [
+    [2, 0, 0], [1, 2, 0], [-1, 2, 0], [-2, 0, 0], [-1, -2, 0], [1, -2, 0],
+    [2, 0, 4], [1, 2, 1], [-1, 2, 1], [-2, 0, 4], [-1, -2, 1], [1, -2, 1],
+]  # fmt: skip
+FACES = ["1 2 3 4 5 6", "1 2 8 7", "2 3 9 8", "3 4 10 9", "4 5 11 10", "5 6 12 11", "6 1 7 12", "10 11 12 7"]
+EDGES = (
+    "1 2 , 2 3 , 3 4 , 4 5 , 5 6 , 6 1 , 7 8 , 8 9 , 9 10 , 10 11 , 11 12 , 12 7 , "
+    "1 7 , 2 8 , 3 9 , 4 10 , 5 11 , 6 12 , 7 10"
+)
+
+
+def pyramid() -> Mesh:
+    return polyhedron(VERTICES, [[int(v) - 1 for v in face.split()] for face in FACES])
+
+
+@pytest.mark.capability("G3.3-edges-from-faces")
+@pytest.mark.capability("G3.3-general")
+def test_pyramid_has_the_19_edges_of_the_list_from_its_faces_alone():
+    mesh = pyramid()
+    listed = sorted(sorted(int(v) - 1 for v in pair.split()) for pair in EDGES.split(","))
+    assert mesh_edges(mesh).tolist() == listed
+    record = body_record(mesh)
+    assert (record.vertex_count, record.edge_count, record.face_count) == (12, 19, 8)
+
+
+@pytest.mark.capability("G3.2-orient")
+def test_pyramid_bottom_is_flipped_and_all_eight_faces_look_outwards():
+    mesh = pyramid()
+    assert mesh.polygons()[0] == [5, 4, 3, 2, 1, 0]
+    assert mesh.polygons()[1:] == [[int(v) - 1 for v in face.split()] for face in FACES[1:]]
+    assert (np.einsum("ij,ij->i", mesh.face_normals, face_records(mesh).barycentres - [0, 0, 1]) > 0).all()
+
+
+@pytest.mark.capability("G3.2-polyhedron")
+def test_tv16_pyramid_barycentre_and_hull():
+    scipy_spatial = pytest.importorskip("scipy.spatial")
+    record = body_record(pyramid())
+    assert np.allclose(record.barycentre, [0, 0, 1], atol=1e-15)
+    assert scipy_spatial.ConvexHull(np.array(VERTICES)).volume == pytest.approx(32)
+    closed = polyhedron(VERTICES, [*pyramid().polygons(), [6, 7, 8, 9]])
+    assert body_record(closed).volume == pytest.approx(32)
+    assert record.max_radius == pytest.approx(np.sqrt(13))
+    assert np.array_equal(record.bounds, [[-2, -2, 0], [2, 2, 4]])
+
+
+@pytest.mark.capability("G3.2-face")
+def test_face_records_hold_the_planes_of_all_corners():
+    for mesh in (pyramid(), box((1, 2, 3)), box((1, 2, 3), placement=(1, 0, 0, 1e6, 0, 1, 0, 0, 0, 0, 1, 0))):
+        records = face_records(mesh)
+        heights = np.einsum("ij,ij->i", records.normals[mesh.corner_face], mesh.vertices[mesh.corners])
+        assert np.allclose(heights, records.constants[mesh.corner_face], rtol=1e-15, atol=1e-9)
+        assert np.allclose(np.linalg.norm(records.normals, axis=1), 1.0)
+        means = [mesh.vertices[polygon].mean(axis=0) for polygon in mesh.polygons()]
+        assert np.allclose(records.barycentres, means, atol=1e-9)
+
+
+@pytest.mark.capability("G3.2-neighbours")
+def test_neighbourhood_is_symmetric_and_border_edges_have_no_neighbour():
+    mesh = pyramid()
+    across = neighbour_faces(mesh)
+    for corner, neighbour in enumerate(across.tolist()):
+        edge = {int(mesh.corners[corner]), int(mesh.corners[mesh.next_corner[corner]])}
+        if neighbour == NO_FACE:
+            assert edge in ({6, 7}, {7, 8}, {8, 9}, {6, 9})
+            continue
+        own = int(mesh.corner_face[corner])
+        back = [k for k in range(mesh.offsets[neighbour], mesh.offsets[neighbour + 1]) if across[k] == own]
+        assert any({int(mesh.corners[k]), int(mesh.corners[mesh.next_corner[k]])} == edge for k in back)
+    assert np.count_nonzero(across == NO_FACE) == 4
+
+
+@pytest.mark.capability("G3.3-common-edge")
+def test_common_edge_by_positions_in_the_first_face():
+    mesh = box((1, 1, 1))
+    assert common_edge(mesh, 0, 2) is None
+    first, second = common_edge(mesh, 0, 1)
+    assert {mesh.polygons()[0][first], mesh.polygons()[0][second]} == {1, 5}
+    # The edge between the first and the second vertex, and the one that closes the polygon, are found too.
+    assert common_edge(mesh, 0, 4) == (0, 1)
+    assert common_edge(mesh, 0, 3) == (3, 0)
+
+
+@pytest.mark.capability("G3.3-common-edge")
+def test_faces_that_share_vertices_which_are_no_neighbours_have_no_common_edge():
+    mesh = Mesh.from_polygons(
+        [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [1, 0, 1], [0, 1, 1]], [[0, 1, 2, 3], [0, 4, 2, 5]]
+    )
+    assert common_edge(mesh, 0, 1) is None
+    assert len(mesh_edges(mesh)) == 8
+
+
+def test_an_edge_of_three_faces_has_no_single_neighbour():
+    mesh = Mesh.from_polygons(
+        [[0, 0, 0], [0, 0, 1], [1, 0, 0], [0, 1, 0], [-1, 0, 0]], [[0, 1, 2], [1, 0, 3], [0, 1, 4]]
+    )
+    assert (neighbour_faces(mesh) == NO_FACE).all()
+
+
+def test_a_face_has_its_own_frame():
+    origins, axes = face_frames(box((10, 10, 10)), np.array([0, 5]))
+    assert np.allclose(origins, [[5, 0, 5], [5, 5, 10]])
+    assert np.allclose(axes, [[[1, 0, 0], [0, 0, 1]], [[1, 0, 0], [0, 1, 0]]])

@@ -1,0 +1,124 @@
+"""Boxes, prisms, polyhedra by their faces."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.adjacency import body_record, mesh_edges
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.solids import BOTTOM, TOP, box, has_convex_outline, polyhedron, prism, turned_outwards
+from vectorplot.geometry.winding import is_closed_oriented
+
+SWEEP = [[0, 2, 0], [0, -1.4, 0], [0, -2, 0.6], [0, -2, 1.2], [0, -1.4, 1.6], [0, 2, 1.6]]
+
+lengths = st.floats(0.01, 100).flatmap(lambda x: st.sampled_from([x, -x]))
+
+
+@pytest.mark.capability("G3.5-box")
+def test_box_has_a_corner_in_the_origin_and_its_faces_in_the_order_of_the_book():
+    body = box((3, 2, 1))
+    record = body_record(body)
+    assert (record.vertex_count, record.edge_count, record.face_count) == (8, 12, 6)
+    assert np.array_equal(body.bounds, [[0, 0, 0], [3, 2, 1]])
+    expected = [[0, -1, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, 0, -1], [0, 0, 1]]
+    assert np.allclose(body.face_normals, expected, atol=0)
+    assert np.array_equal(body.vertices[0], [0, 0, 0])
+
+
+@pytest.mark.capability("G3.5-box")
+def test_a_hollow_box_stores_bottom_and_top_as_absent():
+    assert box((1, 1, 1), caps=()).present.tolist() == [True] * 4 + [False, False]
+    assert box((1, 1, 1), caps=(BOTTOM,)).present.tolist() == [True] * 5 + [False]
+    assert box((1, 1, 1), caps=(TOP,)).present.tolist() == [True] * 4 + [False, True]
+    assert is_closed_oriented(box((1, 1, 1), caps=()))
+
+
+@given(lengths, lengths, lengths)
+def test_every_box_is_closed_and_turned_outwards(x, y, z):
+    body = box((x, y, z))
+    assert body_record(body).volume == pytest.approx(abs(x * y * z), rel=1e-12)
+    assert is_closed_oriented(body) and has_convex_outline(body)
+
+
+def test_a_placed_box_is_the_transformed_box():
+    cos, sin = np.cos(0.3), np.sin(0.3)
+    matrix = np.array([[cos, -sin, 0, 5], [sin, cos, 0, -2], [0, 0, 1, 7], [0, 0, 0, 1]])
+    placed = box((1, 2, 3), placement=matrix[:3].ravel().tolist())
+    assert np.allclose(placed.vertices, box((1, 2, 3)).transformed(matrix).vertices, atol=1e-14)
+
+
+def test_the_unchecked_box_would_pass_the_checks():
+    body = box((1, -2, 3), caps=(TOP,))
+    checked = Mesh(body.vertices, body.corners, body.offsets, body.present)
+    assert checked.vertices is body.vertices and checked.corners is body.corners and checked.offsets is body.offsets
+    assert np.array_equal(checked.present, body.present)
+
+
+@pytest.mark.parametrize("bad", [(0, 1, 1), (1, float("nan"), 1), (1, 1, float("inf")), (1e308, 1e308, 1)])
+def test_a_box_without_volume_is_refused(bad):
+    with pytest.raises(InputError, match="finite lengths"):
+        box(bad)
+
+
+@pytest.mark.capability("G3.5-translation")
+def test_tv17_translational_sweep():
+    body = prism(SWEEP, [-4.5, 0, 0])
+    record = body_record(body)
+    assert (record.vertex_count, record.edge_count, record.face_count) == (12, 18, 8)
+    assert np.linalg.norm(body.area_vectors[-1]) / 2 == pytest.approx(6.1, rel=1e-14)
+    assert record.volume == pytest.approx(27.45, rel=1e-14)
+    assert record.area == pytest.approx(59.7633727663249, rel=1e-14)
+
+
+@pytest.mark.capability("G3.5-translation")
+def test_a_base_listed_the_other_way_round_gives_the_same_body():
+    forward, backward = prism(SWEEP, [-4.5, 0, 0]), prism(SWEEP[::-1], [-4.5, 0, 0])
+    for body in (forward, backward):
+        assert is_closed_oriented(body)
+        assert body_record(body).volume == pytest.approx(27.45, rel=1e-14)
+        assert np.allclose(body.face_normals[-1], [-1, 0, 0])
+        assert np.allclose(body.face_normals[-2], [1, 0, 0])
+
+
+@pytest.mark.parametrize(
+    ("base", "vector"),
+    [
+        ([[0, 0, 0], [1, 0, 0], [1, 1, 0]], [1, 2, 0]),
+        ([[0, 0, 0], [1, 0, 0]], [0, 0, 1]),
+        ([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [0, 0, 1]),
+        ([[0, 0, 0], [1, 0, 0], [1, 1, np.nan]], [0, 0, 1]),
+        ([[0, 0, 0], [1, 0, 0], [1, 1, 0]], [0, 0, 0]),
+    ],
+)
+def test_a_prism_without_volume_is_refused(base, vector):
+    with pytest.raises(InputError):
+        prism(base, vector)
+
+
+def test_a_base_out_of_its_plane_is_said():
+    with pytest.warns(InputWarning, match="one plane"):
+        prism([[0, 0, 0], [1, 0, 0], [1, 1, 0.2], [0, 1, 0]], [0, 0, 1])
+
+
+@pytest.mark.capability("G3.2-orient")
+@given(st.lists(st.booleans(), min_size=6, max_size=6))
+def test_faces_of_a_convex_body_may_be_listed_either_way_round(flips):
+    body = box((1, 2, 3), placement=(1, 0, 0, 1e6, 0, 1, 0, -1e6, 0, 0, 1, 1e6))
+    faces = [face[::-1] if flip else face for face, flip in zip(body.polygons(), flips, strict=True)]
+    assert np.allclose(polyhedron(body.vertices, faces).face_normals, body.face_normals, atol=1e-9)
+
+
+def test_a_body_that_is_not_convex_is_left_as_it_is_listed():
+    corner = prism([[0, 0, 0], [2, 0, 0], [2, 1, 0], [1, 1, 0], [1, 2, 0], [0, 2, 0]], [0, 0, 1])
+    assert not has_convex_outline(corner)
+    assert polyhedron(corner.vertices, corner.polygons()).polygons() == corner.polygons()
+
+
+def test_nothing_is_turned_in_an_empty_mesh():
+    empty = Mesh.from_polygons(np.zeros((0, 3)), [])
+    assert turned_outwards(empty).face_count == 0 and has_convex_outline(empty)
+    assert len(mesh_edges(empty)) == 0
