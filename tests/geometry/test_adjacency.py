@@ -9,7 +9,6 @@ from vectorplot.geometry.adjacency import (
     NO_FACE,
     body_record,
     common_edge,
-    face_frames,
     face_records,
     mesh_edges,
     neighbour_faces,
@@ -113,9 +112,3 @@ def test_an_edge_of_three_faces_has_no_single_neighbour():
         [[0, 0, 0], [0, 0, 1], [1, 0, 0], [0, 1, 0], [-1, 0, 0]], [[0, 1, 2], [1, 0, 3], [0, 1, 4]]
     )
     assert (neighbour_faces(mesh) == NO_FACE).all()
-
-
-def test_a_face_has_its_own_frame():
-    origins, axes = face_frames(box((10, 10, 10)), np.array([0, 5]))
-    assert np.allclose(origins, [[5, 0, 5], [5, 5, 10]])
-    assert np.allclose(axes, [[[1, 0, 0], [0, 0, 1]], [[1, 0, 0], [0, 1, 0]]])

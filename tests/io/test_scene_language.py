@@ -502,3 +502,20 @@ def test_torn_texts_raise_input_errors_only(data):
         parse_scene(" ".join([*words[:place], wild, *words[place + data.draw(st.integers(0, 2)) :]]))
     except InputError as error:
         assert error.line is not None
+
+
+DOCUMENTED = (Path(__file__).parents[2] / "docs" / "scene-language.md").read_text().split("```")[1::2]
+
+
+@pytest.mark.capability("G3.0-language")
+def test_the_examples_of_the_documentation_are_scenes():
+    examples = [text for text in DOCUMENTED if " = " not in text and "expected" not in text]
+    names = [[item.name for item in parse_scene(text).items] for text in examples]
+    assert names == [["TOP", "MUG"], ["CUBE"], ["PENCIL"], ["HOUSE"]]
+
+
+@pytest.mark.capability("G3.0-language")
+def test_every_word_of_the_language_is_documented():
+    text = (Path(__file__).parents[2] / "docs" / "scene-language.md").read_text()
+    words = scene_language.RESERVED - {c for p in PALETTES for c in ("light" + p, "dark" + p)}
+    assert not [word for word in sorted(words) if f"`{word}`" not in text and f'"{word}"' not in text]

@@ -85,21 +85,6 @@ def face_constants(mesh: Mesh) -> Floats:
     return np.asarray(np.einsum("ij,ij->i", mesh.face_normals, face_barycentres(mesh)))
 
 
-def face_frames(mesh: Mesh, faces: Ints) -> tuple[Floats, Floats]:
-    """Origin (k,3) and axes (k,2,3) of the faces' own coordinates, in which patterns are given.
-
-    The origin is the barycentre of the corners, x runs along the first edge, y to the left of it seen from outside; a
-    point (u,v) of a pattern lies at origin + u x + v y. Source: Glaeser, section 6.5.
-    """
-    start = mesh.offsets[faces]
-    along = mesh.vertices[mesh.corners[start + 1]] - mesh.vertices[mesh.corners[start]]
-    normals = mesh.face_normals[faces]
-    along = along - np.einsum("ij,ij->i", along, normals)[:, None] * normals
-    length = np.linalg.norm(along, axis=1)
-    along = along / np.where(length > 0.0, length, 1.0)[:, None]
-    return face_barycentres(mesh)[faces], np.stack([along, np.cross(normals, along)], axis=1)
-
-
 @dataclass(frozen=True, eq=False)
 class BodyRecord:
     """What there is to know about a body: counts; barycentre (3,) of its vertices; max_radius: the largest distance of
