@@ -113,3 +113,15 @@ def test_polygons_turn_as_their_rational_area_says(p):
     exact = [[Fraction(x) for x in q] for q in p]
     area = sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(exact, exact[1:] + exact[:1], strict=True))
     assert polygon_orientation(p) == sign(area)
+
+
+@given(points(5, 2, near_line))
+def test_nearly_flat_polygons_turn_as_their_rational_area_says(p):
+    exact = [[Fraction(x) for x in q] for q in p]
+    area = sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(exact, exact[1:] + exact[:1], strict=True))
+    assert polygon_orientation(p) == sign(area)
+
+
+def test_products_that_underflow_do_not_decide():
+    p = np.random.default_rng(19).integers(-4, 5, (4, 20000, 3)).astype(float)
+    assert (orient3d(*(p * 2.0**-359)) == orient3d(*p)).all()

@@ -262,6 +262,10 @@ def test_a_side_through_corners_keeps_the_right_half():
     assert half[0].tolist() == [[0, -1], [1, 0], [0, 1]] and not is_new.any()
     touching, _ = cl.cut_polygons(square, square.points[:, 0] - 1.0)
     assert len(touching) == 1 and len(touching[0]) == 0
+    two = Polygons.of(square.points, np.add(square.points, (0.5, 0.0)))
+    second, _ = cl.cut_polygons(two, two.points[:, 0] - 1.0)
+    assert len(second) == 2 and len(second[0]) == 0
+    assert second.points.tolist() == second[1].tolist() == [[1.0, -0.5], [1.5, 0.0], [1.0, 0.5]]
 
 
 @pytest.mark.capability("G2.5-clip3d-poly")

@@ -174,3 +174,33 @@ def test_random_triangles_agree_with_sampling_along_the_planes():
                     np.cross(w - u, x - u) @ normal for u, w in zip(other, np.roll(other, -1, axis=0), strict=True)
                 ]
                 assert not (0 <= t <= 1 and min(sides) > 1e-9)
+
+
+@pytest.mark.capability("G1.3-polygon-polygon")
+@pytest.mark.hard(19)
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_what_counts_as_a_segment_or_as_parallel_does_not_depend_on_the_scale(scale):
+    upright = SQUARE[:, [0, 2, 1]]
+    overlaps = np.array([1e-3, 1e-6, 1e-11, 0.0, -1e-6])
+    others = np.array([np.add(upright, (2.0 - overlap, 0.0, 0.0)) for overlap in overlaps])
+    _, exists = polygons_common_segment(scale * SQUARE, scale * others)
+    assert exists.tolist() == [True, True, False, False, False]
+    tilts = np.array([1e-3, 5e-13, 0.0])
+    tilted = np.array([SQUARE @ rotation_about((1, 0, 0), tilt) for tilt in tilts])
+    _, exists = polygons_common_segment(scale * SQUARE, scale * tilted)
+    assert exists.tolist() == [True, False, False]
+
+
+@pytest.mark.capability("G1.3-line-line")
+@pytest.mark.hard(19)
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_what_counts_as_the_same_line_does_not_depend_on_the_scale(scale):
+    rng = np.random.default_rng(16)
+    a, d = scale * rng.normal(size=(2, 100, 3))
+    t = rng.uniform(-5, 5, (100, 1))
+    same = line_and_line(a, d, a + t * d, -0.7 * d)
+    assert same.parallel.all() and (same.parameter == 0.0).all()
+    across = np.cross(d, rng.normal(size=(100, 3)))
+    across *= np.linalg.norm(d, axis=1, keepdims=True) / np.linalg.norm(across, axis=1, keepdims=True)
+    beside = line_and_line(a, d, a + t * d + 1e-4 * across, d)
+    assert beside.parallel.all() and np.isinf(beside.parameter).all()

@@ -221,3 +221,15 @@ def test_the_hull_turns_with_the_body():
     turned = Mesh(CUBE.vertices @ turn, CUBE.corners, CUBE.offsets)
     eye = np.array([5.0, 6.0, 7.0])
     assert spatial_hull(turned, eye @ turn).tolist() == spatial_hull(CUBE, eye).tolist()
+
+
+@pytest.mark.capability("G6.1-spatial-hull")
+@pytest.mark.hard(1)
+@pytest.mark.parametrize("offset", [0.0, 1e3])
+def test_faces_seen_edge_on_do_not_enter_the_hull_by_rounding(offset):
+    rng = np.random.default_rng(18)
+    for _ in range(50):
+        turn = rotation_about(rng.normal(size=3), rng.uniform(0, 6))
+        turned = Mesh(CUBE.vertices @ turn + offset, CUBE.corners, CUBE.offsets)
+        in_two_face_planes = np.array([1.0, -1.0, 5.0]) @ turn + offset
+        assert sorted(spatial_hull(turned, in_two_face_planes).tolist()) == [4, 5, 6, 7]

@@ -49,3 +49,16 @@ def test_sides_of_a_plane_and_zero_counts_as_plus():
     slanted = Plane.through((0.1, 0.7, 0.3), (1.3, 0.2, 0.9), (0.4, 1.1, -0.6))
     inside = 0.1 * np.array([0.1, 0.7, 0.3]) + 0.7 * np.array([1.3, 0.2, 0.9]) + 0.2 * np.array([0.4, 1.1, -0.6])
     assert slanted.side(inside) == 1
+
+
+@pytest.mark.capability("G1.1-side")
+@pytest.mark.parametrize(("scale", "offset"), [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 1e6)])
+def test_points_in_a_plane_count_as_plus_whatever_rounding_does(scale, offset):
+    rng = np.random.default_rng(17)
+    p, q, r = scale * rng.normal(size=(3, 500, 3)) + offset
+    plane = Plane.through(p, q, r)
+    weight = rng.dirichlet((1, 1, 1), 500).T[..., None]
+    inside = weight[0] * p + weight[1] * q + weight[2] * r
+    assert (plane.side(inside) == 1).all()
+    unit = plane.normal / np.linalg.norm(plane.normal, axis=1, keepdims=True)
+    assert (plane.side(inside - 1e-6 * scale * unit) == -1).all()
