@@ -125,3 +125,10 @@ def test_nearly_flat_polygons_turn_as_their_rational_area_says(p):
 def test_products_that_underflow_do_not_decide():
     p = np.random.default_rng(19).integers(-4, 5, (4, 20000, 3)).astype(float)
     assert (orient3d(*(p * 2.0**-359)) == orient3d(*p)).all()
+
+
+def test_a_nearly_flat_triangle_far_along_a_diagonal_turns_the_right_way():
+    for i in range(24):
+        for j in range(24):
+            triangle = [(0.5 + i * 2.0**-53, 0.5 + j * 2.0**-53), (12.0, 12.0), (24.0, 24.0)]
+            assert polygon_orientation(triangle) == sign(j - i)
