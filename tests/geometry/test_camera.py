@@ -125,6 +125,7 @@ def test_a_camera_by_its_focal_length():
     assert camera.twist_deg == 20.0
 
 
+@pytest.mark.hard(30)
 @pytest.mark.parametrize(
     ("words", "cause"),
     [
@@ -136,6 +137,6 @@ def test_a_camera_by_its_focal_length():
         ({"eye": (0, 0, 3), "twist_deg": np.inf}, "twist"),
     ],
 )
-def test_cameras_that_cannot_see_are_refused(words, cause):
+def test_an_up_vector_along_the_view_and_other_blind_cameras_are_refused(words, cause):
     with pytest.raises(InputError, match=cause):
         Camera(**words)
