@@ -212,7 +212,9 @@ def _layers(scene: Scene, strokes: Strokes, layers: str) -> tuple[Layer, ...]:
 
 def _inked(layers: tuple[Layer, ...], hidden: str, world: Floats) -> tuple[Layer, ...]:
     """Each layer's strokes joined, without collinear points, hidden ones dashed if asked for, in the order of the pen."""
-    return tuple(replace(layer, marks=tuple(_pen_strokes(mark, hidden, world) for mark in layer.marks)) for layer in layers)
+    return tuple(
+        replace(layer, marks=tuple(_pen_strokes(mark, hidden, world) for mark in layer.marks)) for layer in layers
+    )
 
 
 def _pen_strokes(paths: Paths, hidden: str, world: Floats) -> Paths:

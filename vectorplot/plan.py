@@ -41,7 +41,9 @@ def plan_draw(scene: Scene, kinds: frozenset[LineKind], hidden: str, halo_mm: fl
         Stage("faces", "the faces in the image, and which side they show"),
     ]
     if wanted - {LineKind.INTERSECTION, LineKind.PATTERN}:
-        stages.append(Stage("edges", ", ".join(sorted(k.word for k in wanted - {LineKind.INTERSECTION, LineKind.PATTERN}))))
+        stages.append(
+            Stage("edges", ", ".join(sorted(k.word for k in wanted - {LineKind.INTERSECTION, LineKind.PATTERN})))
+        )
     if LineKind.INTERSECTION in wanted:
         stages.append(Stage("intersections", "items, or parts of an item, may pierce each other"))
     if LineKind.PATTERN in wanted and any(item.patterns for item in scene.items):

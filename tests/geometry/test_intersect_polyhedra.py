@@ -91,6 +91,18 @@ def test_the_size_of_the_scene_does_not_matter(scale):
     assert np.allclose(scaled.vertices, common.vertices * scale, rtol=1e-9, atol=1e-12 * scale)
 
 
+@pytest.mark.parametrize("offset", [1e6, 1e9])
+def test_the_place_of_the_scene_does_not_matter(offset):
+    place = np.array([offset, -offset, offset])
+    one, other = cube(), moved(cube(), [0.25, 0.125, 0.5], (40, 20))
+    common = intersection(one, other)
+    far = intersection(*(moved(body, place) for body in (one, other)))
+    assert is_closed_oriented(far) and euler(far) == 2
+    assert np.ptp(far.vertices, axis=0) == pytest.approx(np.ptp(common.vertices, axis=0), abs=1e-14 * offset)
+    touching = intersection(moved(one, place), moved(cube(), np.add(place, [3, 0, 0])))
+    assert touching.face_count == 6
+
+
 @pytest.mark.capability("G3.6-intersect")
 def test_faces_in_one_plane_appear_once():
     common = intersection(cube(), moved(cube(), [3, 0, 0]))

@@ -18,6 +18,7 @@ from vectorplot.geometry.solids import box
 from vectorplot.geometry.winding import is_closed_oriented
 from vectorplot.io import scene_language
 from vectorplot.io.scene_language import parse_scene, read_scene
+from vectorplot.io.scene_reader import RESERVED
 from vectorplot.io.scene_words import PALETTES
 from vectorplot.scene.scene import Light, Page
 
@@ -177,6 +178,11 @@ def test_a_body_called_convex_that_is_not_is_taken_as_it_is_with_a_warning():
     with pytest.warns(InputWarning, match="<text>:1: A: is not convex"):
         item = one(text)
     assert is_closed_oriented(item.shape)
+
+
+def test_a_base_out_of_its_plane_is_said_with_the_name_of_the_item():
+    with pytest.warns(InputWarning, match="<text>:2: T: base_points do not lie in one plane"):
+        one("\nT translation base_points 0 0 0, 1 0 0, 1 1 0.2, 0 1 0 trans_vector 0 0 1")
 
 
 # --- words about the look ---
@@ -517,5 +523,5 @@ def test_the_examples_of_the_documentation_are_scenes():
 @pytest.mark.capability("G3.0-language")
 def test_every_word_of_the_language_is_documented():
     text = (Path(__file__).parents[2] / "docs" / "scene-language.md").read_text()
-    words = scene_language.RESERVED - {c for p in PALETTES for c in ("light" + p, "dark" + p)}
+    words = RESERVED - {c for p in PALETTES for c in ("light" + p, "dark" + p)}
     assert not [word for word in sorted(words) if f"`{word}`" not in text and f'"{word}"' not in text]

@@ -58,7 +58,9 @@ def _partners(paths: Paths, node: Ints, group: Ints) -> Ints:
 def _directions(paths: Paths) -> Floats:
     """(2m,2) unit vectors from the ends into their strokes."""
     first, last = paths.offsets[:-1], paths.offsets[1:] - 1
-    inward = np.stack([paths.points[first + 1] - paths.points[first], paths.points[last - 1] - paths.points[last]], axis=1)
+    inward = np.stack(
+        [paths.points[first + 1] - paths.points[first], paths.points[last - 1] - paths.points[last]], axis=1
+    )
     inward = inward.reshape(-1, 2)
     length = np.hypot(inward[:, 0], inward[:, 1])
     return np.asarray(inward / np.where(length > 0.0, length, 1.0)[:, None], dtype=np.float64)

@@ -73,7 +73,8 @@ def mesh_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: floa
     least, most = np.minimum.reduceat(side, first), np.maximum.reduceat(side, first)
     outer = ~np.logical_and.reduceat(faces.inner[half], first)
     is_kind = {
-        LineKind.CONTOUR: (count > 1) & ((least >= 0) | (most <= 0)) & (least != most) | (count > 1) & (least * most > 0),
+        LineKind.CONTOUR: (count > 1) & ((least >= 0) | (most <= 0)) & (least != most)
+        | (count > 1) & (least * most > 0),
         LineKind.BOUNDARY: (count == 1) & outer,
         LineKind.CREASE: outer & (count > 2),
         LineKind.EDGES: outer,
@@ -181,7 +182,9 @@ def _sharp_vertices(faces: Faces, angle_deg: float) -> Bools:
     for low in range(0, len(sizes), BLOCK):
         block = slice(low, min(low + BLOCK, len(sizes)))
         if triangular:
-            normals[:, block] = _triangle_normals(faces.points, faces.corners[3 * low : 3 * block.stop].reshape(-1, 3).T)
+            normals[:, block] = _triangle_normals(
+                faces.points, faces.corners[3 * low : 3 * block.stop].reshape(-1, 3).T
+            )
         else:
             normals[:, block] = unit_normals(faces, np.arange(low, block.stop))
         for corners, at_corner in _corner_runs(faces, normals, sizes, block):

@@ -161,7 +161,9 @@ def _corners_of(faces: Faces, which: Ints) -> tuple[Ints, Ints, Ints]:
     return np.arange(len(owner)) - (starts - faces.offsets[which])[owner], owner, starts
 
 
-def _heights(faces: Faces, which: Ints, normal: Floats, origin: Floats, tolerance: float) -> tuple[Floats, Ints, Ints, Ints]:
+def _heights(
+    faces: Faces, which: Ints, normal: Floats, origin: Floats, tolerance: float
+) -> tuple[Floats, Ints, Ints, Ints]:
     """Distances of the corners of some faces from planes, snapped to zero, with _corners_of."""
     position, owner, starts = _corners_of(faces, which)
     arm = faces.points[:, faces.corners[position]] - origin[:, owner]
@@ -188,7 +190,9 @@ def _cut_by_plane(
     height, position, owner, starts = _heights(faces, which, normal, origin, tolerance)
     here = faces.points[:, faces.corners[position]]
     after = faces.next_corner[position] - position + np.arange(len(position))
-    step = np.where(height * height[after] < 0.0, height / np.where(height == height[after], 1.0, height - height[after]), 0.0)
+    step = np.where(
+        height * height[after] < 0.0, height / np.where(height == height[after], 1.0, height - height[after]), 0.0
+    )
     on_plane = here + step * (here[:, after] - here)
     along = (on_plane * across[:, owner]).sum(axis=0)
     hit = (height == 0.0) | (height * height[after] < 0.0)

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
 from vectorplot.geometry.revolution import FULL_TURN, HALF_TURN, revolution
-from vectorplot.geometry.solids import ZERO, checked_points, polyhedron, prism
+from vectorplot.geometry.solids import checked_points, polyhedron, prism
+from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 
 
 def convex_polygon_parts(outline: ArrayLike, holes: Sequence[ArrayLike] = ()) -> list[Ints]:
@@ -34,7 +35,7 @@ def is_convex_polygon(points: Floats) -> bool:
     sides = np.roll(points, -1, axis=0) - points
     after = np.roll(sides, -1, axis=0)
     turn = sides[:, 0] * after[:, 1] - sides[:, 1] * after[:, 0]
-    zero = ZERO * float(np.ptp(points, axis=0).max()) ** 2
+    zero = ZERO_OF_EXTENT * float(np.ptp(points, axis=0).max()) ** 2
     angles = np.arctan2(turn, np.einsum("ij,ij->i", sides, after))
     return bool((turn >= -zero).all() and abs(angles.sum() - 2.0 * np.pi) < 1.0)
 
@@ -62,7 +63,7 @@ def _joined(points: Floats, triangles: Ints) -> list[Ints]:
     """The triangles joined to convex polygons, diagonal by diagonal."""
     polygons: dict[int, list[int]] = dict(enumerate(triangles.tolist()))
     owner = {(p[k - 1], p[k]): number for number, p in polygons.items() for k in range(3)}
-    zero = ZERO * float(np.ptp(points, axis=0).max()) ** 2
+    zero = ZERO_OF_EXTENT * float(np.ptp(points, axis=0).max()) ** 2
     flat = points.tolist()
 
     def bends_left(a: int, b: int, c: int) -> bool:
@@ -140,7 +141,7 @@ def convex_revolution_parts(meridian: ArrayLike, order: int, *, angle_deg: float
     extent = float(np.abs(profile - [0.0, profile[0, 1]]).max())
     azimuth = points[int(np.argmax(np.hypot(points[:, 0], points[:, 1]))), :2]
     azimuth = azimuth / np.linalg.norm(azimuth)
-    if (np.diff(profile[:, 1]) > ZERO * extent).all() and (angle_deg == FULL_TURN or angle_deg <= HALF_TURN):
+    if (np.diff(profile[:, 1]) > ZERO_OF_EXTENT * extent).all() and (angle_deg == FULL_TURN or angle_deg <= HALF_TURN):
         slices = [_in_space(profile[a : b + 1], azimuth) for a, b in _arches(profile)]
         return [revolution(piece, order, angle_deg=angle_deg) for piece in slices]
     return _sectors(whole, profile, azimuth, order, angle_deg)
@@ -154,7 +155,7 @@ def _arches(profile: Floats) -> Iterable[tuple[int, int]]:
     """First and last point of the pieces of a rising profile that bulge outwards."""
     sides = np.diff(profile, axis=0)
     turn = sides[:-1, 0] * sides[1:, 1] - sides[:-1, 1] * sides[1:, 0]
-    zero = ZERO * float(np.abs(sides).max()) ** 2
+    zero = ZERO_OF_EXTENT * float(np.abs(sides).max()) ** 2
     cuts = [0, *(np.flatnonzero(turn < -zero) + 1).tolist(), len(profile) - 1]
     return pairwise(cuts)
 

@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike
 from vectorplot.errors import InputError
 from vectorplot.geometry.convex_parts import convex_polygon_parts, plane_axes, signed_area, split_faces
 from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
-from vectorplot.geometry.solids import ZERO, has_convex_outline
+from vectorplot.geometry.solids import has_convex_outline, zero_distance
+from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.geometry.winding import is_closed_oriented
 
 MAX_PLANES = 10_000
@@ -35,12 +36,12 @@ def intersection(body: Mesh, convex: Mesh) -> Mesh:
     if convex.face_count > MAX_PLANES:
         raise InputError(f"the convex body of an intersection has more than {MAX_PLANES} faces")
     corner = convex.vertices[convex.corners[convex.offsets[:-1]]]
-    scale = max(float(np.abs(np.ptp(mesh.vertices, axis=0)).max()) for mesh in (body, convex))
+    zero = max(zero_distance(mesh.vertices) for mesh in (body, convex))
     for normal, point, shown in zip(convex.face_normals, corner, _present(convex), strict=True):
         if not body.face_count:
             break
         if normal.any():
-            body = cut_body(body, normal, point, ZERO * scale, bool(shown))
+            body = cut_body(body, normal, point, zero, bool(shown))
     return _compact(body)
 
 
@@ -54,7 +55,7 @@ def cut_face(points: ArrayLike, normal: ArrayLike, constant: float) -> Floats:
     n = np.asarray(normal, dtype=np.float64)
     extent = float(np.ptp(corners, axis=0).max()) if len(corners) else 0.0
     distance = (corners @ n - constant) / float(np.linalg.norm(n))
-    side = _sides(distance, ZERO * extent)
+    side = _sides(distance, ZERO_OF_EXTENT * extent)
     if not (side < 0).any() and (side != 0).any():
         return np.zeros((0, 3))
     after, far = np.roll(corners, -1, axis=0), np.roll(distance, -1)

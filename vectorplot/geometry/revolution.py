@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
-from vectorplot.geometry.solids import BOTH_CAPS, BOTTOM, TOP, ZERO, checked_points, presence
+from vectorplot.geometry.solids import BOTH_CAPS, BOTTOM, TOP, checked_points, presence
+from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 
 MAX_ORDER = 100_000
 """The largest number of sides."""
@@ -122,7 +123,7 @@ def _profile(meridian: ArrayLike, order: int, angle_deg: float) -> _Profile:
     closed = len(points) > 3 and bool((points[0] == points[-1]).all())
     points = points[:-1].copy() if closed else points
     extent = max(float(np.abs(points[:, :2]).max()), float(np.ptp(points[:, 2])))
-    on_axis = np.hypot(points[:, 0], points[:, 1]) <= ZERO * extent
+    on_axis = np.hypot(points[:, 0], points[:, 1]) <= ZERO_OF_EXTENT * extent
     points[on_axis, :2] = 0.0
     if on_axis.all():
         raise InputError("the meridian lies on the axis")
@@ -138,7 +139,7 @@ def _twisted(profile: _Profile) -> Bools:
     across = here[:, 0] * there[:, 1] - here[:, 1] * there[:, 0]
     along = here[:, 0] * there[:, 0] + here[:, 1] * there[:, 1]
     off_axis = ~profile.on_axis & ~np.roll(profile.on_axis, -1)
-    return off_axis & ((np.abs(across) > ZERO * np.abs(along)) | (along < 0.0))
+    return off_axis & ((np.abs(across) > ZERO_OF_EXTENT * np.abs(along)) | (along < 0.0))
 
 
 def _bands(profile: _Profile) -> tuple[Ints, Bools]:

@@ -12,12 +12,10 @@ from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
 
 BOTTOM, TOP = "bottom", "top"
 BOTH_CAPS = (BOTTOM, TOP)
-
-ZERO = 1e-9
-"""Part of the extent below which a distance is zero."""
 
 IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
 """A placement: the three rows of a 3x4 matrix (rotation and translation) acting on columns, one after the other."""
@@ -88,7 +86,10 @@ def prism(base_points: ArrayLike, vector: ArrayLike, *, caps: Collection[str] = 
     area = np.cross(arm, np.roll(arm, -1, axis=0)).sum(axis=0)
     size = float(np.linalg.norm(area))
     height = float(area @ step)
-    if not abs(height) > ZERO * size * float(np.linalg.norm(step)) or not size > ZERO * extent * extent:
+    if (
+        not abs(height) > ZERO_OF_EXTENT * size * float(np.linalg.norm(step))
+        or not size > ZERO_OF_EXTENT * extent * extent
+    ):
         raise InputError("trans_vector lies in the plane of the base, or the base has no area")
     if np.abs(arm @ area).max() > 1e-6 * extent * size:
         warnings.warn("base_points do not lie in one plane", InputWarning, stacklevel=2)
@@ -146,16 +147,21 @@ def turned_outwards(mesh: Mesh) -> Mesh:
     return Mesh(mesh.vertices, corners, mesh.offsets, mesh.present)
 
 
+def zero_distance(points: Floats) -> float:
+    Degenerate: faces without area say nothing; a vertex nearer to a plane than zero_distance lies in it.
+    return max(ZERO_OF_EXTENT * float(np.ptp(points, axis=0).max()), ROUNDING * float(np.abs(points).max()))
+
+
 def has_convex_outline(mesh: Mesh) -> bool:
     """Whether no vertex lies outside the plane of any face: true for convex bodies and for parts of their surfaces.
 
-    Degenerate: faces without area say nothing; a vertex within 1e-9 of the extent from a plane lies in it.
+    Degenerate: faces without area say nothing; a vertex nearer to a plane than zero_distance lies in it.
     """
     used = np.unique(mesh.corners)
     if not len(used):
         return True
     points = mesh.vertices[used]
-    zero = ZERO * float(np.ptp(points, axis=0).max())
+    zero = zero_distance(points)
     first = mesh.vertices[mesh.corners[mesh.offsets[:-1]]]
     centre = points.mean(axis=0)
     constants = np.einsum("ij,ij->i", mesh.face_normals, first - centre)

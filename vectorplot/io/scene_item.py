@@ -137,7 +137,15 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
             raise
         words.fail(draft.kind_index, draft.owner + error.cause)
     occludes = draft.material != "transparent" if draft.occludes is None else draft.occludes
-    return Item(draft.name, mesh, "gray" if draft.colour is None else draft.colour, _material(draft), draft.patterns, draft.lines, occludes)
+    return Item(
+        draft.name,
+        mesh,
+        "gray" if draft.colour is None else draft.colour,
+        _material(draft),
+        draft.patterns,
+        draft.lines,
+        occludes,
+    )
 
 
 def _material(draft: Draft) -> Material:
@@ -161,7 +169,11 @@ def _revolution(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
 
 
 def _translation(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
-    body = prism(np.array(draft.base_points).T, np.array(draft.trans_vector), caps=draft.caps)
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", InputWarning)
+        body = prism(np.array(draft.base_points).T, np.array(draft.trans_vector), caps=draft.caps)
+    for warning in said:
+        _warn(draft, words, str(warning.message))
     return placed(body, draft.placement)
 
 
@@ -190,10 +202,13 @@ def _general(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
         if has_convex_outline(outwards):
             mesh = outwards
         elif draft.form == "convex":
-            line = words.line(draft.index)
-            cause = f"{words.name}:{line}: {draft.owner}is not convex; its faces are taken as they are listed"
-            warnings.warn(cause, InputWarning, stacklevel=2)
+            _warn(draft, words, "is not convex; its faces are taken as they are listed")
     return placed(mesh, draft.placement)
+
+
+def _warn(draft: Draft, words: Words, cause: str) -> None:
+    line = words.line(draft.index)
+    warnings.warn(f"{words.name}:{line}: {draft.owner}{cause}", InputWarning, stacklevel=3)
 
 
 def _check_edges(edges: list[list[int]], mesh: Mesh) -> None:

@@ -182,7 +182,9 @@ def _faces(scene: Scene, first_vertex: Ints) -> tuple[Ints, Ints, Ints]:
     face_item = np.repeat(np.arange(len(meshes)), face_counts)
     if all(m.present is None for m in meshes):
         return corners, offsets, face_item
-    present = np.concatenate([np.ones(m.face_count, dtype=np.bool_) if m.present is None else m.present for m in meshes])
+    present = np.concatenate(
+        [np.ones(m.face_count, dtype=np.bool_) if m.present is None else m.present for m in meshes]
+    )
     sizes = np.diff(offsets)
     kept = np.repeat(present, sizes)
     return corners[kept], np.concatenate([[0], np.cumsum(sizes[present])]), face_item[present]

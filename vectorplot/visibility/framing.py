@@ -15,7 +15,12 @@ def window_planes(view: View, half_width: float, half_height: float) -> Floats:
     """(4,4) planes (unit normal, constant) of a window in the image plane, positive inside."""
     if view.eye is None:
         x, y = view.target[:2]
-        rows = [[1, 0, 0, x - half_width], [-1, 0, 0, -x - half_width], [0, 1, 0, y - half_height], [0, -1, 0, -y - half_height]]
+        rows = [
+            [1, 0, 0, x - half_width],
+            [-1, 0, 0, -x - half_width],
+            [0, 1, 0, y - half_height],
+            [0, -1, 0, -y - half_height],
+        ]
         return np.array(rows, dtype=np.float64)
     x, y, z = view.eye
     normals = np.array(

@@ -53,7 +53,9 @@ class Grid:
 
     def column_of(self, x: Floats) -> Ints:
         """(n,) column of the finest level for each x; positions outside go to the first or last column."""
-        return np.clip((np.asarray(x, dtype=np.float64) - self.left) / self.cell, 0, self.columns[0] - 1).astype(np.intp)
+        return np.clip((np.asarray(x, dtype=np.float64) - self.left) / self.cell, 0, self.columns[0] - 1).astype(
+            np.intp
+        )
 
     def row_of(self, y: Floats) -> Ints:
         """(n,) row of the finest level for each y."""
@@ -186,7 +188,9 @@ def deepest(grid: Grid, pieces: Pieces) -> Floats32:
     table = np.full(int(grid.first[-1]), -np.inf, dtype=np.float32)
     np.maximum.at(table, pieces.row * grid.columns[0] + pieces.column, pieces.farthest)
     for level in range(1, grid.levels):
-        table[grid.first[level] : grid.first[level + 1]] = _four_in_one(grid, table, level, np.float32(-np.inf), np.maximum)
+        table[grid.first[level] : grid.first[level + 1]] = _four_in_one(
+            grid, table, level, np.float32(-np.inf), np.maximum
+        )
     return table
 
 

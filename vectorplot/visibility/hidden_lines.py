@@ -40,7 +40,9 @@ class Visibility:
     hidden_by: Ints
 
 
-def visible_parts(view: View, faces: ProjectedFaces, solid: Bools, segments: Segments, progress: Progress) -> Visibility:
+def visible_parts(
+    view: View, faces: ProjectedFaces, solid: Bools, segments: Segments, progress: Progress
+) -> Visibility:
     """The visible parts of segments; solid (i,) as solid_items tells.
 
     What lies on an occluder or on the border of its shadow is visible; a line along a border is hidden where both its sides
@@ -54,7 +56,14 @@ def visible_parts(view: View, faces: ProjectedFaces, solid: Bools, segments: Seg
     occluders = _occluders(view, faces, solid, grid, grids.deepest(grid, pieces))
     cover = covered_cells(view, grid, occluders)
     covered = pieces.nearest > cover[pieces.row * grid.columns[0] + pieces.column]
-    zones = [(pieces.segment[covered], pieces.low[covered], pieces.high[covered], np.zeros(int(covered.sum()), dtype=np.intp))]
+    zones = [
+        (
+            pieces.segment[covered],
+            pieces.low[covered],
+            pieces.high[covered],
+            np.zeros(int(covered.sum()), dtype=np.intp),
+        )
+    ]
     pieces = pieces.some(~covered)
     alive = np.ones(len(pieces), dtype=np.bool_)
     for piece, hits, _ in _all_hits(view, grid, segments, pieces, occluders, alive, SLABS, progress):
@@ -69,7 +78,9 @@ def visible_parts(view: View, faces: ProjectedFaces, solid: Bools, segments: Seg
     return Visibility(owner, low, high, np.zeros(len(owner), dtype=np.intp))
 
 
-def counted_parts(view: View, faces: ProjectedFaces, solid: Bools, segments: Segments, progress: Progress) -> Visibility:
+def counted_parts(
+    view: View, faces: ProjectedFaces, solid: Bools, segments: Segments, progress: Progress
+) -> Visibility:
     """All parts of segments with the number of items that hide each; an item that hides itself counts once.
 
     The visible parts are those of visible_parts.

@@ -93,7 +93,9 @@ def _some_faces(faces: Faces, which: Ints) -> Faces:
     return Faces(faces.points, faces.corners[position], following, offsets, faces.inner[position], faces.facing[which])
 
 
-def intersection_lines(scene: Scene, view: View, faces: ProjectedFaces, kinds: frozenset[LineKind], solid: Bools) -> Lines:
+def intersection_lines(
+    scene: Scene, view: View, faces: ProjectedFaces, kinds: frozenset[LineKind], solid: Bools
+) -> Lines:
     """The segments in which different items, or parts of an item that do not hang together, pierce each other.
 
     A segment belongs to the item that comes first in the scene.

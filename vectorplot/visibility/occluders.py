@@ -45,7 +45,9 @@ def solid_items(view: View, faces: ProjectedFaces) -> Bools:
     items = len(view.item_vertices) - 1
     face_counts = np.bincount(view.face_item, minlength=items)
     vertex_counts = np.diff(view.item_vertices)
-    chosen = view.occludes & (face_counts > 3) & (face_counts <= MAX_SOLID_FACES) & (vertex_counts <= 2 * MAX_SOLID_FACES)
+    chosen = (
+        view.occludes & (face_counts > 3) & (face_counts <= MAX_SOLID_FACES) & (vertex_counts <= 2 * MAX_SOLID_FACES)
+    )
     if not chosen.any():
         return chosen
     face = np.flatnonzero(chosen[view.face_item])
@@ -91,7 +93,9 @@ def face_occluders(view: View, faces: ProjectedFaces, which: Ints) -> Occluders:
     position = np.repeat(view.offsets[which] - (np.cumsum(sizes) - sizes), sizes) + np.arange(int(sizes.sum()))
     side = _side_planes(view, view.corners[position], view.corners[view.next_corner[position]])
     side *= np.repeat(-toward, sizes)
-    return _interleaved(view, depth_planes, np.ones(len(which), dtype=np.intp), side, sizes, faces, which, view.face_item[which])
+    return _interleaved(
+        view, depth_planes, np.ones(len(which), dtype=np.intp), side, sizes, faces, which, view.face_item[which]
+    )
 
 
 def solid_occluders(view: View, faces: ProjectedFaces, items: Ints) -> Occluders:
@@ -155,7 +159,14 @@ def _side_planes(view: View, start: Ints, end: Ints) -> Floats:
 
 
 def _interleaved(
-    view: View, depth: Floats, depth_counts: Ints, side: Floats, side_counts: Ints, faces: ProjectedFaces, which: Ints, item: Ints
+    view: View,
+    depth: Floats,
+    depth_counts: Ints,
+    side: Floats,
+    side_counts: Ints,
+    faces: ProjectedFaces,
+    which: Ints,
+    item: Ints,
 ) -> Occluders:
     """Occluders from their depth planes and side planes, both listed occluder by occluder."""
     counts = depth_counts + side_counts

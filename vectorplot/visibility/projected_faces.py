@@ -49,7 +49,9 @@ def project_faces(view: View) -> ProjectedFaces:
     return faces
 
 
-def _store(faces: ProjectedFaces, low: int, high: int, box: list[Floats], nearest: Floats, area: Floats, tol: float) -> None:
+def _store(
+    faces: ProjectedFaces, low: int, high: int, box: list[Floats], nearest: Floats, area: Floats, tol: float
+) -> None:
     left, right, bottom, top = box
     size = np.maximum(right - left, top - bottom)
     faces.facing[low:high] = (area > tol * size).astype(np.int8) - (area < -tol * size).astype(np.int8)

@@ -1,0 +1,148 @@
+"""Hidden lines beside the bare cost of the same data: run with ``pytest tests/bench/bench_draw.py -m bench -s``.
+
+The bare cost is what nothing can do without: load the arrays, project the vertices, orient the faces, sort them by depth.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from vectorplot.draw import in_frame
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.strokes import LineKind
+from vectorplot.scene.scene import Item, Page, Scene
+from vectorplot.scene.view import look
+from vectorplot.testing.shapes import rotated_boxes
+from vectorplot.testing.surfaces import bumpy_icosphere
+from vectorplot.visibility.hidden_lines import visible_parts
+from vectorplot.visibility.lines import edge_lines, joined_lines
+from vectorplot.visibility.occluders import solid_items
+from vectorplot.visibility.pairs import Segments
+from vectorplot.visibility.projected_faces import project_faces
+
+pytestmark = pytest.mark.bench
+
+EYE = (4.0, -3.0, 2.0)
+
+
+def scene_of(mesh: Mesh) -> Scene:
+    return Scene((Item("mesh", mesh),))
+
+
+def graph(cells: int) -> Mesh:
+    """The graph of sin r / r over a square, as quadrilaterals."""
+    line = np.linspace(-12.0, 12.0, cells + 1)
+    x, y = np.meshgrid(line, line, indexing="ij")
+    corner = np.arange((cells + 1) ** 2).reshape(cells + 1, cells + 1)
+    quads = np.stack([corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]], axis=-1).reshape(-1, 4)
+    vertices = np.stack([x, y, 6.0 * np.sinc(np.hypot(x, y) / np.pi)], axis=-1).reshape(-1, 3) / 12.0
+    return Mesh(vertices, quads.ravel(), np.arange(0, quads.size + 1, 4))
+
+
+def visible(scene: Scene, kinds: frozenset[LineKind]) -> int:
+    """The stages from a scene to its visible lines."""
+    view = look(scene, Camera(EYE))
+    faces = project_faces(view)
+    solid = solid_items(view, faces)
+    lines, _ = in_frame(view, joined_lines([edge_lines(scene, view, faces, kinds, 25.0, ~solid)]), Page(), True)
+    return len(visible_parts(view, faces, solid, Segments(lines.start, lines.end), lambda part: None).segment)
+
+
+def saved(scene: Scene, folder: Path) -> tuple[Path, Path]:
+    """Vertices and triangles of a scene as arrays on disk."""
+    shapes = [item.shape for item in scene.items]
+    first = np.cumsum([0, *(len(shape.vertices) for shape in shapes)])
+    triangles = [fan(shape) + start for shape, start in zip(shapes, first[:-1], strict=True)]
+    paths = folder / "vertices.npy", folder / "triangles.npy"
+    np.save(paths[0], scene.vertices)
+    np.save(paths[1], np.concatenate(triangles))
+    return paths
+
+
+def fan(mesh: Mesh) -> np.ndarray:
+    """Triangles (t,3) of faces that all have the same number of corners."""
+    corners = mesh.corners.reshape(mesh.face_count, -1)
+    return np.concatenate([corners[:, [0, k, k + 1]] for k in range(1, corners.shape[1] - 1)])
+
+
+def bare(vertices_file: Path, triangles_file: Path) -> int:
+    """Load, project, orient, sort."""
+    vertices, triangles = np.load(vertices_file), np.load(triangles_file)
+    camera = Camera(EYE)
+    x, y, z = camera.axes @ (vertices - np.array(EYE)).T
+    x, y = x / -z, y / -z
+    a, b, c = triangles.T
+    area = (x[b] - x[a]) * (y[c] - y[a]) - (x[c] - x[a]) * (y[b] - y[a])
+    order = np.argsort(z[a] + z[b] + z[c])
+    return int((area > 0.0)[order].sum())
+
+
+def seconds(action: Callable[[], object], repeat: int = 3) -> float:
+    """The shortest of a few times."""
+    times = []
+    for _ in range(repeat):
+        start = time.perf_counter()
+        action()
+        times.append(time.perf_counter() - start)
+    return min(times)
+
+
+def report(name: str, scenes: list[Scene], kinds: frozenset[LineKind], beat: str, folder: Path) -> None:
+    """Print time, ratio and growth over a series of scenes."""
+    sizes, times = [], []
+    print(f"\n{name} (to beat: {beat})")
+    for scene in scenes:
+        count = sum(fan(item.shape).shape[0] for item in scene.items)
+        files = saved(scene, folder)
+        parts = visible(scene, kinds)
+        took, least = seconds(lambda s=scene: visible(s, kinds)), seconds(lambda f=files: bare(*f))
+        sizes.append(count)
+        times.append(took)
+        print(
+            f"  {count:>9,} triangles, {parts:>7,} visible parts: {took:7.3f} s, bare {least:6.3f} s, {took / least:5.1f} times"
+        )
+    slope = np.polyfit(np.log(sizes), np.log(times), 1)[0]
+    last = np.log(times[-1] / times[-2]) / np.log(sizes[-1] / sizes[-2])
+    print(f"  growth exponent {slope:.2f} over all, {last:.2f} at the end")
+
+
+def test_contour_and_creases_of_a_bumpy_sphere(tmp_path: Path) -> None:
+    kinds = frozenset({LineKind.CONTOUR, LineKind.CREASE})
+    scenes = [scene_of(bumpy_icosphere(level)) for level in (5, 6, 7, 8, 9)]
+    report("bumpy icosphere, contour and creases", scenes, kinds, "2.5 times at 1.3 million, exponent 1.1", tmp_path)
+
+
+def test_boxes_through_their_outlines(tmp_path: Path) -> None:
+    kinds = frozenset({LineKind.CONTOUR, LineKind.CREASE, LineKind.BOUNDARY})
+    scenes = [rotated_boxes(count) for count in (1250, 5000, 20000)]
+    report("rotated boxes, all edges", scenes, kinds, "30 times at 20,000 boxes, exponent 1.15", tmp_path)
+
+
+def test_all_lines_of_a_graph(tmp_path: Path) -> None:
+    kinds = frozenset({LineKind.CONTOUR, LineKind.EDGES})
+    scenes = [scene_of(graph(cells)) for cells in (100, 200, 400)]
+    report("function graph, all grid lines", scenes, kinds, "60 times at 400 x 400, exponent 1.2", tmp_path)
+
+
+def test_peak_memory_at_a_million_triangles(tmp_path: Path) -> None:
+    vertices, triangles = saved(scene_of(bumpy_icosphere(8)), tmp_path)
+    code = f"""
+import resource, numpy as np
+from vectorplot.draw import draw
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.scene import Item, Scene
+from vectorplot.geometry.camera import Camera
+mesh = Mesh.from_triangles(np.load({str(vertices)!r}), np.load({str(triangles)!r}))
+draw(Scene((Item("sphere", mesh),)), Camera({EYE}), lines=("contour", "crease"))
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+"""
+    peak = float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
+    print(f"\n1.3 million triangles, contour and creases: peak memory {peak:.0f} MB (to beat: 400 MB)")
