@@ -148,7 +148,7 @@ def turned_outwards(mesh: Mesh) -> Mesh:
 
 
 def zero_distance(points: Floats) -> float:
-    Degenerate: faces without area say nothing; a vertex nearer to a plane than zero_distance lies in it.
+    """The distance up to which points (n,3) like these lie in one plane: by their extent, and by what rounding does."""
     return max(ZERO_OF_EXTENT * float(np.ptp(points, axis=0).max()), ROUNDING * float(np.abs(points).max()))
 
 
