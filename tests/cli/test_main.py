@@ -253,7 +253,7 @@ import vectorplot.plan as plan
 from vectorplot.cli.main import run
 real = plan.Walk.run
 def slow(self, name, function, *args, **kwargs):
-    if name == "ink":
+    if name == "write":
         print("working", flush=True)
         time.sleep(30)
     return real(self, name, function, *args, **kwargs)

@@ -24,12 +24,14 @@ def assert_drawing_is_right(
     clearance: float = 1e-6,
     must_show: ArrayLike | None = None,
     tolerance_mm: float = 0.01,
+    margin_mm: float = 10.0,
 ) -> int:
     """How many points were compared, where all agree with rays; otherwise an AssertionError that names the worst fault.
 
     Random points on the strokes must be hidden by as many items as the drawing says. must_show (n,3): points in the
     world (edge_points gives some) that must be within tolerance_mm of a visible stroke if rays find them visible and
-    they lie on the page. Points nearer to a transition than clearance (see visible_by_rays) are left out.
+    they lie on the page, margin_mm inside its border. Points nearer to a transition than clearance (see
+    visible_by_rays) are left out.
     Errors: AssertionError.
     """
     points, paths = stroke_points(drawing, samples, seed)
@@ -49,11 +51,17 @@ def assert_drawing_is_right(
             )
     if must_show is None:
         return compared
-    return compared + assert_shown(drawing, scene, camera, must_show, clearance, tolerance_mm)
+    return compared + assert_shown(drawing, scene, camera, must_show, clearance, tolerance_mm, margin_mm)
 
 
 def assert_shown(
-    drawing: Drawing, scene: Scene, camera: Camera, must_show: ArrayLike, clearance: float, tolerance_mm: float
+    drawing: Drawing,
+    scene: Scene,
+    camera: Camera,
+    must_show: ArrayLike,
+    clearance: float,
+    tolerance_mm: float,
+    margin_mm: float,
 ) -> int:
     """How many of some points are visible and on the page, where all of them are on visible strokes."""
     from shapely import STRtree, linestrings
@@ -64,7 +72,8 @@ def assert_shown(
     place = np.c_[wanted, np.ones(len(wanted))] @ drawing.page_from_world.T
     front = place[:, 3] > 0.0
     page = place[:, :2] / np.where(front, place[:, 3], 1.0)[:, None]
-    on_page = ((page >= 0.0) & (page <= [drawing.width_mm, drawing.height_mm])).all(axis=1) & front
+    border = np.array([drawing.width_mm, drawing.height_mm]) - margin_mm
+    on_page = ((page >= margin_mm) & (page <= border)).all(axis=1) & front
     kept = (sight.hidden_by == 0) & (sight.clearance > clearance) & on_page
     wanted, page = wanted[kept], page[kept]
     if len(page) == 0:
