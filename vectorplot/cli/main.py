@@ -39,14 +39,19 @@ def run(arguments: Sequence[str]) -> int:
         with warnings.catch_warnings():
             if not sys.warnoptions:
                 warnings.simplefilter("ignore")
-            vectorplot.main(list(arguments), prog_name="vectorplot", standalone_mode=False)
+            with vectorplot.make_context("vectorplot", list(arguments)) as context:
+                vectorplot.invoke(context)
+    except click.exceptions.Exit as error:
+        return error.exit_code
     except click.exceptions.NoArgsIsHelpError as error:
         error.show()
         return error.exit_code
     except click.UsageError as error:
         error.show()
         return error.exit_code
-    except (KeyboardInterrupt, click.Abort):
+    except KeyboardInterrupt:
+        if sys.stderr.isatty():
+            click.echo(err=True)  # the terminal has written ^C
         say("interrupted")
         return INTERRUPTED
     except InputError as error:
