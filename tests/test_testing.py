@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
@@ -283,3 +284,16 @@ def test_a_visible_line_that_is_left_out_is_found():
     assert assert_drawing_is_right(drawn(border, far), PLATE_SCENE, FROM_ABOVE, must_show=points) > 2000
     with pytest.raises(AssertionError, match="visible points are not drawn"):
         assert_drawing_is_right(drawn(border, far[:-1]), PLATE_SCENE, FROM_ABOVE, must_show=points)
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+@pytest.mark.parametrize("name", sorted(hard_shapes()))
+def test_every_family_is_drawn_as_rays_see_it(name, parallel):
+    scene = hard_shapes()[name]
+    middle = scene.bounds.mean(axis=0)
+    eye = middle + np.array([1.0, -2.0, 1.2]) * (scene.bounds[1] - scene.bounds[0]).max()
+    camera = Camera(tuple(eye), tuple(middle), parallel=parallel)
+    kinds = ("contour", "boundary", "crease", "edges", "intersection")
+    drawing = draw(scene, camera, lines=kinds, hidden="solid")
+    points, _ = edge_points(scene, 400)
+    assert assert_drawing_is_right(drawing, scene, camera, samples=800, must_show=points) > 500

@@ -31,6 +31,7 @@ def test_short_work_shows_no_bar(monkeypatch):
 def test_long_work_shows_the_stage_and_takes_the_bar_away(monkeypatch):
     monkeypatch.setattr(sys, "stderr", Terminal())
     monkeypatch.setattr(progress, "PATIENCE_S", 0.0)
+    monkeypatch.setattr(progress, "INTERVAL_S", 0.0)
     with progress.progress_bar(quiet=False) as bar:
         bar("edges", 0.25)
         bar("ink", 2.0)

@@ -19,19 +19,24 @@ if TYPE_CHECKING:
 PATIENCE_S = 0.5
 """Work shorter than this shows no bar."""
 
+INTERVAL_S = 0.05
+"""The bar moves no more often than this."""
+
 
 class Progress:
     """A progress bar that appears when the work takes long; call it with a stage and the fraction done, 0 to 1."""
 
     def __init__(self) -> None:
-        self.start = time.perf_counter()
+        self.shown = time.perf_counter() + PATIENCE_S - INTERVAL_S
         self.bar: Any = None
 
     def __call__(self, stage: str, fraction: float) -> None:
         """Show the stage and how far it has come."""
+        now = time.perf_counter()
+        if now < self.shown + INTERVAL_S:
+            return
+        self.shown = now
         if self.bar is None:
-            if time.perf_counter() - self.start < PATIENCE_S:
-                return
             from tqdm import tqdm
 
             shape = "{desc} {percentage:3.0f}%|{bar}| {elapsed}"
