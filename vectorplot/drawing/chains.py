@@ -29,18 +29,18 @@ def chains(mate: Ints) -> Chains:
 
     mate (2m,): the end each end is linked to, or NO_END; mate[mate[e]] == e. Chains come in the order of their smallest
     end among those at which they begin or end (a cycle: its smallest stroke, entered at its first point).
-    Source: Wyllie, The complexity of parallel computations (1979): list ranking by pointer jumping.
     """
     states = np.arange(len(mate), dtype=np.intp)
     # A state is the end at which a stroke is entered; it is left at the other one, which differs in the last bit.
     following = mate[states ^ 1]
-    last, steps, on_cycle = _ranked(following)
+    last, steps, on_cycle = _ranked(following, np.flatnonzero(following != NO_END))
     if on_cycle.any():
         head = _cycle_heads(following, np.flatnonzero(on_cycle))
         before_head = mate[head[head == states]] ^ 1
         cut = following.copy()
         cut[before_head] = NO_END
-        last, steps, _ = _ranked(cut)
+        ring_last, ring_steps, _ = _ranked(cut, np.flatnonzero(on_cycle & (cut != NO_END)))
+        last, steps = np.where(on_cycle, ring_last, last), np.where(on_cycle, ring_steps, steps)
         keep = np.where(on_cycle, (head & 1) == 0, last ^ 1 > last[states ^ 1] ^ 1)
         chain = np.where(on_cycle, head, last[states ^ 1] ^ 1)
     else:
@@ -58,13 +58,15 @@ def chains(mate: Ints) -> Chains:
     return Chains(entry, np.concatenate(([0], ends[used])).astype(np.intp), flags[used])
 
 
-def _ranked(following: Ints) -> tuple[Ints, Ints, Bools]:
-    """For every state the last one of its chain, the steps to it, and whether it lies on a cycle (then it has none)."""
+def _ranked(following: Ints, active: Ints) -> tuple[Ints, Ints, Bools]:
+    """For every active state the last one of its chain, the steps to it, and whether it lies on a cycle.
+
+    Source: Wyllie, The complexity of parallel computations (1979): list ranking by pointer jumping.
+    """
     last = np.where(following == NO_END, np.arange(len(following)), following)
     steps = (following != NO_END).astype(np.intp)
     on_cycle = np.zeros(len(following), dtype=np.bool_)
     ended = following == NO_END
-    active = np.flatnonzero(~ended)
     while len(active):
         at = last[active]
         arrived = ended[at]
