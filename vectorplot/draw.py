@@ -150,7 +150,11 @@ def _page_from_image(view: View, lines: Lines, seen: Visibility, page: Page, fit
         return fitted(page, np.zeros(2), np.zeros(2))
     start, end = _part_ends(lines, seen)
     images = np.concatenate([view.image_of(start), view.image_of(end)], axis=1)
-    return fitted(page, images.min(axis=1), images.max(axis=1))
+    low, high = images.min(axis=1), images.max(axis=1)
+    if (high - low).max() <= view.tolerance:
+        # Lines along the sight rays: their image is a point, and rounding must not fill the page.
+        return fitted(page, low, low)
+    return fitted(page, low, high)
 
 
 def _part_ends(lines: Lines, seen: Visibility) -> tuple[Floats, Floats]:

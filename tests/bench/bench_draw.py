@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from vectorplot.draw import in_frame
+from vectorplot.draw import default_camera, in_frame
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.strokes import LineKind
@@ -29,9 +29,6 @@ from vectorplot.visibility.pairs import Segments
 from vectorplot.visibility.projected_faces import project_faces
 
 pytestmark = pytest.mark.bench
-
-EYE = (4.0, -3.0, 2.0)
-
 
 def scene_of(mesh: Mesh) -> Scene:
     return Scene((Item("mesh", mesh),))
@@ -49,7 +46,7 @@ def graph(cells: int) -> Mesh:
 
 def visible(scene: Scene, kinds: frozenset[LineKind]) -> int:
     """The stages from a scene to its visible lines."""
-    view = look(scene, Camera(EYE))
+    view = look(scene, default_camera(scene))
     faces = project_faces(view)
     solid = solid_items(view, faces)
     lines, _ = in_frame(view, joined_lines([edge_lines(scene, view, faces, kinds, 25.0, ~solid)]), Page(), True)
@@ -73,11 +70,10 @@ def fan(mesh: Mesh) -> np.ndarray:
     return np.concatenate([corners[:, [0, k, k + 1]] for k in range(1, corners.shape[1] - 1)])
 
 
-def bare(vertices_file: Path, triangles_file: Path) -> int:
+def bare(vertices_file: Path, triangles_file: Path, camera: Camera) -> int:
     """Load, project, orient, sort."""
     vertices, triangles = np.load(vertices_file), np.load(triangles_file)
-    camera = Camera(EYE)
-    x, y, z = camera.axes @ (vertices - np.array(EYE)).T
+    x, y, z = camera.axes @ (vertices - np.array(camera.eye)).T
     x, y = x / -z, y / -z
     a, b, c = triangles.T
     area = (x[b] - x[a]) * (y[c] - y[a]) - (x[c] - x[a]) * (y[b] - y[a])
@@ -101,9 +97,9 @@ def report(name: str, scenes: list[Scene], kinds: frozenset[LineKind], beat: str
     print(f"\n{name} (to beat: {beat})")
     for scene in scenes:
         count = sum(fan(item.shape).shape[0] for item in scene.items)
-        files = saved(scene, folder)
+        files, camera = saved(scene, folder), default_camera(scene)
         parts = visible(scene, kinds)
-        took, least = seconds(lambda s=scene: visible(s, kinds)), seconds(lambda f=files: bare(*f))
+        took, least = seconds(lambda s=scene: visible(s, kinds)), seconds(lambda f=files, c=camera: bare(*f, c))
         sizes.append(count)
         times.append(took)
         print(
@@ -135,14 +131,12 @@ def test_all_lines_of_a_graph(tmp_path: Path) -> None:
 def test_peak_memory_at_a_million_triangles(tmp_path: Path) -> None:
     vertices, triangles = saved(scene_of(bumpy_icosphere(8)), tmp_path)
     code = f"""
-import resource, numpy as np
+import numpy as np
 from vectorplot.draw import draw
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Scene
-from vectorplot.geometry.camera import Camera
 mesh = Mesh.from_triangles(np.load({str(vertices)!r}), np.load({str(triangles)!r}))
-draw(Scene((Item("sphere", mesh),)), Camera({EYE}), lines=("contour", "crease"))
-print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+draw(Scene((Item("sphere", mesh),)), lines=("contour", "crease"), explain=lambda stage: print(stage.peak_mb))
 """
-    peak = float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
+    peak = float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()[-1])
     print(f"\n1.3 million triangles, contour and creases: peak memory {peak:.0f} MB (to beat: 400 MB)")

@@ -18,7 +18,7 @@ CAMERA = Camera((5.0, -7.0, 4.0))
 def edges_of(mesh: Mesh, kinds: frozenset[LineKind] = ALL, camera: Camera = CAMERA, angle: float = 25.0) -> Edges:
     view = look(Scene((Item("mesh", mesh),)), camera)
     facing = project_faces(view).facing
-    faces = Faces(view.points, view.corners, view.next_corner, view.offsets, view.inner, facing)
+    faces = Faces(view.points, view.corners, view.offsets, view.inner, facing)
     return mesh_edges(faces, kinds, angle)
 
 
@@ -113,7 +113,7 @@ def test_the_diagonal_of_a_cut_quadrilateral_is_no_edge_but_may_be_a_contour() -
 
 def test_vertices_of_a_closed_mesh_are_balanced() -> None:
     mesh = torus_mesh()
-    assert not unbalanced_vertices(len(mesh.vertices), mesh.corners, mesh.next_corner).any()
+    assert not unbalanced_vertices(len(mesh.vertices), mesh.corners, mesh.offsets).any()
     opened = Mesh.from_polygons(mesh.vertices, mesh.polygons()[1:])
-    unbalanced = unbalanced_vertices(len(opened.vertices), opened.corners, opened.next_corner)
+    unbalanced = unbalanced_vertices(len(opened.vertices), opened.corners, opened.offsets)
     assert set(np.flatnonzero(unbalanced)) == set(mesh.polygons()[0])

@@ -14,12 +14,10 @@ def met(*meshes: Mesh) -> Intersections:
     corners = np.concatenate([m.corners + k for m, k in zip(meshes, first[:-1], strict=True)])
     sizes = np.concatenate([m.face_sizes for m in meshes])
     offsets = np.concatenate([[0], np.cumsum(sizes)])
-    shift = np.cumsum([0, *(len(m.corners) for m in meshes)])
-    following = np.concatenate([m.next_corner + k for m, k in zip(meshes, shift[:-1], strict=True)])
     points = np.concatenate([m.vertices for m in meshes]).T.copy()
     part = np.repeat(np.arange(len(meshes)), [m.face_count for m in meshes])
     none = np.zeros(len(sizes), dtype=np.int8)
-    return face_intersections(Faces(points, corners, following, offsets, none[:0].astype(bool), none), part, 1e-9)
+    return face_intersections(Faces(points, corners, offsets, none[:0].astype(bool), none), part, 1e-9)
 
 
 def length(found: Intersections) -> float:

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
 from vectorplot.geometry.strokes import LineKind
+from vectorplot.geometry.winding import faces_are_closed
 
 
 BLOCK = 1 << 16
@@ -36,15 +37,18 @@ class Edges:
 
 @dataclass(frozen=True, eq=False)
 class Faces:
-    """What edges are told from: points (3,v); corners, next_corner, inner (c,) and offsets (f+1,) of the faces; facing (f,)
+    """What edges are told from: points (3,v); corners and inner (c,) and offsets (f+1,) of the faces; facing (f,)
     1, -1 or 0 as a face shows its outside, its inside or its edge."""
 
     points: Floats
     corners: Ints
-    next_corner: Ints
     offsets: Ints
     inner: Bools
     facing: NDArray[np.int8]
+
+    def after(self, position: Ints) -> Ints:
+        """(n,) where in corners the corners stand that follow those at some positions in their faces."""
+        return next_positions(self.offsets, position)
 
 
 def mesh_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: float) -> Edges:
@@ -60,7 +64,7 @@ def mesh_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: floa
     if not len(half):
         none = np.zeros(0, dtype=np.intp)
         return Edges(none, none, none, none, np.zeros(0, dtype=np.bool_), none)
-    a, b = faces.corners[half], faces.corners[faces.next_corner[half]]
+    a, b = faces.corners[half], faces.corners[faces.after(half)]
     low, high = np.minimum(a, b), np.maximum(a, b)
     key = low * faces.points.shape[1] + high
     order = np.argsort(key, kind="stable")
@@ -127,7 +131,7 @@ def _candidates(faces: Faces, kinds: Collection[LineKind], angle_deg: float) -> 
     odd = np.zeros(faces.points.shape[1], dtype=np.bool_)
     if LineKind.CONTOUR in kinds:
         odd |= _turning_vertices(faces)
-    unbalanced = unbalanced_vertices(faces.points.shape[1], faces.corners, faces.next_corner)
+    unbalanced = unbalanced_vertices(faces.points.shape[1], faces.corners, faces.offsets)
     chosen = _both_ends(faces, odd | unbalanced)
     if LineKind.CREASE in kinds:
         chosen |= _both_ends(faces, _sharp_vertices(faces, angle_deg) | unbalanced)
@@ -140,7 +144,7 @@ def _both_ends(faces: Faces, vertices: Bools) -> Bools:
     if len(at_corner) == 3 * (len(faces.offsets) - 1):
         rows = at_corner.reshape(-1, 3)
         return np.asarray((rows & rows[:, [1, 2, 0]]).ravel(), dtype=np.bool_)
-    return np.asarray(at_corner & at_corner[faces.next_corner], dtype=np.bool_)
+    return np.asarray(at_corner & at_corner[faces.after(np.arange(len(at_corner)))], dtype=np.bool_)
 
 
 def _turning_vertices(faces: Faces) -> Bools:
@@ -153,18 +157,21 @@ def _turning_vertices(faces: Faces) -> Bools:
     return np.asarray(seen[0] & seen[1], dtype=np.bool_)
 
 
-def unbalanced_vertices(count: int, corners: Ints, next_corner: Ints) -> Bools:
+def unbalanced_vertices(count: int, corners: Ints, offsets: Ints) -> Bools:
     """(count,) vertices that do not have an edge going out for every edge coming in: ends of boundaries, of edges with an
     odd number of faces, and of edges between faces wound in opposite senses. None: the mesh is closed and oriented.
 
     Edges are told apart by a scrambled number at their other end, large enough that no boundary is missed by chance in
     practice, small enough (40 bits) that the sums are exact.
     """
+    if faces_are_closed(count, corners, offsets):
+        return np.zeros(count, dtype=np.bool_)
     label = ((np.arange(1, count + 1, dtype=np.uint64) * HASH) >> np.uint64(24)).astype(np.float64)
     at_corner = label[corners]
-    difference = at_corner[next_corner]
+    following = next_positions(offsets, np.arange(len(corners)))
+    difference = at_corner[following]
     before = np.empty_like(at_corner)
-    before[next_corner] = at_corner
+    before[following] = at_corner
     difference -= before
     return np.asarray(np.bincount(corners, weights=difference, minlength=count) != 0.0, dtype=np.bool_)
 

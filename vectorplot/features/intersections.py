@@ -189,7 +189,7 @@ def _cut_by_plane(
         return np.zeros((3, 0)), np.zeros((3, 0)), np.zeros(0, dtype=np.bool_)
     height, position, owner, starts = _heights(faces, which, normal, origin, tolerance)
     here = faces.points[:, faces.corners[position]]
-    after = faces.next_corner[position] - position + np.arange(len(position))
+    after = faces.after(position) - position + np.arange(len(position))
     step = np.where(
         height * height[after] < 0.0, height / np.where(height == height[after], 1.0, height - height[after]), 0.0
     )
@@ -216,7 +216,7 @@ def _clip_by_edges(
     for step in range(int(size.max(initial=0))):
         position = faces.offsets[which] + np.minimum(step, size - 1)
         a = faces.points[:, faces.corners[position]]
-        side = faces.points[:, faces.corners[faces.next_corner[position]]] - a
+        side = faces.points[:, faces.corners[faces.after(position)]] - a
         inward = np.cross(normal, side, axis=0)
         inward /= np.maximum(np.sqrt((inward * inward).sum(axis=0)), np.finfo(float).tiny)
         at_start, at_end = ((inward * (p - a)).sum(axis=0) for p in (start, end))

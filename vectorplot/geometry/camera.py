@@ -87,7 +87,7 @@ class Camera:
         back = self.direction
         if self.up is not None:
             right = np.cross(self.up, back)
-        elif np.hypot(back[0], back[1]) <= 1e-12:
+        elif np.hypot(back[0], back[1]) <= 1e-15:
             right = np.array([0.0, 1.0, 0.0])
         else:
             right = np.array([-back[1], back[0], 0.0])

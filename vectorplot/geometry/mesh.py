@@ -16,6 +16,15 @@ Ints = NDArray[np.intp]
 Bools = NDArray[np.bool_]
 
 
+def next_positions(offsets: Ints, position: Ints) -> Ints:
+    """(n,) where the corners stand that follow those at some positions, in faces with the offsets (f+1,)."""
+    if offsets[-1] == 3 * (len(offsets) - 1):
+        return position + np.where(position % 3 == 2, -2, 1)
+    following = np.arange(1, int(offsets[-1]) + 1)
+    following[offsets[1:] - 1] = offsets[:-1]
+    return np.asarray(following[position], dtype=np.intp)
+
+
 @dataclass(frozen=True, eq=False)
 class Mesh:
     """Vertices and polygonal faces, counter-clockwise seen from outside.

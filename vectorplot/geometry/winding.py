@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh, next_positions
 
 _PIECE = 1 << 15
 
@@ -68,22 +68,28 @@ def is_closed_oriented(mesh: Mesh) -> bool:
     adds r(a) s(b) - r(b) s(a) modulo 2^64 for fixed random r and s, which cancels. A mesh that is not closed passes
     with a probability of about 2^-63. Degenerate: a mesh without faces is closed.
     """
-    return int(_circulation(mesh).sum()) == 0
+    return faces_are_closed(len(mesh.vertices), mesh.corners, mesh.offsets)
 
 
-def _circulation(mesh: Mesh) -> NDArray[np.uint64]:
+def faces_are_closed(vertices: int, corners: Ints, offsets: Ints) -> bool:
+    """Whether faces given by their corners (c,) and offsets (f+1,) are closed and oriented; see is_closed_oriented."""
+    return int(_circulation(vertices, corners, offsets).sum()) == 0
+
+
+def _circulation(vertices: int, corners: Ints, offsets: Ints) -> NDArray[np.uint64]:
     """(f,) the sum of r(a) s(b) - r(b) s(a) over the edges of every face, modulo 2^64."""
-    numbers = np.arange(2 * len(mesh.vertices), dtype=np.uint64)
+    numbers = np.arange(2 * vertices, dtype=np.uint64)
     r, s = _scrambled(numbers).reshape(2, -1)
-    if not mesh.is_triangular:
-        following = mesh.corners[mesh.next_corner]
-        terms = r[mesh.corners] * s[following] - r[following] * s[mesh.corners]
-        return np.add.reduceat(terms, mesh.offsets[:-1])
-    sums = np.zeros(mesh.face_count, dtype=np.uint64)
-    for start in range(0, mesh.face_count, _PIECE):
-        corners = mesh.corners[3 * start : 3 * (start + _PIECE)]
-        ra, rb, rc = r[corners].reshape(-1, 3).T
-        sa, sb, sc = s[corners].reshape(-1, 3).T
+    faces = len(offsets) - 1
+    if len(corners) != 3 * faces:
+        following = corners[next_positions(offsets, np.arange(len(corners)))]
+        terms = r[corners] * s[following] - r[following] * s[corners]
+        return np.add.reduceat(terms, offsets[:-1])
+    sums = np.zeros(faces, dtype=np.uint64)
+    for start in range(0, faces, _PIECE):
+        some = corners[3 * start : 3 * (start + _PIECE)]
+        ra, rb, rc = r[some].reshape(-1, 3).T
+        sa, sb, sc = s[some].reshape(-1, 3).T
         sums[start : start + _PIECE] = ra * (sb - sc) + rb * (sc - sa) + rc * (sa - sb)
     return sums
 
@@ -158,12 +164,12 @@ def turned_faces(mesh: Mesh, turn: Bools) -> Mesh:
 
 def joined_pieces(mesh: Mesh) -> tuple[int, Ints]:
     """How many pieces the mesh has, and (f,) the piece of every face; pieces are joined where they share a vertex."""
-    return _pieces(len(mesh.vertices), lambda: _sides(mesh), mesh.corners[mesh.offsets[:-1]])
+    return pieces_of_faces(len(mesh.vertices), mesh.corners, mesh.offsets)
 
 
-def pieces_of_faces(vertices: int, corners: Ints, next_corner: Ints, offsets: Ints) -> tuple[int, Ints]:
-    """How many pieces faces make, and (f,) the piece of every face; pieces are joined where they share a vertex."""
-    return _pieces(vertices, lambda: iter([(corners, corners[next_corner])]), corners[offsets[:-1]])
+def pieces_of_faces(vertices: int, corners: Ints, offsets: Ints) -> tuple[int, Ints]:
+    """As joined_pieces, of faces given by their corners (c,) and offsets (f+1,)."""
+    return _pieces(vertices, lambda: _sides(corners, offsets), corners[offsets[:-1]])
 
 
 def _pieces(vertices: int, sides: Callable[[], Iterator[tuple[Ints, Ints]]], inside: Ints) -> tuple[int, Ints]:
@@ -204,18 +210,18 @@ def _apart(root: Ints, one: Ints, other: Ints) -> tuple[Ints, Ints]:
     return one[apart], other[apart]
 
 
-def _sides(mesh: Mesh) -> Iterator[tuple[Ints, Ints]]:
+def _sides(corners: Ints, offsets: Ints) -> Iterator[tuple[Ints, Ints]]:
     """The ends of all sides but the last one of every face, which connect it as well, in pieces."""
-    for start in range(0, mesh.face_count, _PIECE):
-        offsets = mesh.offsets[start : start + _PIECE + 1]
-        corners = mesh.corners[offsets[0] : offsets[-1]]
-        if len(corners) == 3 * (len(offsets) - 1):
-            triangles = corners.reshape(-1, 3)
+    for start in range(0, len(offsets) - 1, _PIECE):
+        bounds = offsets[start : start + _PIECE + 1]
+        some = corners[bounds[0] : bounds[-1]]
+        if len(some) == 3 * (len(bounds) - 1):
+            triangles = some.reshape(-1, 3)
             yield triangles[:, :2].ravel(), triangles[:, 1:].ravel()
             continue
-        inner = np.ones(len(corners), dtype=np.bool_)
-        inner[offsets[1:] - offsets[0] - 1] = False
-        yield corners[inner], corners[np.flatnonzero(inner) + 1]
+        inner = np.ones(len(some), dtype=np.bool_)
+        inner[bounds[1:] - bounds[0] - 1] = False
+        yield some[inner], some[np.flatnonzero(inner) + 1]
 
 
 def signed_volumes(mesh: Mesh) -> Floats:

@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.convex_faces import convex_faces
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.scene.scene import Scene
 
@@ -66,12 +66,9 @@ class View:
         """Whether every face is a triangle."""
         return len(self.corners) == 3 * self.face_count
 
-    @cached_property
-    def next_corner(self) -> Ints:
-        """(c,) position of the corner that follows in the same face."""
-        following = np.arange(1, len(self.corners) + 1)
-        following[self.offsets[1:] - 1] = self.offsets[:-1]
-        return following
+    def after(self, position: Ints) -> Ints:
+        """(n,) where in corners the corners stand that follow those at some positions in their faces."""
+        return next_positions(self.offsets, position)
 
     @cached_property
     def depth(self) -> Floats:

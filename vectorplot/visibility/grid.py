@@ -14,7 +14,7 @@ Floats32 = NDArray[np.float32]
 MAX_CELLS = 1 << 20
 """Of the finest grid."""
 
-PIECES_PER_SEGMENT = 3.0
+PIECES_PER_SEGMENT = 2.0
 """How finely segments may be cut at cell borders, on the average."""
 
 MAX_COVER_TESTS = 64
@@ -116,7 +116,7 @@ def cell_size(start: Floats, end: Floats, typical: float) -> float:
     """A size of the finest cells for segments with image ends (2,n) among things of a typical size: as fine as the things,
     unless that cuts the segments too often."""
     length = np.abs(end - start).sum()
-    return max(0.5 * typical, float(length) / (PIECES_PER_SEGMENT * start.shape[1] + 65536.0))
+    return max(0.7 * typical, float(length) / (PIECES_PER_SEGMENT * start.shape[1] + 65536.0))
 
 
 def cut(grid: Grid, start: Floats, end: Floats, start_depth: Floats, end_depth: Floats, central: bool) -> Pieces:
@@ -214,16 +214,17 @@ def reaching(grid: Grid, table: Floats32, box: Floats32, nearest: Floats32) -> B
 
 
 def entries(grid: Grid, box: Floats32) -> tuple[Ints, Ints]:
-    """(cell, thing) for every cell that a box (4,n) touches at its level: at most four each."""
-    level = grid.level_of(box)
+    """(cell, thing) for every cell that a box (4,n) touches, at the finest level at which it is no larger than two cells.
+
+    So a thing has at most nine entries, and a cell holds few things that do not come near it.
+    """
+    level = np.maximum(grid.level_of(box) - 1, 0)
     c0, r0, c1, r1 = grid.corner_cells(box, level)
-    things = np.arange(box.shape[1])
-    wide, tall = np.flatnonzero(c1 > c0), np.flatnonzero(r1 > r0)
-    both = np.flatnonzero((c1 > c0) & (r1 > r0))
-    cell = [
-        grid.numbers(c0, r0, level),
-        grid.numbers(c1[wide], r0[wide], level[wide]),
-        grid.numbers(c0[tall], r1[tall], level[tall]),
-        grid.numbers(c1[both], r1[both], level[both]),
-    ]
-    return np.concatenate(cell), np.concatenate([things, wide, tall, both])
+    wide, tall = c1 - c0 + 1, r1 - r0 + 1
+    count = wide * tall
+    thing = np.repeat(np.arange(box.shape[1]), count)
+    step = np.arange(len(thing)) - np.repeat(np.cumsum(count) - count, count)
+    row = step // wide[thing]
+    column = step - row * wide[thing]
+    base = grid.first[level] + r0 * grid.columns[level] + c0
+    return base[thing] + row * grid.columns[level][thing] + column, thing

@@ -20,8 +20,12 @@ from vectorplot.visibility.projected_faces import ProjectedFaces
 PAIRS_AT_ONCE = 1 << 17
 """Pairs of a piece and an occluder handled at once."""
 
-SLABS = (0.0, 1 / 64, 1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2, 1.0)
-"""Occluders are tried front to back in these parts of their number, so that most hidden lines drop out early."""
+SLABS = tuple(np.linspace(0.0, 1.0, 25).tolist())
+"""Occluders are tried front to back in these parts of their number: hidden lines drop out early, near lines are not tried
+against what is far."""
+
+FEWEST_CELLS = 16.0
+"""The finest grid has at least so many cells along the longer side of the picture, however large the things in it."""
 
 SLIVER = 10.0
 """Parts shorter than so many tolerances are none."""
@@ -127,7 +131,7 @@ def _pieces(view: View, faces: ProjectedFaces, segments: Segments) -> tuple[Grid
     low, high = np.minimum(start, end).min(axis=1), np.maximum(start, end).max(axis=1)
     extent = np.float32(max(high - low))
     sizes = np.minimum(np.maximum(faces.box[1] - faces.box[0], faces.box[3] - faces.box[2]), extent)
-    typical = float(sizes.mean()) if len(sizes) else float(extent)
+    typical = min(float(np.median(sizes)), float(extent) / FEWEST_CELLS) if len(sizes) else float(extent)
     cell = grids.cell_size(start, end, typical)
     area = float(np.prod(high - low))
     cell = max(cell, np.sqrt(area / (4.0 * (len(segments) + len(sizes)) + 1024.0)))
@@ -183,9 +187,9 @@ def _all_hits(
             at = grid.numbers(pieces.column[which] >> level, pieces.row[which] >> level, level)
             for piece, entry in _expanded(starts, at, which):
                 occluder = thing[entry]
-                close = _overlapping(piece_boxes[piece], boxes[occluder])
-                close &= occluders.nearest[occluder] < pieces.farthest[piece]
-                close &= alive[piece]
+                close = np.flatnonzero(_overlapping(piece_boxes[piece], boxes[occluder]))
+                piece, occluder = piece[close], occluder[close]
+                close = np.flatnonzero((occluders.nearest[occluder] < pieces.farthest[piece]) & alive[piece])
                 piece, occluder = piece[close], occluder[close]
                 low, high = pieces.low[piece], pieces.high[piece]
                 yield piece, clip_pairs(view, segments, occluders, pieces.segment[piece], occluder, low, high), occluder

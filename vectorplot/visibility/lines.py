@@ -81,7 +81,7 @@ def edge_lines(
 
 
 def _faces(view: View, faces: ProjectedFaces) -> Faces:
-    return Faces(view.points, view.corners, view.next_corner, view.offsets, view.inner, faces.facing)
+    return Faces(view.points, view.corners, view.offsets, view.inner, faces.facing)
 
 
 def _some_faces(faces: Faces, which: Ints) -> Faces:
@@ -89,8 +89,7 @@ def _some_faces(faces: Faces, which: Ints) -> Faces:
     offsets = np.concatenate([[0], np.cumsum(size)])
     shift = faces.offsets[which] - offsets[:-1]
     position = np.arange(offsets[-1]) + np.repeat(shift, size)
-    following = faces.next_corner[position] - np.repeat(shift, size)
-    return Faces(faces.points, faces.corners[position], following, offsets, faces.inner[position], faces.facing[which])
+    return Faces(faces.points, faces.corners[position], offsets, faces.inner[position], faces.facing[which])
 
 
 def intersection_lines(
@@ -104,7 +103,7 @@ def intersection_lines(
     if solid.all():
         part = view.face_item
     else:
-        part = pieces_of_faces(view.points.shape[1], view.corners, view.next_corner, view.offsets)[1]
+        part = pieces_of_faces(view.points.shape[1], view.corners, view.offsets)[1]
     met = face_intersections(_faces(view, faces), part, view.tolerance)
     one, two = view.face_item[met.one], view.face_item[met.two]
     kept = wants[one] | wants[two]

@@ -52,7 +52,7 @@ def solid_items(view: View, faces: ProjectedFaces) -> Bools:
         return chosen
     face = np.flatnonzero(chosen[view.face_item])
     of = view.face_item[face]
-    open_vertex = unbalanced_vertices(view.points.shape[1], view.corners, view.next_corner)
+    open_vertex = unbalanced_vertices(view.points.shape[1], view.corners, view.offsets)
     chosen[np.searchsorted(view.item_vertices, np.flatnonzero(open_vertex), side="right") - 1] = False
     normal, _, first = newell(view, face)
     length = np.sqrt((normal * normal).sum(axis=0))
@@ -91,7 +91,7 @@ def face_occluders(view: View, faces: ProjectedFaces, which: Ints) -> Occluders:
     toward = -faces.facing[which].astype(np.float64)
     depth_planes = _planes(normal * toward, view.points[:, first])
     position = np.repeat(view.offsets[which] - (np.cumsum(sizes) - sizes), sizes) + np.arange(int(sizes.sum()))
-    side = _side_planes(view, view.corners[position], view.corners[view.next_corner[position]])
+    side = _side_planes(view, view.corners[position], view.corners[view.after(position)])
     side *= np.repeat(-toward, sizes)
     return _interleaved(
         view, depth_planes, np.ones(len(which), dtype=np.intp), side, sizes, faces, which, view.face_item[which]
@@ -111,7 +111,7 @@ def solid_occluders(view: View, faces: ProjectedFaces, items: Ints) -> Occluders
     depth_planes = _planes(-normal, view.points[:, first])
     sizes = view.face_sizes[which]
     position = np.repeat(view.offsets[which] - (np.cumsum(sizes) - sizes), sizes) + np.arange(int(sizes.sum()))
-    a, b = view.corners[position], view.corners[view.next_corner[position]]
+    a, b = view.corners[position], view.corners[view.after(position)]
     key = np.minimum(a, b) * view.points.shape[1] + np.maximum(a, b)
     order = np.argsort(key, kind="stable")
     same = key[order][1:] == key[order][:-1]

@@ -48,22 +48,21 @@ def clip_pairs(
     not hide; where a segment lies in a plane of the outline, only the shadow's side counts.
     Source: Glaeser, section 7.2; errata G7-01 and G7-02.
     """
-    pair = np.arange(len(segment))
-    side = np.zeros(len(segment), dtype=np.intp)
-    s, e = segments.start[:, segment], segments.end[:, segment]
-    first, count, behind = occluders.first[occluder], np.diff(occluders.first)[occluder], occluders.behind[occluder]
-    tolerance = view.tolerance
+    pair, reach = _behind_first_plane(view, segments, occluders, segment, occluder)
+    low, high, side = low[pair], high[pair], np.zeros(len(pair), dtype=np.intp)
+    ends = np.concatenate([segments.start[:, segment[pair]], segments.end[:, segment[pair]]])
+    first, behind = occluders.first[occluder[pair]], occluders.behind[occluder[pair]]
+    count = occluders.first[occluder[pair] + 1] - first
     for step in range(int(count.max(initial=0))):
-        plane = first + np.minimum(step, count - 1)
-        a, b, c, d = occluders.planes[:, plane]
-        at_start = a * s[0] + b * s[1] + c * s[2] - d
-        at_end = a * e[0] + b * e[1] + c * e[2] - d
-        at_start[np.abs(at_start) <= tolerance] = 0.0
-        at_end[np.abs(at_end) <= tolerance] = 0.0
+        if step:
+            plane = first + np.minimum(step, count - 1)
+            reach = _heights(view, occluders, plane, ends)
+        at_start, at_end = reach
         inside = (at_start > 0.0) | (at_end > 0.0)
         along = np.flatnonzero((at_start == 0.0) & (at_end == 0.0) & (step >= behind) & (step < count))
         if len(along):
-            new = _shadow_side(view, s[:, along], e[:, along], np.stack([a, b, c])[:, along])
+            inward = occluders.planes[:3, first[along] + np.minimum(step, count[along] - 1)]
+            new = _shadow_side(view, ends[:3, along], ends[3:, along], inward)
             inside[along] = (side[along] == 0) | (side[along] == new)
             side[along] = new
         crossing = np.flatnonzero(at_start * at_end < 0.0)
@@ -72,15 +71,44 @@ def clip_pairs(
             leaving = at_start[crossing] > 0.0
             low[crossing] = np.where(leaving, low[crossing], np.maximum(low[crossing], where))
             high[crossing] = np.where(leaving, np.minimum(high[crossing], where), high[crossing])
+        inside |= step >= count
         inside &= low < high
-        inside |= (step >= count) & (low < high)
         if not inside.all():
             kept = np.flatnonzero(inside)
-            pair, side, low, high = pair[kept], side[kept], low[kept], high[kept]
-            s, e, first, count, behind = s[:, kept], e[:, kept], first[kept], count[kept], behind[kept]
+            pair, side, low, high, ends = pair[kept], side[kept], low[kept], high[kept], ends[:, kept]
+            first, count, behind = first[kept], count[kept], behind[kept]
         if not len(pair):
             break
     return Hits(pair, low, high, side)
+
+
+def _behind_first_plane(
+    view: View, segments: Segments, occluders: Occluders, segment: Ints, occluder: Ints
+) -> tuple[Ints, tuple[Floats, Floats]]:
+    """The pairs of which the segment reaches behind the occluder's first plane, and both ends' distances from it.
+
+    Most pairs of a mesh end here: the faces around a line do not hide it.
+    """
+    a, b, c, d = (row[occluders.first[occluder]] for row in occluders.planes)
+    x, y, z = segments.start
+    at_start = a * x[segment] + b * y[segment] + c * z[segment] - d
+    x, y, z = segments.end
+    at_end = a * x[segment] + b * y[segment] + c * z[segment] - d
+    pair = np.flatnonzero(np.maximum(at_start, at_end) > view.tolerance)
+    return pair, (_snapped(at_start[pair], view.tolerance), _snapped(at_end[pair], view.tolerance))
+
+
+def _heights(view: View, occluders: Occluders, plane: Ints, ends: Floats) -> tuple[Floats, Floats]:
+    """Distances of both ends (6,n) of segments from planes, snapped to zero."""
+    a, b, c, d = (row[plane] for row in occluders.planes)
+    at_start = a * ends[0] + b * ends[1] + c * ends[2] - d
+    at_end = a * ends[3] + b * ends[4] + c * ends[5] - d
+    return _snapped(at_start, view.tolerance), _snapped(at_end, view.tolerance)
+
+
+def _snapped(distance: Floats, tolerance: float) -> Floats:
+    distance[np.abs(distance) <= tolerance] = 0.0
+    return distance
 
 
 def _shadow_side(view: View, start: Floats, end: Floats, inward: Floats) -> Ints:

@@ -79,7 +79,7 @@ def _polygons(view: View, faces: ProjectedFaces, x: Floats, y: Floats, depth: Fl
     first, last = view.offsets[low], view.offsets[high]
     starts = view.offsets[low:high] - first
     px, py = x[view.corners[first:last]], y[view.corners[first:last]]
-    following = view.next_corner[first:last] - first
+    following = view.after(np.arange(first, last)) - first
     owner = np.repeat(np.arange(high - low), view.face_sizes[low:high])
     rx, ry = px - px[starts][owner], py - py[starts][owner]
     area = np.add.reduceat(rx * ry[following] - rx[following] * ry, starts)
@@ -127,7 +127,7 @@ def newell(view: View, faces: Ints) -> tuple[Floats, Floats, Ints]:
     position = np.arange(len(owner)) - (starts - view.offsets[faces])[owner]
     origin = view.points[:, first][:, owner]
     arm = view.points[:, view.corners[position]] - origin
-    after = view.points[:, view.corners[view.next_corner[position]]] - origin
+    after = view.points[:, view.corners[view.after(position)]] - origin
     length = np.sqrt((arm * arm).sum(axis=0))
     return np.add.reduceat(cross(arm, after), starts, axis=1), np.maximum.reduceat(length, starts), first
 
