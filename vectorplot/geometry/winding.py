@@ -108,7 +108,7 @@ def repeated_faces(mesh: Mesh) -> Bools:
     if mesh.face_count == 0:
         return np.zeros(0, dtype=np.bool_)
     marks = _scrambled(np.arange(len(mesh.vertices), dtype=np.uint64) ^ np.uint64(1 << 63))
-    signature = _scrambled(_circulation(mesh)) + np.add.reduceat(marks[mesh.corners], mesh.offsets[:-1])
+    signature = _scrambled(_circulation(len(mesh.vertices), mesh.corners, mesh.offsets)) + np.add.reduceat(marks[mesh.corners], mesh.offsets[:-1])
     _, first = np.unique(signature, return_index=True)
     repeated = np.ones(mesh.face_count, dtype=np.bool_)
     repeated[first] = False
@@ -265,7 +265,7 @@ def inside_out(mesh: Mesh, piece: Ints, number: int) -> Bools:
         return np.asarray(flip[piece])
     order = np.argsort(piece, kind="stable")
     starts = np.searchsorted(piece[order], np.arange(number))
-    closed = np.add.reduceat(_circulation(mesh)[order], starts) == 0
+    closed = np.add.reduceat(_circulation(len(mesh.vertices), mesh.corners, mesh.offsets)[order], starts) == 0
     negative = np.flatnonzero(closed & (volume < 0.0))
     solid = np.flatnonzero(closed & (volume > 0.0))
     if len(negative) and len(solid):
