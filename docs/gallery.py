@@ -1,0 +1,127 @@
+"""Draws the gallery: every scene in data/, every script in examples/, and the page that shows them.
+
+``python docs/gallery.py`` writes docs/gallery/*.svg, docs/gallery/pencil.png and docs/gallery/README.md. A test
+compares what it would write with what is stored.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+import tempfile
+from pathlib import Path
+
+import vectorplot as vp
+
+ROOT = Path(__file__).resolve().parent.parent
+GALLERY = ROOT / "docs" / "gallery"
+HEIGHT = 220
+"""Height of a picture on the page, in pixels."""
+
+LOOK_AT = {
+    "box": "A hollow box has no bottom and no top; `+bottom` closes it below. The back walls are seen inside.",
+    "cone": "A meridian with its upper end on the axis: all faces meet in a single vertex. `edges` shows them.",
+    "cubes": "They have their centre in common; edges stop where one cube enters the other, and the section is drawn.",
+    "cylinder": "One looks in at the open top: inside the faces show their back, and the near rim hides the bottom.",
+    "interpenetrating": "Beams driven through one another; the tips that come out of the die are small and complete.",
+    "intersections": "Two cubes, a cylinder and a cube, a ring and a slab: only what each pair has in common is drawn.",
+    "patterns": "Each polygon lies in the coordinates of its face; what is on a face that turns away is not drawn.",
+    "pencil": "A cone of order 45 on a cylinder, cut with a hexagonal prism: the sides end in arcs of hyperbolas.",
+    "pyramid": "The book's example of an object with a convex outline; it is open above, and one looks inside.",
+    "rotsweep": "Half a turn of a meridian; the first and the last one bound a single flat face.",
+    "table": "Things stand on a table: their lower edges lie in its top, and stay visible there.",
+    "three_bars": "Each lies above the next: no order of painting is right, geometry has no such trouble.",
+    "town": "Thirty blocks on a plate: houses, flats, towers, a church, a gasometer; each edge as far as it is seen.",
+    "translational_sweep": "A plane polygon moved along a vector.",
+    "tube": "Nothing closes the ends: one looks through, on what is behind.",
+}
+"""What a scene shows, in a sentence."""
+
+
+def scenes() -> list[Path]:
+    """The scene files."""
+    return sorted((ROOT / "data").glob("*.scene"))
+
+
+def examples() -> list[Path]:
+    """The scripts."""
+    return sorted((ROOT / "examples").glob("*.py"))
+
+
+def draw_scene(path: Path, folder: Path) -> list[Path]:
+    """Draw a scene file into a folder; the files it made."""
+    out = folder / f"{path.stem}.svg"
+    vp.save(vp.draw(vp.read(path)), out)
+    return [out]
+
+
+def run_example(path: Path, folder: Path) -> list[Path]:
+    """Run a script, its own folder being one inside this one; the files it made."""
+    own = folder / path.stem
+    own.mkdir()
+    module(path).main(own)
+    return sorted(own.iterdir())
+
+
+def module(path: Path):
+    """A script as a module."""
+    spec = importlib.util.spec_from_file_location(f"example_{path.stem}", path)
+    assert spec is not None and spec.loader is not None
+    loaded = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(loaded)
+    return loaded
+
+
+def text_of(path: Path) -> tuple[str, str]:
+    """The first sentence of a script's docstring, and the rest of it."""
+    doc = re.match(r'"""(.*?)"""', path.read_text(encoding="utf-8"), flags=re.DOTALL)
+    assert doc is not None, path
+    title, _, rest = doc.group(1).strip().partition("\n\n")
+    return " ".join(title.split()), " ".join(rest.split())
+
+
+def entry(title: str, source: Path, pictures: list[str], text: str) -> list[str]:
+    """The lines of the page about one source."""
+    link = f"../../{source.relative_to(ROOT).as_posix()}"
+    shown = "\n".join(f'<img src="{name}" alt="{title}" height="{HEIGHT}">' for name in pictures)
+    return [f"### {title}", "", shown, "", f"{text} [{source.name}]({link})", ""]
+
+
+def page(pictures: dict[Path, list[str]]) -> str:
+    """The text of docs/gallery/README.md."""
+    lines = ["# Gallery", "", "Written by docs/gallery.py. Every picture comes from the file named below it.", ""]
+    lines += ["## Scenes", "", "`vectorplot draw data/NAME.scene -o NAME.svg` draws each of them.", ""]
+    for path in scenes():
+        lines += entry(vp.read(path).title, path, pictures[path], LOOK_AT[path.stem])
+    lines += ["## Scripts", "", "`python examples/NAME.py FOLDER` draws each of them, and checks what it claims.", ""]
+    for path in examples():
+        title, text = text_of(path)
+        lines += entry(title.rstrip("."), path, pictures[path], text)
+    return "\n".join(lines)
+
+
+def draw_all(folder: Path) -> dict[Path, list[Path]]:
+    """Draw everything into a folder; the files that each source made."""
+    made = {path: draw_scene(path, folder) for path in scenes()}
+    return made | {path: run_example(path, folder) for path in examples()}
+
+
+def main() -> None:
+    """Write the gallery."""
+    with tempfile.TemporaryDirectory() as desk:
+        made = draw_all(Path(desk))
+        GALLERY.mkdir(exist_ok=True)
+        for old in GALLERY.glob("*.svg"):
+            old.unlink()
+        for files in made.values():
+            for file in files:
+                (GALLERY / file.name).write_bytes(file.read_bytes())
+    small = vp.draw(vp.read(ROOT / "data" / "pencil.scene"), page=vp.Page(130, 70, 4))
+    vp.save(small, GALLERY / "pencil.png")
+    names = {path: [file.name for file in files] for path, files in made.items()}
+    (GALLERY / "README.md").write_text(page(names), encoding="utf-8")
+    print(f"{sum(map(len, names.values()))} pictures")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,102 @@
+"""The examples run and keep their promises; the gallery is complete and fresh."""
+
+from __future__ import annotations
+
+import importlib.util
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import pytest
+
+import vectorplot as vp
+from vectorplot.draw import DRAWN
+from vectorplot.plan import plan_draw
+
+ROOT = Path(__file__).resolve().parent.parent
+SVG = "{http://www.w3.org/2000/svg}"
+SMALL = 40_000
+"""Pictures of at most so many bytes are compared byte by byte."""
+
+
+def gallery_module():
+    spec = importlib.util.spec_from_file_location("gallery_page", ROOT / "docs" / "gallery.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+GALLERY = gallery_module()
+SCENES, EXAMPLES = GALLERY.scenes(), GALLERY.examples()
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """The files that each scene and script makes, each drawn once."""
+    folder, files = tmp_path_factory.mktemp("gallery"), {}
+
+    def draw(path):
+        if path not in files:
+            drawn = GALLERY.draw_scene if path.suffix == ".scene" else GALLERY.run_example
+            files[path] = drawn(path, folder)
+        return files[path]
+
+    return draw
+
+
+def assert_is_whole(path: Path) -> None:
+    """The picture is XML with strokes that lie on its page."""
+    root = ElementTree.fromstring(path.read_bytes())
+    width, height = (float(root.get(side).removesuffix("mm")) for side in ("width", "height"))
+    strokes = [node for node in root.iter() if node.tag in {SVG + "polyline", SVG + "polygon", SVG + "line"}]
+    assert root.tag == SVG + "svg" and strokes
+    for node in strokes:
+        for pair in node.get("points", "").split():
+            x, y = map(float, pair.split(","))
+            assert -0.01 <= x <= width + 0.01 and -0.01 <= y <= height + 0.01, f"{path.name}: {pair}"
+
+
+@pytest.mark.parametrize("path", [*SCENES, *EXAMPLES], ids=lambda path: path.stem)
+def test_every_scene_and_example_draws_whole_pictures(path, made):
+    files = made(path)
+    assert files
+    for file in files:
+        assert_is_whole(file)
+
+
+@pytest.mark.parametrize("path", [*SCENES, *EXAMPLES], ids=lambda path: path.stem)
+def test_the_stored_pictures_are_the_ones_that_are_drawn_now(path, made):
+    for file in made(path):
+        stored = GALLERY.GALLERY / file.name
+        assert stored.is_file(), "run: python docs/gallery.py"
+        if stored.stat().st_size <= SMALL:
+            assert stored.read_bytes() == file.read_bytes(), f"{file.name} is old: run python docs/gallery.py"
+
+
+def test_the_gallery_shows_nothing_else_and_its_page_is_fresh(made):
+    names = {path: [file.name for file in made(path)] for path in (*SCENES, *EXAMPLES)}
+    drawn = [name for pictures in names.values() for name in pictures]
+    assert len(drawn) == len(set(drawn)), "two sources write one picture"
+    assert sorted(drawn) == sorted(path.name for path in GALLERY.GALLERY.glob("*.svg"))
+    page = GALLERY.GALLERY / "README.md"
+    assert page.read_text(encoding="utf-8") == GALLERY.page(names), "run: python docs/gallery.py"
+
+
+def test_what_the_book_and_the_examples_are_known_for_is_there():
+    scenes = {path.stem for path in SCENES}
+    assert scenes >= {
+        *("pyramid", "cone", "cylinder", "rotsweep", "translational_sweep", "box", "cubes", "pencil", "town"),
+        *("interpenetrating", "three_bars", "table", "tube"),
+    }
+    assert len(vp.read(ROOT / "data" / "town.scene").items) == 30 + 1, "thirty blocks on a plate"
+
+
+def test_the_pencil_calls_for_no_effect():
+    scene = vp.read(ROOT / "data" / "pencil.scene")
+    assert scene.lights == ()
+    stages = plan_draw(scene, frozenset(map(vp.LineKind.from_word, DRAWN)), "none", 0.0)
+    assert {stage.name for stage in stages}.isdisjoint({"halo", "patterns", "counted lines", "shadows"})
+
+
+@pytest.mark.parametrize("path", [*EXAMPLES, ROOT / "docs" / "gallery.py"], ids=lambda path: path.stem)
+def test_examples_are_short(path):
+    assert len(path.read_text(encoding="utf-8").splitlines()) <= (140 if path.stem == "gallery" else 90)
