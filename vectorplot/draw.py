@@ -193,7 +193,7 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, page_from_image:
     rank = np.empty(count, dtype=np.intp)
     rank[order] = np.arange(count)
     world = page_from_world(view, page_from_image)
-    paths = Paths(points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends.T))
+    paths = Paths(points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends))
     return Strokes(without_duplicates(paths, rank, COINCIDENT_MM, world), rank, world)
 
 

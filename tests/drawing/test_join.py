@@ -136,3 +136,21 @@ def test_shuffled_turned_and_joined_again_nothing_changes():
     line = result.points if np.allclose(result.points[0], walk[0]) else result.points[::-1]
     np.testing.assert_array_equal(line, walk)
     assert len(all_joined(result)) == 1
+
+
+def test_ends_one_behind_the_other_are_not_joined():
+    both = pieces([(0, 0), (10, 0), (0, 5), (10, 5)], [(10, 0), (20, 0), (10, 5), (20, 5)])
+    both.points3d[2:4, 2] = 7.0
+    result = all_joined(both)
+    assert sorted(line.tolist() for line in lines_of(result)) == [
+        [[0, 0], [10, 0]],
+        [[0, 5], [10, 5], [20, 5]],
+        [[10, 0], [20, 0]],
+    ]
+
+
+def test_of_four_ends_those_at_the_same_depth_are_joined():
+    cross = pieces([(0, 0), (10, 0), (10, 10), (10, 0)], [(10, 0), (20, 0), (10, 0), (10, -10)])
+    cross.points3d[[0, 1, 4, 5], 2] = 9.0
+    depths = [set(line.tolist()) for line in np.split(all_joined(cross).points3d[:, 2], [3])]
+    assert depths == [{9.0}, {1.0}]

@@ -82,3 +82,16 @@ def test_on_a_lattice_the_drawn_set_stays_exactly(strokes):
         t = np.linspace(0, 1, 9)[:, None, None]
         assert farthest_from((chords_before[:, 0] * (1 - t) + chords_before[:, 1] * t).reshape(-1, 2), chords) < 1e-8
         assert farthest_from((chords[:, 0] * (1 - t) + chords[:, 1] * t).reshape(-1, 2), chords_before) < 1e-8
+
+
+def test_a_point_where_a_straight_stroke_turns_in_the_world_stays():
+    line = polylines([(0, 0), (1, 0), (2, 0), (3, 0), (4, 0)])
+    line.points3d[:, 2] = [0.0, 1.0, 2.0, 1.0, 0.0]
+    assert without_collinear_points(line, 1e-3).points.tolist() == [[0, 0], [2, 0], [4, 0]]
+
+
+def test_a_straight_edge_in_perspective_loses_its_inner_points():
+    t = np.array([0.0, 0.2, 0.5, 1.0])
+    line = polylines(np.c_[10.0 * t, np.zeros(4)])
+    line.points3d[:, 0] = 10.0 * t * t
+    assert without_collinear_points(line, 1e-3).points.tolist() == [[0, 0], [10, 0]]

@@ -7,8 +7,12 @@ import numpy as np
 from vectorplot.drawing.chains import NO_END, Chains, chains
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.near import clusters
-from vectorplot.drawing.pieces import chosen, offsets_of, ranges
+from vectorplot.drawing.pieces import chosen, offsets_of, ranges, world_per_mm
 from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.weld import close_points
+
+SAME_PLACE = 100.0
+"""Ends further apart in the world than so many tolerances on the page lie one behind the other."""
 
 _TURN = 1 << 30
 """Directions are whole numbers of this part of a full turn: sums and comparisons of angles are exact."""
@@ -18,8 +22,9 @@ def joined(paths: Paths, group: Ints, tolerance_mm: float) -> Paths:
     """The same lines in as few and as long strokes as their ends allow.
 
     group (m,): only strokes of equal group are joined; a joined stroke has the kind, item and hidden_by of its first
-    part. Ends within tolerance_mm are one node. Two ends at a node are joined; of more, those that go on most nearly
-    straight are joined first. Strokes that come back to their start are closed, their first point not repeated.
+    part. Ends within tolerance_mm are one node, unless they lie one behind the other in the world. Two ends at a node
+    are joined; of more, those that go on most nearly straight are joined first. Strokes that come back to their start
+    are closed, their first point not repeated.
     Degenerate: closed strokes stay as they are and come last; a straight stroke with both ends at one node is left out;
     two straight strokes between the same nodes and no others become one.
     """
@@ -33,7 +38,26 @@ def joined(paths: Paths, group: Ints, tolerance_mm: float) -> Paths:
     if dot.any():
         rest = np.sort(np.concatenate((open_[~dot], np.flatnonzero(paths.closed))))
         return joined(chosen(paths, rest), group[rest], tolerance_mm)
+    reach = SAME_PLACE * tolerance_mm * world_per_mm(paths)
+    node = _parted(node, paths.points3d[np.stack((first, last), axis=1).ravel()], reach)
     return _assembled(paths, open_, chains(_mates(paths, first, last, node)))
+
+
+def _parted(node: Ints, ends: Floats, reach: float) -> Ints:
+    """(2m,) the nodes, those parted whose ends (2m,3) are further apart in the world than reach."""
+    order = np.argsort(node, kind="stable")
+    begin = np.flatnonzero(np.concatenate(([True], np.diff(node[order]) > 0)))
+    wide = np.zeros(len(begin), dtype=np.bool_)
+    for axis in range(3):
+        along = ends[order, axis]
+        wide |= np.maximum.reduceat(along, begin) - np.minimum.reduceat(along, begin) > reach
+    if not wide.any():
+        return node
+    some = np.flatnonzero(wide[node])
+    place = close_points(ends[some], reach)
+    parted = node.copy()
+    parted[some] = len(wide) + np.unique(node[some] * len(some) + place, return_inverse=True)[1]
+    return parted
 
 
 def _nodes(ends: Floats, group: Ints, tolerance_mm: float) -> Ints:

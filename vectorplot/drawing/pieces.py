@@ -20,6 +20,14 @@ def offsets_of(counts: Ints) -> Ints:
     return np.concatenate(([0], np.cumsum(counts))).astype(np.intp)
 
 
+def world_per_mm(paths: Paths) -> float:
+    """The extent of the strokes in the world by that on the page; 0 without points or without extent."""
+    if not len(paths.points):
+        return 0.0
+    mm, world = (float(np.ptp(points, axis=0).max()) for points in (paths.points, paths.points3d))
+    return world / mm if mm > 0.0 else 0.0
+
+
 def chosen(paths: Paths, which: Ints | Bools) -> Paths:
     """The strokes with these indices, in this order; or those where a mask is true."""
     index = np.flatnonzero(which) if which.dtype == np.bool_ else which

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.pieces import chosen, concatenated, offsets_of, ranges, unrolled
+from vectorplot.drawing.pieces import chosen, concatenated, offsets_of, ranges, unrolled, world_per_mm
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 _ROUNDS = 6
@@ -20,8 +20,9 @@ def without_collinear_points(paths: Paths, tolerance_mm: float) -> Paths:
     """The same strokes without the points on the straight line between their neighbours.
 
     Every point left out lies within tolerance_mm of the segment that takes its place, however many are left out in a
-    row; a point where the stroke turns back stays. A closed stroke begins where it did if that point stays, otherwise
-    at the next one that stays. points3d keeps the points that stay.
+    row, and in the world within as much of it on the scale of the drawing; a point where the stroke turns back stays. A
+    closed stroke begins where it did if that point stays, otherwise at the next one that stays. points3d keeps the
+    points that stay.
     Degenerate: a closed stroke of which two points stay becomes an open one; strokes of fewer than three points stay.
     Source: Douglas and Peucker, Algorithms for the reduction of the number of points, Cartographica 10 (1973), between
     the points that are no candidates.
@@ -34,6 +35,7 @@ def without_collinear_points(paths: Paths, tolerance_mm: float) -> Paths:
         order = np.argsort(np.concatenate((np.flatnonzero(~long), np.flatnonzero(long))))
         return chosen(concatenated((chosen(paths, ~long), thinned)), order)
     straight = _goes_straight(paths, tolerance_mm)
+    straight[straight] = _goes_straight_in_space(paths, np.flatnonzero(straight), tolerance_mm * world_per_mm(paths))
     if not straight.any():
         return paths
     start = np.where(paths.closed, _first_false(straight, paths.offsets), 0)
@@ -70,6 +72,15 @@ def _goes_straight(paths: Paths, tolerance_mm: float) -> Bools:
     return straight
 
 
+def _goes_straight_in_space(paths: Paths, points: Ints, tolerance: float) -> Bools:
+    """(n,) whether some points lie in the world within a tolerance of the segment between their neighbours."""
+    stroke = np.searchsorted(paths.offsets, points, side="right") - 1
+    first, last = paths.offsets[stroke], paths.offsets[stroke + 1] - 1
+    before = paths.points3d[np.where(points > first, points - 1, last)]
+    after = paths.points3d[np.where(points < last, points + 1, first)]
+    return np.asarray(_distance(paths.points3d[points], before, after) <= tolerance)
+
+
 def _first_false(flags: Bools, offsets: Ints) -> Ints:
     """(m,) the place of the first False in each run, 0 where there is none."""
     places = np.append(np.flatnonzero(~flags), len(flags))
@@ -88,7 +99,7 @@ def _unrolled_index(paths: Paths, line: Paths, start: Ints) -> Ints:
 
 def _keep_what_is_far(line: Paths, kept: Bools, closed: Bools, tolerance_mm: float) -> None:
     """Keep of the points between kept ones the farthest, until all lie within the tolerance of what replaces them."""
-    points = line.points
+    unit = world_per_mm(line) or 1.0
     # A chord of a whole loop has no direction: its farthest point stays in any case.
     loops = np.zeros(len(kept), dtype=np.bool_)
     loops[line.offsets[:-1][closed]] = True
@@ -98,7 +109,9 @@ def _keep_what_is_far(line: Paths, kept: Bools, closed: Bools, tolerance_mm: flo
         stays = np.flatnonzero(kept)
         place = np.cumsum(kept)[open_points]
         before, after = stays[place - 1], stays[place]
-        away = _distance(points[open_points], points[before], points[after])
+        away = _distance(line.points[open_points], line.points[before], line.points[after])
+        in_space = _distance(line.points3d[open_points], line.points3d[before], line.points3d[after])
+        away = np.maximum(away, in_space / unit)
         begin = np.flatnonzero(np.concatenate(([True], before[1:] != before[:-1])))
         size = np.diff(np.append(begin, len(before)))
         most = np.maximum.reduceat(away, begin)
@@ -129,4 +142,4 @@ def _distance(points: Floats, start: Floats, end: Floats) -> Floats:
     square = (along * along).sum(axis=1)
     t = np.clip((arm * along).sum(axis=1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
     away = arm - t[:, None] * along
-    return np.asarray(np.hypot(away[:, 0], away[:, 1]), dtype=np.float64)
+    return np.asarray(np.sqrt((away * away).sum(axis=1)), dtype=np.float64)
