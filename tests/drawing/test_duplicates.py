@@ -159,3 +159,15 @@ def test_among_random_strokes_the_same_pairs_are_found_as_by_trying_all():
     sticks_out = outside > 3 * TOL
     assert len(result) == 300 + sticks_out.sum()
     assert abs(length_mm(result) - length.sum() - outside[sticks_out].sum()) < 600 * TOL
+
+
+def test_of_equal_rank_the_longer_wins_so_that_there_are_few_pieces():
+    lines = pieces([(0, 0), (5, 5), (2, 2)], [(4, 4), (9, 9), (12, 12)])
+    result = once(lines)
+    assert canonical(result) == [((0.0, 0.0), (2.0, 2.0)), ((2.0, 2.0), (12.0, 12.0))]
+
+
+def test_the_twin_is_found_among_many_close_parallels():
+    height = np.append(100 + 0.001 * np.arange(60), 100.0)
+    lines = pieces(np.c_[np.full(61, 10.0), height], np.c_[np.full(61, 60.0), height])
+    assert canonical(once(lines)) == canonical(chosen(lines, np.arange(60)))
