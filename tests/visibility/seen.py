@@ -58,7 +58,7 @@ def wrong_samples(scene: Scene, camera: Camera, result: Seen, samples: int, seed
     segment = random.integers(0, len(lines), samples)
     at = random.random(samples)
     points = lines.start[:, segment] + at * (lines.end - lines.start)[:, segment]
-    world = result.view.world_of(points.T)
+    world = result.view.world_of(points)
     truth = visible_by_rays(scene, camera, world)
     key = parts.segment + 0.5 * parts.high
     mine = parts.hidden_by[np.minimum(np.searchsorted(key, segment + 0.5 * at), len(key) - 1)]

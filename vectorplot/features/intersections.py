@@ -36,9 +36,7 @@ def face_intersections(faces: Faces, part: Ints, tolerance: float) -> Intersecti
     """
     none = np.zeros((3, 0))
     found = [Intersections(none, none, np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
-    low, high = _boxes(faces)
-    low, high = low - tolerance, high + tolerance
-    one, two = _pairs_of_parts(part, low, high)
+    one, two = _pairs_of_faces(faces, part, tolerance)
     for first in range(0, len(one), PAIRS_AT_ONCE):
         found.append(_meet(faces, one[first : first + PAIRS_AT_ONCE], two[first : first + PAIRS_AT_ONCE], tolerance))
     return Intersections(
@@ -49,31 +47,51 @@ def face_intersections(faces: Faces, part: Ints, tolerance: float) -> Intersecti
     )
 
 
-def _boxes(faces: Faces) -> tuple[Floats, Floats]:
-    """Smallest and largest coordinates (3,f) of every face."""
-    starts = faces.offsets[:-1]
-    low, high = np.empty((3, len(starts))), np.empty((3, len(starts)))
+def _pairs_of_faces(faces: Faces, part: Ints, tolerance: float) -> tuple[Ints, Ints]:
+    """Pairs of faces of different parts whose boxes overlap."""
+    none = np.zeros(0, dtype=np.intp)
+    parts = int(part.max(initial=-1)) + 1
+    if parts < 2:
+        return none, none
+    low, high = _part_boxes(faces, part, parts)
+    low, high = low - tolerance, high + tolerance
+    a, b = _overlaps(low, high, low, high)
+    a, b = a[a < b], b[a < b]
+    meeting = np.zeros(parts, dtype=np.bool_)
+    meeting[a], meeting[b] = True, True
+    face = np.flatnonzero(meeting[part])
+    if not len(face):
+        return none, none
+    one, two = _within_pairs(*_boxes(faces, face, tolerance), part[face], (a, b), low, high)
+    return face[one], face[two]
+
+
+def _part_boxes(faces: Faces, part: Ints, parts: int) -> tuple[Floats, Floats]:
+    """Smallest and largest coordinates (3,p) of every part."""
+    owner = np.full(faces.points.shape[1], -1, dtype=np.intp)
+    owner[faces.corners] = np.repeat(part, np.diff(faces.offsets))
+    used = np.flatnonzero(owner >= 0)
+    low, high = np.full((3, parts), np.inf), np.full((3, parts), -np.inf)
     for axis in range(3):
-        at_corner = faces.points[axis][faces.corners]
-        low[axis] = np.minimum.reduceat(at_corner, starts)
-        high[axis] = np.maximum.reduceat(at_corner, starts)
+        np.minimum.at(low[axis], owner[used], faces.points[axis, used])
+        np.maximum.at(high[axis], owner[used], faces.points[axis, used])
     return low, high
 
 
-def _pairs_of_parts(part: Ints, low: Floats, high: Floats) -> tuple[Ints, Ints]:
-    """Pairs of faces of different parts whose boxes overlap."""
-    parts = int(part.max(initial=-1)) + 1
-    part_low, part_high = np.full((3, parts), np.inf), np.full((3, parts), -np.inf)
-    for axis in range(3):
-        np.minimum.at(part_low[axis], part, low[axis])
-        np.maximum.at(part_high[axis], part, high[axis])
-    a, b = _overlaps(part_low, part_high, part_low, part_high)
-    keep = a < b
-    a, b = a[keep], b[keep]
-    if not len(a):
-        return a, b
+def _boxes(faces: Faces, which: Ints, tolerance: float) -> tuple[Floats, Floats]:
+    """Smallest and largest coordinates (3,n) of some faces, widened by the tolerance."""
+    position, _, starts = _corners_of(faces, which)
+    at_corner = faces.points[:, faces.corners[position]]
+    return np.minimum.reduceat(at_corner, starts, axis=1) - tolerance, np.maximum.reduceat(at_corner, starts, axis=1) + tolerance
+
+
+def _within_pairs(
+    low: Floats, high: Floats, part: Ints, pairs: tuple[Ints, Ints], part_low: Floats, part_high: Floats
+) -> tuple[Ints, Ints]:
+    """Pairs of faces with overlapping boxes (3,n), one of each part of a pair of parts."""
+    a, b = pairs
     by_part = np.argsort(part, kind="stable")
-    first = np.searchsorted(part[by_part], np.arange(parts + 1))
+    first = np.searchsorted(part[by_part], np.arange(part_low.shape[1] + 1))
     common_low, common_high = np.maximum(part_low[:, a], part_low[:, b]), np.minimum(part_high[:, a], part_high[:, b])
     sides = []
     for which in (a, b):
@@ -82,10 +100,9 @@ def _pairs_of_parts(part: Ints, low: Floats, high: Floats) -> tuple[Ints, Ints]:
         face = by_part[np.arange(len(pair)) - np.repeat(np.cumsum(size) - size - first[which], size)]
         near = (low[:, face] <= common_high[:, pair]).all(axis=0) & (high[:, face] >= common_low[:, pair]).all(axis=0)
         sides.append((pair[near], face[near]))
-    shift = [AXIS_SHIFT * pair for pair, _ in sides]
+    # Faces of different pairs are kept apart by a shift on one axis: so one sweep serves all pairs.
     boxes = [
-        (np.concatenate([[low[0, face] + s], low[1:, face]]), np.concatenate([[high[0, face] + s], high[1:, face]]))
-        for (_, face), s in zip(sides, shift, strict=True)
+        [np.concatenate([ends[:1, face] + AXIS_SHIFT * pair, ends[1:, face]]) for ends in (low, high)] for pair, face in sides
     ]
     one, two = _overlaps(*boxes[0], *boxes[1])
     return sides[0][1][one], sides[1][1][two]

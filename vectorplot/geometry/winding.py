@@ -127,12 +127,7 @@ def components(mesh: Mesh, uses: EdgeUses) -> tuple[int, Ints]:
 
 
 def _connected(count: int, one: Ints, other: Ints) -> tuple[int, Ints]:
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    graph = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(count, count))
-    number, label = connected_components(graph, directed=False)
-    return int(number), np.asarray(label, dtype=np.intp)
+    return _pieces(count, lambda: iter([(one, other)]), np.arange(count))
 
 
 def consistent_winding(mesh: Mesh, uses: EdgeUses) -> tuple[Bools, bool]:

@@ -99,8 +99,8 @@ class View:
         return np.asarray((self.axes / self.scale) @ (world - self.centre).T, dtype=np.float64)
 
     def world_of(self, points: Floats) -> Floats:
-        """(n,3) points (n,3) of the view in world coordinates."""
-        return self.centre + self.scale * (points @ self.axes)
+        """(n,3) points (3,n) of the view in world coordinates."""
+        return np.ascontiguousarray((self.scale * self.axes.T @ points).T + self.centre)
 
     @cached_property
     def image_from_world(self) -> Floats:
