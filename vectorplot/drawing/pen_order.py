@@ -19,8 +19,8 @@ def pen_ordered(paths: Paths) -> Paths:
     The pen begins anywhere; the end of the tour nearer to the page's corner comes first. The result does not depend on
     the order or the directions of the given strokes, except among strokes with equal ends.
     Degenerate: strokes without points come last, as given.
-    Source: Bentley, Fast algorithms for geometric traveling salesman problems, ORSA J. Computing 4 (1992), sections
-    4 to 6: greedy matching, 2-opt, Or-opt with neighbour lists.
+    Source: Bentley, Fast algorithms for geometric traveling salesman problems, ORSA J. Computing 4 (1992):
+    greedy matching, 2-opt, Or-opt with neighbour lists.
     """
     empty = np.diff(paths.offsets) == 0
     paths = chosen(paths, np.concatenate((np.flatnonzero(~empty), np.flatnonzero(empty))))
