@@ -71,15 +71,15 @@ def draw(
 ) -> Drawing:
     """The scene as strokes on a page, hidden lines found by geometry.
 
-    camera and page: those of the scene where None, else default_camera and A4. fit: the picture fills the page but for its
-    margin; otherwise the page centre is the target and the page height the camera's picture height. lines: words of
-    LineKind; an item's own come first. crease_angle_deg: sharper edges are creases. hidden: hidden lines are left
-    out, dashed, or solid on a layer of their own. halo_mm: lines end so far beside what is in front of them. layers: what
-    shares a layer. tolerance_mm: for approximations; straight lines are exact. progress(stage, fraction) and explain(report)
-    are called while it works.
+    camera and page: those of the scene where None, else default_camera and A4. fit: the picture fills the page but
+    for its margin; otherwise the page centre is the target and the page height the camera's picture height. lines:
+    words of LineKind; an item's own come first. crease_angle_deg: sharper edges are creases. hidden: hidden lines are
+    left out, dashed, or solid on a layer of their own. halo_mm: lines end so far beside what is in front of them.
+    layers: what shares a layer. tolerance_mm: for approximations; straight lines are exact. progress(stage, fraction)
+    and explain(report) are called while it works.
     Errors: InputError for unknown words and impossible cameras.
-    Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off the
-    principal ray, a fitted picture shows the camera's field of vision.
+    Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees
+    off the principal ray, a fitted picture shows the camera's field of vision.
     Source: Glaeser, sections 2.1 and 7.2.
     """
     kinds = frozenset(map(LineKind.from_word, lines))
@@ -166,7 +166,8 @@ def _part_ends(lines: Lines, seen: Visibility) -> tuple[Floats, Floats]:
 
 @dataclass(frozen=True, eq=False)
 class Strokes:
-    """Straight strokes of two points on the page, how important each is (the smaller the more), and page_from_world (4,4)."""
+    """Straight strokes of two points on the page, how important each is (the smaller the more), and page_from_world
+    (4,4)."""
 
     paths: Paths
     rank: Ints
@@ -198,7 +199,8 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, page_from_image:
 
 
 def page_from_world(view: View, page_from_image: Floats) -> Floats:
-    """(4,4) matrix from points (x,y,z,1) of the world to homogeneous points of the page in mm; the third row keeps z."""
+    """(4,4) matrix from points (x,y,z,1) of the world to homogeneous points of the page in mm; the third row keeps
+    z."""
     scaled = np.diag([1.0 / view.scale, 1.0 / view.scale, 1.0])
     rows = page_from_image @ scaled @ view.image_from_world
     return np.vstack([rows[:2], [0.0, 0.0, 1.0, 0.0], rows[2:]])
@@ -215,7 +217,8 @@ def _layers(scene: Scene, strokes: Strokes, layers: str) -> tuple[Layer, ...]:
 
 
 def _inked(layers: tuple[Layer, ...], hidden: str, world: Floats) -> tuple[Layer, ...]:
-    """Each layer's strokes joined, without collinear points, hidden ones dashed if asked for, in the order of the pen."""
+    """Each layer's strokes joined, without collinear points, hidden ones dashed if asked for, in the order of the
+    pen."""
     return tuple(
         replace(layer, marks=tuple(_pen_strokes(mark, hidden, world) for mark in layer.marks)) for layer in layers
     )

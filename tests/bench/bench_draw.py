@@ -1,6 +1,6 @@
 """Hidden lines beside the bare cost of the same data: run with ``pytest tests/bench/bench_draw.py -m bench -s``.
 
-The bare cost is what nothing can do without: load the arrays, project the vertices, orient the faces, sort them by depth.
+The bare cost is what nothing can do without: load the arrays, project vertices, orient faces, sort them by depth.
 """
 
 from __future__ import annotations
@@ -29,6 +29,7 @@ from vectorplot.visibility.pairs import Segments
 from vectorplot.visibility.projected_faces import project_faces
 
 pytestmark = pytest.mark.bench
+
 
 def scene_of(mesh: Mesh) -> Scene:
     return Scene((Item("mesh", mesh),))
@@ -103,7 +104,8 @@ def report(name: str, scenes: list[Scene], kinds: frozenset[LineKind], beat: str
         sizes.append(count)
         times.append(took)
         print(
-            f"  {count:>9,} triangles, {parts:>7,} visible parts: {took:7.3f} s, bare {least:6.3f} s, {took / least:5.1f} times"
+            f"  {count:>9,} triangles, {parts:>7,} visible parts: "
+            f"{took:7.3f} s, bare {least:6.3f} s, {took / least:5.1f} times"
         )
     slope = np.polyfit(np.log(sizes), np.log(times), 1)[0]
     last = np.log(times[-1] / times[-2]) / np.log(sizes[-1] / sizes[-2])
@@ -138,5 +140,7 @@ from vectorplot.scene.scene import Item, Scene
 mesh = Mesh.from_triangles(np.load({str(vertices)!r}), np.load({str(triangles)!r}))
 draw(Scene((Item("sphere", mesh),)), lines=("contour", "crease"), explain=lambda stage: print(stage.peak_mb))
 """
-    peak = float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()[-1])
+    peak = float(
+        subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()[-1]
+    )
     print(f"\n1.3 million triangles, contour and creases: peak memory {peak:.0f} MB (to beat: 400 MB)")

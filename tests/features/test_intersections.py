@@ -4,8 +4,8 @@ import pytest
 from vectorplot.features.edges import Faces
 from vectorplot.features.intersections import Intersections, face_intersections
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.testing.surfaces import bumpy_icosphere
 from vectorplot.testing.shapes import box
+from vectorplot.testing.surfaces import bumpy_icosphere
 
 
 def met(*meshes: Mesh) -> Intersections:
@@ -33,7 +33,7 @@ def test_two_boxes_meet_in_a_closed_polygon() -> None:
 
 def test_two_spheres_meet_in_a_circle() -> None:
     sphere = bumpy_icosphere(4, bump=0.0)
-    other = Mesh(sphere.vertices + [0.7, 0.0, 0.0], sphere.corners, sphere.offsets)
+    other = Mesh(sphere.vertices + np.array([0.7, 0.0, 0.0]), sphere.corners, sphere.offsets)
     found = met(sphere, other)
     assert np.isclose(length(found), 2.0 * np.pi * np.sqrt(1.0 - 0.35**2), rtol=2e-3)
     ends = np.round(np.concatenate([found.start, found.end], axis=1).T, 7)

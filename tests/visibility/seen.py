@@ -68,5 +68,6 @@ def wrong_samples(scene: Scene, camera: Camera, result: Seen, samples: int, seed
     if len(wrong):
         first = wrong[0]
         kind = LineKind(int(lines.kind[segment[first]])).word
-        fault = f"{kind} of item {lines.item[segment[first]]} at {world[first]}: {mine[first]}, rays {truth.hidden_by[first]}"
+        item, rays = lines.item[segment[first]], truth.hidden_by[first]
+        fault = f"{kind} of item {item} at {world[first]}: {mine[first]}, rays {rays}"
     return len(wrong), int(sure.sum()), fault

@@ -1,0 +1,1 @@
+"""Drawings as files: a backend sees a Drawing and nothing else."""

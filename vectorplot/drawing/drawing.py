@@ -21,10 +21,9 @@ class Pen:
 class Paths:
     """Many stroked polylines on the page.
 
-    points (p,2) in mm, y upwards from the lower left corner; offsets (m+1,); closed (m,): the last point joins the first
-    (which is not repeated); kind (m,) LineKind values; item (m,) indices into Drawing.items; hidden_by (m,) number of
-    items in front, 0 = visible; points3d (p,3) the same points in the world.
-    """
+    points (p,2) in mm, y upwards from the lower left corner; offsets (m+1,); closed (m,): the last point joins the
+    first (which is not repeated); kind (m,) LineKind values; item (m,) indices into Drawing.items; hidden_by (m,)
+    number of items in front, 0 = visible; points3d (p,3) the same points in the world."""
 
     points: Floats
     offsets: Ints
@@ -39,16 +38,16 @@ class Paths:
 
     @classmethod
     def empty(cls) -> Paths:
+        """No paths at all."""
         none = np.zeros(0, dtype=np.intp)
-        return cls(
-            np.zeros((0, 2)), np.zeros(1, dtype=np.intp), np.zeros(0, dtype=np.bool_), none, none, none, np.zeros((0, 3))
-        )
+        one, flags = np.zeros(1, dtype=np.intp), np.zeros(0, dtype=np.bool_)
+        return cls(np.zeros((0, 2)), one, flags, none, none, none, np.zeros((0, 3)))
 
 
 @dataclass(frozen=True, eq=False)
 class Layer:
-    """Marks drawn with one pen. name: what the layer holds, such as ``visible``; plotted: False for a layer that is there
-    to be looked at only (its label gets the prefix % that plotter drivers skip)."""
+    """Marks drawn with one pen. name: what the layer holds, such as ``visible``; plotted: False for a layer that is
+    there to be looked at only (its label gets the prefix % that plotter drivers skip)."""
 
     name: str
     pen: Pen

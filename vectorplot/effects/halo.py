@@ -115,12 +115,12 @@ def _foot(point: Floats, q0: Floats, q1: Floats) -> Floats:
 
 
 def outer_zones(p0: Floats, p1: Floats, q0: Floats, q1: Floats, side: Ints, width: float) -> tuple[Floats, Floats]:
-    """Parameters (n,) between which p0 -> p1 is nearer than width to q0 -> q1, all (2,n), on the side away from the surface:
-    side 1 means that lies left of q0 -> q1, -1 right of it. low >= high: nowhere."""
+    """Parameters (n,) between which p0 -> p1 is nearer than width to q0 -> q1, all (2,n), on the side away from the
+    surface: side 1 means that lies left of q0 -> q1, -1 right of it. low >= high: nowhere."""
     along, axis = p1 - p0, q1 - q0
     length = np.sqrt((axis * axis).sum(axis=0))
     unit = axis / np.where(length > 0.0, length, 1.0)
-    outward = np.stack([unit[1], -unit[0]]) * side
+    outward = np.asarray(np.stack([unit[1], -unit[0]]) * side, dtype=np.float64)
     arm = p0 - q0
     low, high = _between(arm, along, unit, np.zeros_like(length), length, width, outward)
     for centre in (q0, q1):

@@ -1,0 +1,1 @@
+"""Decisions that are never guessed: signs of predicates, sets of intervals."""

@@ -1,0 +1,1 @@
+"""The lines on a shape: edges, contours, intersections, patterns."""

@@ -12,7 +12,6 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.geometry.winding import faces_are_closed
 
-
 BLOCK = 1 << 16
 """Faces handled at once: few enough for the processor's cache."""
 
@@ -23,9 +22,9 @@ HASH = np.uint64(0x9E3779B97F4A7C15)
 
 @dataclass(frozen=True, eq=False)
 class Edges:
-    """Edges of a mesh: start and end (e,) vertices, kind (e,), face (e,) one of the faces there, front (e,): whether a face
-    there shows its outside; side (e,): 1 where all faces there lie to the left of start -> end in the image, -1 where they
-    lie to the right, 0 elsewhere."""
+    """Edges of a mesh: start and end (e,) vertices, kind (e,), face (e,) one of the faces there, front (e,): whether
+    a face there shows its outside; side (e,): 1 where all faces there lie to the left of start -> end in the image,
+    -1 where they lie to the right, 0 elsewhere."""
 
     start: Ints
     end: Ints
@@ -54,9 +53,9 @@ class Faces:
 def mesh_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: float) -> Edges:
     """The edges of the mesh that are of one of the kinds, each edge once, ordered by its vertices.
 
-    An edge is a contour where all its faces lie on one side of it in the image, a boundary with one face only, a crease
-    where two faces turn by more than crease_angle_deg or three meet. It gets the first of the kinds asked for that it is.
-    Neighbours wound in opposite senses are compared as if one were turned over.
+    An edge is a contour where all its faces lie on one side of it in the image, a boundary with one face only, a
+    crease where two faces turn by more than crease_angle_deg or three meet. It gets the first of the kinds asked for
+    that it is. Neighbours wound in opposite senses are compared as if one were turned over.
     Degenerate: diagonals of cut polygons count as contours only; edges between two faces seen edge-on are no contours.
     Source: Glaeser, sections 3.3, 6.1 and 9.3; erratum G3-09.
     """
@@ -158,8 +157,9 @@ def _turning_vertices(faces: Faces) -> Bools:
 
 
 def unbalanced_vertices(count: int, corners: Ints, offsets: Ints) -> Bools:
-    """(count,) vertices that do not have an edge going out for every edge coming in: ends of boundaries, of edges with an
-    odd number of faces, and of edges between faces wound in opposite senses. None: the mesh is closed and oriented.
+    """(count,) vertices that do not have an edge going out for every edge coming in: ends of boundaries, of edges
+    with an odd number of faces, and of edges between faces wound in opposite senses. None: the mesh is closed and
+    oriented.
 
     Edges are told apart by a scrambled number at their other end, large enough that no boundary is missed by chance in
     practice, small enough (40 bits) that the sums are exact.
@@ -177,8 +177,8 @@ def unbalanced_vertices(count: int, corners: Ints, offsets: Ints) -> Bools:
 
 
 def _sharp_vertices(faces: Faces, angle_deg: float) -> Bools:
-    """Vertices with a face that turns by more than half the angle from one chosen face there: only between such vertices
-    can two faces turn by the whole angle."""
+    """Vertices with a face that turns by more than half the angle from one chosen face there: only between such
+    vertices can two faces turn by the whole angle."""
     count = faces.points.shape[1]
     chosen = np.zeros((3, count), dtype=np.float32)
     sharp = np.zeros(count, dtype=np.bool_)

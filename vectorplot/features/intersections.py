@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
@@ -30,8 +31,8 @@ class Intersections:
 def face_intersections(faces: Faces, part: Ints, tolerance: float) -> Intersections:
     """The segments in which convex faces of different parts meet.
 
-    part (f,): faces with the same number are not compared. A face that only touches the other's plane with an edge counts,
-    one that lies in it does not. A distance below tolerance is zero.
+    part (f,): faces with the same number are not compared. A face that only touches the other's plane with an edge
+    counts, one that lies in it does not. A distance below tolerance is zero.
     Source: Glaeser, section 1.3, equations 21 and 22; errata G1-01 to G1-03.
     """
     none = np.zeros((3, 0))
@@ -82,7 +83,9 @@ def _boxes(faces: Faces, which: Ints, tolerance: float) -> tuple[Floats, Floats]
     """Smallest and largest coordinates (3,n) of some faces, widened by the tolerance."""
     position, _, starts = _corners_of(faces, which)
     at_corner = faces.points[:, faces.corners[position]]
-    return np.minimum.reduceat(at_corner, starts, axis=1) - tolerance, np.maximum.reduceat(at_corner, starts, axis=1) + tolerance
+    return np.minimum.reduceat(at_corner, starts, axis=1) - tolerance, np.maximum.reduceat(
+        at_corner, starts, axis=1
+    ) + tolerance
 
 
 def _within_pairs(
@@ -102,7 +105,8 @@ def _within_pairs(
         sides.append((pair[near], face[near]))
     # Faces of different pairs are kept apart by a shift on one axis: so one sweep serves all pairs.
     boxes = [
-        [np.concatenate([ends[:1, face] + AXIS_SHIFT * pair, ends[1:, face]]) for ends in (low, high)] for pair, face in sides
+        [np.concatenate([ends[:1, face] + AXIS_SHIFT * pair, ends[1:, face]]) for ends in (low, high)]
+        for pair, face in sides
     ]
     one, two = _overlaps(*boxes[0], *boxes[1])
     return sides[0][1][one], sides[1][1][two]
@@ -125,7 +129,8 @@ def _overlaps(low: Floats, high: Floats, other_low: Floats, other_high: Floats) 
 
 
 def _starting_within(low: Floats, high: Floats, starts: Floats, side: Literal["left", "right"]) -> tuple[Ints, Ints]:
-    """For every interval the first of the sorted starts in it, and how many there are; side right: beyond its low end."""
+    """For every interval the first of the sorted starts in it, and how many there are; side right: beyond its low
+    end."""
     begin = np.searchsorted(starts, low, side=side)
     return begin, np.maximum(np.searchsorted(starts, high, side="right") - begin, 0)
 
@@ -140,7 +145,7 @@ def _sweep(
     found = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
     cuts = np.searchsorted(np.cumsum(count), np.arange(PAIRS_AT_ONCE, int(count.sum()), PAIRS_AT_ONCE)) + 1
     edges = np.unique(np.concatenate([[0], cuts, [len(count)]]))
-    for first, last in zip(edges[:-1], edges[1:], strict=True):
+    for first, last in pairwise(edges.tolist()):
         size = count[first:last]
         i = np.repeat(np.arange(first, last), size)
         j = order[np.arange(len(i)) - np.repeat(np.cumsum(size) - size, size) + begin[i]]
@@ -171,7 +176,8 @@ def _meet(faces: Faces, one: Ints, two: Ints, tolerance: float) -> Intersections
 
 
 def _corners_of(faces: Faces, which: Ints) -> tuple[Ints, Ints, Ints]:
-    """Positions of all corners of some faces (repeats allowed), which of them each belongs to, and where each starts."""
+    """Positions of all corners of some faces (repeats allowed), which of them each belongs to, and where each
+    starts."""
     size = faces.offsets[which + 1] - faces.offsets[which]
     starts = np.cumsum(size) - size
     owner = np.repeat(np.arange(len(which)), size)

@@ -9,7 +9,8 @@ from vectorplot.geometry.mesh import Floats, Mesh
 
 
 def face_frame(mesh: Mesh, face: int) -> tuple[Floats, Floats, Floats]:
-    """A face's own coordinates in space: origin at its barycentre, unit vectors along its first edge and to the left of it.
+    """A face's own coordinates in space: origin at its barycentre, unit vectors along its first edge and to the left
+    of it.
 
     Errors: InputError for a face that is not there, or has no area.
     Source: Glaeser, section 6.5; the frame is ours, see docs/scene-language.md.

@@ -1,0 +1,1 @@
+"""Meshes, cameras, planes, rotations, projections, clipping, solids."""

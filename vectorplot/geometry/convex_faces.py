@@ -13,8 +13,8 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 @dataclass(frozen=True, eq=False)
 class ConvexFaces:
-    """Planar convex faces: corners (c,), offsets (f+1,); source (f,): the face each one is (a part of); inner (c,): the side
-    from this corner to the next is a diagonal, not an edge of the source."""
+    """Planar convex faces: corners (c,), offsets (f+1,); source (f,): the face each one is (a part of); inner (c,):
+    the side from this corner to the next is a diagonal, not an edge of the source."""
 
     corners: Ints
     offsets: Ints

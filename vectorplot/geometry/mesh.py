@@ -48,7 +48,7 @@ class Mesh:
         offsets = np.ascontiguousarray(self.offsets, dtype=np.intp)
         if vertices.ndim != 2 or vertices.shape[1] != 3:
             raise InputError(f"vertices must have shape (n, 3), not {vertices.shape}")
-        if corners.ndim != 1 or offsets.ndim != 1 or len(offsets) == 0 or offsets[0] != 0 or offsets[-1] != len(corners):
+        if corners.ndim != 1 or offsets.ndim != 1 or not len(offsets) or offsets[0] != 0 or offsets[-1] != len(corners):
             raise InputError("offsets must run from 0 to the number of corners")
         if len(offsets) > 1 and (offsets[1:] - offsets[:-1]).min() < 3:
             raise InputError(f"face {int(np.argmin(np.diff(offsets))) + 1} has fewer than three corners")
@@ -88,14 +88,15 @@ class Mesh:
     def _trusted(cls, vertices: Floats, corners: Ints, offsets: Ints, present: Bools | None = None) -> Mesh:
         """The mesh of arrays that their maker knows to be right: contiguous, of the right types, finite, in range.
 
-        present is None where all faces are. For makers of solids inside the package: the checks cost ten times the rest.
-        """
+        present is None where all faces are. For makers of solids inside the package: the checks cost ten times the
+        rest."""
         mesh = object.__new__(cls)
         mesh.__dict__.update(vertices=vertices, corners=corners, offsets=offsets, present=present)
         return mesh
 
     @property
     def face_count(self) -> int:
+        """How many faces there are, present or not."""
         return len(self.offsets) - 1
 
     @property
@@ -165,5 +166,6 @@ class Mesh:
 
     def reversed(self) -> Mesh:
         """The same mesh with every face listed the other way round."""
-        order = self.offsets[:-1][self.corner_face] + self.offsets[1:][self.corner_face] - 1 - np.arange(len(self.corners))
+        mirrored = (self.offsets[:-1] + self.offsets[1:])[self.corner_face] - 1
+        order = mirrored - np.arange(len(self.corners))
         return Mesh(self.vertices, self.corners[order], self.offsets, self.present)

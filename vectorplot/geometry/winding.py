@@ -108,7 +108,8 @@ def repeated_faces(mesh: Mesh) -> Bools:
     if mesh.face_count == 0:
         return np.zeros(0, dtype=np.bool_)
     marks = _scrambled(np.arange(len(mesh.vertices), dtype=np.uint64) ^ np.uint64(1 << 63))
-    signature = _scrambled(_circulation(len(mesh.vertices), mesh.corners, mesh.offsets)) + np.add.reduceat(marks[mesh.corners], mesh.offsets[:-1])
+    circulation = _circulation(len(mesh.vertices), mesh.corners, mesh.offsets)
+    signature = _scrambled(circulation) + np.add.reduceat(marks[mesh.corners], mesh.offsets[:-1])
     _, first = np.unique(signature, return_index=True)
     repeated = np.ones(mesh.face_count, dtype=np.bool_)
     repeated[first] = False

@@ -1,0 +1,1 @@
+"""Files: the scene language and mesh formats, in and out."""

@@ -84,7 +84,8 @@ class Page:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Items in the order of the file, lights, and what the file says about camera, page and background (None: nothing)."""
+    """Items in the order of the file, lights, and what the file says about camera, page and background (None:
+    nothing)."""
 
     items: tuple[Item, ...]
     lights: tuple[Light, ...] = ()

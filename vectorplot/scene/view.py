@@ -26,12 +26,12 @@ class View:
     """Faces of all items in the camera's axes: x right, y up, z towards the eye; origin in the middle of the scene, the
     largest coordinate about 1.
 
-    points (3,v); corners (c,), offsets (f+1,) as in Mesh, but without the faces that are not present, and with those that are
-    not planar and convex cut into triangles: inner (c,) marks their diagonals; face_item (f,); item_vertices (i+1,): item k
-    has the points item_vertices[k] to item_vertices[k+1]; occludes (i,); eye (3,) the eye, or for a parallel projection None: then every ray runs along +z; target (3,); focus: depth of the
-    image plane, which is put into the middle of the scene; near: the smallest depth that is drawn; tolerance: what counts
-    as distance zero; picture_height: of the camera's picture in the image plane.
-    world_from_view: point = centre + scale * (p @ axes).
+    points (3,v); corners (c,), offsets (f+1,) as in Mesh, but without the faces that are not present, and with those
+    that are not planar and convex cut into triangles: inner (c,) marks their diagonals; face_item (f,); item_vertices
+    (i+1,): item k has the points item_vertices[k] to item_vertices[k+1]; occludes (i,); eye (3,) the eye, or for a
+    parallel projection None: then every ray runs along +z; target (3,); focus: depth of the image plane, which is put
+    into the middle of the scene; near: the smallest depth that is drawn; tolerance: what counts as distance zero;
+    picture_height: of the camera's picture in the image plane. world_from_view: point = centre + scale * (p @ axes).
     Source: Glaeser, sections 2.1, 2.4 and 3.1 (the pools).
     """
 
@@ -54,6 +54,7 @@ class View:
 
     @property
     def face_count(self) -> int:
+        """How many faces there are."""
         return len(self.offsets) - 1
 
     @cached_property
@@ -85,7 +86,7 @@ class View:
 
     def depth_of(self, points: Floats) -> Floats:
         """(n,) the depths of points (3,n)."""
-        return -points[2] if self.eye is None else self.eye[2] - points[2]
+        return np.asarray(-points[2] if self.eye is None else self.eye[2] - points[2], dtype=np.float64)
 
     def image_of(self, points: Floats) -> Floats:
         """(2,n) the images of points (3,n)."""

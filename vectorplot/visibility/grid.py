@@ -23,8 +23,8 @@ MAX_COVER_TESTS = 64
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Square cells over a rectangle of the image. Level 0 has columns x rows cells; each cell of level k + 1 is made of four
-    of level k; the last level is one cell. first[k] is the number of the first cell of level k."""
+    """Square cells over a rectangle of the image. Level 0 has columns x rows cells; each cell of level k + 1 is made
+    of four of level k; the last level is one cell. first[k] is the number of the first cell of level k."""
 
     left: float
     bottom: float
@@ -35,6 +35,7 @@ class Grid:
 
     @property
     def levels(self) -> int:
+        """How many levels there are."""
         return len(self.columns)
 
     @classmethod
@@ -65,7 +66,7 @@ class Grid:
         """(n,) the finest level at which a box (4,n) touches at most two by two cells."""
         size = np.maximum(box[1] - box[0], box[3] - box[2]) / np.float32(self.cell)
         level = np.ceil(np.log2(np.maximum(size, np.float32(1.0)) * np.float32(1.000001)))
-        return np.minimum(level, self.levels - 1).astype(np.intp)
+        return np.asarray(np.minimum(level, self.levels - 1), dtype=np.intp)
 
     def corner_cells(self, box: Floats32, level: Ints) -> tuple[Ints, Ints, Ints, Ints]:
         """Lower left cell (column, row) and upper right cell of boxes (4,n) at their levels."""
@@ -113,10 +114,10 @@ class Pieces:
 
 
 def cell_size(start: Floats, end: Floats, typical: float) -> float:
-    """A size of the finest cells for segments with image ends (2,n) among things of a typical size: as fine as the things,
-    unless that cuts the segments too often."""
-    length = np.abs(end - start).sum()
-    return max(0.7 * typical, float(length) / (PIECES_PER_SEGMENT * start.shape[1] + 65536.0))
+    """A size of the finest cells for segments with image ends (2,n) among things of a typical size: as fine as the
+    things, unless that cuts the segments too often."""
+    length = float(np.abs(end - start).sum())
+    return float(max(0.7 * typical, length / (PIECES_PER_SEGMENT * start.shape[1] + 65536.0)))
 
 
 def cut(grid: Grid, start: Floats, end: Floats, start_depth: Floats, end_depth: Floats, central: bool) -> Pieces:
@@ -214,7 +215,8 @@ def reaching(grid: Grid, table: Floats32, box: Floats32, nearest: Floats32) -> B
 
 
 def entries(grid: Grid, box: Floats32) -> tuple[Ints, Ints]:
-    """(cell, thing) for every cell that a box (4,n) touches, at the finest level at which it is no larger than two cells.
+    """(cell, thing) for every cell that a box (4,n) touches, at the finest level at which it is no larger than two
+    cells.
 
     So a thing has at most nine entries, and a cell holds few things that do not come near it.
     """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,8 +22,8 @@ PAIRS_AT_ONCE = 1 << 17
 """Pairs of a piece and an occluder handled at once."""
 
 SLABS = tuple(np.linspace(0.0, 1.0, 25).tolist())
-"""Occluders are tried front to back in these parts of their number: hidden lines drop out early, near lines are not tried
-against what is far."""
+"""Occluders are tried front to back in these parts of their number: hidden lines drop out early, near lines are not
+tried against what is far."""
 
 FEWEST_CELLS = 16.0
 """The finest grid has at least so many cells along the longer side of the picture, however large the things in it."""
@@ -35,8 +36,8 @@ Progress = Callable[[float], None]
 
 @dataclass(frozen=True, eq=False)
 class Visibility:
-    """Parts of segments: segment (k,), from parameter low to high (k,), and hidden_by (k,): by how many items each part is
-    hidden, 0 for visible ones. Ascending along each segment."""
+    """Parts of segments: segment (k,), from parameter low to high (k,), and hidden_by (k,): by how many items each
+    part is hidden, 0 for visible ones. Ascending along each segment."""
 
     segment: Ints
     low: Floats
@@ -49,8 +50,8 @@ def visible_parts(
 ) -> Visibility:
     """The visible parts of segments; solid (i,) as solid_items tells.
 
-    What lies on an occluder or on the border of its shadow is visible; a line along a border is hidden where both its sides
-    are. Parts below ten tolerances of the view are left out.
+    What lies on an occluder or on the border of its shadow is visible; a line along a border is hidden where both its
+    sides are. Parts below ten tolerances of the view are left out.
     Source: Glaeser, section 7.2.
     """
     gap = _gaps(view, segments)
@@ -173,7 +174,7 @@ def _all_hits(
     left, right, bottom, top = pieces.box
     piece_boxes = _packed(np.stack([right, -left, top, -bottom]))
     bounds = np.round(np.array(slabs) * len(order)).astype(np.intp)
-    for begin, end in zip(bounds[:-1], bounds[1:], strict=True):
+    for begin, end in pairwise(bounds.tolist()):
         if begin == end:
             continue
         slab = order[begin:end]
@@ -204,7 +205,7 @@ def _expanded(starts: Ints, at: Ints, which: Ints) -> Iterator[tuple[Ints, Ints]
     total = np.cumsum(counts)
     cuts = np.searchsorted(total, np.arange(PAIRS_AT_ONCE, int(total[-1]) if len(total) else 0, PAIRS_AT_ONCE)) + 1
     edges = np.unique(np.concatenate([[0], cuts, [len(counts)]]))
-    for low, high in zip(edges[:-1], edges[1:], strict=True):
+    for low, high in pairwise(edges.tolist()):
         size = counts[low:high]
         owner = np.repeat(np.arange(low, high), size)
         step = np.arange(len(owner)) - np.repeat(np.cumsum(size) - size, size)
@@ -232,7 +233,8 @@ def _resolved(segment: Ints, low: Floats, high: Floats, side: Ints, gap: Floats)
     some = halved[segment]
     part = intervals.coverage(segment[some], low[some], high[some], side[some])[:3]
     rest = (segment[~some], low[~some], high[~some])
-    return intervals.union(*(np.concatenate(pair) for pair in zip(part, rest, strict=True)), gap)
+    owner, low, high = (np.concatenate(pair) for pair in zip(part, rest, strict=True))
+    return intervals.union(owner, low, high, gap)
 
 
 def _by_item(

@@ -20,8 +20,9 @@ from vectorplot.visibility.projected_faces import ProjectedFaces
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """Straight lines in the view's coordinates: start and end (3,n), kind (n,) LineKind values, item (n,); side (n,): 1 or -1
-    for an outline, where its surface lies to the left or right of start -> end in the image, 0 for other lines."""
+    """Straight lines in the view's coordinates: start and end (3,n), kind (n,) LineKind values, item (n,); side (n,):
+    1 or -1 for an outline, where its surface lies to the left or right of start -> end in the image, 0 for other
+    lines."""
 
     start: Floats
     end: Floats
@@ -124,5 +125,5 @@ def pattern_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines
                 ends.append(np.roll(outline, -1, axis=0))
                 items.append(np.full(len(outline), number))
     start, end = (view.points_of(np.concatenate([np.zeros((0, 3)), *part])) for part in (starts, ends))
-    item = np.concatenate([np.zeros(0, dtype=np.intp), *items])
-    return Lines(start, end, np.full(len(item), int(LineKind.PATTERN)), item, np.zeros_like(item))
+    owner = np.concatenate([np.zeros(0, dtype=np.intp), *items])
+    return Lines(start, end, np.full(len(owner), int(LineKind.PATTERN)), owner, np.zeros_like(owner))

@@ -12,17 +12,17 @@ from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import Floats32, ProjectedFaces, cross, newell
 
 MAX_SOLID_FACES = 128
-"""A convex solid with more faces hides through its faces: few of them matter to a line, but all of its outline would."""
+"""A convex solid with more faces hides through its faces: few of them matter to a line, but all of its outline
+would."""
 
 
 @dataclass(frozen=True, eq=False)
 class Occluders:
     """Convex things that hide.
 
-    Occluder k hides the points with a positive distance from its planes first[k] to first[k+1]: planes (4,p) unit normal
-    and constant; of these the first behind[k] bound it towards the eye, the others are its outline's planes through
-    the eye. box (4,k), nearest (k,), farthest (k,): in the image, as in ProjectedFaces; item (k,).
-    """
+    Occluder k hides the points with a positive distance from its planes first[k] to first[k+1]: planes (4,p) unit
+    normal and constant; of these the first behind[k] bound it towards the eye, the others are its outline's planes
+    through the eye. box (4,k), nearest (k,), farthest (k,): in the image, as in ProjectedFaces; item (k,)."""
 
     planes: Floats
     first: Ints

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.grid import MAX_COVER_TESTS, Floats32, Grid
 from vectorplot.visibility.occluders import Occluders
@@ -24,13 +24,13 @@ class Segments:
     end: Floats
 
     def __len__(self) -> int:
-        return self.start.shape[1]
+        return int(self.start.shape[1])
 
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """Hidden zones of single pairs: pair (h,) which one, low and high (h,) parameters, and side (h,): 0, or where the segment
-    runs along a border of the occluder's shadow, 1 with the shadow on its left, -1 on its right."""
+    """Hidden zones of single pairs: pair (h,) which one, low and high (h,) parameters, and side (h,): 0, or where the
+    segment runs along a border of the occluder's shadow, 1 with the shadow on its left, -1 on its right."""
 
     pair: Ints
     low: Floats
@@ -43,9 +43,9 @@ def clip_pairs(
 ) -> Hits:
     """What occluders hide of segments between the parameters low and high, pair by pair.
 
-    The points that a convex thing hides, itself included, form a convex set, so a zone is one interval: the segment clipped
-    by the occluder's planes, those towards the eye first. A distance below the view's tolerance is zero, and zero does
-    not hide; where a segment lies in a plane of the outline, only the shadow's side counts.
+    The points that a convex thing hides, itself included, form a convex set, so a zone is one interval: the segment
+    clipped by the occluder's planes, those towards the eye first. A distance below the view's tolerance is zero, and
+    zero does not hide; where a segment lies in a plane of the outline, only the shadow's side counts.
     Source: Glaeser, section 7.2; errata G7-01 and G7-02.
     """
     pair, reach = _behind_first_plane(view, segments, occluders, segment, occluder)
@@ -122,8 +122,8 @@ def _shadow_side(view: View, start: Floats, end: Floats, inward: Floats) -> Ints
 
 
 def covered_cells(view: View, grid: Grid, occluders: Occluders) -> Floats32:
-    """(cells,) for each cell of the finest level, a depth beyond which everything in it is hidden by one occluder alone;
-    infinite where there is none."""
+    """(cells,) for each cell of the finest level, a depth beyond which everything in it is hidden by one occluder
+    alone; infinite where there is none."""
     table = np.full(int(grid.first[-1]), np.inf, dtype=np.float32)
     occluder, column, row, level = _inner_cells(grid, occluders.box)
     if len(occluder):

@@ -23,9 +23,9 @@ EVERYWHERE = np.float32(1e30)
 class ProjectedFaces:
     """facing (f,): 1 for a face that shows its outside, -1 its inside, 0 edge-on: then it hides nothing.
 
-    box (4,f): smallest and largest x, smallest and largest y in the image, rounded outwards; nearest (f,) smallest depth.
-    A face behind the near plane has an infinite nearest depth, one that reaches through it fills the whole image.
-    """
+    box (4,f): smallest and largest x, smallest and largest y in the image, rounded outwards; nearest (f,) smallest
+    depth. A face behind the near plane has an infinite nearest depth, one that reaches through it fills the whole
+    image."""
 
     facing: Bytes
     box: Floats32
