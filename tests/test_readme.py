@@ -42,7 +42,7 @@ def test_the_python_of_the_readme_runs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (code,) = (text for language, text in BLOCKS if language == "python")
     exec(compile(code, "README.md", "exec"), {})
-    assert (tmp_path / "pencil.pdf").read_bytes().startswith(b"%PDF")
+    assert (tmp_path / "crate.pdf").read_bytes().startswith(b"%PDF")
 
 
 def test_every_option_of_the_command_is_in_the_readme():

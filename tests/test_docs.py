@@ -1,0 +1,113 @@
+"""The pages of docs/ say what the package does: their Python runs, their commands work, their links lead somewhere."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+import shlex
+import shutil
+from pathlib import Path
+
+import pytest
+
+import vectorplot as vp
+from vectorplot.cli.draw import draw
+from vectorplot.cli.info import info
+from vectorplot.cli.main import run
+
+ROOT = Path(__file__).resolve().parent.parent
+DOCS = ROOT / "docs"
+PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("*/*.md"))]
+
+
+def blocks(page: Path, language: str) -> list[str]:
+    return re.findall(rf"```{language}\n(.*?)```", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+
+
+COMMANDS = [
+    line
+    for page in (ROOT / "README.md", DOCS / "command.md")
+    for block in blocks(page, "sh")
+    for line in block.splitlines()
+    if line.startswith("vectorplot ") and "INPUT" not in line and "NAME" not in line
+]
+
+
+@pytest.fixture
+def checkout(tmp_path, monkeypatch):
+    """A folder with the data, which one may write into."""
+    shutil.copytree(ROOT / "data", tmp_path / "data")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_the_python_of_the_pages_runs(checkout):
+    code = "\n".join(blocks(DOCS / "python.md", "python"))
+    exec(compile(code, "python.md", "exec"), {})
+    assert (checkout / "table.pdf").read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_commands_of_the_pages_work(command, checkout, capfdbinary):
+    words = shlex.split(command)
+    assert run(words[1:]) == 0
+    out, _ = capfdbinary.readouterr()
+    if "-o" in words and words[words.index("-o") + 1] != "-":
+        assert (checkout / words[words.index("-o") + 1]).stat().st_size > 0
+    else:
+        assert out
+
+
+@pytest.mark.parametrize("command", [draw, info], ids=lambda command: command.name)
+def test_every_option_is_on_the_page_of_the_command(command):
+    page = (DOCS / "command.md").read_text(encoding="utf-8")
+    for parameter in command.params:
+        for option in (*parameter.opts, *parameter.secondary_opts):
+            if option.startswith("-"):
+                assert f"`{option}" in page, option
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_and_pictures_lead_somewhere(page):
+    text = page.read_text(encoding="utf-8")
+    targets = re.findall(r"\]\(([^)#]+)\)", text) + re.findall(r'src="([^"]+)"', text)
+    for target in targets:
+        if "://" not in target:
+            assert (page.parent / target).exists(), target
+
+
+def test_every_page_is_listed_on_the_first_one():
+    index = (DOCS / "index.md").read_text(encoding="utf-8")
+    for page in PAGES[1:]:
+        if page.name != "index.md":
+            assert f"]({page.relative_to(DOCS).as_posix()})" in index
+
+
+def test_the_names_that_pages_and_examples_use_are_public():
+    texts = [page.read_text(encoding="utf-8") for page in (*PAGES, *(ROOT / "examples").glob("*.py"))]
+    names = {name for text in texts for name in re.findall(r"\bvp\.([A-Za-z_]\w*)", text)}
+    assert names and names <= set(vp.__all__)
+    for name in vp.__all__:
+        assert getattr(vp, name) is not None
+
+
+def test_modules_that_pages_name_exist():
+    text = (DOCS / "python.md").read_text(encoding="utf-8") + (DOCS / "accuracy-and-limits.md").read_text("utf-8")
+    for name in re.findall(r"`((?:geometry|io|save|testing)\.\w+)(?:\.\w+)?`", text):
+        assert importlib.util.find_spec(f"vectorplot.{name}") is not None, name
+
+
+def test_the_numbers_of_the_pages_are_those_of_the_code():
+    from vectorplot.drawing.layers import PENS
+    from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+    from vectorplot.scene.view import NEAR_OF_DISTANCE, ULPS
+    from vectorplot.visibility.framing import WIDEST_DEG
+    from vectorplot.visibility.occluders import MAX_SOLID_FACES
+
+    limits = (DOCS / "accuracy-and-limits.md").read_text(encoding="utf-8")
+    for number in (f"up to {MAX_SOLID_FACES} faces", f"more than {WIDEST_DEG:g} degrees", f"{ULPS:g} rounding steps"):
+        assert number in limits
+    assert ZERO_OF_EXTENT == 1e-9 and "1e-9 of the extent" in limits
+    assert NEAR_OF_DISTANCE == 1e-4 and "1e-4 of the smaller" in limits
+    widths = ", ".join(f"{pen.width_mm:g}" for pen in PENS.values())
+    assert f"{widths} mm" in (DOCS / "drawing.md").read_text(encoding="utf-8")
