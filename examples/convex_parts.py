@@ -35,8 +35,8 @@ def main(folder: Path) -> None:
     whole = vp.Scene((vp.Item("PAWN", body),), title="Pawn")
     pieces = vp.Scene(tuple(vp.Item(f"PART{k}", part) for k, part in enumerate(apart)), title="Pawn in parts")
     page, lines = vp.Page(120, 130, 6), ("contour", "crease", "edges")
-    vp.save(vp.draw(whole, camera, page=page, lines=lines), folder / "convex_parts_whole.svg")
-    vp.save(vp.draw(pieces, camera, page=page, lines=lines), folder / "convex_parts.svg")
+    vp.save(vp.draw(whole, camera, page=page, lines=lines), folder / "convex_parts_1.svg")
+    vp.save(vp.draw(pieces, camera, page=page, lines=lines), folder / "convex_parts_2.svg")
 
     assert not has_convex_outline(body) and all(has_convex_outline(part) for part in parts)
     volumes = [body_record(part).volume for part in parts]

@@ -20,12 +20,12 @@ HEIGHT = 44.0
 def main(folder: Path) -> None:
     town = vp.read(DATA / "town.scene")
     degrees = []
-    for focal_length_mm in (24, 50, 200):
+    for number, focal_length_mm in enumerate((24, 50, 200)):
         distance = HEIGHT / 2.0 * focal_length_mm / 12.0
         eye = TARGET + distance * TOWARDS / np.linalg.norm(TOWARDS)
         camera = vp.Camera.from_focal_length(focal_length_mm, tuple(eye), tuple(TARGET))
         drawing = vp.draw(town, camera, page=vp.Page(150, 100, 0), fit=False)
-        vp.save(drawing, folder / f"lenses_{focal_length_mm}_mm.svg")
+        vp.save(drawing, folder / f"lenses_{number + 1}.svg")
         degrees.append(camera.fov_deg)
         assert np.isclose(camera.picture_height, HEIGHT)
     assert np.allclose(degrees, [53.130, 26.991, 6.867], atol=1e-3)

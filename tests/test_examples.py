@@ -81,6 +81,27 @@ def test_the_gallery_shows_nothing_else_and_its_page_is_fresh(made):
     assert page.read_text(encoding="utf-8") == GALLERY.page(names), "run: python docs/gallery.py"
 
 
+@pytest.mark.capability("G2.3-fig7")
+def test_the_roller_and_its_two_doubles_have_one_image(made):
+    assert [file.stem for file in made(ROOT / "examples" / "roller.py")] == ["roller", "roller_t1", "roller_t2"]
+
+
+@pytest.mark.capability("G2.5-fig11")
+def test_the_frustum_in_the_world_is_a_box_after_t2(made):
+    assert len(made(ROOT / "examples" / "viewing_frustum.py")) == 2
+
+
+@pytest.mark.capability("G3.4-split")
+def test_a_chess_pawn_falls_into_convex_parts_that_fill_it(made):
+    assert len(made(ROOT / "examples" / "convex_parts.py")) == 2
+
+
+@pytest.mark.capability("G3.6-demo")
+def test_sample_intersections_have_their_pictures(made):
+    sources = [ROOT / "data" / name for name in ("cubes.scene", "pencil.scene", "intersections.scene")]
+    assert all(made(path) for path in [*sources, ROOT / "examples" / "sharpening.py"])
+
+
 def test_what_the_book_and_the_examples_are_known_for_is_there():
     scenes = {path.stem for path in SCENES}
     assert scenes >= {
