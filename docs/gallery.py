@@ -28,6 +28,8 @@ LOOK_AT = {
     "patterns": "Each polygon lies in the coordinates of its face; what is on a face that turns away is not drawn.",
     "pencil": "A cone of order 45 on a cylinder, cut with a hexagonal prism: the sides end in arcs of hyperbolas.",
     "pyramid": "The book's example of an object with a convex outline; it is open above, and one looks inside.",
+    "removed_faces": "Two walls of the house and the lid of the crate are gone: one looks in, and through.",
+    "revolutions": "The same meridian solid, hollow with a bottom, and cut off after three quarters of a turn.",
     "rotsweep": "Half a turn of a meridian; the first and the last one bound a single flat face.",
     "table": "Things stand on a table: their lower edges lie in its top, and stay visible there.",
     "three_bars": "Each lies above the next: no order of painting is right, geometry has no such trouble.",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.draw import DRAWN
 from vectorplot.plan import plan_draw
+from vectorplot.testing import assert_drawing_is_right, edge_points
 
 ROOT = Path(__file__).resolve().parent.parent
 SVG = "{http://www.w3.org/2000/svg}"
@@ -109,6 +111,15 @@ def test_what_the_book_and_the_examples_are_known_for_is_there():
         *("interpenetrating", "three_bars", "table", "tube"),
     }
     assert len(vp.read(ROOT / "data" / "town.scene").items) == 30 + 1, "thirty blocks on a plate"
+
+
+@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
+def test_rays_confirm_every_scene(path):
+    read = vp.read(path)
+    scene = replace(read, items=tuple(replace(item, lines=None) for item in read.items))
+    edges, _ = edge_points(scene, 300)
+    drawing = vp.draw(scene, lines=(*DRAWN, "edges"), hidden="solid")
+    assert assert_drawing_is_right(drawing, scene, scene.camera, samples=400, must_show=edges) > 400
 
 
 def test_the_pencil_calls_for_no_effect():
