@@ -189,7 +189,8 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, page_from_image:
     kind, item = lines.kind[seen.segment], lines.item[seen.segment]
     offsets = np.arange(0, 2 * count + 1, 2)
     open_ = np.zeros(count, dtype=np.bool_)
-    depth = view.depth_of(ends).reshape(-1, 2).sum(axis=1)
+    # Lines at the same depth but for rounding go by their items: so neither size nor place decides which one stays.
+    depth = np.round(view.depth_of(ends).reshape(-1, 2).sum(axis=1), 8)
     order = np.lexsort((item, depth, kind, seen.hidden_by > 0))
     rank = np.empty(count, dtype=np.intp)
     rank[order] = np.arange(count)

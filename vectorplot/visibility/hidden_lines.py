@@ -21,9 +21,9 @@ from vectorplot.visibility.projected_faces import ProjectedFaces
 PAIRS_AT_ONCE = 1 << 17
 """Pairs of a piece and an occluder handled at once."""
 
-SLABS = tuple(np.linspace(0.0, 1.0, 25).tolist())
-"""Occluders are tried front to back in these parts of their number: hidden lines drop out early, near lines are not
-tried against what is far."""
+MOST_SLABS, OCCLUDERS_IN_SLAB = 24, 1000
+"""Occluders are tried front to back in slabs of equal number: hidden lines drop out early, near lines are not tried
+against what is far. Each slab costs a little; there are at most so many, and few small ones."""
 
 FEWEST_CELLS = 16.0
 """The finest grid has at least so many cells along the longer side of the picture, however large the things in it."""
@@ -71,7 +71,8 @@ def visible_parts(
     ]
     pieces = pieces.some(~covered)
     alive = np.ones(len(pieces), dtype=np.bool_)
-    for piece, hits, _ in _all_hits(view, grid, segments, pieces, occluders, alive, SLABS, progress):
+    slabs = min(max(len(occluders) // OCCLUDERS_IN_SLAB, 4), MOST_SLABS)
+    for piece, hits, _ in _all_hits(view, grid, segments, pieces, occluders, alive, slabs, progress):
         of = piece[hits.pair]
         zones.append((pieces.segment[of], hits.low, hits.high, hits.side))
         whole = (hits.side == 0) & (hits.low <= pieces.low[of]) & (hits.high >= pieces.high[of])
@@ -98,7 +99,7 @@ def counted_parts(
     alive = np.ones(len(pieces), dtype=np.bool_)
     items = len(view.item_vertices)
     found = [(np.zeros(0, dtype=np.intp), *_nothing()[1:], np.zeros(0, dtype=np.intp))]
-    for piece, hits, occluder in _all_hits(view, grid, segments, pieces, occluders, alive, (0.0, 1.0), progress):
+    for piece, hits, occluder in _all_hits(view, grid, segments, pieces, occluders, alive, 1, progress):
         key = pieces.segment[piece[hits.pair]] * items + occluders.item[occluder[hits.pair]]
         found.append((key, hits.low, hits.high, hits.side))
     key, low, high, side = (np.concatenate(column) for column in zip(*found, strict=True))
@@ -161,7 +162,7 @@ def _all_hits(
     pieces: Pieces,
     occluders: Occluders,
     alive: Bools,
-    slabs: tuple[float, ...],
+    slabs: int,
     progress: Progress,
 ) -> Iterator[tuple[Ints, Hits, Ints]]:
     """Hidden zones of pieces, front to back, with the piece and the occluder of every pair.
@@ -173,7 +174,7 @@ def _all_hits(
     boxes = _packed(np.stack([left, -right, bottom, -top]))
     left, right, bottom, top = pieces.box
     piece_boxes = _packed(np.stack([right, -left, top, -bottom]))
-    bounds = np.round(np.array(slabs) * len(order)).astype(np.intp)
+    bounds = np.linspace(0, len(order), slabs + 1).astype(np.intp)
     for begin, end in pairwise(bounds.tolist()):
         if begin == end:
             continue
