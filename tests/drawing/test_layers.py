@@ -39,8 +39,8 @@ def test_layers_by_kind_come_in_the_order_of_the_conventions():
     names = [layer.name for layer in layers]
     assert names == ["visible", "contour", "intersection", "hidden", "pattern"]
     by_name = {layer.name: layer for layer in layers}
-    assert places(by_name["visible"]) == [1, 4, 5]
-    assert places(by_name["contour"]) == [3]
+    assert places(by_name["visible"]) == [1, 4]
+    assert places(by_name["contour"]) == [3, 5]
     assert places(by_name["intersection"]) == [2]
     assert places(by_name["pattern"]) == [0]
     assert places(by_name["hidden"]) == [6]

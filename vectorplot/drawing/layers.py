@@ -24,7 +24,7 @@ PENS = {
 
 KIND_LAYER = {
     LineKind.CONTOUR: "contour",
-    LineKind.BOUNDARY: "visible",
+    LineKind.BOUNDARY: "contour",
     LineKind.CREASE: "visible",
     LineKind.EDGES: "visible",
     LineKind.INTERSECTION: "intersection",

@@ -12,7 +12,17 @@ from vectorplot.geometry.mesh import Floats, Ints
 # Work in pieces that stay in the processor's cache.
 _PIECE = 1 << 15
 # Odd multipliers with well mixed bits; a round of hashing takes three that no other round takes.
-_MULTIPLIERS = np.random.Generator(np.random.PCG64(20)).integers(0, 2**63, size=(6, 3), dtype=np.uint64) * 2 + 1
+_MULTIPLIERS = np.array(
+    [
+        (0xB9096A05CFB000D1, 0xC963CFE15F5CB477, 0xE1454C418873E695),
+        (0x26B563B1CF29DC29, 0xAC8BE7D685081A57, 0xD96E5ADF457DDC63),
+        (0x19FCFC65CF550AED, 0x53D23C0BBE87DF65, 0xE7CA430F25587A85),
+        (0x06E82A0056B8B9A3, 0x6820212CD2B326A9, 0x1333BC1DFCD85607),
+        (0x20050ED234DCE573, 0x7972A36CA36634D9, 0x94A67F01E66B86AF),
+        (0x6977A41AE617DB39, 0x332726D06AD482A5, 0xA0187B4CA2413D1F),
+    ],
+    dtype=np.uint64,
+)
 
 
 def distinct_points(points: NDArray[np.floating[Any]]) -> tuple[Ints, Ints]:
