@@ -1,0 +1,1 @@
+"""Parametrised curves, splines, and tools for polylines."""

@@ -1,0 +1,1 @@
+"""Parametrised and implicit surfaces, and their families."""

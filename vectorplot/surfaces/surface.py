@@ -1,0 +1,92 @@
+"""What every surface can do, and where it is defined."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Bools, Floats
+
+
+@dataclass(frozen=True)
+class Domain:
+    """A rectangle of parameters: u_start <= u <= u_end, v_start <= v <= v_end.
+
+    closed_u, closed_v: the surface closes smoothly in that direction, the two borders are one line and no border of the
+    surface. Errors: InputError unless the ranges are finite and not empty.
+    """
+
+    u_start: float
+    u_end: float
+    v_start: float
+    v_end: float
+    closed_u: bool = False
+    closed_v: bool = False
+
+    def __post_init__(self) -> None:
+        ranges = (self.u_start, self.u_end, self.v_start, self.v_end)
+        if not all(np.isfinite(ranges)) or not self.u_start < self.u_end or not self.v_start < self.v_end:
+            raise InputError(
+                f"parameters from {ranges[0]:g} to {ranges[1]:g} and {ranges[2]:g} to {ranges[3]:g}: no domain"
+            )
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Lengths of the ranges of u and v."""
+        return self.u_end - self.u_start, self.v_end - self.v_start
+
+    def grid(self, columns: int, rows: int) -> tuple[Floats, Floats]:
+        """Parameters u (columns+1,) and v (rows+1,) that divide the ranges evenly, both ends included."""
+        return np.linspace(self.u_start, self.u_end, columns + 1), np.linspace(self.v_start, self.v_end, rows + 1)
+
+
+class Surface(Protocol):
+    """A surface x(u, v) over a domain. All functions take arrays u, v of one shape (...) and are vectorised."""
+
+    @property
+    def domain(self) -> Domain:
+        """Where the surface is defined; within it points may still be NaN: holes."""
+        ...
+
+    def points(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) points; NaN where the surface has a hole."""
+        ...
+
+    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        """(..., 3) derivatives by u and by v."""
+        ...
+
+    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+        """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
+        ...
+
+
+class ImplicitSurface(Protocol):
+    """A surface F(x, y, z) = 0 within a box."""
+
+    @property
+    def box(self) -> Floats:
+        """(2,3) smallest and largest coordinates of the part that is looked at."""
+        ...
+
+    def values(self, points: Floats) -> Floats:
+        """(...,) F at points (..., 3); its sign tells the sides."""
+        ...
+
+    def gradients(self, points: Floats) -> Floats:
+        """(..., 3) gradients of F."""
+        ...
+
+
+def normals(surface: Surface, u: Floats, v: Floats) -> Floats:
+    """(..., 3) cross products of the partials, not normalised; zero at poles and singular points."""
+    along_u, along_v = surface.partials(u, v)
+    return np.cross(along_u, along_v)
+
+
+def is_hole(points: Floats) -> Bools:
+    """(...,) where points (..., 3) are not finite."""
+    return np.asarray(~np.isfinite(points).all(axis=-1), dtype=np.bool_)
