@@ -98,7 +98,7 @@ def intersection_lines(
 ) -> Lines:
     """The segments in which different items, or parts of an item that do not hang together, pierce each other.
 
-    A segment belongs to the item that comes first in the scene.
+    A segment belongs to the item, of those that want intersections, that comes first in the scene.
     """
     wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
     if solid.all():
@@ -107,9 +107,11 @@ def intersection_lines(
         part = pieces_of_faces(view.points.shape[1], view.corners, view.offsets)[1]
     met = face_intersections(_faces(view, faces), part, view.tolerance)
     one, two = view.face_item[met.one], view.face_item[met.two]
+    one, two = np.minimum(one, two), np.maximum(one, two)
     kept = wants[one] | wants[two]
+    owner = np.where(wants[one], one, two)[kept]
     kind = np.full(int(kept.sum()), int(LineKind.INTERSECTION))
-    return Lines(met.start[:, kept], met.end[:, kept], kind, np.minimum(one, two)[kept], np.zeros_like(kind))
+    return Lines(met.start[:, kept], met.end[:, kept], kind, owner, np.zeros_like(kind))
 
 
 def pattern_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines:

@@ -1,0 +1,221 @@
+"""The verb draw: from a scene to strokes on a page."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from vectorplot.draw import default_camera, draw
+from vectorplot.drawing.drawing import Drawing, Paths
+from vectorplot.errors import InputError
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.strokes import LineKind
+from vectorplot.io.read import read
+from vectorplot.plan import StageReport
+from vectorplot.scene.scene import Item, Page, Pattern, Scene
+from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, edge_points, hard_shapes
+from vectorplot.testing.shapes import box, rotated_boxes
+
+DATA = Path(__file__).resolve().parent.parent / "data"
+CUBE = Scene((Item("cube", box((-1, -1, -1), (1, 1, 1)), colour="blue"),))
+CAMERAS = [
+    Camera((6.0, -8.0, 5.0)),
+    Camera((6.0, -8.0, 5.0), (0.5, 0.2, -0.1), twist_deg=15.0, fov_deg=50.0),
+    Camera((6.0, -8.0, 5.0), parallel=True, height=7.0),
+]
+
+
+def paths_of(drawing: Drawing) -> list[Paths]:
+    return [paths for layer in drawing.layers for paths in layer.marks]
+
+
+def points_of(drawing: Drawing) -> tuple[np.ndarray, np.ndarray]:
+    paths = paths_of(drawing)
+    return np.concatenate([p.points for p in paths]), np.concatenate([p.points3d for p in paths])
+
+
+def kinds_of(drawing: Drawing) -> set[str]:
+    return {LineKind(int(kind)).word for paths in paths_of(drawing) for kind in paths.kind}
+
+
+@pytest.mark.parametrize("camera", CAMERAS)
+@pytest.mark.parametrize("fit", [True, False])
+def test_points_are_the_images_of_their_points_in_the_world(camera: Camera, fit: bool) -> None:
+    drawing = draw(rotated_boxes(8), camera, fit=fit)
+    points, world = points_of(drawing)
+    projected = np.column_stack([world, np.ones(len(world))]) @ drawing.page_from_world.T
+    assert np.allclose(projected[:, :2] / projected[:, 3:], points, atol=1e-8)
+
+
+@pytest.mark.capability("G2.1-parallel")
+@pytest.mark.parametrize("camera", CAMERAS)
+def test_without_fit_the_page_is_the_camera_s_picture(camera: Camera) -> None:
+    page = Page(200.0, 150.0, 0.0)
+    drawing = draw(CUBE, camera, page=page, fit=False)
+    corners = np.array([corner for item in CUBE.items for corner in item.shape.vertices]) - camera.target
+    x, y, z = (corners @ camera.axes.T).T
+    factor = 1.0 if camera.parallel else camera.distance / (camera.distance - z)
+    scale = page.height_mm / camera.picture_height
+    expected = np.column_stack([100.0 + scale * factor * x, 75.0 + scale * factor * y])
+    points, world = points_of(drawing)
+    for point, place in zip(points, world, strict=True):
+        nearest = np.argmin(np.linalg.norm(corners + camera.target - place, axis=1))
+        if np.allclose(corners[nearest] + camera.target, place, atol=1e-9):
+            assert np.allclose(expected[nearest], point, atol=1e-9)
+    assert np.allclose(
+        (drawing.page_from_world @ [*camera.target, 1.0])[:2],
+        np.array([100.0, 75.0]) * (drawing.page_from_world @ [*camera.target, 1.0])[3],
+    )
+
+
+def test_with_fit_the_drawing_fills_the_page_but_for_its_margin() -> None:
+    drawing = draw(CUBE, CAMERAS[0], page=Page(200.0, 100.0, 7.0))
+    points, _ = points_of(drawing)
+    low, high = points.min(axis=0), points.max(axis=0)
+    assert np.isclose(low[1], 7.0) and np.isclose(high[1], 93.0)
+    assert np.allclose((low + high) / 2.0, (100.0, 50.0))
+
+
+def test_a_scene_that_reaches_behind_the_eye_shows_the_field_of_vision() -> None:
+    room = Scene((Item("room", box((-5, -5, -2), (5, 5, 2))), Item("box", box((-0.5, 2, -2), (0.5, 3, -1)))))
+    drawing = draw(room, Camera((0.0, -4.0, 0.0), (0.0, 3.0, -0.5), fov_deg=60.0))
+    points, _ = points_of(drawing)
+    assert points.min() >= 10.0 - 1e-6
+    assert points[:, 0].max() <= 200.0 + 1e-6 and points[:, 1].max() <= 287.0 + 1e-6
+    assert {int(i) for paths in paths_of(drawing) for i in paths.item} == {0, 1}
+
+
+@pytest.mark.capability("G4.X-plotter")
+@pytest.mark.parametrize("name", ["rotated boxes", "hollow tube", "interpenetrating boxes", "L-shaped prisms"])
+@pytest.mark.parametrize("hidden", ["none", "solid"])
+def test_every_stroke_is_as_visible_as_it_says(name: str, hidden: str) -> None:
+    scene = hard_shapes()[name]
+    camera = default_camera(scene)
+    drawing = draw(scene, camera, hidden=hidden)
+    points, _ = edge_points(scene, 200)
+    assert assert_drawing_is_right(drawing, scene, camera, samples=300) > 0
+    assert len(points)
+
+
+@pytest.mark.capability("G7.2-no-double")
+def test_an_edge_of_two_boxes_is_drawn_once() -> None:
+    apart = Scene((Item("a", box((0, 0, 0), (1, 1, 1))), Item("b", box((1, 0, 0), (2, 1, 1)))))
+    camera = Camera.view("front", (1.0, 0.5, 0.5), 5.0)
+    drawing = draw(apart, camera, page=Page(220.0, 120.0, 10.0))
+    length = sum(
+        np.hypot(*np.diff(np.vstack([p.points[a:b], p.points[a : a + 1]]) if c else p.points[a:b], axis=0).T).sum()
+        for p in paths_of(drawing)
+        for a, b, c in zip(p.offsets[:-1], p.offsets[1:], p.closed, strict=True)
+    )
+    assert np.isclose(length, 100.0 * (2 + 2 + 3))
+
+
+def test_lines_are_of_the_kinds_asked_for() -> None:
+    assert kinds_of(draw(CUBE, lines=("contour",))) == {"contour"}
+    assert kinds_of(draw(CUBE, lines=("edges",))) == {"edges"}
+    assert kinds_of(draw(CUBE)) == {"contour", "crease"}
+    assert kinds_of(draw(CUBE, crease_angle_deg=91.0)) == {"contour"}
+    with pytest.raises(InputError, match="expected one of contour"):
+        draw(CUBE, lines=("contours",))
+
+
+def test_an_item_s_own_lines_come_first() -> None:
+    own = Scene((Item("a", CUBE.items[0].shape, lines=("edges",)), *rotated_boxes(2).items))
+    drawing = draw(own)
+    assert {LineKind(int(k)).word for p in paths_of(drawing) for k in p.kind[p.item == 0]} == {"edges"}
+    assert "contour" in kinds_of(drawing)
+
+
+def test_patterns_lie_on_their_faces_and_are_hidden_with_them() -> None:
+    face = int(np.argmax(CUBE.items[0].shape.face_normals[:, 2]))
+    square = Pattern("square", "red", face, np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]))
+    scene = Scene((Item("cube", CUBE.items[0].shape, patterns=(square,)),))
+    above = draw(scene, Camera((4.0, -6.0, 5.0)))
+    pattern = [
+        p.points3d[a:b]
+        for p in paths_of(above)
+        for a, b, k in zip(p.offsets[:-1], p.offsets[1:], p.kind, strict=True)
+        if k == 5
+    ]
+    assert len(pattern) == 1 and np.allclose(pattern[0][:, 2], 1.0) and len(pattern[0]) == 4
+    assert "pattern" not in kinds_of(draw(scene, Camera((4.0, -6.0, -5.0))))
+
+
+def test_hidden_lines_come_dashed_or_solid_on_a_layer_that_is_not_plotted() -> None:
+    solid, dashed = (draw(CUBE, CAMERAS[0], hidden=how) for how in ("solid", "dashed"))
+    for drawing in (solid, dashed):
+        layer = drawing.layers[3]
+        assert (layer.name, layer.plotted) == ("hidden", False)
+        assert (layer.marks[0].hidden_by == 1).all()
+    assert len(solid.layers[3].marks[0].points) == 4 or len(solid.layers[3].marks[0]) <= 3
+    assert len(dashed.layers[3].marks[0]) > 20
+
+
+def test_layers_by_kind_object_and_colour() -> None:
+    scene = Scene((*CUBE.items, Item("red", box((2, 0, 0), (3, 1, 1)), colour="darkorange")))
+    assert [layer.name for layer in draw(scene).layers] == ["visible", "contour"]
+    assert [layer.name for layer in draw(scene, layers="object").layers] == ["cube", "red"]
+    assert [layer.name for layer in draw(scene, layers="colour").layers] == ["blue", "darkorange"]
+    with pytest.raises(InputError, match="expected kind, object or colour"):
+        draw(scene, layers="item")
+
+
+@pytest.mark.hard(55)
+def test_an_empty_scene_is_an_empty_page() -> None:
+    drawing = draw(Scene(()))
+    assert (drawing.width_mm, drawing.height_mm, drawing.layers) == (210.0, 297.0, ())
+
+
+@pytest.mark.hard(57)
+def test_the_same_scene_gives_the_same_drawing() -> None:
+    scene = read(DATA / "town.scene")
+    one, two = draw(scene), draw(read(DATA / "town.scene"))
+    for first, second in zip(paths_of(one), paths_of(two), strict=True):
+        for name in ("points", "offsets", "closed", "kind", "item", "hidden_by", "points3d"):
+            assert np.array_equal(getattr(first, name), getattr(second, name))
+
+
+def test_refining_a_flat_face_changes_nothing() -> None:
+    mesh = CUBE.items[0].shape
+    fan = [[f[0], f[k], f[k + 1]] for f in mesh.polygons() for k in (1, 2)]
+    triangles = Scene((Item("cube", Mesh.from_polygons(mesh.vertices, fan)),))
+    for camera in CAMERAS:
+        assert_drawings_equal(draw(CUBE, camera), draw(triangles, camera))
+
+
+def test_the_plan_runs_what_the_scene_calls_for_and_nothing_else() -> None:
+    def stages(scene: Scene, **options: object) -> list[str]:
+        reports: list[StageReport] = []
+        draw(scene, explain=reports.append, **options)
+        return [report.name for report in reports]
+
+    plain = ["look", "faces", "edges", "intersections", "frame", "visible lines", "strokes", "layers", "pen"]
+    assert stages(CUBE) == plain
+    assert stages(CUBE, hidden="dashed", halo_mm=1.0, lines=("edges",)) == [
+        *("look", "faces", "edges", "frame", "counted lines", "halo", "strokes", "layers", "pen")
+    ]
+    assert "patterns" in stages(read(DATA / "patterns.scene"))
+
+
+def test_a_drawing_without_halo_does_not_load_the_effect() -> None:
+    code = "import sys, vectorplot as vp; vp.draw(vp.Scene(())); print('vectorplot.effects.halo' in sys.modules)"
+    import subprocess
+
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert found.stdout.strip() == "False"
+
+
+def test_progress_names_the_stage_and_grows() -> None:
+    seen: list[float] = []
+    draw(rotated_boxes(20), progress=lambda stage, part: seen.append(part))
+    assert seen == sorted(seen) and seen[0] >= 0.0 and seen[-1] == 1.0
+
+
+def test_reprs_for_notebooks() -> None:
+    drawing = draw(CUBE)
+    assert drawing._repr_svg_().startswith("<?xml") or drawing._repr_svg_().startswith("<svg")
+    assert drawing._repr_png_()[:8] == b"\x89PNG\r\n\x1a\n"
