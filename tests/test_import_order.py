@@ -30,7 +30,7 @@ FILES = sorted(path.relative_to(PACKAGE).as_posix() for path in PACKAGE.rglob("*
 
 def room(parts: tuple[str, ...]) -> str:
     name = parts[0].removesuffix(".py")
-    return "verbs" if name in VERBS else name
+    return "verbs" if name in VERBS else "cli" if name == "__main__" else name
 
 
 def imported_modules(tree: ast.AST, package: tuple[str, ...]) -> set[tuple[str, ...]]:

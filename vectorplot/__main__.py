@@ -1,0 +1,5 @@
+"""``python -m vectorplot``: the command."""
+
+from vectorplot.cli.main import main
+
+main()
