@@ -24,7 +24,7 @@ def world_per_mm(paths: Paths) -> float:
     """The extent of the strokes in the world by that on the page; 0 without points or without extent."""
     if not len(paths.points):
         return 0.0
-    mm, world = (float(np.ptp(points, axis=0).max()) for points in (paths.points, paths.points3d))
+    mm, world = (float(max(np.ptp(axis) for axis in points.T)) for points in (paths.points, paths.points3d))
     return world / mm if mm > 0.0 else 0.0
 
 
