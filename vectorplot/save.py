@@ -56,11 +56,11 @@ def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
     Errors: OSError that names the path.
     """
     target = Path(os.path.realpath(path))
-    if target.exists() and not target.is_file():
-        target.write_bytes(content)
-        return
     try:
-        _replace(target, content)
+        if target.exists() and not target.is_file():
+            target.write_bytes(content)
+        else:
+            _replace(target, content)
     except OSError as error:
         # The name of the file beside it, which is never seen, would only puzzle the reader.
         raise type(error)(error.errno, error.strerror, os.fspath(path)) from None

@@ -25,3 +25,12 @@ def test_info_of_a_bad_file_is_one_line(cube, capsys):
     assert run(["info", str(cube)]) == 1
     captured = capsys.readouterr()
     assert captured.out == "" and captured.err.count("\n") == 1
+
+
+def test_info_counts_the_faces_that_were_taken_away(tmp_path, capsys):
+    scene = tmp_path / "tray.scene"
+    scene.write_text("TRAY gray box hollow 3 3 1 +bottom\nlight SUN direction 0 0 1\n", encoding="utf-8")
+    assert run(["info", str(scene)]) == 0
+    first, last = capsys.readouterr().out.splitlines()
+    assert "6 faces (1 of them removed), closed" in first
+    assert last.startswith("1 item, 6 faces, 1 light, ")

@@ -27,8 +27,15 @@ def test_anything_else_is_no_point(text):
 
 def test_bounds_of_numbers_are_kept():
     assert options.at_least(0.0)("0") == 0.0
+    assert options.at_least(0.0, at_most=180.0)("180") == 180.0
     assert options.between(0.0, math.inf)("1e-9") == 1e-9
-    for read, text in ((options.at_least(0.0), "-1"), (options.between(0.0, 180.0), "180"), (options.number, "1_0x")):
+    wrong = (
+        (options.at_least(0.0), "-1"),
+        (options.at_least(0.0, at_most=180.0), "180.1"),
+        (options.between(0.0, 180.0), "180"),
+        (options.number, "1_0x"),
+    )
+    for read, text in wrong:
         with pytest.raises(click.BadParameter):
             read(text)
 

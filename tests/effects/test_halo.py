@@ -51,8 +51,9 @@ def test_the_outline_itself_stays_whole() -> None:
     assert np.isclose(upper, 10.0 * 2.0 * (6.0 + 2.0))
 
 
-def test_a_halo_wider_than_a_stroke_takes_all_of_it() -> None:
-    drawing = draw(cross(), TOP, page=PAGE, halo_mm=90.0)
+@pytest.mark.parametrize("halo_mm", [90.0, 1e6, 1e300])
+def test_a_halo_wider_than_a_stroke_takes_all_of_it(halo_mm: float) -> None:
+    drawing = draw(cross(), TOP, page=PAGE, halo_mm=halo_mm)
     assert all((paths.item == 0).all() for layer in drawing.layers for paths in layer.marks)
 
 

@@ -69,7 +69,8 @@ def check(drawing: Drawing) -> None:
     """
     for side in (drawing.width_mm, drawing.height_mm):
         if not 0.0 < side <= LARGEST_PAGE_MM:
-            raise InputError(f"page of {drawing.width_mm:g} x {drawing.height_mm:g} mm")
+            size = f"{drawing.width_mm:g} x {drawing.height_mm:g} mm"
+            raise InputError(f"page of {size}: sides must be more than 0 and at most {LARGEST_PAGE_MM:.0f} mm")
     for layer in drawing.layers:
         if not _COLOUR.fullmatch(layer.pen.colour):
             raise InputError(f"layer {layer.name!r}: colour {layer.pen.colour!r} is not #rrggbb")

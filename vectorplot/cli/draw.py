@@ -22,7 +22,7 @@ FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
 VIEW_WORDS = ("front", "back", "left", "right", "top", "bottom", "iso")
 
 
-@click.command(short_help="Draw a scene or a mesh with exact hidden lines.")
+@click.command(short_help="Draw a scene or a mesh with exact hidden lines.", context_settings={"show_default": True})
 @click.argument("scene_file", type=click.Path(), metavar="INPUT")
 @click.option("-o", "--out", required=True, type=click.Path(), metavar="OUT", help="File to write; - for stdout.")
 @click.option("--format", "format_", type=click.Choice(FORMATS), help="Format, where the name of OUT does not tell.")
@@ -33,13 +33,19 @@ VIEW_WORDS = ("front", "back", "left", "right", "top", "bottom", "iso")
 @click.option("--fov", type=between(0.0, 180.0), metavar="DEG", help="Full angle over the picture height.")
 @click.option("--parallel", is_flag=True, help="Parallel projection along eye - target.")
 @click.option("--height", type=between(0.0, math.inf), metavar="H", help="World units over the page, when parallel.")
-@click.option("--view", type=click.Choice(VIEW_WORDS), help="A main view, parallel unless --fov is given.")
-@click.option("--page", type=sheet, metavar="SIZE", help="A0 to A6, letter, legal, ... or WIDTHxHEIGHT in mm.")
+@click.option(
+    "--view", type=click.Choice(VIEW_WORDS), help="A main view in place of --eye, parallel unless --fov is given."
+)
+@click.option(
+    "--page", type=sheet, metavar="SIZE", help="A0 to A6, letter, legal, ... or WIDTHxHEIGHT in mm.  [default: A4]"
+)
 @click.option("--landscape", is_flag=True, help="Lay the page on its longer side.")
 @click.option("--margin", type=at_least(0.0), metavar="MM", help="Empty border of the page.  [default: 10]")
-@click.option("--fit/--no-fit", default=True, help="Fit the drawing to the page, or keep the camera's scale.")
+@click.option("--fit/--no-fit", default=True, help="Fill the page, or keep the camera's scale.")
 @click.option("--lines", type=kinds, default=",".join(DRAWN), metavar="KIND,...", help=f"Some of {', '.join(KINDS)}.")
-@click.option("--crease-angle", type=at_least(0.0), default=25.0, metavar="DEG", help="Sharper edges are creases.")
+@click.option(
+    "--crease-angle", type=at_least(0.0, at_most=180.0), default=25.0, metavar="DEG", help="Sharper edges are creases."
+)
 @click.option("--hidden", type=click.Choice(["none", "dashed", "solid"]), default="none", help="How hidden lines look.")
 @click.option("--halo", type=at_least(0.0), default=0.0, metavar="MM", help="Gap beside lines that lie in front.")
 @click.option("--layers", type=click.Choice(["kind", "object", "colour"]), default="kind", help="What shares a layer.")

@@ -29,13 +29,15 @@ def number(text: str) -> float:
     return value
 
 
-def at_least(low: float) -> Callable[[str], float]:
-    """How to read a number that is not smaller than low."""
+def at_least(low: float, *, at_most: float = math.inf) -> Callable[[str], float]:
+    """How to read a number that lies between low and at_most or is one of them."""
 
     def read(text: str) -> float:
         value = number(text)
         if value < low:
             raise click.BadParameter(f"{text} is less than {low:g}")
+        if value > at_most:
+            raise click.BadParameter(f"{text} is greater than {at_most:g}")
         return value
 
     return read

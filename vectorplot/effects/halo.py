@@ -29,6 +29,8 @@ def halo(view: View, lines: Lines, seen: Visibility, width: float) -> Visibility
     base = lines.start[:, seen.segment]
     along = lines.end[:, seen.segment] - base
     start, end = base + seen.low * along, base + seen.high * along
+    # A halo wider than the picture is as good as one of the picture's size, and lets the grid keep its digits.
+    width = min(width, _diameter(view.image_of(np.concatenate([start[:, shown], end[:, shown]], axis=1))))
     part, low, high = _zones(view, lines, seen.segment, start, end, shown, outline, width)
     fine = np.full(len(shown), 1e-9)
     part, low, high = intervals.union(part, low, high, fine)
@@ -45,6 +47,11 @@ def halo(view: View, lines: Lines, seen: Visibility, width: float) -> Visibility
     count = np.concatenate([np.zeros(len(which), dtype=np.intp), seen.hidden_by[hidden]])
     order = np.lexsort((new_low, segment))
     return Visibility(segment[order], new_low[order], new_high[order], count[order])
+
+
+def _diameter(image: Floats) -> float:
+    """At least the distance of any two points (2,n)."""
+    return float(np.linalg.norm(np.ptp(image, axis=1)))
 
 
 def _zones(
@@ -85,17 +92,13 @@ def _close_pairs(p0: Floats, p1: Floats, q0: Floats, q1: Floats, width: float) -
     left, right = np.minimum(q0, q1), np.maximum(q0, q1)
     margin = width + 1e-6 * (width + float(np.abs(right).max() + np.abs(left).max()))
     box = np.stack([left[0] - margin, right[0] + margin, left[1] - margin, right[1] + margin]).astype(np.float32)
-    cells, thing = grids.entries(grid, box)
-    order = np.argsort(cells, kind="stable")
-    thing = thing[order]
-    first = np.searchsorted(cells[order], np.arange(int(grid.first[-1]) + 1))
+    entries = grids.entries(grid, box)
     pairs = []
-    for level in range(grid.levels):
-        at = grid.numbers(pieces.column >> level, pieces.row >> level, np.full(len(pieces), level))
-        count = first[at + 1] - first[at]
+    for level in entries.levels():
+        begin, count = entries.of(grid.numbers(pieces.column >> level, pieces.row >> level, level))
         piece = np.repeat(np.arange(len(pieces)), count)
-        near = thing[np.arange(len(piece)) - np.repeat(np.cumsum(count) - count - first[at], count)]
-        pairs.append((pieces.segment[piece], near))
+        step = np.arange(len(piece)) - np.repeat(np.cumsum(count) - count, count)
+        pairs.append((pieces.segment[piece], entries.thing[begin[piece] + step]))
     return pairs
 
 

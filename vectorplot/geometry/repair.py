@@ -71,7 +71,7 @@ def _many(count: int, one: str, many: str) -> str:
 @dataclass(frozen=True)
 class MeshReport:
     """What a mesh is like. size: extents along x, y, z; closed: no boundary edge; oriented: neighbours agree about the
-    outside; convex: closed, oriented and convex within 1e-9 of its extent; mending: what was done to it on reading."""
+    outside; convex: closed, oriented and convex within 1e-9 of its extent."""
 
     vertices: int
     faces: int
@@ -83,10 +83,9 @@ class MeshReport:
     oriented: bool
     convex: bool
     size: tuple[float, float, float]
-    mending: Mending = Mending()
 
 
-def mesh_report(mesh: Mesh, mending: Mending | None = None) -> MeshReport:
+def mesh_report(mesh: Mesh) -> MeshReport:
     """The report on a mesh, in one sort of its edges. Degenerate: a mesh without faces is closed and not convex."""
     uses = edge_uses(mesh)
     number, _ = components(mesh, uses) if mesh.face_count else (0, None)
@@ -105,7 +104,6 @@ def mesh_report(mesh: Mesh, mending: Mending | None = None) -> MeshReport:
         oriented=oriented,
         convex=manifold and number == 1 and _is_convex(mesh, uses),
         size=(float(high[0] - low[0]), float(high[1] - low[1]), float(high[2] - low[2])),
-        mending=mending or Mending(),
     )
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from vectorplot.geometry.repair import MeshReport, mesh_report
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.repair import mesh_report
 from vectorplot.scene.scene import Scene
 
 
@@ -10,23 +11,31 @@ def describe(scene: Scene) -> list[str]:
     """The lines that say what is in a scene: of every item counts, closedness, convexity and size; then the whole."""
     lines = []
     for item in scene.items:
-        lines.append(f"{item.name}: {_counts(mesh_report(item.shape))}")
+        lines.append(f"{item.name}: {_counts(item.shape)}")
     low, high = scene.bounds
     size = " x ".join(f"{extent:.6g}" for extent in high - low)
     faces = sum(item.shape.face_count for item in scene.items)
-    items = f"{len(scene.items)} item{'' if len(scene.items) == 1 else 's'}"
-    lines.append(f"{items}, {faces} faces, {len(scene.lights)} lights, size {size}")
+    counts = (_number(len(scene.items), "item"), _number(faces, "face"), _number(len(scene.lights), "light"))
+    lines.append(f"{', '.join(counts)}, size {size}")
     return lines
 
 
-def _counts(report: MeshReport) -> str:
-    """One line about a mesh."""
-    words = [f"{report.vertices} vertices", f"{report.edges} edges", f"{report.faces} faces"]
+def _number(count: int, word: str) -> str:
+    return f"{count} {word}{'' if count == 1 else 's'}"
+
+
+def _counts(mesh: Mesh) -> str:
+    """One line about a mesh. Closed and convex are said of the body with the faces that were taken away."""
+    report = mesh_report(mesh)
+    removed = 0 if mesh.present is None else mesh.face_count - int(mesh.present.sum())
+    words = [f"{report.vertices} vertices", _number(report.edges, "edge"), _number(report.faces, "face")]
+    if removed:
+        words[-1] += f" ({removed} of them removed)"
     if report.components != 1:
         words.append(f"{report.components} pieces")
-    words.append("closed" if report.closed else f"open ({report.boundary_edges} boundary edges)")
+    words.append("closed" if report.closed else f"open ({_number(report.boundary_edges, 'boundary edge')})")
     if report.nonmanifold_edges:
-        words.append(f"{report.nonmanifold_edges} non-manifold edges")
+        words.append(_number(report.nonmanifold_edges, "non-manifold edge"))
     if not report.oriented:
         words.append("faces disagree about the outside")
     words.append("convex" if report.convex else "not convex")

@@ -48,7 +48,7 @@ class Item:
     """A shape in the scene, and how it is drawn.
 
     colour: the name of a palette; lines: the words of the kinds to draw (None: what the drawing asks for);
-    occludes: whether it hides what is behind it; convex: whether its maker declares it convex (checked before use).
+    occludes: whether it hides what is behind it.
     """
 
     name: str
