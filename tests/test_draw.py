@@ -219,3 +219,27 @@ def test_reprs_for_notebooks() -> None:
     drawing = draw(CUBE)
     assert drawing._repr_svg_().startswith("<?xml") or drawing._repr_svg_().startswith("<svg")
     assert drawing._repr_png_()[:8] == b"\x89PNG\r\n\x1a\n"
+
+
+@pytest.mark.parametrize(
+    ("options", "cause"),
+    [
+        ({"hidden": "dotted"}, "hidden 'dotted'"),
+        ({"layers": "item"}, "layers 'item'"),
+        ({"halo_mm": -1.0}, "halo"),
+        ({"halo_mm": float("nan")}, "halo"),
+        ({"crease_angle_deg": float("nan")}, "crease angle"),
+        ({"crease_angle_deg": 200.0}, "crease angle"),
+    ],
+)
+def test_options_out_of_range_are_named(options: dict, cause: str) -> None:
+    with pytest.raises(InputError, match=cause):
+        draw(CUBE, **options)
+
+
+@pytest.mark.parametrize("size", [1e-200, 1e-120, 1e120, 1e200])
+def test_sizes_whose_products_leave_the_range_of_numbers_are_an_error(size: float) -> None:
+    tiny = Scene((Item("A", box((-size, -size, -size), (size, size, size))),))
+    for camera in (None, Camera((5 * size, -7 * size, 4 * size)), Camera((5.0, -7.0, 4.0))):
+        with pytest.raises(InputError, match="out of range"):
+            draw(tiny, camera)

@@ -297,3 +297,19 @@ def test_every_family_is_drawn_as_rays_see_it(name, parallel):
     drawing = draw(scene, camera, lines=kinds, hidden="solid")
     points, _ = edge_points(scene, 400)
     assert assert_drawing_is_right(drawing, scene, camera, samples=800, must_show=points) > 500
+
+
+def test_rays_and_drawing_agree_about_the_surface_of_a_bent_quadrangle():
+    height = np.random.default_rng(2).normal(size=49) * 0.4
+    y, x = np.meshgrid(np.linspace(-1, 1, 7), np.linspace(-1, 1, 7), indexing="ij")
+    first = (np.arange(6)[:, None] * 7 + np.arange(6)).ravel()
+    cells = np.stack([first, first + 1, first + 8, first + 7], axis=1)
+    scene = scene_of(
+        BENT=Mesh.from_polygons(np.c_[x.ravel(), y.ravel(), height], cells.tolist()),
+        BOX=box((-0.3, -0.3, -0.5), (0.3, 0.3, 0.4)),
+    )
+    for eye in ((5, -7, 4), (-2, 3, 5), (1, 1, -6)):
+        camera = Camera(eye)
+        shown, _ = edge_points(scene, 300)
+        drawing = draw(scene, camera, hidden="solid", lines=("contour", "boundary", "crease", "edges"))
+        assert assert_drawing_is_right(drawing, scene, camera, samples=600, must_show=shown) > 600

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -48,7 +49,7 @@ DASH_MM = (2.0, 1.0)
 def default_camera(scene: Scene) -> Camera:
     """A central projection of the whole scene from the front, the right and above."""
     low, high = scene.bounds
-    centre, size = (low + high) / 2.0, float(np.linalg.norm(high - low))
+    centre, size = (low + high) / 2.0, math.dist(low, high)
     direction = np.array([0.45, -0.8, 0.45]) / np.linalg.norm([0.45, -0.8, 0.45])
     eye = centre + direction * 2.2 * (size if size > 0.0 else 1.0)
     return Camera(eye=tuple(eye.tolist()), target=tuple(centre.tolist()))
@@ -77,11 +78,12 @@ def draw(
     left out, dashed, or solid on a layer of their own. halo_mm: lines end so far beside what is in front of them.
     layers: what shares a layer. tolerance_mm: for approximations; straight lines are exact. progress(stage, fraction)
     and explain(report) are called while it works.
-    Errors: InputError for unknown words and impossible cameras.
+    Errors: InputError for unknown words, impossible cameras, and widths and angles out of range.
     Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees
     off the principal ray, a fitted picture shows the camera's field of vision.
     Source: Glaeser, sections 2.1 and 7.2.
     """
+    _check_options(hidden, halo_mm, crease_angle_deg)
     kinds = frozenset(map(LineKind.from_word, lines))
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
@@ -109,6 +111,15 @@ def draw(
     inked = walk.run("pen", _inked, sorted_layers, hidden, strokes.page_from_world)
     names = tuple(item.name for item in scene.items)
     return Drawing(page.width_mm, page.height_mm, inked, names, scene.title, strokes.page_from_world)
+
+
+def _check_options(hidden: str, halo_mm: float, crease_angle_deg: float) -> None:
+    if hidden not in ("none", "dashed", "solid"):
+        raise InputError(f"hidden {hidden!r}: expected none, dashed or solid")
+    if not 0.0 <= halo_mm < np.inf:
+        raise InputError(f"a halo of {halo_mm:g} mm: expected a width that is finite and not negative")
+    if not 0.0 <= crease_angle_deg <= 180.0:
+        raise InputError(f"a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
 
 
 def in_frame(view: View, lines: Lines, page: Page, fit: bool) -> tuple[Lines, bool]:

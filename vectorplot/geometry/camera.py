@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -72,7 +73,7 @@ class Camera:
     @cached_property
     def distance(self) -> float:
         """From the eye to the target, in world units."""
-        return float(np.linalg.norm(np.subtract(self.eye, self.target)))
+        return math.dist(self.eye, self.target)
 
     @cached_property
     def direction(self) -> Floats:

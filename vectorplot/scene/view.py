@@ -17,6 +17,9 @@ from vectorplot.scene.scene import Scene
 ULPS = 16.0
 """Fewer rounding steps of the largest coordinate than these count as zero too."""
 
+LARGEST = 1e100
+"""Beyond this, and below its inverse, products of lengths leave the range of floating point numbers."""
+
 NEAR_OF_DISTANCE = 1e-4
 """The near plane, as a part of the smaller of the eye's distance from its target and the scene's extent."""
 
@@ -131,6 +134,8 @@ def look(scene: Scene, camera: Camera) -> View:
     centre, scale = (low + high) / 2.0, float((high - low).max()) / 2.0
     if not scale > 0.0:
         scale = camera.distance if not camera.parallel or camera.height is None else camera.height
+    if not 1.0 / LARGEST < scale < LARGEST or not camera.distance < LARGEST:
+        raise InputError(f"an extent of {2.0 * scale:g}, seen from {camera.distance:g} away, is out of range")
     largest = max(float(np.abs(low).max()), float(np.abs(high).max()))
     noise = ULPS * np.finfo(float).eps * largest / scale
     if noise > 1e-3:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.geometry.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 
 FLAT = 1e-12
 """A corner whose sine is smaller counts as straight."""
@@ -13,15 +15,37 @@ FLAT = 1e-12
 def triangulated(mesh: Mesh) -> tuple[Ints, Ints]:
     """Triangles (t,3) of vertex indices that cover the faces that are there, and (t,) the face each belongs to.
 
-    Degenerate: a face without area gives triangles without area.
+    Degenerate: a face without area gives triangles without area. A face that is not planar is the triangles that
+    geometry.convex_faces makes of it: nothing but that convention says which surface it is.
     """
     present = np.ones(mesh.face_count, dtype=np.bool_) if mesh.present is None else mesh.present
-    convex = faces_are_convex(mesh)
-    triangles, faces = fans(mesh, present & convex)
-    ears = [(ear_clipping(mesh, face), face) for face in np.flatnonzero(present & ~convex).tolist()]
+    convex, bent = faces_are_convex(mesh), faces_are_bent(mesh)
+    triangles, faces = fans(mesh, present & convex & ~bent)
+    ears = [(ear_clipping(mesh, face), face) for face in np.flatnonzero(present & ~convex & ~bent).tolist()]
     more = [np.asarray(cut, dtype=np.intp).reshape(-1, 3) for cut, _ in ears]
     owner = [np.full(len(cut), face, dtype=np.intp) for cut, (_, face) in zip(more, ears, strict=True)]
-    return np.concatenate([triangles, *more]), np.concatenate([faces, *owner])
+    cut, source = bent_triangles(mesh, np.flatnonzero(present & bent))
+    return np.concatenate([triangles, *more, cut]), np.concatenate([faces, *owner, source])
+
+
+def faces_are_bent(mesh: Mesh) -> Bools:
+    """(f,) whether a face has a corner off its mean plane through its first corner."""
+    if not mesh.face_count:
+        return np.zeros(0, dtype=np.bool_)
+    arm = mesh.vertices[mesh.corners] - mesh.vertices[mesh.corners[mesh.offsets[:-1]]][mesh.corner_face]
+    height = np.abs(np.einsum("ij,ij->i", arm, mesh.face_normals[mesh.corner_face]))
+    limit = ZERO_OF_EXTENT * float((mesh.bounds[1] - mesh.bounds[0]).max())
+    return np.asarray(np.maximum.reduceat(height, mesh.offsets[:-1]) > limit)
+
+
+def bent_triangles(mesh: Mesh, faces: Ints) -> tuple[Ints, Ints]:
+    """Triangles of faces that are not planar, and their faces."""
+    if not len(faces):
+        return np.zeros((0, 3), dtype=np.intp), faces
+    corners = mesh.corners[np.isin(mesh.corner_face, faces)]
+    offsets = np.concatenate([[0], np.cumsum(mesh.face_sizes[faces])])
+    cut = convex_faces(np.ascontiguousarray(mesh.vertices.T), corners, offsets, 0.0)
+    return cut.corners.reshape(-1, 3), faces[cut.source]
 
 
 def faces_are_convex(mesh: Mesh) -> Bools:
