@@ -213,13 +213,13 @@ def _corner_runs(
     """Corners of a block of faces, with the normal of the face at each."""
     corners = faces.corners[faces.offsets[block.start] : faces.offsets[block.stop]]
     if len(faces.corners) == 3 * len(sizes):
-        return [(corners[k::3], normals[:, block]) for k in range(3)]
+        return [(np.ascontiguousarray(corners[k::3]), normals[:, block]) for k in range(3)]
     return [(corners, np.repeat(normals[:, block], sizes[block], axis=1))]
 
 
 def _triangle_normals(points: Floats, triangles: Ints) -> Floats:
     """(3,n) unit normals of triangles (3,n); zero for one without area."""
-    a, b, c = triangles
+    a, b, c = np.ascontiguousarray(triangles)
     ux, uy, uz = (p[b] - p[a] for p in points)
     vx, vy, vz = (p[c] - p[a] for p in points)
     normal = np.stack([uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,9 @@ MAX_CELLS = 1 << 20
 
 PIECES_PER_SEGMENT = 2.0
 """How finely segments may be cut at cell borders, on the average."""
+
+SEARCH_COST = 20
+"""Looking a cell up by bisection costs as much as so many cells of a table of all."""
 
 MAX_COVER_TESTS = 64
 """A thing is tested for covering at most so many cells, of the finest level that has no more of them in its box."""
@@ -77,7 +81,7 @@ class Grid:
             self.row_of(box[3]) >> level,
         )
 
-    def numbers(self, column: Ints, row: Ints, level: Ints) -> Ints:
+    def numbers(self, column: Ints, row: Ints, level: Ints | int) -> Ints:
         """(n,) cell numbers."""
         return self.first[level] + row * self.columns[level] + column
 
@@ -214,9 +218,35 @@ def reaching(grid: Grid, table: Floats32, box: Floats32, nearest: Floats32) -> B
     return np.asarray(found > nearest, dtype=np.bool_)
 
 
-def entries(grid: Grid, box: Floats32) -> tuple[Ints, Ints]:
-    """(cell, thing) for every cell that a box (4,n) touches, at the finest level at which it is no larger than two
-    cells.
+@dataclass(frozen=True, eq=False)
+class Entries:
+    """What cells hold: cell (n,) ascending, and thing (n,) in it."""
+
+    grid: Grid
+    cell: Ints
+    thing: Ints
+
+    def levels(self) -> list[int]:
+        """The levels on which there is anything."""
+        bounds = np.searchsorted(self.cell, self.grid.first)
+        return np.flatnonzero(np.diff(bounds)).tolist()
+
+    def of(self, cells: Ints) -> tuple[Ints, Ints]:
+        """(n,) where the entries of cells begin, and how many there are."""
+        if len(cells) * SEARCH_COST < self.grid.first[-1]:
+            begin = np.searchsorted(self.cell, cells)
+            return begin, np.searchsorted(self.cell, cells, side="right") - begin
+        return self._starts[cells], self._starts[cells + 1] - self._starts[cells]
+
+    @cached_property
+    def _starts(self) -> Ints:
+        """(cells + 1,) where the entries of every cell begin."""
+        counts = np.bincount(self.cell, minlength=int(self.grid.first[-1]))
+        return np.concatenate([[0], np.cumsum(counts)])
+
+
+def entries(grid: Grid, box: Floats32) -> Entries:
+    """The cells that boxes (4,n) touch, each at the finest level at which it is no larger than two cells.
 
     So a thing has at most nine entries, and a cell holds few things that do not come near it.
     """
@@ -229,4 +259,6 @@ def entries(grid: Grid, box: Floats32) -> tuple[Ints, Ints]:
     row = step // wide[thing]
     column = step - row * wide[thing]
     base = grid.first[level] + r0 * grid.columns[level] + c0
-    return base[thing] + row * grid.columns[level][thing] + column, thing
+    cell = base[thing] + row * grid.columns[level][thing] + column
+    order = np.argsort(cell)
+    return Entries(grid, cell[order], thing[order])

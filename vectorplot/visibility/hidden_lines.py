@@ -179,16 +179,12 @@ def _all_hits(
         if begin == end:
             continue
         slab = order[begin:end]
-        cell, thing = grids.entries(grid, occluders.box[:, slab])
-        by_cell = np.lexsort((thing, cell))
-        cell, thing = cell[by_cell], slab[thing[by_cell]]
-        starts = np.concatenate([[0], np.cumsum(np.bincount(cell, minlength=int(grid.first[-1])))])
-        used = np.unique(np.searchsorted(grid.first, cell[np.flatnonzero(np.diff(cell, prepend=-1))], side="right") - 1)
-        for level in used:
+        entries = grids.entries(grid, occluders.box[:, slab])
+        for level in entries.levels():
             which = np.flatnonzero(alive & (pieces.farthest > occluders.nearest[slab[0]]))
             at = grid.numbers(pieces.column[which] >> level, pieces.row[which] >> level, level)
-            for piece, entry in _expanded(starts, at, which):
-                occluder = thing[entry]
+            for piece, entry in _expanded(*entries.of(at), which):
+                occluder = slab[entries.thing[entry]]
                 close = np.flatnonzero(_overlapping(piece_boxes[piece], boxes[occluder]))
                 piece, occluder = piece[close], occluder[close]
                 close = np.flatnonzero((occluders.nearest[occluder] < pieces.farthest[piece]) & alive[piece])
@@ -198,11 +194,10 @@ def _all_hits(
         progress(float(end) / len(order))
 
 
-def _expanded(starts: Ints, at: Ints, which: Ints) -> Iterator[tuple[Ints, Ints]]:
-    """Blocks of (piece, entry) for every entry of every piece's cell."""
-    counts = starts[at + 1] - starts[at]
+def _expanded(begin: Ints, counts: Ints, which: Ints) -> Iterator[tuple[Ints, Ints]]:
+    """Blocks of (piece, entry) for every entry of the pieces' cells, counts of them from begin on."""
     full = np.flatnonzero(counts)
-    counts, at, which = counts[full], at[full], which[full]
+    begin, counts, which = begin[full], counts[full], which[full]
     total = np.cumsum(counts)
     cuts = np.searchsorted(total, np.arange(PAIRS_AT_ONCE, int(total[-1]) if len(total) else 0, PAIRS_AT_ONCE)) + 1
     edges = np.unique(np.concatenate([[0], cuts, [len(counts)]]))
@@ -210,7 +205,7 @@ def _expanded(starts: Ints, at: Ints, which: Ints) -> Iterator[tuple[Ints, Ints]
         size = counts[low:high]
         owner = np.repeat(np.arange(low, high), size)
         step = np.arange(len(owner)) - np.repeat(np.cumsum(size) - size, size)
-        yield which[owner], starts[at[owner]] + step
+        yield which[owner], begin[owner] + step
 
 
 def _packed(box: Floats32) -> NDArray[np.complex128]:

@@ -55,13 +55,22 @@ def _store(
     left, right, bottom, top = box
     size = np.maximum(right - left, top - bottom)
     faces.facing[low:high] = (area > tol * size).astype(np.int8) - (area < -tol * size).astype(np.int8)
-    for row, (value, outward) in enumerate(((left, -1.0), (right, 1.0), (bottom, -1.0), (top, 1.0))):
-        faces.box[row, low:high] = value + outward * (2e-7 * np.abs(value) + 1e-7)
-    faces.nearest[low:high] = nearest - (2e-7 * np.abs(nearest) + 1e-7)
+    for row, value in enumerate(box):
+        _rounded(value, np.add if row % 2 else np.subtract, faces.box[row, low:high])
+    _rounded(nearest, np.subtract, faces.nearest[low:high])
+
+
+def _rounded(value: Floats, outwards: np.ufunc, out: Floats32) -> None:
+    """Put values into single precision, moved up (add) or down (subtract) by a little more than its steps."""
+    out[:] = value
+    step = np.abs(out)
+    step *= np.float32(3e-7)
+    step += np.float32(1e-7)
+    outwards(out, step, out=out)
 
 
 def _triangles(view: View, faces: ProjectedFaces, x: Floats, y: Floats, depth: Floats, low: int, high: int) -> None:
-    a, b, c = view.corners[3 * low : 3 * high].reshape(-1, 3).T
+    a, b, c = np.ascontiguousarray(view.corners[3 * low : 3 * high].reshape(-1, 3).T)
     xa, xb, xc = x[a], x[b], x[c]
     ya, yb, yc = y[a], y[b], y[c]
     area = (xb - xa) * (yc - ya) - (xc - xa) * (yb - ya)
