@@ -28,7 +28,8 @@ def convex_faces(points: Floats, corners: Ints, offsets: Ints, tolerance: float)
     points (3,v); a polygon is planar where no corner is further than tolerance from its mean plane. Quadrilaterals are
     cut along a diagonal that folds neither triangle over (the shorter one if both do), larger polygons by a constrained
     Delaunay triangulation in their mean plane.
-    Degenerate: a polygon that crosses itself is cut as a fan and reported by an InputWarning.
+    Degenerate: a hole that a bridge of no width joins to the border stays a hole; a polygon that crosses itself is cut as
+    a fan and reported by an InputWarning.
     """
     sizes = np.diff(offsets)
     faces = np.arange(len(sizes))
@@ -121,12 +122,15 @@ def _cut_polygons(points: Floats, corners: Ints, offsets: Ints, faces: Ints) -> 
     flat = _in_mean_plane(points[:, corners[positions]], starts, owner)
     ring_points, ring_of = _closed(flat, starts, owner)
     polygons = shapely.polygons(shapely.linearrings(ring_points, indices=ring_of))
-    sound = shapely.is_valid(polygons) & (shapely.area(polygons) > 0.0)
-    cut = shapely.constrained_delaunay_triangles(polygons[sound])
-    parts, part_of = shapely.get_parts(cut, return_index=True)
-    part_of = np.flatnonzero(sound)[part_of]
+    touching = ~shapely.is_valid(polygons)
+    # A hole on a bridge of no width makes a ring that touches itself: the same polygon, with a hole.
+    polygons[touching] = shapely.make_valid(polygons[touching])
+    parts, part_of = shapely.get_parts(shapely.constrained_delaunay_triangles(polygons), return_index=True)
     corner_of = _nearest_corner(shapely.get_coordinates(parts).reshape(-1, 4, 2)[:, :3], part_of, flat, starts, owner)
-    local = _counter_clockwise(corner_of, flat)
+    # Where the ring crosses itself there are triangles with corners that the polygon does not have.
+    sound = np.bincount(part_of, minlength=len(faces)) > 0
+    sound[part_of[(corner_of < 0).any(axis=1)]] = False
+    local, part_of = _counter_clockwise(corner_of[sound[part_of]], flat), part_of[sound[part_of]]
     if not sound.all():
         warnings.warn(f"{int((~sound).sum())} faces cross themselves: cut as fans", InputWarning, stacklevel=4)
         fans, fan_of = _fans(starts, np.flatnonzero(~sound))
@@ -134,7 +138,20 @@ def _cut_polygons(points: Floats, corners: Ints, offsets: Ints, faces: Ints) -> 
     following = np.arange(1, len(owner) + 1)
     following[starts[1:] - 1] = starts[:-1]
     inner = following[local] != np.roll(local, -1, axis=1)
+    if touching.any():
+        some = touching[part_of]
+        inner[some] = _inside_ring(local[some], flat, owner, following)
     return corners[positions][local], inner, faces[part_of]
+
+
+def _inside_ring(local: Ints, flat: Floats, owner: Ints, following: Ints) -> Bools:
+    """(t,3) whether sides of triangles are no sides of their polygon, or bridges: sides that it has in both directions."""
+    _, place = np.unique(np.column_stack([owner, flat]), axis=0, return_inverse=True)
+    place = place.ravel()
+    ring = place * len(place) + place[following]
+    ring = ring[~np.isin(ring, place[following] * len(place) + place)]
+    side = place[local] * len(place) + np.roll(place[local], -1, axis=1)
+    return ~np.isin(side, ring)
 
 
 def _in_mean_plane(p: Floats, starts: Ints, owner: Ints) -> Floats:
@@ -157,8 +174,8 @@ def _closed(flat: Floats, starts: Ints, owner: Ints) -> tuple[Floats, Ints]:
     return flat[order], np.insert(owner, starts[1:], np.arange(len(starts) - 1))
 
 
-def _nearest_corner(triangles: Floats, part_of: Ints, flat: Floats, starts: Ints, owner: Ints) -> Ints:
-    """(t,3) the polygon corners that have exactly these coordinates."""
+def _nearest_corner(triangles: Floats, part_of: Ints, flat: Floats, owner: Ints) -> Ints:
+    """(t,3) the polygon corners that have exactly these coordinates; -1 where there is none."""
     asked = np.column_stack([np.repeat(part_of, 3), triangles.reshape(-1, 2)])
     known = np.column_stack([owner, flat])
     both = np.concatenate([known, asked])

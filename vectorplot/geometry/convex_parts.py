@@ -144,7 +144,7 @@ def convex_revolution_parts(meridian: ArrayLike, order: int, *, angle_deg: float
     if (np.diff(profile[:, 1]) > ZERO_OF_EXTENT * extent).all() and (angle_deg == FULL_TURN or angle_deg <= HALF_TURN):
         slices = [_in_space(profile[a : b + 1], azimuth) for a, b in _arches(profile)]
         return [revolution(piece, order, angle_deg=angle_deg) for piece in slices]
-    return _sectors(whole, profile, azimuth, order, angle_deg)
+    return _sectors(profile, azimuth, order, angle_deg)
 
 
 def _in_space(profile: Floats, azimuth: Floats) -> Floats:
@@ -160,7 +160,7 @@ def _arches(profile: Floats) -> Iterable[tuple[int, int]]:
     return pairwise(cuts)
 
 
-def _sectors(whole: Mesh, profile: Floats, azimuth: Floats, order: int, angle_deg: float) -> list[Mesh]:
+def _sectors(profile: Floats, azimuth: Floats, order: int, angle_deg: float) -> list[Mesh]:
     """The convex parts of the profile, closed along the axis, between every two neighbouring meridians."""
     closed = bool((profile[0] == profile[-1]).all())
     outline = profile[:-1] if closed else profile

@@ -52,7 +52,7 @@ def revolution(
     if not profile.closed:
         for cap, end in ((BOTTOM, 0), (TOP, -1)):
             if not profile.on_axis[end]:
-                polygons.append(_cap(profile, rings, cap))
+                polygons.append(_cap(rings, cap))
                 stored.append(cap)
     vertices = np.concatenate([profile.vertices(), *feet])
     all_sizes = np.concatenate([sizes[sizes > 0], [len(polygon) for polygon in polygons]]).astype(np.intp)
@@ -195,7 +195,7 @@ def _end_faces(profile: _Profile, rings: Ints) -> tuple[Ints, list[Ints], list[F
     return rings, polygons, feet
 
 
-def _cap(profile: _Profile, rings: Ints, cap: str) -> Ints:
+def _cap(rings: Ints, cap: str) -> Ints:
     """Corners of the bottom or the top: the ring, and the axis if the body is cut open."""
     ring = rings[0] if cap == BOTTOM else rings[-1]
     polygon = ring[ring >= 0]
