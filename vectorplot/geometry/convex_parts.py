@@ -133,7 +133,7 @@ def convex_revolution_parts(meridian: ArrayLike, order: int, *, angle_deg: float
     turn; else the convex parts of the profile, swept step by step. The meridian lies in a half-plane through the axis.
     Errors: as revolution. Source: Glaeser, section 3.4, figure 4.
     """
-    whole = revolution(meridian, order, angle_deg=angle_deg)
+    revolution(meridian, order, angle_deg=angle_deg)  # refuses what makes no body
     points = checked_points(meridian, "meridian")
     profile = np.stack([np.hypot(points[:, 0], points[:, 1]), points[:, 2]], axis=1)
     if profile[-1, 1] < profile[0, 1]:
