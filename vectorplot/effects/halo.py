@@ -92,7 +92,9 @@ def _close_pairs(p0: Floats, p1: Floats, q0: Floats, q1: Floats, width: float) -
     left, right = np.minimum(q0, q1), np.maximum(q0, q1)
     margin = width + 1e-6 * (width + float(np.abs(right).max() + np.abs(left).max()))
     box = np.stack([left[0] - margin, right[0] + margin, left[1] - margin, right[1] + margin]).astype(np.float32)
-    entries = grids.entries(grid, box)
+    outline_level = grids.entry_level(grid, box)
+    thing, column, row = grids.touched(grid, box, outline_level)
+    entries = grids.entries(grid, thing, column, row, outline_level[thing])
     pairs = []
     for level in entries.levels():
         begin, count = entries.of(grid.numbers(pieces.column >> level, pieces.row >> level, level))

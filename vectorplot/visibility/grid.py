@@ -245,20 +245,24 @@ class Entries:
         return np.concatenate([[0], np.cumsum(counts)])
 
 
-def entries(grid: Grid, box: Floats32) -> Entries:
-    """The cells that boxes (4,n) touch, each at the finest level at which it is no larger than two cells.
-
-    So a thing has at most nine entries, and a cell holds few things that do not come near it.
-    """
-    level = np.maximum(grid.level_of(box) - 1, 0)
+def touched(grid: Grid, box: Floats32, level: Ints) -> tuple[Ints, Ints, Ints]:
+    """(thing, column, row) of every cell that boxes (4,n) touch, each at a level of its own."""
     c0, r0, c1, r1 = grid.corner_cells(box, level)
     wide, tall = c1 - c0 + 1, r1 - r0 + 1
     count = wide * tall
     thing = np.repeat(np.arange(box.shape[1]), count)
     step = np.arange(len(thing)) - np.repeat(np.cumsum(count) - count, count)
     row = step // wide[thing]
-    column = step - row * wide[thing]
-    base = grid.first[level] + r0 * grid.columns[level] + c0
-    cell = base[thing] + row * grid.columns[level][thing] + column
+    return thing, c0[thing] + step - row * wide[thing], r0[thing] + row
+
+
+def entry_level(grid: Grid, box: Floats32) -> Ints:
+    """(n,) the finest level at which boxes (4,n) are no larger than two cells: so they touch at most nine."""
+    return np.asarray(np.maximum(grid.level_of(box) - 1, 0), dtype=np.intp)
+
+
+def entries(grid: Grid, thing: Ints, column: Ints, row: Ints, level: Ints) -> Entries:
+    """Things entered in cells of their levels."""
+    cell = grid.numbers(column, row, level)
     order = np.argsort(cell)
     return Entries(grid, cell[order], thing[order])

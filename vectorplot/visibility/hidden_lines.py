@@ -13,9 +13,10 @@ from vectorplot.exact import intervals
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility import grid as grids
+from vectorplot.visibility.cells import covered_cells, entered
 from vectorplot.visibility.grid import Floats32, Grid, Pieces
 from vectorplot.visibility.occluders import Occluders, face_occluders, joined, solid_occluders
-from vectorplot.visibility.pairs import Hits, Segments, clip_pairs, covered_cells
+from vectorplot.visibility.pairs import Hits, Segments, clip_pairs
 from vectorplot.visibility.projected_faces import ProjectedFaces
 
 PAIRS_AT_ONCE = 1 << 17
@@ -179,12 +180,12 @@ def _all_hits(
         if begin == end:
             continue
         slab = order[begin:end]
-        entries = grids.entries(grid, occluders.box[:, slab])
+        entries = entered(view, grid, occluders, slab)
         for level in entries.levels():
             which = np.flatnonzero(alive & (pieces.farthest > occluders.nearest[slab[0]]))
             at = grid.numbers(pieces.column[which] >> level, pieces.row[which] >> level, level)
             for piece, entry in _expanded(*entries.of(at), which):
-                occluder = slab[entries.thing[entry]]
+                occluder = entries.thing[entry]
                 close = np.flatnonzero(_overlapping(piece_boxes[piece], boxes[occluder]))
                 piece, occluder = piece[close], occluder[close]
                 close = np.flatnonzero((occluders.nearest[occluder] < pieces.farthest[piece]) & alive[piece])

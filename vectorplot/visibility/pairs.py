@@ -8,12 +8,8 @@ import numpy as np
 
 from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.scene.view import View
-from vectorplot.visibility.grid import MAX_COVER_TESTS, Floats32, Grid
 from vectorplot.visibility.occluders import Occluders
 from vectorplot.visibility.projected_faces import cross
-
-COVER_MARGIN = 1e-7
-"""A cell counts as covered only where it is so far inside."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,59 +115,3 @@ def _shadow_side(view: View, start: Floats, end: Floats, inward: Floats) -> Ints
     else:
         left = cross(along, start - view.eye[:, None])
     return np.where((left * inward).sum(axis=0) > 0.0, 1, -1)
-
-
-def covered_cells(view: View, grid: Grid, occluders: Occluders) -> Floats32:
-    """(cells,) for each cell of the finest level, a depth beyond which everything in it is hidden by one occluder
-    alone; infinite where there is none."""
-    table = np.full(int(grid.first[-1]), np.inf, dtype=np.float32)
-    occluder, column, row, level = _inner_cells(grid, occluders.box)
-    if len(occluder):
-        size = grid.cell * (1 << level)
-        corner = np.stack([grid.left + column * size, grid.bottom + row * size])
-        base = np.concatenate([corner + view.target[:2, None], np.zeros((1, len(corner[0])))])
-        if view.eye is not None:
-            base = np.concatenate([corner + view.eye[:2, None], np.full((1, len(corner[0])), view.eye[2] - view.focus)])
-        kept = np.arange(len(occluder))
-        count = np.diff(occluders.first)
-        for step in range(int(count.max())):
-            which = occluder[kept]
-            number = occluders.behind[which] + step
-            done = number >= count[which]
-            plane = occluders.planes[:, occluders.first[which] + np.minimum(number, count[which] - 1)]
-            least = (plane[:3] * base[:, kept]).sum(axis=0) - plane[3]
-            least += (np.minimum(plane[0], 0.0) + np.minimum(plane[1], 0.0)) * size[kept]
-            kept = kept[done | (least > COVER_MARGIN)]
-            if not len(kept) or done.all():
-                break
-        np.minimum.at(table, grid.numbers(column[kept], row[kept], level[kept]), occluders.farthest[occluder[kept]])
-    for level_above in range(grid.levels - 1, 0, -1):
-        rows, columns = int(grid.rows[level_above - 1]), int(grid.columns[level_above - 1])
-        above = table[grid.first[level_above] : grid.first[level_above + 1]].reshape(int(grid.rows[level_above]), -1)
-        below = table[grid.first[level_above - 1] : grid.first[level_above]].reshape(rows, columns)
-        np.minimum(below, above.repeat(2, axis=0)[:rows].repeat(2, axis=1)[:, :columns], out=below)
-    return table[: grid.first[1]]
-
-
-def _inner_cells(grid: Grid, box: Floats32) -> tuple[Ints, Ints, Ints, Ints]:
-    """(occluder, column, row, level) of cells wholly inside the boxes (4,n)."""
-    box = box.astype(np.float64)
-    limits = [
-        np.clip((box[0] - grid.left) / grid.cell, 0, grid.columns[0]),
-        np.clip((box[1] - grid.left) / grid.cell, 0, grid.columns[0]),
-        np.clip((box[2] - grid.bottom) / grid.cell, 0, grid.rows[0]),
-        np.clip((box[3] - grid.bottom) / grid.cell, 0, grid.rows[0]),
-    ]
-    cells = (limits[1] - limits[0]) * (limits[3] - limits[2])
-    level = np.ceil(np.log2(np.maximum(cells / MAX_COVER_TESTS, 1.0)) / 2.0).astype(np.intp)
-    level = np.minimum(level, grid.levels - 1)
-    scale = (1 << level).astype(np.float64)
-    c0, c1 = np.ceil(limits[0] / scale).astype(np.intp), np.floor(limits[1] / scale).astype(np.intp)
-    r0, r1 = np.ceil(limits[2] / scale).astype(np.intp), np.floor(limits[3] / scale).astype(np.intp)
-    c1, r1 = np.minimum(c1, grid.columns[level]), np.minimum(r1, grid.rows[level])
-    wide, tall = np.maximum(c1 - c0, 0), np.maximum(r1 - r0, 0)
-    count = wide * tall
-    occluder = np.repeat(np.arange(box.shape[1]), count)
-    step = np.arange(len(occluder)) - np.repeat(np.cumsum(count) - count, count)
-    width = wide[occluder]
-    return occluder, c0[occluder] + step % width, r0[occluder] + step // width, level[occluder]
