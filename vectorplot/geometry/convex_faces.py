@@ -28,8 +28,8 @@ def convex_faces(points: Floats, corners: Ints, offsets: Ints, tolerance: float)
     points (3,v); a polygon is planar where no corner is further than tolerance from its mean plane. Quadrilaterals are
     cut along a diagonal that folds neither triangle over (the shorter one if both do), larger polygons by a constrained
     Delaunay triangulation in their mean plane.
-    Degenerate: a hole that a bridge of no width joins to the border stays a hole; a polygon that crosses itself is cut as
-    a fan and reported by an InputWarning.
+    Degenerate: a hole that a bridge of no width joins to the border stays a hole; a polygon that crosses itself is cut
+    as a fan and reported by an InputWarning.
     """
     sizes = np.diff(offsets)
     faces = np.arange(len(sizes))
@@ -126,7 +126,7 @@ def _cut_polygons(points: Floats, corners: Ints, offsets: Ints, faces: Ints) -> 
     # A hole on a bridge of no width makes a ring that touches itself: the same polygon, with a hole.
     polygons[touching] = shapely.make_valid(polygons[touching])
     parts, part_of = shapely.get_parts(shapely.constrained_delaunay_triangles(polygons), return_index=True)
-    corner_of = _nearest_corner(shapely.get_coordinates(parts).reshape(-1, 4, 2)[:, :3], part_of, flat, starts, owner)
+    corner_of = _nearest_corner(shapely.get_coordinates(parts).reshape(-1, 4, 2)[:, :3], part_of, flat, owner)
     # Where the ring crosses itself there are triangles with corners that the polygon does not have.
     sound = np.bincount(part_of, minlength=len(faces)) > 0
     sound[part_of[(corner_of < 0).any(axis=1)]] = False
@@ -145,7 +145,7 @@ def _cut_polygons(points: Floats, corners: Ints, offsets: Ints, faces: Ints) -> 
 
 
 def _inside_ring(local: Ints, flat: Floats, owner: Ints, following: Ints) -> Bools:
-    """(t,3) whether sides of triangles are no sides of their polygon, or bridges: sides that it has in both directions."""
+    """(t,3) whether sides of triangles are no sides of their polygon, or bridges: sides it has in both directions."""
     _, place = np.unique(np.column_stack([owner, flat]), axis=0, return_inverse=True)
     place = place.ravel()
     ring = place * len(place) + place[following]
