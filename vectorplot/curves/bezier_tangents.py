@@ -1,0 +1,172 @@
+"""Corners and tangents of polylines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+
+
+@dataclass(frozen=True, eq=False)
+class Lines:
+    """Polylines ready for fitting: no repeated points, closed ones with their first point repeated at the end.
+
+    points (d,n); length (n,) along all of them, one after the other; first, last (m,) indices of each line's ends;
+    closed (m,); line (n,) the line of each point.
+    """
+
+    points: Floats
+    length: Floats
+    first: Ints
+    last: Ints
+    closed: Bools
+    line: Ints
+
+
+@dataclass(frozen=True, eq=False)
+class Directions:
+    """Unit tangents (d,n) with which curves arrive at the points and leave them, and corners (n,), ends included."""
+
+    arriving: Floats
+    leaving: Floats
+    corner: Bools
+
+
+def directions(lines: Lines, given: Floats | None, window: Floats, corner_angle: float) -> Directions:
+    """Corners and tangents of lines.
+
+    given (d,n) tangents, or None: then each is that of the circle through the point and its neighbours at the distance
+    window (m,) of its line, so that noise below the tolerance does not turn it. A point is a corner if the line turns by
+    more than corner_angle there, and still within the window; with tangents given, if moreover they turn away by a
+    third of that from the circle's, or where one is zero or not finite.
+    """
+    near = np.zeros(len(window))
+    ends = _ends(lines)
+    before, after = _chords(lines, near, ends)
+    wide_before, wide_after = _chords(lines, window, ends)
+    corner = (_cosine(before, after) < np.cos(corner_angle)) & (_cosine(wide_before, wide_after) < np.cos(corner_angle))
+    if given is not None:
+        given = _unit(given)
+        away = _cosine(given, _through(before, after)) < np.cos(corner_angle / 3.0)
+        corner = (corner & away) | ~(np.abs(given).sum(axis=0) > 0.0)
+    corner &= ~ends
+    # The seam of a loop is one point.
+    loop = lines.closed
+    corner[lines.last[loop]] = corner[lines.first[loop]]
+    stops = corner | ends
+    smooth = _through(*_chords(lines, window, stops)) if given is None else given.copy()
+    arriving, leaving = smooth, smooth.copy()
+    at = np.flatnonzero(stops)
+    back, front = _one_sided(lines, at, stops, window)
+    if given is not None:
+        keep = ends[at] & (np.abs(given[:, at]).sum(axis=0) > 0.0)
+        back[:, keep] = front[:, keep] = given[:, at[keep]]
+    arriving[:, at], leaving[:, at] = back, front
+    return Directions(arriving, leaving, stops)
+
+
+def _ends(lines: Lines) -> Bools:
+    """Ends of open lines."""
+    ends = np.zeros(len(lines.line), dtype=np.bool_)
+    ends[lines.first[~lines.closed]] = ends[lines.last[~lines.closed]] = True
+    return ends
+
+
+def _chords(lines: Lines, window: Floats, stops: Bools) -> tuple[Floats, Floats]:
+    """(d,n) vectors from the point that lies a window before, and to the one after, none beyond a stop."""
+    everything = np.arange(len(lines.line))
+    reach = window[lines.line]
+    before = _neighbour(lines, everything, -reach, stops)
+    after = _neighbour(lines, everything, reach, stops)
+    return lines.points - lines.points[:, before], lines.points[:, after] - lines.points
+
+
+def _neighbour(lines: Lines, at: Ints, step: Floats, stops: Bools) -> Ints:
+    """The nearest point that is not nearer than |step| along its line, but no point beyond a stop; at least the next."""
+    line = lines.line[at]
+    start, end = lines.length[lines.first[line]], lines.length[lines.last[line]]
+    total, loop = end - start, lines.closed[line]
+    backwards = np.signbit(step)
+    own = lines.length[at]
+    slack = 1e-11 * total
+    place = own + step
+    # In a loop the place may lie beyond the seam.
+    low = np.where(loop, -np.inf, start)
+    high = np.where(loop, np.inf, end)
+    where = lines.length[stops]
+    if len(where):
+        left = np.searchsorted(where, own - slack, side="left") - 1
+        right = np.searchsorted(where, own + slack, side="right")
+        previous, following = where[np.maximum(left, 0)], where[np.minimum(right, len(where) - 1)]
+        low = np.where((left >= 0) & (previous >= start), previous, _beyond(where, end, start, -total, low, loop))
+        high = np.where(
+            (right < len(where)) & (following <= end), following, _beyond(where, start, end, total, high, loop)
+        )
+    place = np.clip(place, low, high)
+    wrapped = np.where(loop & backwards & (place < start + slack), place + total, place)
+    wrapped = np.where(loop & ~backwards & (place > end - slack), place - total, wrapped)
+    index = np.where(
+        backwards,
+        np.searchsorted(lines.length, wrapped + slack, side="right") - 1,
+        np.searchsorted(lines.length, wrapped - slack, side="left"),
+    )
+    # A window of nothing means the very next point.
+    stay = index == at
+    index = np.where(stay & backwards, at - 1, np.where(stay, at + 1, index))
+    index = np.where(loop & (index < lines.first[line]), lines.last[line] - 1, index)
+    index = np.where(loop & (index > lines.last[line]), lines.first[line] + 1, index)
+    return np.asarray(np.clip(index, lines.first[line], lines.last[line]), dtype=np.intp)
+
+
+def _beyond(where: Floats, near: Floats, far: Floats, total: Floats, otherwise: Floats, loop: Bools) -> Floats:
+    """The first stop beyond the seam of a loop, as a length that runs on; otherwise if the loop has none."""
+    if not len(where):
+        return otherwise
+    if (total < 0).any():
+        index = np.searchsorted(where, near, side="right") - 1
+        found = where[np.maximum(index, 0)]
+        there = loop & (index >= 0) & (found >= far)
+    else:
+        index = np.searchsorted(where, near, side="left")
+        found = where[np.minimum(index, len(where) - 1)]
+        there = loop & (index < len(where)) & (found <= far)
+    return np.where(there, found + total, otherwise)
+
+
+def _one_sided(lines: Lines, at: Ints, stops: Bools, window: Floats) -> tuple[Floats, Floats]:
+    """(d,k) tangents with which the line arrives at stops and leaves them: those of circles through three points."""
+    reach = window[lines.line[at]]
+    found = []
+    for side in (-1.0, 1.0):
+        middle = _neighbour(lines, at, side * reach, stops)
+        end = np.where(stops[middle], middle, _neighbour(lines, middle, side * reach, stops))
+        first = side * (lines.points[:, middle] - lines.points[:, at])
+        second = side * (lines.points[:, end] - lines.points[:, middle])
+        chord = _unit(first)
+        there = np.where(np.abs(second).sum(axis=0) > 0.0, _through(first, second), chord)
+        found.append(_unit(2.0 * (chord * there).sum(axis=0) * chord - there))
+    return found[0], found[1]
+
+
+def _through(before: Floats, after: Floats) -> Floats:
+    """(d,n) unit tangents, at the middle point, of circles through three points with these chords."""
+    one, two = np.sqrt((before * before).sum(axis=0)), np.sqrt((after * after).sum(axis=0))
+    tangent = _unit(_unit(before) * two + _unit(after) * one)
+    return np.where(np.abs(tangent).sum(axis=0) > 0.0, tangent, _unit(after))
+
+
+def _unit(vectors: Floats) -> Floats:
+    """(d,n) vectors of length 1; zero for those that are zero or not finite."""
+    with np.errstate(all="ignore"):
+        size = np.sqrt((vectors * vectors).sum(axis=0))
+        good = np.isfinite(size) & (size > 0.0)
+        return np.where(good, vectors / np.where(good, size, 1.0), 0.0)
+
+
+def _cosine(one: Floats, two: Floats) -> Floats:
+    """(n,) cosines of angles; 1 where a vector is zero."""
+    first, second = _unit(one), _unit(two)
+    there = (np.abs(first).sum(axis=0) > 0.0) & (np.abs(second).sum(axis=0) > 0.0)
+    return np.where(there, (first * second).sum(axis=0), 1.0)

@@ -1,0 +1,64 @@
+"""Circles in space, and arcs of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.curves.parameters import is_whole_turns, parameter_range, positive, vector
+from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.rotations import axis_frame
+
+
+@dataclass(frozen=True, eq=False)
+class Circle:
+    """The circle about an axis of any direction, t the angle; an arc of it where start and end say so.
+
+    It starts at the horizontal direction that stands on the axis, and turns counter-clockwise seen from the axis' tip.
+    Degenerate: for an upright axis it starts in the direction of x.
+    Errors: InputError for a radius that is not positive, an axis without length.
+    Source: Glaeser, section 8.1, equations 3 and 4.
+    """
+
+    centre: ArrayLike = (0.0, 0.0, 0.0)
+    radius: float = 1.0
+    axis: ArrayLike = (0.0, 0.0, 1.0)
+    start: float = 0.0
+    end: float = 2.0 * np.pi
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "centre", vector("circle: centre", self.centre))
+        object.__setattr__(self, "axis", vector("circle: axis", self.axis))
+        positive("circle: radius", self.radius)
+        parameter_range("circle", self.start, self.end)
+        axis_frame(self.axis)
+
+    @cached_property
+    def frame(self) -> Floats:
+        """(3,3) rows: the direction of t = 0, that of a quarter turn, the axis."""
+        return axis_frame(self.axis)
+
+    @property
+    def closed(self) -> bool:
+        """Whether the arc is a whole circle."""
+        return is_whole_turns(self.end - self.start)
+
+    def points(self, t: Floats) -> Floats:
+        """(..., 3) points."""
+        return np.asarray(np.asarray(self.centre) + self._spokes(t))
+
+    def tangents(self, t: Floats) -> Floats:
+        """(..., 3) derivatives by t."""
+        e, f, _ = self.radius * self.frame
+        return np.asarray(np.cos(t)[..., None] * f - np.sin(t)[..., None] * e)
+
+    def second_derivatives(self, t: Floats) -> Floats:
+        """(..., 3) second derivatives by t: towards the centre."""
+        return -self._spokes(t)
+
+    def _spokes(self, t: Floats) -> Floats:
+        e, f, _ = self.radius * self.frame
+        return np.asarray(np.cos(t)[..., None] * e + np.sin(t)[..., None] * f)

@@ -1,0 +1,237 @@
+"""Derivatives of functions that come without: by complex step, else by differences with a well-chosen step."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from vectorplot.curves.user_function import Numbers, UserFunction, user_function
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Bools, Floats
+
+# Derivatives at s of the five Lagrange polynomials through -2, ..., 2, as coefficients of s^3, s^2, s, 1.
+_SLOPES = np.array([[2, -3, -1, 1], [-8, 6, 16, -8], [12, 0, -30, 0], [-8, -6, 16, 8], [2, 3, -1, -1]]) / 12.0
+_NODES = np.arange(-2.0, 3.0)
+
+
+@dataclass(frozen=True)
+class Range:
+    """The values a parameter takes; closed: the function repeats, so that parameters may run on."""
+
+    start: float
+    end: float
+    closed: bool = False
+
+    @property
+    def length(self) -> float:
+        """End minus start."""
+        return self.end - self.start
+
+    def wrapped(self, t: Numbers) -> Numbers:
+        """The parameters within the range, where it is closed; unchanged where they are inside already."""
+        if not self.closed:
+            return t
+        return t - self.length * np.where((t.real < self.start) | (t.real > self.end), self._turns(t), 0.0)
+
+    def _turns(self, t: Numbers) -> Floats:
+        return np.asarray(np.floor((t.real - self.start) / self.length))
+
+    def centres(self, t: Floats, step: float) -> Floats:
+        """Middles of five nodes around t that stay inside the range."""
+        if self.closed:
+            return t
+        return np.clip(t, np.minimum(self.start, t) + 2.0 * step, np.maximum(self.end, t) - 2.0 * step)
+
+
+@dataclass(frozen=True, eq=False)
+class NumericFunction:
+    """A user's function with its derivatives. Parameters and results have any shape; vectors stand on the last axis.
+
+    inside: where the function is asked at all, elsewhere it is NaN. A function that is not finite is NaN there, and so
+    are its derivatives; beside a hole they are taken from the other side.
+    Error: first derivatives by complex step to rounding, if the function takes complex numbers and is analytic in them
+    (tried out at probes); else by differences of fourth order, about 1e-12 of the largest for functions that turn a
+    few times over the range. Second derivatives: differences of first ones, about 1e-12 and 1e-9.
+    """
+
+    function: UserFunction
+    ranges: tuple[Range, ...]
+    inside: Callable[..., Bools] | None = None
+
+    def values(self, *parameters: Floats) -> Floats:
+        """(..., k) values, NaN in holes."""
+        return self._shaped(self._values, parameters)
+
+    def derivatives(self, axis: int, *parameters: Floats) -> Floats:
+        """(..., k) derivatives by one parameter."""
+        return self._shaped(lambda flat: self._slopes(axis, flat), parameters)
+
+    def second_derivatives(self, axis: int, other: int, *parameters: Floats) -> Floats:
+        """(..., k) derivatives by one parameter and by the same or another."""
+        if self.by_complex_step:
+            return self._shaped(lambda flat: self._differences(self._complex(axis), other, flat), parameters)
+        # Differences of differences want longer steps: the rounding is divided twice.
+        steps = tuple(4.0 * step for step in self.steps)
+        inner = self._by_differences(axis, steps[axis])
+        return self._shaped(lambda flat: self._differences(inner, other, flat, steps[other]), parameters)
+
+    @cached_property
+    def by_complex_step(self) -> bool:
+        """Whether the function takes complex numbers and its complex derivatives are the real ones."""
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                return all(self._complex_is_right(axis) for axis in range(len(self.ranges)))
+        except (InputError, Warning):
+            return False
+
+    @cached_property
+    def steps(self) -> tuple[float, ...]:
+        """For each parameter the step of differences at which halving it changes the derivatives least."""
+        of = self._complex if self.by_complex_step else self._plain
+        return tuple(self._best_step(of(axis), axis)[0] for axis in range(len(self.ranges)))
+
+    def _shaped(self, evaluate: Callable[[list[Floats]], Floats], parameters: Sequence[Floats]) -> Floats:
+        arrays = np.broadcast_arrays(*(np.asarray(p, dtype=np.float64) for p in parameters))
+        return evaluate([a.ravel() for a in arrays]).reshape(*arrays[0].shape, self.function.components)
+
+    def _asked(self, parameters: Sequence[Numbers]) -> Numbers:
+        """(n, k) what the function says at finite parameters inside, NaN elsewhere."""
+        wrapped = [r.wrapped(p) for r, p in zip(self.ranges, parameters, strict=True)]
+        ask = np.logical_and.reduce([np.isfinite(p) for p in wrapped])
+        if self.inside is not None:
+            ask &= self.inside(*(p.real for p in wrapped))
+        if ask.all():
+            return self.function(*wrapped)
+        answers = self.function(*(p[ask] for p in wrapped))
+        result = np.full((len(ask), self.function.components), np.nan, dtype=answers.dtype)
+        result[ask] = answers
+        return result
+
+    def _values(self, parameters: Sequence[Floats]) -> Floats:
+        result = np.asarray(self._asked(parameters).real, dtype=np.float64)
+        return np.where(np.isfinite(result).all(axis=-1, keepdims=True), result, np.nan)
+
+    def _slopes(self, axis: int, parameters: list[Floats]) -> Floats:
+        of = self._complex(axis) if self.by_complex_step else self._by_differences(axis, self.steps[axis])
+        return of(parameters)
+
+    def _plain(self, axis: int) -> Callable[[list[Floats]], Floats]:
+        return self._values
+
+    def _complex(self, axis: int) -> Callable[[list[Floats]], Floats]:
+        """The derivative Im f(t + ih) / h, which no subtraction spoils."""
+        height = 1e-30 * self.ranges[axis].length
+
+        def slopes(parameters: list[Floats]) -> Floats:
+            lifted: list[Numbers] = list(parameters)
+            lifted[axis] = parameters[axis] + 1j * height
+            answers = self._asked(lifted)
+            # A root of a negative number is imaginary there, and a hole here.
+            real = np.isfinite(self._values(parameters)) & np.isfinite(answers)
+            return np.where(real.all(axis=-1, keepdims=True), answers.imag / height, np.nan)
+
+        return slopes
+
+    def _by_differences(self, axis: int, step: float) -> Callable[[list[Floats]], Floats]:
+        return lambda parameters: self._differences(self._values, axis, parameters, step)
+
+    def _differences(
+        self,
+        function: Callable[[list[Floats]], Floats],
+        axis: int,
+        parameters: list[Floats],
+        step: float | None = None,
+    ) -> Floats:
+        """(n, k) derivatives by five-point differences that stay in the range, and on one side of a hole."""
+        h = self.steps[axis] if step is None else step
+        t = parameters[axis]
+        result = _five_points(function, axis, parameters, self.ranges[axis].centres(t, h), h)
+        for side in (2.0, -2.0):
+            lost = ~np.isfinite(result).all(axis=-1)
+            if not lost.any():
+                break
+            lost &= np.isfinite(self._values(parameters)).all(axis=-1)
+            rest = [p[lost] for p in parameters]
+            result[lost] = _five_points(function, axis, rest, rest[axis] + side * h, h)
+        return result
+
+    def _probes(self) -> list[Floats]:
+        """Points spread over the ranges, on no line of symmetry; fewer where every point is a call."""
+        count = 16 if self.function.one_at_a_time else 96
+        return [
+            r.start + r.length * np.mod(0.37 + (np.arange(count) + 0.5) * ratio, 1.0)
+            for r, ratio in zip(self.ranges, (0.7548776662, 0.5698402909, 0.4301597090), strict=False)
+        ]
+
+    def _best_step(self, function: Callable[[list[Floats]], Floats], axis: int) -> tuple[float, Floats]:
+        probes = self._probes()
+        factor = 4.0 if self.function.one_at_a_time else 2.0
+        # Powers of two, so that the nodes are exact.
+        longest = 2.0 ** np.floor(np.log2(self.ranges[axis].length / 64.0))
+        steps = longest * factor ** -np.arange(0.0, 18.0 / np.log2(factor))
+        centred = [self.ranges[axis].centres(probes[axis], h) for h in steps]
+        slopes = [_five_points(function, axis, probes, c, h) for c, h in zip(centred, steps, strict=True)]
+        changes = [_most(np.abs(a - b)) for a, b in pairwise(slopes)]
+        best = int(np.argmin(changes)) + 1
+        return float(steps[best]), slopes[best]
+
+    def _complex_is_right(self, axis: int) -> bool:
+        difference = self._best_step(self._values, axis)[1]
+        exact = self._complex(axis)(self._probes())
+        known = np.isfinite(difference).all(axis=-1)
+        if not known.any():
+            return False
+        error = np.abs(exact - difference)[known]
+        return bool((error <= 1e-6 * np.abs(difference[known]).max()).all())
+
+
+def _most(changes: Floats) -> float:
+    """What nine in ten changes stay below: kinks and holes beside a probe do not count."""
+    finite = changes[np.isfinite(changes)]
+    return float(np.quantile(finite, 0.9)) if finite.size else np.inf
+
+
+def _five_points(
+    function: Callable[[list[Floats]], Floats], axis: int, parameters: list[Floats], centres: Floats, step: float
+) -> Floats:
+    """(n, k) derivatives of the quartics through the values at five nodes around the centres (n,)."""
+    s = (parameters[axis] - centres) / step
+    weights = np.polynomial.polynomial.polyval(s, _SLOPES[:, ::-1].T)
+    nodes = [np.tile(p, 5) for p in parameters]
+    nodes[axis] = (centres + step * _NODES[:, None]).ravel()
+    values = function(nodes).reshape(5, len(s), -1)
+    # From the middle value, so that a large constant costs no digits.
+    return np.asarray(np.einsum("jn,jnk->nk", weights, values - values[2]) / step)
+
+
+def numeric_function(
+    function: Callable[..., Any],
+    components: int,
+    ranges: Sequence[Range],
+    *,
+    name: str | None = None,
+    inside: Callable[..., Bools] | None = None,
+) -> NumericFunction:
+    """The user's function on ranges, tried out at a few points. Errors: InputError when it fails there."""
+    spread = np.array([0.137, 0.31, 0.45, 0.62, 0.83])
+    probes = [r.start + r.length * np.roll(spread, k) for k, r in enumerate(ranges)]
+    if inside is not None:
+        probes = _probes_inside(ranges, inside)
+    return NumericFunction(user_function(function, components, probes, name=name), tuple(ranges), inside)
+
+
+def _probes_inside(ranges: Sequence[Range], inside: Callable[..., Bools]) -> list[Floats]:
+    lattice = np.meshgrid(*(r.start + r.length * (np.arange(31) + 0.437) / 31 for r in ranges), indexing="ij")
+    flat = [a.ravel() for a in lattice]
+    found = np.flatnonzero(inside(*flat))
+    if not len(found):
+        raise InputError("the region has no point in the domain")
+    chosen = found[np.linspace(0, len(found) - 1, 7).astype(int)]
+    return [a[chosen] for a in flat]

@@ -1,0 +1,59 @@
+"""Helices: circles that rise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.curves.circle import Circle
+from vectorplot.curves.parameters import number
+from vectorplot.geometry.mesh import Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Helix:
+    """The path of a point that turns about an axis and rises along it by `rise` for each radian.
+
+    rise > 0: right-handed; 2 pi rise is the height of one turn. At t = 0 the point is where the circle of the same
+    centre, radius and axis starts.
+    Errors: InputError for a radius that is not positive, an axis without length.
+    Source: Glaeser, section 8.2, equation 12, u constant.
+    """
+
+    radius: float
+    rise: float
+    centre: ArrayLike = (0.0, 0.0, 0.0)
+    axis: ArrayLike = (0.0, 0.0, 1.0)
+    start: float = 0.0
+    end: float = 2.0 * np.pi
+    closed: ClassVar[bool] = False
+
+    def __post_init__(self) -> None:
+        number("helix: rise", self.rise)
+        circle = self._round
+        object.__setattr__(self, "centre", circle.centre)
+        object.__setattr__(self, "axis", circle.axis)
+
+    def points(self, t: Floats) -> Floats:
+        """(..., 3) points."""
+        return np.asarray(self._round.points(t) + np.asarray(t)[..., None] * self._upwards)
+
+    def tangents(self, t: Floats) -> Floats:
+        """(..., 3) derivatives by t."""
+        return np.asarray(self._round.tangents(t) + self._upwards)
+
+    def second_derivatives(self, t: Floats) -> Floats:
+        """(..., 3) second derivatives by t: those of the circle."""
+        return self._round.second_derivatives(t)
+
+    @cached_property
+    def _round(self) -> Circle:
+        return Circle(self.centre, self.radius, self.axis, self.start, self.end)
+
+    @cached_property
+    def _upwards(self) -> Floats:
+        return np.asarray(self.rise * self._round.frame[2])

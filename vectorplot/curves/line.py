@@ -1,0 +1,52 @@
+"""Straight lines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.curves.parameters import parameter_range, vector
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """The points p + t q of a straight line, start <= t <= end.
+
+    Errors: InputError for a direction without length. Source: Glaeser, section 8.1, equation 2.
+    """
+
+    point: ArrayLike
+    direction: ArrayLike
+    start: float = 0.0
+    end: float = 1.0
+    closed: ClassVar[bool] = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "point", vector("line: point", self.point))
+        object.__setattr__(self, "direction", vector("line: direction", self.direction))
+        if not np.any(self.direction):
+            raise InputError("line: a direction without length")
+        parameter_range("line", self.start, self.end)
+
+    @classmethod
+    def through(cls, p: ArrayLike, q: ArrayLike) -> Line:
+        """The line from P (t = 0) to Q (t = 1)."""
+        first = vector("line: point", p)
+        return cls(first, vector("line: point", q) - first)
+
+    def points(self, t: Floats) -> Floats:
+        """(..., 3) points."""
+        return np.asarray(np.asarray(self.point) + np.asarray(t)[..., None] * np.asarray(self.direction))
+
+    def tangents(self, t: Floats) -> Floats:
+        """(..., 3) the direction, everywhere."""
+        return np.broadcast_to(np.asarray(self.direction), (*np.shape(t), 3)).copy()
+
+    def second_derivatives(self, t: Floats) -> Floats:
+        """(..., 3) zeros."""
+        return np.zeros((*np.shape(t), 3))
