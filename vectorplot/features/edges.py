@@ -139,6 +139,8 @@ def _candidates(faces: Faces, kinds: Collection[LineKind], angle_deg: float) -> 
 
 def _both_ends(faces: Faces, vertices: Bools) -> Bools:
     """(c,) half-edges with both ends among the vertices."""
+    if not vertices.any():
+        return np.zeros(len(faces.corners), dtype=np.bool_)
     at_corner = vertices[faces.corners]
     if len(at_corner) == 3 * (len(faces.offsets) - 1):
         rows = at_corner.reshape(-1, 3)
@@ -148,12 +150,12 @@ def _both_ends(faces: Faces, vertices: Bools) -> Bools:
 
 def _turning_vertices(faces: Faces) -> Bools:
     """Vertices between faces of different facing."""
-    sizes = np.diff(faces.offsets)
-    facing = np.repeat(faces.facing, sizes)
-    seen = np.zeros((2, faces.points.shape[1]), dtype=np.bool_)
-    seen[0, faces.corners[facing > 0]] = True
-    seen[1, faces.corners[facing <= 0]] = True
-    return np.asarray(seen[0] & seen[1], dtype=np.bool_)
+    front = np.repeat(faces.facing > 0, np.diff(faces.offsets))
+    chosen = np.zeros(faces.points.shape[1], dtype=np.bool_)
+    chosen[faces.corners] = front
+    turning = np.zeros_like(chosen)
+    turning[faces.corners[chosen[faces.corners] != front]] = True
+    return turning
 
 
 def unbalanced_vertices(count: int, corners: Ints, offsets: Ints) -> Bools:
@@ -178,48 +180,50 @@ def unbalanced_vertices(count: int, corners: Ints, offsets: Ints) -> Bools:
 
 def _sharp_vertices(faces: Faces, angle_deg: float) -> Bools:
     """Vertices with a face that turns by more than half the angle from one chosen face there: only between such
-    vertices can two faces turn by the whole angle."""
-    count = faces.points.shape[1]
-    chosen = np.zeros((3, count), dtype=np.float32)
-    sharp = np.zeros(count, dtype=np.bool_)
+    vertices can two faces turn by the whole angle.
+
+    A normal is four single-precision numbers packed into one value, so that the processor fetches it at once.
+    """
+    chosen = np.zeros(faces.points.shape[1], dtype=np.complex128)
+    sharp = np.zeros(len(chosen), dtype=np.bool_)
     limit = np.float32(np.cos(np.radians(angle_deg) / 2.0) + 1e-5)
-    sizes = np.diff(faces.offsets)
-    triangular = len(faces.corners) == 3 * len(sizes)
-    normals = np.empty((3, len(sizes)), dtype=np.float32)
-    for low in range(0, len(sizes), BLOCK):
-        block = slice(low, min(low + BLOCK, len(sizes)))
-        if triangular:
-            normals[:, block] = _triangle_normals(
-                faces.points, faces.corners[3 * low : 3 * block.stop].reshape(-1, 3).T
-            )
-        else:
-            normals[:, block] = unit_normals(faces, np.arange(low, block.stop))
-        for corners, at_corner in _corner_runs(faces, normals, sizes, block):
-            for axis in range(3):
-                chosen[axis, corners] = at_corner[axis]
-    for low in range(0, len(sizes), BLOCK):
-        block = slice(low, min(low + BLOCK, len(sizes)))
-        for corners, at_corner in _corner_runs(faces, normals, sizes, block):
-            cosine = chosen[0, corners] * at_corner[0]
-            cosine += chosen[1, corners] * at_corner[1]
-            cosine += chosen[2, corners] * at_corner[2]
-            sharp[corners[cosine < limit]] = True
+    count = len(faces.offsets) - 1
+    blocks = [slice(low, min(low + BLOCK, count)) for low in range(0, count, BLOCK)]
+    normals = [_packed_normals(faces, block) for block in blocks]
+    for block, normal in zip(blocks, normals, strict=True):
+        for corners, at_corner in _corner_runs(faces, block, normal):
+            chosen[corners] = at_corner
+    for block, normal in zip(blocks, normals, strict=True):
+        for corners, at_corner in _corner_runs(faces, block, normal):
+            pairs = chosen[corners].view(np.float32).reshape(-1, 4), at_corner.view(np.float32).reshape(-1, 4)
+            sharp[corners[np.einsum("ij,ij->i", *pairs) < limit]] = True
     return sharp
 
 
+def _packed_normals(faces: Faces, block: slice) -> NDArray[np.complex128]:
+    """(n,) unit normals of a block of faces, packed."""
+    packed = np.zeros((block.stop - block.start, 4), dtype=np.float32)
+    if len(faces.corners) == 3 * (len(faces.offsets) - 1):
+        triangles = np.ascontiguousarray(faces.corners[3 * block.start : 3 * block.stop].reshape(-1, 3).T)
+        packed[:, :3] = _triangle_normals(faces.points, triangles).T
+    else:
+        packed[:, :3] = unit_normals(faces, np.arange(block.start, block.stop)).T
+    return packed.view(np.complex128).ravel()
+
+
 def _corner_runs(
-    faces: Faces, normals: NDArray[np.float32], sizes: Ints, block: slice
-) -> list[tuple[Ints, NDArray[np.float32]]]:
-    """Corners of a block of faces, with the normal of the face at each."""
+    faces: Faces, block: slice, normal: NDArray[np.complex128]
+) -> list[tuple[Ints, NDArray[np.complex128]]]:
+    """Corners of a block of faces, with the packed normal of the face at each."""
     corners = faces.corners[faces.offsets[block.start] : faces.offsets[block.stop]]
-    if len(faces.corners) == 3 * len(sizes):
-        return [(np.ascontiguousarray(corners[k::3]), normals[:, block]) for k in range(3)]
-    return [(corners, np.repeat(normals[:, block], sizes[block], axis=1))]
+    if len(faces.corners) == 3 * (len(faces.offsets) - 1):
+        return [(corner, normal) for corner in np.ascontiguousarray(corners.reshape(-1, 3).T)]
+    return [(corners, np.repeat(normal, np.diff(faces.offsets)[block]))]
 
 
 def _triangle_normals(points: Floats, triangles: Ints) -> Floats:
     """(3,n) unit normals of triangles (3,n); zero for one without area."""
-    a, b, c = np.ascontiguousarray(triangles)
+    a, b, c = triangles
     ux, uy, uz = (p[b] - p[a] for p in points)
     vx, vy, vz = (p[c] - p[a] for p in points)
     normal = np.stack([uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx])

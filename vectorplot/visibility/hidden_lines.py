@@ -17,14 +17,14 @@ from vectorplot.visibility.cells import covered_cells, entered
 from vectorplot.visibility.grid import Floats32, Grid, Pieces
 from vectorplot.visibility.occluders import Occluders, face_occluders, joined, solid_occluders
 from vectorplot.visibility.pairs import Hits, Segments, clip_pairs
-from vectorplot.visibility.projected_faces import ProjectedFaces
+from vectorplot.visibility.projected_faces import CHUNK, ProjectedFaces
 
 PAIRS_AT_ONCE = 1 << 17
 """Pairs of a piece and an occluder handled at once."""
 
-MOST_SLABS, OCCLUDERS_IN_SLAB = 24, 1000
+MOST_SLABS, IN_SLAB = 24, 4000
 """Occluders are tried front to back in slabs of equal number: hidden lines drop out early, near lines are not tried
-against what is far. Each slab costs a little; there are at most so many, and few small ones."""
+against what is far. Each slab costs a little: there are at most so many, for so many occluders and pieces each."""
 
 FEWEST_CELLS = 16.0
 """The finest grid has at least so many cells along the longer side of the picture, however large the things in it."""
@@ -72,7 +72,7 @@ def visible_parts(
     ]
     pieces = pieces.some(~covered)
     alive = np.ones(len(pieces), dtype=np.bool_)
-    slabs = min(max(len(occluders) // OCCLUDERS_IN_SLAB, 4), MOST_SLABS)
+    slabs = min(max(min(len(occluders), len(pieces)) // IN_SLAB, 4), MOST_SLABS)
     for piece, hits, _ in _all_hits(view, grid, segments, pieces, occluders, alive, slabs, progress):
         of = piece[hits.pair]
         zones.append((pieces.segment[of], hits.low, hits.high, hits.side))
@@ -144,12 +144,13 @@ def _pieces(view: View, faces: ProjectedFaces, segments: Segments) -> tuple[Grid
 
 def _occluders(view: View, faces: ProjectedFaces, solid: Bools, grid: Grid, deepest: Floats32) -> Occluders:
     """Everything that could hide a piece: convex solids as such, of other items the faces that reach a piece's cell."""
-    candidates = (faces.facing != 0) & (view.occludes & ~solid)[view.face_item]
-    which = np.flatnonzero(candidates) if not candidates.all() else np.arange(len(candidates))
-    kept = [
-        block[grids.reaching(grid, deepest, faces.box[:, block], faces.nearest[block])]
-        for block in np.array_split(which, max(1, len(which) >> 16))
-    ]
+    hiding = view.occludes & ~solid
+    kept = [np.zeros(0, dtype=np.intp)]
+    for low in range(0, view.face_count, CHUNK):
+        block = slice(low, low + CHUNK)
+        near = grids.reaching(grid, deepest, faces.box[:, block], faces.nearest[block])
+        near &= (faces.facing[block] != 0) & hiding[view.face_item[block]]
+        kept.append(low + np.flatnonzero(near))
     by_face = face_occluders(view, faces, np.concatenate(kept))
     if not solid.any():
         return by_face
