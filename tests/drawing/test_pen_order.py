@@ -97,7 +97,7 @@ def test_strokes_that_touch_are_drawn_without_lifting_the_pen():
 def test_a_thousand_rays_from_one_point():
     angle = np.arange(1000) * (2 * np.pi / 1000)
     ends = np.stack((np.zeros((1000, 2)), 100 * np.c_[np.cos(angle), np.sin(angle)]), axis=1)
-    assert travel_mm(ordered(ends)) < 2.0 * nearest_neighbour_mm(ends)
+    assert travel_mm(ordered(ends)) <= 1.001 * nearest_neighbour_mm(ends)
 
 
 def test_a_loop_is_entered_where_the_pen_comes_by():
@@ -173,8 +173,8 @@ def test_twenty_thousand_strokes_and_a_few_take_no_time_to_speak_of():
         ordered(ends)
         return time.perf_counter() - start
 
-    # Four times what is asked for, as tests share processors: 20,000 strokes in 0.35 s, a few in 2 ms.
-    assert seconds(20000) < 1.4
+    # Several times what is asked for, as tests share processors: 20,000 strokes in 0.25 s, a few in 2 ms.
+    assert seconds(20000) < 1.0
     assert min(seconds(5) for _ in range(5)) < 0.008
 
 

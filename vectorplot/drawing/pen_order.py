@@ -8,7 +8,8 @@ import numpy as np
 
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.pieces import chosen, ranges
-from vectorplot.drawing.tour import Places, greedy_tour
+from vectorplot.drawing.tour import greedy_tour
+from vectorplot.drawing.tour_ends import Places
 from vectorplot.drawing.tour_moves import shortened
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 

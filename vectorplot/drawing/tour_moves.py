@@ -15,9 +15,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.drawing.pieces import ranges
-from vectorplot.drawing.tour import ALL_PAIRS, REACH, Places, curves_through, extent
+from vectorplot.drawing.tour_ends import Places, extent, neighbours
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 
+# So many of the ends near an end are tried as its neighbours.
+_NEAREST = 10
 # A run of strokes that moves as one has at most this many.
 _LONGEST_RUN = 3
 # Stretches longer than this turn round only where no shorter one does.
@@ -57,17 +59,29 @@ def shortened(ends: Places, tour: Ints) -> Ints:
         return tour
     zero = _ZERO * extent(ends)
     near, apart = _neighbours(ends)
-    rounds = _ROUNDS + _MORE_ROUNDS // len(tour)
-    for _ in range(rounds):
-        moved = _runs_moved(_row(ends, tour, near, apart), zero)
-        turned = _stretches_turned(_row(ends, moved, near, apart), zero)
-        if np.array_equal(turned, tour):
-            break
-        tour = turned
+    everything = awake = np.arange(len(ends))
+    for _ in range(_ROUNDS + _MORE_ROUNDS // len(tour)):
+        moved, tried = _runs_moved(_row(ends, tour, near, apart, awake), zero)
+        turned, tried_too = _stretches_turned(_row(ends, moved, near, apart, awake), zero)
+        # Only where something changed, or a move was put off, is there something to gain in the next round.
+        changed = _partners(turned) != _partners(tour)
+        changed[tried] = changed[tried_too] = True
+        looked_at, awake, tour = awake, np.flatnonzero(changed), turned
+        if not len(awake):
+            if len(looked_at) == len(everything):
+                break
+            awake = everything
     return tour
 
 
-def _row(ends: Places, tour: Ints, near: Ints, apart: Floats) -> _Row:
+def _partners(tour: Ints) -> Ints:
+    """For every end the one across its gap, -1 for none."""
+    partner = np.full(2 * len(tour), -1, dtype=np.intp)
+    partner[tour[1:]], partner[tour[:-1] ^ 1] = tour[:-1] ^ 1, tour[1:]
+    return partner
+
+
+def _row(ends: Places, tour: Ints, near: Ints, apart: Floats, awake: Ints) -> _Row:
     nowhere = len(ends)
     row = np.full(nowhere + 2, nowhere, dtype=np.intp)
     row[1:-1:2], row[2:-1:2] = tour, tour ^ 1
@@ -75,31 +89,29 @@ def _row(ends: Places, tour: Ints, near: Ints, apart: Floats) -> _Row:
     place[row[1:-1]] = np.arange(1, nowhere + 1)
     spots = np.append(ends, complex(np.nan, np.nan))
     gap = np.fmax(np.abs(spots[row[0::2]] - spots[row[1::2]]), 0.0)
-    end, column = np.nonzero(apart < gap[place >> 1][:, None])
-    return _Row(spots, tour, row, gap, place[end], place[near[end, column]], apart[end, column])
+    # A gap of no length has nothing to gain.
+    awake = awake[gap[place[awake] >> 1] > 0.0]
+    apart = apart[awake]
+    which = np.flatnonzero(apart < gap[place[awake] >> 1][:, None])
+    end = awake[which // apart.shape[1]]
+    return _Row(spots, tour, row, gap, place[end], place[near[awake].ravel()[which]], apart.ravel()[which])
 
 
 def _neighbours(ends: Places) -> tuple[Ints, Floats]:
-    """For every end some ends of other strokes near it, and how far they are."""
-    n = len(ends)
-    number = np.arange(n)
-    if n <= ALL_PAIRS:
-        near = np.tile(number, (n, 1))
-    else:
-        columns = []
-        for curve in curves_through(ends):
-            for lag in (*range(-REACH, 0), *range(1, REACH + 1)):
-                column = np.empty(n, dtype=np.intp)
-                column[curve] = np.roll(curve, lag)
-                columns.append(column)
-        near = np.stack(columns, axis=1)
+    """For every end the nearest ends of other strokes, among some near it, and how far they are."""
+    near = np.sort(neighbours(ends), axis=1)
     apart = np.abs(ends[near] - ends[:, None])
-    apart[near >> 1 == (number >> 1)[:, None]] = np.inf
-    return near, apart
+    apart[near >> 1 == (np.arange(len(ends)) >> 1)[:, None]] = np.inf
+    apart[:, 1:][near[:, 1:] == near[:, :-1]] = np.inf
+    if near.shape[1] <= _NEAREST:
+        return near, apart
+    nearest = np.argpartition(apart, _NEAREST - 1, axis=1)[:, :_NEAREST]
+    return np.take_along_axis(near, nearest, axis=1), np.take_along_axis(apart, nearest, axis=1)
 
 
-def _stretches_turned(at: _Row, zero: float) -> Ints:
-    """The tour with stretches turned round (2-opt): two ends on the same side of their gaps are joined instead."""
+def _stretches_turned(at: _Row, zero: float) -> tuple[Ints, Ints]:
+    """The tour with stretches turned round (2-opt): two ends on the same side of their gaps are joined instead. And the
+    ends that would gain."""
     same = (at.near ^ at.to) & 1 == 0
     s, t = at.near[same], at.to[same]
     gain = at.gap[s >> 1] + at.gap[t >> 1] - at.apart[same] - at.between(s ^ 1, t ^ 1)
@@ -111,7 +123,7 @@ def _stretches_turned(at: _Row, zero: float) -> Ints:
     position = ranges(low, high - low)
     tour = at.tour.copy()
     tour[position] = tour[np.repeat(low + high - 1, high - low) - position] ^ 1
-    return tour
+    return tour, at.row[s]
 
 
 def _undisputed(low: Ints, high: Ints, gain: Floats, size: int) -> Ints:
@@ -132,10 +144,11 @@ def _undisputed(low: Ints, high: Ints, gain: Floats, size: int) -> Ints:
     return by_gain[np.minimum.reduceat(owner[claimed] == move, np.cumsum(counts) - counts)]
 
 
-def _runs_moved(at: _Row, zero: float) -> Ints:
-    """The tour with runs of few strokes put into other gaps, either way round (Or-opt)."""
+def _runs_moved(at: _Row, zero: float) -> tuple[Ints, Ints]:
+    """The tour with runs of few strokes put into other gaps, either way round (Or-opt). And the ends that would
+    gain."""
     moves = [_run_moves(at, length, zero) for length in range(1, min(_LONGEST_RUN, len(at.tour) - 1) + 1)]
-    first, length, into, backwards, gain = (np.concatenate(column) for column in zip(*moves, strict=True))
+    first, length, into, backwards, gain, tried = (np.concatenate(column) for column in zip(*moves, strict=True))
     by_gain = np.argsort(gain, kind="stable")
     first, length, into, backwards = (column[by_gain] for column in (first, length, into, backwards))
     # A move claims the gaps around and in its run, and the one that it goes to, which comes last in its row.
@@ -146,7 +159,7 @@ def _runs_moved(at: _Row, zero: float) -> Ints:
     owner[claims.ravel()] = number  # the last one stays
     won = np.all(owner[claims] == np.arange(len(first))[:, None], axis=1)
     first, length, into, backwards = (column[won] for column in (first, length, into, backwards))
-    return _with_runs_moved(at.tour, first, length, into, backwards)
+    return _with_runs_moved(at.tour, first, length, into, backwards), tried
 
 
 def _with_runs_moved(tour: Ints, first: Ints, length: Ints, into: Ints, backwards: Bools) -> Ints:
@@ -161,8 +174,8 @@ def _with_runs_moved(tour: Ints, first: Ints, length: Ints, into: Ints, backward
     return tour[np.argsort(key, kind="stable")]
 
 
-def _run_moves(at: _Row, length: int, zero: float) -> tuple[Ints, Ints, Ints, Bools, Floats]:
-    """Moves of runs of one length: first position, length, gap it goes to, whether it turns round, and gain.
+def _run_moves(at: _Row, length: int, zero: float) -> tuple[Ints, Ints, Ints, Bools, Floats, Ints]:
+    """Moves of runs of one length: first position, length, gap it goes to, whether it turns round, gain, and the end.
 
     One end of the run, its head, comes next to an end that is near to it.
     """
@@ -170,7 +183,8 @@ def _run_moves(at: _Row, length: int, zero: float) -> tuple[Ints, Ints, Ints, Bo
     first = np.where(from_front, (at.near - 1) >> 1, (at.near >> 1) - length)
     into = at.to >> 1
     fits = (first >= 0) & (first + length < len(at.gap)) & ((into < first) | (into > first + length))
-    from_front, first, into, to, apart = from_front[fits], first[fits], into[fits], at.to[fits], at.apart[fits]
+    from_front, first, into = from_front[fits], first[fits], into[fits]
+    head, to, apart = at.near[fits], at.to[fits], at.apart[fits]
     front, rear = 2 * first + 1, 2 * (first + length)
     freed = at.gap[first] + at.gap[first + length] - at.between(front - 1, rear + 1)
     gain = freed - apart - at.between(np.where(from_front, rear, front), to ^ 1) + at.gap[into]
@@ -178,4 +192,11 @@ def _run_moves(at: _Row, length: int, zero: float) -> tuple[Ints, Ints, Ints, Bo
     backwards = (to & 1 == 0) != from_front
     good = gain > zero
     first = first[good]
-    return first, np.full(len(first), length, dtype=np.intp), into[good], backwards[good], gain[good]
+    return (
+        first,
+        np.full(len(first), length, dtype=np.intp),
+        into[good],
+        backwards[good],
+        gain[good],
+        at.row[head[good]],
+    )

@@ -1,0 +1,96 @@
+"""Places of the ends of strokes, and which of them are near each other."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vectorplot.geometry.mesh import Floats, Ints
+
+Places = NDArray[np.complex128]
+
+# Up to this many ends, every pair is looked at.
+ALL_PAIRS = 128
+# Neighbours on each side along a space-filling curve among which the nearest end is sought.
+REACH = 5
+
+
+def extent(spots: Places) -> float:
+    """The larger side of the box around the places."""
+    return float(max(np.ptp(spots.real), np.ptp(spots.imag)))
+
+
+def mutual_nearest(spots: Places, other: Ints) -> tuple[Ints, Floats]:
+    """For every end the end that it is joined to, or -1, as each must be the other's nearest; how far that is.
+
+    other: the end of the same fragment, which does not count.
+    """
+    near, apart = (
+        _nearest_of_all(spots, other) if len(spots) <= ALL_PAIRS else _nearest_alongcurves_through(spots, other)
+    )
+    return np.where(near[near] == np.arange(len(near)), near, -1), apart
+
+
+def _nearest_of_all(spots: Places, other: Ints) -> tuple[Ints, Floats]:
+    apart = np.abs(spots[:, None] - spots)
+    number = np.arange(len(spots))
+    apart[number, number] = apart[number, other] = np.inf
+    near = np.argmin(apart, axis=1)
+    return near, apart[number, near]
+
+
+def _nearest_alongcurves_through(spots: Places, other: Ints) -> tuple[Ints, Floats]:
+    near = np.zeros(len(spots), dtype=np.intp)
+    apart = np.full(len(spots), np.inf)
+    for curve in curves_through(spots):
+        along, opposite = spots[curve], other[curve]
+        best, best_apart = near[curve], apart[curve]
+        for lag in range(1, REACH + 1):
+            length = np.abs(along[lag:] - along[:-lag])
+            length[opposite[lag:] == curve[:-lag]] = np.inf
+            for here, there in ((slice(lag, None), slice(None, -lag)), (slice(None, -lag), slice(lag, None))):
+                nearer = length < best_apart[here]
+                best[here] = np.where(nearer, curve[there], best[here])
+                best_apart[here] = np.where(nearer, length, best_apart[here])
+        near[curve], apart[curve] = best, best_apart
+    return near, apart
+
+
+def curves_through(spots: Places) -> tuple[Ints, ...]:
+    """Orders of the places along Morton's curve, which keeps near places together whatever their density; and along
+    the same curve shifted by a third, since every curve separates some neighbours (Chan)."""
+    low = complex(spots.real.min(), spots.imag.min())
+    unit = (spots - low) / (extent(spots) or 1.0)
+    return tuple(np.argsort(_morton(unit + shift), kind="stable") for shift in (0.0, (1 + 1j) / 3))
+
+
+def _morton(unit: Places) -> NDArray[np.uint64]:
+    """The bits of x and y, between 0 and 2, alternating."""
+    return _every_other_bit(unit.real) | _every_other_bit(unit.imag) << np.uint64(1)
+
+
+def _every_other_bit(x: Floats) -> NDArray[np.uint64]:
+    bits = (x * 2.0**29).astype(np.uint64)
+    for shift, mask in (
+        (16, 0x0000FFFF0000FFFF),
+        (8, 0x00FF00FF00FF00FF),
+        (4, 0x0F0F0F0F0F0F0F0F),
+        (2, 0x3333333333333333),
+        (1, 0x5555555555555555),
+    ):
+        bits = (bits | bits << np.uint64(shift)) & np.uint64(mask)
+    return bits
+
+
+def neighbours(spots: Places) -> Ints:
+    """(n,k) for every end some ends near it, perhaps itself, perhaps one twice."""
+    n = len(spots)
+    if n <= ALL_PAIRS:
+        return np.tile(np.arange(n), (n, 1))
+    columns = []
+    for curve in curves_through(spots):
+        for lag in (*range(-REACH, 0), *range(1, REACH + 1)):
+            column = np.empty(n, dtype=np.intp)
+            column[curve] = np.roll(curve, lag)
+            columns.append(column)
+    return np.stack(columns, axis=1)
