@@ -113,6 +113,7 @@ def test_edges_of_three_faces_are_kept_and_counted() -> None:
     after, mending = mended(Mesh.from_triangles(points, [[0, 1, 2], [0, 1, 3], [0, 1, 4]]), EPS32)
     assert after.face_count == 3
     assert str(mending) == "open mesh (6 boundary edges), 1 non-manifold edge"
+    assert len(after.vertices) == 5
 
 
 def test_faces_listed_twice_are_dropped() -> None:
@@ -150,3 +151,13 @@ def test_a_pentagram_bipyramid_is_convex_at_every_edge_but_not_convex() -> None:
 def test_mesh_without_faces() -> None:
     report = mesh_report(Mesh.from_polygons(np.zeros((0, 3)), []))
     assert (report.faces, report.components, report.convex) == (0, 0, False)
+
+
+def test_pieces_that_touch_in_a_point_share_no_vertex() -> None:
+    tetrahedron = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+    shape = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
+    faces = tetrahedron + [[c + 4 for c in face] for face in tetrahedron]
+    after, mending = mended(soup(np.concatenate([shape, -shape]), faces), EPS32)
+    assert len(after.vertices) == 8 and mending.boundary_edges == mending.nonmanifold_edges == 0
+    assert set(after.corners[:12]).isdisjoint(after.corners[12:])
+    assert mesh_report(after).components == 2

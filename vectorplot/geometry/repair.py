@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.geometry.degenerate import chosen_faces, without_degenerate
-from vectorplot.geometry.mesh import Floats, Mesh
+from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
 from vectorplot.geometry.weld import close_points, distinct_points
 from vectorplot.geometry.winding import (
     EdgeUses,
@@ -179,8 +179,7 @@ def _welded_where_open(mesh: Mesh, precision: float) -> tuple[Mesh, EdgeUses, Me
     mesh, count = welded(_without_loose_vertices(mesh))
     mesh, dropped = without_degenerate(mesh) if count else (mesh, 0)
     uses = edge_uses(mesh)
-    border = uses.corner[uses.first[uses.count == 1]]
-    rim = np.unique(np.concatenate([mesh.corners[border], mesh.corners[mesh.next_corner[border]]]))
+    rim = _ends(mesh, uses, uses.count == 1)
     kept = rim[close_points(mesh.vertices[rim], 4.0 * precision * float(np.abs(mesh.bounds).max()))]
     close = int((kept != rim).sum())
     if close:
@@ -193,6 +192,12 @@ def _welded_where_open(mesh: Mesh, precision: float) -> tuple[Mesh, EdgeUses, Me
     return mesh, uses, Mending(welded=count + close, degenerate=dropped)
 
 
+def _ends(mesh: Mesh, uses: EdgeUses, edges: Bools) -> Ints:
+    """The vertices at the ends of some edges."""
+    corner = uses.corner[uses.first[edges]]
+    return np.unique(np.concatenate([mesh.corners[corner], mesh.corners[mesh.next_corner[corner]]]))
+
+
 def _wound(mesh: Mesh, uses: EdgeUses) -> tuple[Mesh, Mending]:
     """The mesh with consistent winding where there is one, solids outside out; and the counts of what is left."""
     repeated = 0
@@ -202,6 +207,7 @@ def _wound(mesh: Mesh, uses: EdgeUses) -> tuple[Mesh, Mending]:
         if repeated:
             mesh = chosen_faces(mesh, ~again)
             uses = edge_uses(mesh)
+    shared = _ends(mesh, uses, uses.count > 2)
     turn = np.zeros(mesh.face_count, dtype=np.bool_)
     two_sided = True
     if uses.conflict.any():
@@ -212,6 +218,7 @@ def _wound(mesh: Mesh, uses: EdgeUses) -> tuple[Mesh, Mending]:
         outwards = inside_out(mesh, piece, number)
         mesh = turned_faces(mesh, outwards) if outwards.any() else mesh
         turn = turn ^ outwards
+        mesh = _with_own_vertices(mesh, piece, shared)
     return mesh, Mending(
         repeated=repeated,
         turned=int(turn.sum()),
@@ -219,6 +226,26 @@ def _wound(mesh: Mesh, uses: EdgeUses) -> tuple[Mesh, Mending]:
         nonmanifold_edges=int((uses.count > 2).sum()),
         one_sided=not two_sided,
     )
+
+
+def _with_own_vertices(mesh: Mesh, piece: Ints, shared: Ints) -> Mesh:
+    """The mesh in which different pieces (f,) have no vertices in common but those that are shared (edges of several
+    pieces end there).
+
+    Pieces that touch in a point do not hang together: where else they pierce each other an intersection is drawn.
+    """
+    of = piece[mesh.corner_face]
+    owner = np.zeros(len(mesh.vertices), dtype=np.intp)
+    owner[mesh.corners] = of
+    foreign = owner[mesh.corners] != of
+    foreign[np.isin(mesh.corners, shared)] = False
+    strange = np.flatnonzero(foreign)
+    if not len(strange):
+        return mesh
+    twins, number = np.unique(np.stack([mesh.corners[strange], of[strange]]), axis=1, return_inverse=True)
+    corners = mesh.corners.copy()
+    corners[strange] = len(mesh.vertices) + number.ravel()
+    return Mesh(np.concatenate([mesh.vertices, mesh.vertices[twins[0]]]), corners, mesh.offsets, mesh.present)
 
 
 def _without_loose_vertices(mesh: Mesh) -> Mesh:
