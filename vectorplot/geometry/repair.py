@@ -237,9 +237,8 @@ def _with_own_vertices(mesh: Mesh, piece: Ints, shared: Ints) -> Mesh:
     of = piece[mesh.corner_face]
     owner = np.zeros(len(mesh.vertices), dtype=np.intp)
     owner[mesh.corners] = of
-    foreign = owner[mesh.corners] != of
-    foreign[np.isin(mesh.corners, shared)] = False
-    strange = np.flatnonzero(foreign)
+    strange = np.flatnonzero(owner[mesh.corners] != of)
+    strange = strange[~np.isin(mesh.corners[strange], shared)]
     if not len(strange):
         return mesh
     twins, number = np.unique(np.stack([mesh.corners[strange], of[strange]]), axis=1, return_inverse=True)
