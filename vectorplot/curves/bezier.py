@@ -48,7 +48,7 @@ class BezierPath:
         return bezier_tangents(control, rest)
 
     def part(self, first: float, last: float) -> BezierPath:
-        """The open path between two parameters, first < last. Errors: InputError unless they are in order and inside."""
+        """The open path between two parameters. Errors: InputError unless first < last, both inside."""
         if not 0.0 <= first < last <= self.end:
             raise InputError(f"no part from {first:g} to {last:g} of a path from 0 to {self.end:g}")
         begin, end = int(np.floor(first)), int(np.ceil(last))

@@ -134,7 +134,7 @@ class _Fit:
 
     def spans(self, first: Ints, last: Ints) -> Spans:
         """Segments from points to points."""
-        return fitted_spans(self.lines, self.tangent, self.room, first, last)
+        return fitted_spans(self.lines, self.tangent, self.room, self.tolerance, (first, last))
 
     def divided(self, knots: Bools) -> Spans:
         """Segments between knots and as many more knots as they need."""
@@ -233,7 +233,7 @@ def _check(points: Floats, offsets: Ints, tangents: Floats | None, tolerance: fl
 
 
 def _lines(points: Floats, offsets: Ints, closed: Bools, tangents: Floats | None) -> tuple[Lines, Floats | None, Ints]:
-    """Lines without repeated points, loops with their first point at the end too; tangents (d,n); and which they are."""
+    """Lines without repeated points, loops with their first point at the end too; tangents (d,n); which they are."""
     kept = np.flatnonzero(np.diff(offsets) > 0)
     first, counts = offsets[kept], np.diff(offsets)[kept]
     if not len(kept):

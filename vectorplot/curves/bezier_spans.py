@@ -10,7 +10,7 @@ from vectorplot.curves.bezier_tangents import Directions, Lines
 from vectorplot.geometry.mesh import Floats, Ints
 
 _STEPS = 4
-_RIDGE = 1e-6
+_RIDGE = 1e-5
 """Where handles hardly change the shape, as on a straight line, their steps stay small."""
 
 
@@ -26,19 +26,32 @@ class Spans:
     excess: Floats
 
 
-def fitted_spans(lines: Lines, tangent: Directions, room: Floats, first: Ints, last: Ints) -> Spans:
-    """Segments with the tangents given, their handles such that the distances to the points are smallest.
+def fitted_spans(lines: Lines, tangent: Directions, room: Floats, tolerance: float, ends: tuple[Ints, Ints]) -> Spans:
+    """Segments with the tangents given, their handles such that the distances to the points are small.
 
-    room (n,): how far a curve with these tangents may leave the chord from a point to the next.
+    room (n,): how far a curve with these tangents may leave the chord from a point to the next; ends: first and last
+    points (k,). Where the tolerance is missed, the parabola with these tangents is tried too: on long parabolas the
+    steps come to it slowly, for other handles are nearly as good.
     Source: Gauss-Newton steps on distances measured normal to the curve, the points' feet found by Newton's method
     between them (Wang, Pottmann and Liu, Fitting B-spline curves to point clouds, section 3: tangent distances).
     """
+    first, last = ends
     problem = _Problem(lines, tangent, first, last)
     handles, t = problem.guess()
     for _ in range(_STEPS):
         t = problem.feet(handles, t)
         handles = problem.step(handles, t)
-    return problem.measured(handles, problem.feet(handles, t), room)
+    spans = problem.measured(handles, problem.feet(handles, t), room)
+    missed = np.flatnonzero(spans.excess > tolerance)
+    if not len(missed):
+        return spans
+    problem = _Problem(lines, tangent, first[missed], last[missed])
+    parabolas = problem.measured(*problem.parabolas(), room)
+    better = parabolas.excess < spans.excess[missed]
+    missed = missed[better]
+    spans.handles[:, missed] = parabolas.handles[:, better]
+    spans.error[missed], spans.excess[missed] = parabolas.error[better], parabolas.excess[better]
+    return spans
 
 
 def measured_spans(lines: Lines, tangent: Directions, room: Floats, spans: Spans, indices: tuple[Ints, Ints]) -> Spans:
@@ -77,6 +90,25 @@ class _Problem:
         arc = straight / (3.0 * np.cos(np.minimum(angle, 1.2) / 2.0) ** 2)
         handle = np.where(self.counts > 3, self.size / 3.0, arc)
         return np.stack((handle, handle)), self.along
+
+    def parabolas(self) -> tuple[Floats, Floats]:
+        """Handles (2,k) of parabolas whose tangents meet, and parameters (n,): exact for points on them.
+
+        In the basis of the two sides to the point where the tangents meet, a point of the parabola has the coordinates
+        2 t - t^2 and t^2. Degenerate: where the tangents do not meet ahead, straight handles.
+        """
+        cosine = (self.leaving * self.arriving).sum(axis=0)
+        det = 1.0 - cosine * cosine
+        one, two = (self.leaving * self.chord).sum(axis=0), (self.arriving * self.chord).sum(axis=0)
+        with np.errstate(all="ignore"):
+            sides = np.stack((one - cosine * two, two - cosine * one)) / det
+        meet = (det > 1e-12) & (sides > 0.0).all(axis=0)
+        sides = np.where(meet, sides, self.size / 2.0)
+        one, two = ((self._spread(side) * self.points).sum(axis=0) for side in (self.leaving, self.arriving))
+        x, y = self._spread(np.where(meet, sides * det, 1.0))
+        cosine = self._spread(cosine)
+        t = np.where(self._spread(meet), ((one - cosine * two) / x + (two - cosine * one) / y) / 2.0, self.along)
+        return sides * (2.0 / 3.0), np.clip(t, 0.0, 1.0)
 
     def polynomial(self, handles: Floats) -> tuple[Floats, Floats, Floats]:
         """(d,k) coefficients of t, t^2, t^3."""

@@ -38,13 +38,12 @@ def directions(lines: Lines, given: Floats | None, window: Floats, corner_angle:
     """Corners and tangents of lines.
 
     given (d,n) tangents, or None: then each is that of the circle through the point and its neighbours at the distance
-    window (m,) of its line, so that noise below the tolerance does not turn it. A point is a corner if the line turns by
-    more than corner_angle there, and still within the window; with tangents given, if moreover they turn away by a
-    third of that from the circle's, or where one is zero or not finite.
+    window (m,) of its line, so that noise below the tolerance does not turn it. A point is a corner if the line turns
+    by more than corner_angle there, and still within the window; with tangents given, if moreover they turn away by
+    a third of that from the circle's, or where one is zero or not finite.
     """
-    near = np.zeros(len(window))
     ends = _ends(lines)
-    before, after = _chords(lines, near, ends)
+    before, after = _next_chords(lines)
     wide_before, wide_after = _chords(lines, window, ends)
     corner = (_cosine(before, after) < np.cos(corner_angle)) & (_cosine(wide_before, wide_after) < np.cos(corner_angle))
     if given is not None:
@@ -74,6 +73,17 @@ def _ends(lines: Lines) -> Bools:
     return ends
 
 
+def _next_chords(lines: Lines) -> tuple[Floats, Floats]:
+    """(d,n) vectors from the point before and to the next one; zero beyond the ends of open lines."""
+    step = np.diff(lines.points, axis=1)
+    before, after = np.zeros_like(lines.points), np.zeros_like(lines.points)
+    before[:, 1:], after[:, :-1] = step, step
+    before[:, lines.first] = after[:, lines.last] = 0.0
+    first, last = lines.first[lines.closed], lines.last[lines.closed]
+    before[:, first], after[:, last] = before[:, last], after[:, first]
+    return before, after
+
+
 def _chords(lines: Lines, window: Floats, stops: Bools) -> tuple[Floats, Floats]:
     """(d,n) vectors from the point that lies a window before, and to the one after, none beyond a stop."""
     everything = np.arange(len(lines.line))
@@ -84,7 +94,7 @@ def _chords(lines: Lines, window: Floats, stops: Bools) -> tuple[Floats, Floats]
 
 
 def _neighbour(lines: Lines, at: Ints, step: Floats, stops: Bools) -> Ints:
-    """The nearest point that is not nearer than |step| along its line, but no point beyond a stop; at least the next."""
+    """The nearest point not nearer than |step| along its line, but no point beyond a stop; at least the next one."""
     line = lines.line[at]
     start, end = lines.length[lines.first[line]], lines.length[lines.last[line]]
     total, loop = end - start, lines.closed[line]

@@ -1,0 +1,56 @@
+"""What surfaces have in common whose horizontal sections are similar ellipses: they need a profile only."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Floats
+
+# (p, q), their first and their second derivatives.
+Profile = tuple[tuple[Floats, Floats], tuple[Floats, Floats], tuple[Floats, Floats]]
+
+
+class EllipticSections(ABC):
+    """The surface centre + (a p(v) cos u, b p(v) sin u, q(v)): p scales the ellipse of semi-axes a, b at height q.
+
+    u runs counter-clockwise from above; where v rises on the outside, the normals point outwards.
+    """
+
+    @abstractmethod
+    def _ellipse(self) -> tuple[float, float]:
+        """Semi-axes a, b of the ellipse."""
+
+    @abstractmethod
+    def _middle(self) -> Floats:
+        """(3,) centre."""
+
+    @abstractmethod
+    def _profile(self, v: Floats) -> Profile:
+        """(p, q), their first and their second derivatives by v."""
+
+    def points(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) points."""
+        (p, q), _, _ = self._profile(np.asarray(v, dtype=np.float64))
+        return np.asarray(self._middle() + self._at(p * np.cos(u), p * np.sin(u), q))
+
+    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        """(..., 3) derivatives by u and by v."""
+        (p, q), (dp, dq), _ = self._profile(np.asarray(v, dtype=np.float64))
+        cosine, sine = np.cos(u), np.sin(u)
+        return self._at(-p * sine, p * cosine, 0.0 * q), self._at(dp * cosine, dp * sine, dq)
+
+    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+        """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
+        (p, q), (dp, _), (ddp, ddq) = self._profile(np.asarray(v, dtype=np.float64))
+        cosine, sine = np.cos(u), np.sin(u)
+        return (
+            self._at(-p * cosine, -p * sine, 0.0 * q),
+            self._at(-dp * sine, dp * cosine, 0.0 * q),
+            self._at(ddp * cosine, ddp * sine, ddq),
+        )
+
+    def _at(self, x: Floats, y: Floats, z: Floats) -> Floats:
+        a, b = self._ellipse()
+        return np.stack(np.broadcast_arrays(a * x, b * y, z), axis=-1)

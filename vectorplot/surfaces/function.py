@@ -1,0 +1,79 @@
+"""Surfaces of functions that users write."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats
+from vectorplot.surfaces.surface import Domain
+
+
+def ranges_of(domain: Domain) -> tuple[Range, Range]:
+    """The ranges of u and v."""
+    return (
+        Range(domain.u_start, domain.u_end, domain.closed_u),
+        Range(domain.v_start, domain.v_end, domain.closed_v),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class FunctionSurface:
+    """The surface of a user's function; made by `surface_of_function`."""
+
+    domain: Domain
+    function: NumericFunction
+    first: tuple[NumericFunction, ...] = ()
+    second: tuple[NumericFunction, ...] = ()
+
+    def points(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) points, NaN where the function is."""
+        return self.function.values(u, v)
+
+    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        """(..., 3) derivatives by u and by v."""
+        if self.first:
+            return self.first[0].values(u, v), self.first[1].values(u, v)
+        return self.function.derivatives(0, u, v), self.function.derivatives(1, u, v)
+
+    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+        """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
+        if self.second:
+            uu, uv, vv = self.second
+            return uu.values(u, v), uv.values(u, v), vv.values(u, v)
+        if self.first:
+            by_u, by_v = self.first
+            return by_u.derivatives(0, u, v), by_u.derivatives(1, u, v), by_v.derivatives(1, u, v)
+        f = self.function
+        return f.second_derivatives(0, 0, u, v), f.second_derivatives(0, 1, u, v), f.second_derivatives(1, 1, u, v)
+
+
+def surface_of_function(
+    function: Callable[..., Any],
+    domain: Domain,
+    *,
+    partials: Sequence[Callable[..., Any]] = (),
+    second_partials: Sequence[Callable[..., Any]] = (),
+) -> FunctionSurface:
+    """The surface (u, v) -> function(u, v) over a domain.
+
+    function: takes arrays u, v (n,) and returns x, y, z, each (n,) or one number, or an array (n, 3) or (3, n). One
+    that takes single numbers works too, slower, with one InputWarning. partials: two such functions, by u and by v;
+    second_partials: three, by uu, uv, vv. What is not given comes by complex step if the function takes complex
+    numbers, else by differences; see NumericFunction for their accuracy.
+    Errors: InputError, naming the function, when it raises, returns complex numbers or the wrong shape.
+    Degenerate: where the function is not finite the surface has a hole, NaN.
+    Source: Glaeser, section 8.2, equation 9.
+    """
+    if len(partials) not in (0, 2) or len(second_partials) not in (0, 3):
+        raise InputError("give both partials and all three second partials, or none")
+    ranges = ranges_of(domain)
+    return FunctionSurface(
+        domain,
+        numeric_function(function, 3, ranges),
+        tuple(numeric_function(f, 3, ranges) for f in partials),
+        tuple(numeric_function(f, 3, ranges) for f in second_partials),
+    )

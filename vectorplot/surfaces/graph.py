@@ -1,0 +1,132 @@
+"""Graphs of functions: z = f(x, y) over rectangles, regions and discs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from vectorplot.curves.derivatives import NumericFunction, numeric_function
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats
+from vectorplot.surfaces.function import ranges_of
+from vectorplot.surfaces.regions import Disc, Region
+from vectorplot.surfaces.surface import Domain
+
+
+@dataclass(frozen=True, eq=False)
+class Graph:
+    """The points (u, v, f(u, v)), normals upwards; made by `graph`."""
+
+    domain: Domain
+    heights: NumericFunction
+    slopes: tuple[NumericFunction, ...] = ()
+
+    def points(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) points, NaN where the function is, and outside the region."""
+        return _with_holes(u, v, self.heights.values(u, v)[..., 0])
+
+    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        """(..., 3) derivatives by u and by v."""
+        first = self._slope(0, u, v), self._slope(1, u, v)
+        return _with_holes(1.0, 0.0, first[0]), _with_holes(0.0, 1.0, first[1])
+
+    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+        """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
+        uu, uv, vv = (self._bend(i, j, u, v) for i, j in ((0, 0), (0, 1), (1, 1)))
+        return _with_holes(0.0, 0.0, uu), _with_holes(0.0, 0.0, uv), _with_holes(0.0, 0.0, vv)
+
+    def _slope(self, axis: int, u: Floats, v: Floats) -> Floats:
+        slopes = self.slopes[axis].values(u, v) if self.slopes else self.heights.derivatives(axis, u, v)
+        return np.asarray(slopes[..., 0])
+
+    def _bend(self, axis: int, other: int, u: Floats, v: Floats) -> Floats:
+        if self.slopes:
+            return np.asarray(self.slopes[axis].derivatives(other, u, v)[..., 0])
+        return np.asarray(self.heights.second_derivatives(axis, other, u, v)[..., 0])
+
+
+def graph(
+    function: Callable[..., Any],
+    domain: Domain | Region,
+    *,
+    slopes: Sequence[Callable[..., Any]] = (),
+) -> Graph:
+    """The surface z = function(x, y) above a rectangle or a region of the plane; u is x, v is y.
+
+    domain: a Domain; or a region, such as Disc or PolygonRegion: the surface then has the rectangle around it as its
+    domain, with a hole outside the region, where the function is not asked. For a disc with a smooth border see
+    `graph_over_disc`. slopes: the derivatives by x and by y, else they are found as in `surface_of_function`.
+    Errors: InputError, naming the function, when it raises, returns complex numbers or the wrong shape.
+    Degenerate: where the function is not finite the graph has a hole, NaN.
+    """
+    if len(slopes) not in (0, 2):
+        raise InputError("give both slopes or none")
+    rectangle, inside = (domain, None) if isinstance(domain, Domain) else (domain.domain, domain.contains)
+    ranges = ranges_of(rectangle)
+    return Graph(
+        rectangle,
+        numeric_function(function, 1, ranges, inside=inside),
+        tuple(numeric_function(f, 1, ranges, inside=inside) for f in slopes),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class PolarGraph:
+    """The points (x0 + u cos v, y0 + u sin v, f), normals upwards; made by `graph_over_disc`."""
+
+    domain: Domain
+    centre: tuple[float, float]
+    plane: Graph
+
+    def points(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) points, NaN where the function is."""
+        return self.plane.points(*self._plane(u, v))
+
+    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        """(..., 3) derivatives by u and by v."""
+        fx, fy = (d[..., 2] for d in self.plane.partials(*self._plane(u, v)))
+        c, s = np.cos(v), np.sin(v)
+        return _with_holes(c, s, fx * c + fy * s), _with_holes(-u * s, u * c, u * (fy * c - fx * s))
+
+    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+        """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
+        x, y = self._plane(u, v)
+        fx, fy = (d[..., 2] for d in self.plane.partials(x, y))
+        xx, xy, yy = (d[..., 2] for d in self.plane.second_partials(x, y))
+        c, s = np.cos(v), np.sin(v)
+        uu = xx * c * c + 2.0 * xy * c * s + yy * s * s
+        uv = fy * c - fx * s + u * ((yy - xx) * c * s + xy * (c * c - s * s))
+        vv = u * u * (xx * s * s - 2.0 * xy * c * s + yy * c * c) - u * (fx * c + fy * s)
+        return _with_holes(0.0, 0.0, uu), _with_holes(-s, c, uv), _with_holes(-u * c, -u * s, vv)
+
+    def _plane(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        return self.centre[0] + u * np.cos(v), self.centre[1] + u * np.sin(v)
+
+
+def graph_over_disc(
+    function: Callable[..., Any], disc: Disc, *, hole: float = 0.0, slopes: Sequence[Callable[..., Any]] = ()
+) -> PolarGraph:
+    """The surface z = function(x, y) above a disc; u is the distance from its centre, v the angle.
+
+    Its border is the circle itself; u = 0 is a pole. hole: radius of a concentric hole. slopes: as for `graph`.
+    Errors: as for `graph`; and InputError unless the hole is smaller than the disc.
+    """
+    if not 0.0 <= hole < disc.radius:
+        raise InputError(f"a hole of radius {hole:g} in a disc of radius {disc.radius:g}")
+    polar = Domain(hole, disc.radius, 0.0, 2.0 * np.pi, closed_v=True)
+    return PolarGraph(polar, disc.centre, _over_square(function, disc, slopes))
+
+
+def _over_square(function: Callable[..., Any], disc: Disc, slopes: Sequence[Callable[..., Any]]) -> Graph:
+    """The graph whose function is asked in the disc only, rounding at its border forgiven."""
+    wider = Disc(disc.radius * (1.0 + 1e-12), disc.centre)
+    return graph(function, wider, slopes=slopes)
+
+
+def _with_holes(x: Any, y: Any, z: Any) -> Floats:
+    """(..., 3) vectors, NaN as a whole where z is."""
+    vectors = np.stack(np.broadcast_arrays(x, y, z), axis=-1).astype(np.float64)
+    return np.where(np.isnan(vectors[..., 2:]), np.nan, vectors)

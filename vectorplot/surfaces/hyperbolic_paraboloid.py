@@ -1,0 +1,60 @@
+"""The hyperbolic paraboloid, a saddle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.curves.parameters import positive, vector
+from vectorplot.geometry.mesh import Floats
+from vectorplot.surfaces.surface import Domain
+
+
+@dataclass(frozen=True, eq=False)
+class HyperbolicParaboloid:
+    """The saddle z = x^2/a^2 - y^2/b^2 above the rectangle |x| <= width, |y| <= depth: (u, v, z), normals upwards.
+
+    It is the translation surface of its two parabolas u = const. and v = const.; u/a + v/b = const. and
+    u/a - v/b = const. are its straight lines. Errors: InputError for numbers that are not positive.
+    Source: Glaeser, section 8.2, figure 3.
+    """
+
+    a: float = 1.0
+    b: float = 1.0
+    width: float = 1.0
+    depth: float = 1.0
+    centre: ArrayLike = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        for name in ("a", "b", "width", "depth"):
+            positive(f"hyperbolic paraboloid: {name}", getattr(self, name))
+        object.__setattr__(self, "centre", vector("hyperbolic paraboloid: centre", self.centre))
+
+    @property
+    def domain(self) -> Domain:
+        """The rectangle."""
+        return Domain(-self.width, self.width, -self.depth, self.depth)
+
+    def points(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) points."""
+        return np.asarray(np.asarray(self.centre) + _vectors(u, v, (u / self.a) ** 2 - (v / self.b) ** 2))
+
+    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        """(..., 3) derivatives by u and by v."""
+        slope_u, slope_v = 2.0 * u / self.a**2 + 0.0 * v, -2.0 * v / self.b**2 + 0.0 * u
+        return _vectors(1.0, 0.0, slope_u), _vectors(0.0, 1.0, slope_v)
+
+    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+        """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
+        zero = 0.0 * (u + v)
+        return (
+            _vectors(0.0, 0.0, zero + 2.0 / self.a**2),
+            _vectors(0.0, 0.0, zero),
+            _vectors(0.0, 0.0, zero - 2.0 / self.b**2),
+        )
+
+
+def _vectors(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Floats:
+    return np.stack(np.broadcast_arrays(x, y, z), axis=-1).astype(np.float64, copy=False)

@@ -1,0 +1,96 @@
+"""Implicit surfaces of functions that users write."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
+from vectorplot.geometry.mesh import Floats
+from vectorplot.surfaces.quadric import checked_box
+from vectorplot.surfaces.surface import ImplicitSurface
+
+
+@dataclass(frozen=True, eq=False)
+class ImplicitFunction:
+    """The zeros of a user's function; made by `implicit_of_function`."""
+
+    box: Floats
+    function: NumericFunction
+    gradient: NumericFunction | None = None
+    degree: int | None = None
+
+    def values(self, points: Floats) -> Floats:
+        """(...,) F, NaN where the function is not finite."""
+        return np.asarray(self.function.values(*_coordinates(points))[..., 0])
+
+    def gradients(self, points: Floats) -> Floats:
+        """(..., 3) gradients."""
+        xyz = _coordinates(points)
+        if self.gradient is not None:
+            return self.gradient.values(*xyz)
+        return np.stack([self.function.derivatives(axis, *xyz)[..., 0] for axis in range(3)], axis=-1)
+
+    def hessians(self, points: Floats) -> Floats:
+        """(..., 3, 3) second derivatives."""
+        xyz = _coordinates(points)
+        if self.gradient is not None:
+            rows = np.stack([self.gradient.derivatives(axis, *xyz) for axis in range(3)], axis=-2)
+            return np.asarray(0.5 * (rows + np.swapaxes(rows, -1, -2)))
+        parts = {(i, j): self.function.second_derivatives(i, j, *xyz)[..., 0] for i in range(3) for j in range(i, 3)}
+        return np.stack([np.stack([parts[min(i, j), max(i, j)] for j in range(3)], -1) for i in range(3)], -2)
+
+
+def _coordinates(points: Floats) -> tuple[Floats, Floats, Floats]:
+    p = np.asarray(points, dtype=np.float64)
+    return p[..., 0], p[..., 1], p[..., 2]
+
+
+def implicit_of_function(
+    function: Callable[..., Any],
+    box: ArrayLike,
+    *,
+    gradient: Callable[..., Any] | None = None,
+    degree: int | None = None,
+) -> ImplicitFunction:
+    """The surface function(x, y, z) = 0 within a box (2,3) of smallest and largest coordinates.
+
+    function: takes arrays x, y, z (n,) and returns (n,); one that takes single numbers works too, slower, with one
+    InputWarning. gradient: three numbers likewise; without it, by complex step if the function takes complex numbers,
+    else by differences, see NumericFunction. degree: of an algebraic surface, if known.
+    Errors: InputError, naming the function, when it raises, returns complex numbers or the wrong shape; an empty box.
+    """
+    limits = checked_box(box)
+    ranges = [Range(float(low), float(high)) for low, high in limits.T]
+    slopes = None if gradient is None else numeric_function(gradient, 3, ranges)
+    return ImplicitFunction(limits, numeric_function(function, 1, ranges), slopes, degree)
+
+
+@runtime_checkable
+class BendingImplicit(Protocol):
+    """An implicit surface that knows its second derivatives; most of this package do."""
+
+    def hessians(self, points: Floats) -> Floats:
+        """(..., 3, 3) second derivatives of F."""
+        ...
+
+
+def hessians(surface: ImplicitSurface, points: Floats) -> Floats:
+    """(..., 3, 3) second derivatives of F at points (..., 3).
+
+    Error: those a surface gives itself are as good as it says; else differences of its gradients, about 1e-12.
+    """
+    if isinstance(surface, BendingImplicit):
+        return surface.hessians(points)
+
+    def gradient(x: Floats, y: Floats, z: Floats) -> Floats:
+        return surface.gradients(np.stack([x, y, z], axis=-1))
+
+    ranges = [Range(float(low), float(high)) for low, high in np.asarray(surface.box).T]
+    slopes = numeric_function(gradient, 3, ranges)
+    rows = np.stack([slopes.derivatives(axis, *_coordinates(points)) for axis in range(3)], axis=-2)
+    return np.asarray(0.5 * (rows + np.swapaxes(rows, -1, -2)))

@@ -1,0 +1,133 @@
+"""Minimal surfaces that can be bent without stretching: spiral ones, and the helicoid into the catenoid.
+
+Each is the real part of an isotropic curve in complex space, P(w) with P'.P' = 0, at w = u + iv; multiplying the curve
+by exp(i bending) bends the surface: the first fundamental form and the normals stay, the mean curvature stays zero.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vectorplot.curves.parameters import is_whole_turns, number
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats
+from vectorplot.surfaces.surface import Domain
+
+Complexes = NDArray[np.complex128]
+
+
+class IsotropicCurve(Protocol):
+    """A curve P(w) in complex space whose tangents have the length zero: P'.P' = 0."""
+
+    def points(self, w: Complexes) -> Complexes:
+        """(..., 3) P."""
+        ...
+
+    def tangents(self, w: Complexes) -> Complexes:
+        """(..., 3) P'."""
+        ...
+
+    def second_derivatives(self, w: Complexes) -> Complexes:
+        """(..., 3) P''."""
+        ...
+
+
+@dataclass(frozen=True)
+class MinimalSurface:
+    """The real part of exp(i bending) P(u + iv). u and v run in perpendicular directions, equally fast."""
+
+    curve: IsotropicCurve
+    bending: float
+    domain: Domain
+
+    def points(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) points."""
+        return self._real(self.curve.points(_complex(u, v)))
+
+    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        """(..., 3) derivatives by u and by v."""
+        tangents = self.curve.tangents(_complex(u, v))
+        return self._real(tangents), self._real(1j * tangents)
+
+    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+        """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
+        bends = self.curve.second_derivatives(_complex(u, v))
+        twice = self._real(bends)
+        return twice, self._real(1j * bends), -twice
+
+    def _real(self, vectors: Complexes) -> Floats:
+        return np.asarray((np.exp(1j * self.bending) * vectors).real)
+
+
+def _complex(u: Floats, v: Floats) -> Complexes:
+    return np.asarray(np.asarray(u) + 1j * np.asarray(v), dtype=np.complex128)
+
+
+@dataclass(frozen=True)
+class _HelicoidCurve:
+    """P = (i cosh w, sinh w, -i w): its real part is a helicoid, its imaginary part a catenoid."""
+
+    def points(self, w: Complexes) -> Complexes:
+        return np.stack([1j * np.cosh(w), np.sinh(w), -1j * w], axis=-1)
+
+    def tangents(self, w: Complexes) -> Complexes:
+        return np.stack([1j * np.sinh(w), np.cosh(w), np.full_like(w, -1j)], axis=-1)
+
+    def second_derivatives(self, w: Complexes) -> Complexes:
+        return np.stack([1j * np.cosh(w), np.sinh(w), np.zeros_like(w)], axis=-1)
+
+
+@dataclass(frozen=True)
+class _SpiralCurve:
+    """P' = exp(k w) (-sinh w, i cosh w, 1), k = -i growth.
+
+    Adding i a to w multiplies P by exp(growth a) and turns it about the third axis by a: a spiral motion.
+    """
+
+    growth: float
+
+    def points(self, w: Complexes) -> Complexes:
+        k = -1j * self.growth
+        up, down = np.exp((k + 1.0) * w) / (k + 1.0), np.exp((k - 1.0) * w) / (k - 1.0)
+        return np.stack([0.5 * (down - up), 0.5j * (up + down), np.exp(k * w) / k], axis=-1)
+
+    def tangents(self, w: Complexes) -> Complexes:
+        return np.asarray(self._factor(w) * np.stack([-np.sinh(w), 1j * np.cosh(w), np.ones_like(w)], axis=-1))
+
+    def second_derivatives(self, w: Complexes) -> Complexes:
+        change = np.stack([-np.cosh(w), 1j * np.sinh(w), np.zeros_like(w)], axis=-1)
+        return np.asarray(-1j * self.growth * self.tangents(w) + self._factor(w) * change)
+
+    def _factor(self, w: Complexes) -> Complexes:
+        return np.asarray(np.exp(-1j * self.growth * w)[..., None])
+
+
+def helicoid_to_catenoid(
+    bending: float, *, width: float = 1.5, start: float = 0.0, end: float = 2.0 * np.pi
+) -> MinimalSurface:
+    """The minimal surface between helicoid (bending 0) and catenoid (bending pi/2), -width <= u <= width.
+
+    v from start to end is the angle about the z-axis. The catenoid, of waist 1, closes after whole turns; the others
+    do not. Errors: InputError for an empty range. Source: Glaeser, section 8.2, figure 8; GLAE88/2.
+    """
+    number("bending", bending)
+    closed = abs(np.cos(bending)) < 1e-12 and is_whole_turns(end - start)
+    return MinimalSurface(_HelicoidCurve(), bending, Domain(-width, width, start, end, closed_v=closed))
+
+
+def minimal_spiral_surface(
+    growth: float, bending: float = 0.0, *, width: float = 1.5, start: float = 0.0, end: float = 2.0 * np.pi
+) -> MinimalSurface:
+    """A surface that is minimal and spiral: x(u, v + a) is x(u, v) turned about the z-axis by a, times exp(growth a).
+
+    All bendings are spiral with the same growth and have the same first fundamental form. -width <= u <= width, v from
+    start to end. Errors: InputError for growth 0: then take helicoid and catenoid.
+    Source: Glaeser, section 8.2, figure 8; Wunderlich, Minimalspiralflaechen, 1954.
+    """
+    if number("minimal spiral surface: growth", growth) == 0.0:
+        raise InputError("minimal spiral surface: growth must not be 0: take helicoid_to_catenoid")
+    return MinimalSurface(_SpiralCurve(growth), number("bending", bending), Domain(-width, width, start, end))

@@ -1,0 +1,172 @@
+"""The motions of space that carry a generating line along a surface; the parameter v is their time.
+
+Weight 1 stands for points, weight 0 for directions, which a translation leaves alone: so one formula serves a curve and
+its derivatives. Source: Glaeser, section 8.2, equations 10 to 14.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from vectorplot.curves.curve import Curve
+from vectorplot.curves.parameters import is_whole_turns
+from vectorplot.curves.second_derivatives import second_derivatives
+from vectorplot.geometry.mesh import Floats
+
+
+class Motion(Protocol):
+    """Affine maps of space that depend on v. points (..., 3); weight 1 for points, 0 for directions; v (...)."""
+
+    def moved(self, points: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) where they are at v."""
+        ...
+
+    def velocities(self, points: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) derivatives of `moved` by v."""
+        ...
+
+    def accelerations(self, points: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) second derivatives of `moved` by v."""
+        ...
+
+    def repeats(self, start: float, end: float) -> bool:
+        """Whether all points are back, and go on as before, after v ran from start to end."""
+        ...
+
+
+def turned(points: Floats, angle: Floats) -> Floats:
+    """The points (..., 3) turned about the z-axis by angles (...)."""
+    cosine, sine = np.cos(angle), np.sin(angle)
+    x, y, z = np.moveaxis(points, -1, 0)
+    return np.stack(np.broadcast_arrays(x * cosine - y * sine, x * sine + y * cosine, z), axis=-1)
+
+
+def _quarter(p: Floats) -> Floats:
+    """What turning about the z-axis begins with: (-y, x, 0)."""
+    return np.stack([-p[..., 1], p[..., 0], np.zeros(p.shape[:-1])], axis=-1)
+
+
+@dataclass(frozen=True, eq=False)
+class Translation:
+    """Moving along a curve."""
+
+    path: Curve
+
+    def moved(self, points: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) points plus the point of the path."""
+        return np.asarray(points + weight * self.path.points(v))
+
+    def velocities(self, points: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) tangents of the path."""
+        return np.asarray(0.0 * points + weight * self.path.tangents(v))
+
+    def accelerations(self, points: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) second derivatives of the path."""
+        return np.asarray(0.0 * points + weight * second_derivatives(self.path, v))
+
+    def repeats(self, start: float, end: float) -> bool:
+        """Whether the path is a loop."""
+        return self.path.closed
+
+
+@dataclass(frozen=True)
+class Screw:
+    """Turning about the z-axis by v and rising along it by rise v; without a rise, a rotation."""
+
+    rise: float = 0.0
+
+    def moved(self, points: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) images."""
+        result = turned(points, v)
+        result[..., 2] += weight * self.rise * v
+        return result
+
+    def velocities(self, points: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) derivatives by v."""
+        result = turned(_quarter(points), v)
+        result[..., 2] += weight * self.rise
+        return result
+
+    def accelerations(self, points: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) second derivatives by v."""
+        return turned(_quarter(_quarter(points)), v)
+
+    def repeats(self, start: float, end: float) -> bool:
+        """Whether it is a rotation by whole turns."""
+        return self.rise == 0.0 and is_whole_turns(end - start)
+
+
+@dataclass(frozen=True)
+class Rotoid:
+    """Turning by ratio v about an axis b, which itself turns by v about the z-axis.
+
+    At v = 0 the axis b is x = distance, z = 0, parallel to y; it is perpendicular to the z-axis and skew.
+    Source: Glaeser, section 8.2, equation 13, in the general form of erratum G8-06.
+    """
+
+    ratio: float
+    distance: float
+
+    def moved(self, points: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) images."""
+        return turned(self._rolled(points, weight, v)[0], v)
+
+    def velocities(self, points: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) derivatives by v."""
+        rolled, rolling, _ = self._rolled(points, weight, v)
+        return turned(_quarter(rolled) + rolling, v)
+
+    def accelerations(self, points: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) second derivatives by v."""
+        rolled, rolling, bent = self._rolled(points, weight, v)
+        return turned(_quarter(_quarter(rolled) + 2.0 * rolling) + bent, v)
+
+    def repeats(self, start: float, end: float) -> bool:
+        """Whether both turns are whole ones."""
+        angle = end - start
+        return is_whole_turns(angle) and (self.ratio == 0.0 or is_whole_turns(self.ratio * angle))
+
+    def _rolled(self, p: Floats, weight: float, v: Floats) -> tuple[Floats, Floats, Floats]:
+        """Turned about b, with the first and second derivative by v."""
+        c, centre = self.ratio, weight * self.distance
+        cosine, sine = np.cos(c * v), np.sin(c * v)
+        across, y = p[..., 0] - centre, p[..., 1] + 0.0 * cosine
+        x, z = across * cosine + p[..., 2] * sine, p[..., 2] * cosine - across * sine
+        none = np.zeros_like(x)
+        return (
+            np.stack([centre + x, y, z], axis=-1),
+            c * np.stack([z, none, -x], axis=-1),
+            -c * c * np.stack([x, none, z], axis=-1),
+        )
+
+
+@dataclass(frozen=True)
+class SpiralMotion:
+    """Turning about the z-axis by v and growing from the origin by exp(growth v): a similarity."""
+
+    growth: float
+
+    def moved(self, points: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) images."""
+        return self._grown(points, v)
+
+    def velocities(self, points: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) derivatives by v."""
+        return self._grown(self._drift(points), v)
+
+    def accelerations(self, points: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) second derivatives by v."""
+        return self._grown(self._drift(self._drift(points)), v)
+
+    def repeats(self, start: float, end: float) -> bool:
+        """Whether it is a rotation by whole turns."""
+        return self.growth == 0.0 and is_whole_turns(end - start)
+
+    def _drift(self, p: Floats) -> Floats:
+        return np.asarray(self.growth * p + _quarter(p))
+
+    def _grown(self, p: Floats, v: Floats) -> Floats:
+        return np.asarray(np.exp(self.growth * v)[..., None] * turned(p, v))

@@ -1,0 +1,105 @@
+"""Surfaces moved to where they are wanted: turned, mirrored, scaled, shifted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.curves.parameters import vector
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats
+from vectorplot.surfaces.implicit_function import hessians
+from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
+
+
+def _checked_matrix(matrix: ArrayLike) -> Floats:
+    m = np.array(matrix, dtype=np.float64)
+    if m.shape != (3, 3) or not np.isfinite(m).all():
+        raise InputError("a placement needs a matrix of 3 times 3 finite numbers")
+    if abs(np.linalg.det(m)) <= 1e-12 * np.linalg.norm(m) ** 3:
+        raise InputError("a placement needs a matrix that can be inverted")
+    return m
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedSurface:
+    """A parametrised surface with its points x at x @ matrix + shift; rotations as in geometry.rotations.
+
+    Errors: InputError for a matrix (3,3) that cannot be inverted, a shift that is not three numbers.
+    """
+
+    surface: Surface
+    matrix: ArrayLike
+    shift: ArrayLike = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "matrix", _checked_matrix(self.matrix))
+        object.__setattr__(self, "shift", vector("placement: shift", self.shift))
+
+    @property
+    def domain(self) -> Domain:
+        """That of the surface."""
+        return self.surface.domain
+
+    def points(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) points."""
+        return np.asarray(self.surface.points(u, v) @ np.asarray(self.matrix) + np.asarray(self.shift))
+
+    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        """(..., 3) derivatives by u and by v."""
+        a, b = self.surface.partials(u, v)
+        return a @ np.asarray(self.matrix), b @ np.asarray(self.matrix)
+
+    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+        """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
+        uu, uv, vv = self.surface.second_partials(u, v)
+        m = np.asarray(self.matrix)
+        return uu @ m, uv @ m, vv @ m
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedImplicit:
+    """An implicit surface with its points x at x @ matrix + shift; the box is the one around the moved box.
+
+    Errors: InputError for a matrix (3,3) that cannot be inverted, a shift that is not three numbers.
+    """
+
+    surface: ImplicitSurface
+    matrix: ArrayLike
+    shift: ArrayLike = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "matrix", _checked_matrix(self.matrix))
+        object.__setattr__(self, "shift", vector("placement: shift", self.shift))
+
+    @property
+    def box(self) -> Floats:
+        """(2,3) the box around the eight moved corners."""
+        corners = np.array([[box[i] for box, i in zip(self.surface.box.T, pick, strict=True)] for pick in _PICKS])
+        moved = corners @ np.asarray(self.matrix) + np.asarray(self.shift)
+        return np.stack([moved.min(axis=0), moved.max(axis=0)])
+
+    def values(self, points: Floats) -> Floats:
+        """(...,) F."""
+        return self.surface.values(self._home(points))
+
+    def gradients(self, points: Floats) -> Floats:
+        """(..., 3) gradients."""
+        return np.asarray(self.surface.gradients(self._home(points)) @ self._inverse.T)
+
+    def hessians(self, points: Floats) -> Floats:
+        """(..., 3, 3) second derivatives."""
+        return np.asarray(self._inverse @ hessians(self.surface, self._home(points)) @ self._inverse.T)
+
+    @cached_property
+    def _inverse(self) -> Floats:
+        return np.linalg.inv(np.asarray(self.matrix))
+
+    def _home(self, points: Floats) -> Floats:
+        return np.asarray((points - np.asarray(self.shift)) @ self._inverse)
+
+
+_PICKS = [(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)]
