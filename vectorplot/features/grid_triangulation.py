@@ -1,0 +1,100 @@
+"""Surfaces given by a grid of points: average normals, and the triangles that suit them best."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+
+
+def average_normals(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = False) -> Floats:
+    """(m,n,3) unit normals of a surface at the points of a grid (m,n,3), on the side of x_u x x_v.
+
+    Each is the mean of the unit normals of the up to four triangles that a point spans with its grid neighbours.
+    closed_u: the last row of points repeats the first, and the surface goes on smoothly; closed_v likewise.
+    Errors: InputError unless the grid is (m,n,3) with at least two points each way.
+    Degenerate: triangles without area (poles, repeated points, NaN) are left out; without any the normal is zero.
+    Source: Glaeser, section 8.4, figure 12; erratum G8-12.
+    """
+    p = _checked(grid)
+    after_u, before_u = _neighbours(p, 0, closed_u)
+    after_v, before_v = _neighbours(p, 1, closed_v)
+    return normals_among(p, np.stack([after_u, after_v, before_u, before_v]))
+
+
+def _neighbours(p: Floats, axis: int, closed: bool) -> tuple[Floats, Floats]:
+    """The next and the previous point of each along one axis; NaN where there is none."""
+    q = np.moveaxis(p, axis, 0)
+    edge = (q[1:2], q[-2:-1]) if closed else (np.full_like(q[:1], np.nan),) * 2
+    after, before = np.concatenate([q[1:], edge[0]]), np.concatenate([edge[1], q[:-1]])
+    return np.moveaxis(after, 0, axis), np.moveaxis(before, 0, axis)
+
+
+def normals_among(points: Floats, around: Floats) -> Floats:
+    """(..., 3) unit mean of the normals of the triangles of points (..., 3) with their neighbours around
+    (4, ..., 3) in cyclic order; a neighbour that is missing is NaN."""
+    arms = around - points
+    total = np.zeros_like(points)
+    for k in range(4):
+        total += _unit(np.cross(arms[k], arms[(k + 1) % 4]))
+    return _unit(total)
+
+
+def _unit(vectors: Floats) -> Floats:
+    """Unit vectors; zero for zero and for NaN."""
+    size = np.sqrt((vectors * vectors).sum(axis=-1, keepdims=True))
+    good = size > 0.0
+    return np.asarray(np.where(good, vectors, 0.0) / np.where(good, size, 1.0))
+
+
+def triangulate_surface(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = False) -> tuple[Ints, Floats]:
+    """The triangles (2 (m-1) (n-1), 3) that suit a grid of points (m,n,3) best, and its average normals (m,n,3).
+
+    Triangles index the points row by row, i n + j, and turn as u to v does. Each cell is cut along that diagonal whose
+    two triangles deviate least, in the sum of angles, from the average normals at their corners.
+    Degenerate: a cell whose diagonals are equally good is cut from (i, j) to (i+1, j+1).
+    Source: Glaeser, section 8.4; errata G8-12, G8-13.
+    """
+    p = _checked(grid)
+    m, n = p.shape[:2]
+    normals = average_normals(p, closed_u=closed_u, closed_v=closed_v)
+    at = np.arange(m * n).reshape(m, n)
+    corners = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]]).reshape(4, -1)
+    flat_points, flat_normals = p.reshape(-1, 3), normals.reshape(-1, 3)
+    return cut_cells(corners, flat_points[corners], flat_normals[corners]), normals
+
+
+def cut_cells(corners: Ints, points: Floats, normals: Floats) -> Ints:
+    """(2k,3) the two best triangles of each cell, from its corners (4,k) in cyclic order, their points and normals
+    (4,k,3)."""
+    other = other_diagonal(points, normals)
+    first = np.where(other, corners[[0, 1, 3]], corners[[0, 1, 2]])
+    second = np.where(other, corners[[1, 2, 3]], corners[[2, 3, 0]])
+    return np.stack([first, second], axis=1).T.reshape(-1, 3)
+
+
+def other_diagonal(points: Floats, normals: Floats) -> Bools:
+    """(k,) cells whose diagonal from corner 1 to corner 3 is better than that from 0 to 2."""
+    main = _deviation(points, normals, (0, 1, 2)) + _deviation(points, normals, (2, 3, 0))
+    other = _deviation(points, normals, (0, 1, 3)) + _deviation(points, normals, (1, 2, 3))
+    # Equal up to rounding is equal: what is symmetric is cut everywhere the same way.
+    return np.asarray(other < main - 1e-9, dtype=np.bool_)
+
+
+def _deviation(points: Floats, normals: Floats, corners: tuple[int, int, int]) -> Floats:
+    """(k,) sum of the angles between a triangle's normal and the normals at its corners."""
+    a, b, c = (points[k] for k in corners)
+    face = _unit(np.cross(b - a, c - a))
+    total = np.zeros(points.shape[1])
+    for k in corners:
+        total += np.arccos(np.clip(np.abs((face * normals[k]).sum(axis=-1)), 0.0, 1.0))
+    return total
+
+
+def _checked(grid: ArrayLike) -> Floats:
+    p = np.asarray(grid, dtype=np.float64)
+    if p.ndim != 3 or p.shape[2] != 3 or min(p.shape[:2]) < 2:
+        raise InputError(f"a grid of points has the shape {p.shape}: expected (m, n, 3) with m, n >= 2")
+    return p

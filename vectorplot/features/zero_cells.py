@@ -1,0 +1,318 @@
+"""The cells near a curve f(u, v) = 0, subdivided where one cell is too coarse, and their triangles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.features.grid_triangulation import normals_among, other_diagonal
+from vectorplot.features.scalar_field import ScalarField, next_to
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+
+ALIGNED = 0.25
+"""Cosine down to which the gradients in a cell count as pointing the same way: then the curve is one arc there."""
+
+MOST_CELLS = 1 << 17
+"""Cells of one size that are subdivided at most."""
+
+Pair = tuple[Ints, Ints]
+
+
+@dataclass(frozen=True, eq=False)
+class Lattice:
+    """All points that corners of cells can be: the grid, every cell of it divided into units x units."""
+
+    field: ScalarField
+    columns: int
+    rows: int
+    levels: int
+
+    @property
+    def units(self) -> int:
+        """Steps of the lattice along a cell of the grid; the smallest cells have two, for their middle."""
+        return int(2 << self.levels)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Steps along the whole domain."""
+        return self.columns * self.units, self.rows * self.units
+
+    def ids(self, at: Pair) -> Ints:
+        """Numbers that tell lattice points apart; a point on a seam has one number."""
+        (i, j), (m, n) = at, self.shape
+        i = i % m if self.field.closed[0] else i
+        j = j % n if self.field.closed[1] else j
+        return np.asarray(i * (n + 1) + j, dtype=np.intp)
+
+    def points(self, at: Pair) -> Floats:
+        """(..., 2) parameters of lattice points."""
+        m, n = self.shape
+        return np.asarray(self.field.start + np.stack([at[0] / m, at[1] / n], axis=-1) * self.field.size)
+
+    def values(self, at: Pair) -> Floats:
+        """f at lattice points (...), each point evaluated once."""
+        ids, first, back = np.unique(self.ids(at).ravel(), return_index=True, return_inverse=True)
+        points = self.points((at[0].ravel()[first], at[1].ravel()[first]))
+        w = self.field.values(points)
+        holes = np.isnan(w)
+        if holes.any():
+            w[holes] = next_to(self.field, points[holes], self.field.size / self.shape)
+        return w[back].reshape(at[0].shape)
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """Cells i, j (k,) of one level, level 0 being the grid."""
+
+    i: Ints
+    j: Ints
+
+
+@dataclass(frozen=True, eq=False)
+class Subdivision:
+    """split: for each level the keys i (rows 2^level) + j, ascending, of the cells that are cut into four; odd: the
+    smallest cells in which the curve may still be more than one arc; complete: whether the budget sufficed."""
+
+    lattice: Lattice
+    split: list[Ints]
+    odd: Cells
+    complete: bool
+
+
+def near_cells(w: Floats, closed: tuple[bool, bool]) -> tuple[Bools, Bools]:
+    """(m-1,n-1) cells of a grid of values (m,n) in which f may be zero, and those of them where the curve may be
+    more than one arc, a small closed one for example.
+
+    f may be zero where a corner's value is no more than what the slopes at the corners let it change in the cell.
+    """
+    by_u, by_v = _slopes(w, 0, closed[0]), _slopes(w, 1, closed[1])
+    size, change = np.abs(w), np.abs(by_u) + np.abs(by_v)
+    np.nan_to_num(size, copy=False, nan=np.inf)
+    np.nan_to_num(change, copy=False, nan=0.0)
+    least = _over_corners(size, np.minimum)
+    near = least <= _over_corners(change, np.maximum)
+    crossed = np.isfinite(least) & ~_same_sign(w)
+    near |= crossed
+    i, j = np.nonzero(near)
+    g = np.stack([np.stack([s[i, j], s[i + 1, j], s[i + 1, j + 1], s[i, j + 1]]) for s in (by_u, by_v)], axis=-1)
+    odd = np.zeros_like(near)
+    odd[i, j] = ~_aligned(g)
+    return near, odd
+
+
+def _slopes(w: Floats, axis: int, closed: bool) -> Floats:
+    """Central differences of w per cell along an axis, one-sided at borders and next to holes."""
+    q = np.moveaxis(w, axis, 0)
+    d = np.diff(q, axis=0)
+    before = np.concatenate([d[-1:] if closed else d[:1], d])
+    after = np.concatenate([d, d[:1] if closed else d[-1:]])
+    s = (before + after) / 2.0
+    if np.isnan(s).any():
+        s = np.where(np.isnan(s), np.where(np.isnan(before), after, before), s)
+    return np.moveaxis(s, 0, axis)
+
+
+def _over_corners(x: Floats, best: np.ufunc) -> Floats:
+    rows = best(x[:-1], x[1:])
+    return np.asarray(best(rows[:, :-1], rows[:, 1:]))
+
+
+def _same_sign(w: Floats) -> Bools:
+    """Cells whose corners are all negative, or none of them."""
+    negative = w < 0.0
+    any_, all_ = _over_corners(negative, np.logical_or), _over_corners(negative, np.logical_and)
+    return np.asarray(any_ == all_, dtype=np.bool_)
+
+
+def _aligned(g: Floats) -> Bools:
+    """(k,) whether gradients (c,k,2) in c places of each cell all point roughly the way of their mean."""
+    mean = g.mean(axis=0)
+    product = (g * mean).sum(axis=2)
+    sizes = np.sqrt((g * g).sum(axis=2) * (mean * mean).sum(axis=1))
+    return np.asarray((product > ALIGNED * sizes).all(axis=0), dtype=np.bool_)
+
+
+def subdivided(lattice: Lattice, odd: Bools) -> Subdivision:
+    """The cells of the grid that are odd (columns, rows), cut into four again and again as long as they stay odd, down
+    to the lattice's last level; neighbours differ by one level at most."""
+    i, j = np.nonzero(odd)
+    marked: list[Cells] = []
+    complete = True
+    for level in range(lattice.levels):
+        if len(i) > MOST_CELLS:
+            complete = False
+            i, j = i[:0], j[:0]
+        marked.append(Cells(i, j))
+        i, j = (
+            (2 * x[:, None] + step).ravel() for x, step in ((i, np.array([0, 0, 1, 1])), (j, np.array([0, 1, 0, 1])))
+        )
+        still = _odd(lattice, Cells(i, j), level + 1)
+        i, j = i[still], j[still]
+    return Subdivision(lattice, _graded(lattice, marked), Cells(i, j), complete)
+
+
+def _odd(lattice: Lattice, cells: Cells, level: int) -> Bools:
+    """(k,) cells in which f may be zero and the curve more than one arc, judged by nine values each."""
+    step = lattice.units >> level + 1
+    a, b = np.meshgrid(np.arange(3), np.arange(3), indexing="ij")
+    at = (step * (2 * cells.i + a[..., None]), step * (2 * cells.j + b[..., None]))
+    w = lattice.values(at)
+    holes = np.isnan(w)
+    by_u, by_v = np.diff(w, axis=0), np.diff(w, axis=1)
+    change = _most(by_u) + _most(by_v)
+    least = np.where(holes, np.inf, np.abs(w)).min(axis=(0, 1), initial=np.inf)
+    negative = w < 0.0
+    crossed = negative.any(axis=(0, 1)) & (~negative & ~holes).any(axis=(0, 1))
+    g = np.stack([_at_nodes(by_u, 0), _at_nodes(by_v, 1)], axis=-1)
+    aligned = _aligned(g.reshape(9, -1, 2))
+    return np.asarray((np.isfinite(least) & (least <= change) | crossed) & ~aligned)
+
+
+def _at_nodes(d: Floats, axis: int) -> Floats:
+    """Slopes at three nodes in a row from the two differences between them, as of the parabola through them."""
+    first, second = np.take(d, 0, axis=axis), np.take(d, 1, axis=axis)
+    slopes = [1.5 * first - 0.5 * second, (first + second) / 2.0, 1.5 * second - 0.5 * first]
+    return np.stack(slopes, axis=axis)
+
+
+def _most(differences: Floats) -> Floats:
+    return np.asarray(np.where(np.isnan(differences), 0.0, np.abs(differences)).max(axis=(0, 1), initial=0.0))
+
+
+def _graded(lattice: Lattice, marked: list[Cells]) -> list[Ints]:
+    """Keys of the cells to split by level, more of them than marked: around a split cell everything has its size."""
+    split: list[Ints] = []
+    above = Cells(*(np.zeros(0, dtype=np.intp),) * 2)
+    for level in reversed(range(lattice.levels)):
+        i, j = (np.concatenate([x, y]) for x, y in ((marked[level].i, above.i), (marked[level].j, above.j)))
+        keys = np.unique(i * (lattice.rows << level) + j)
+        split.append(keys)
+        i, j = np.divmod(keys, lattice.rows << level)
+        near = np.array([(a, b) for a in (-1, 0, 1) for b in (-1, 0, 1)])
+        i, j, inside = _inside(lattice, i[:, None] + near[:, 0], j[:, None] + near[:, 1], level)
+        above = Cells(i[inside] >> 1, j[inside] >> 1)
+    return split[::-1]
+
+
+def _inside(lattice: Lattice, i: Ints, j: Ints, level: int) -> tuple[Ints, Ints, Bools]:
+    """Cells moved over the seams into the domain, and which of them are in it."""
+    m, n = lattice.columns << level, lattice.rows << level
+    i = i % m if lattice.field.closed[0] else i
+    j = j % n if lattice.field.closed[1] else j
+    return i, j, np.asarray((i >= 0) & (i < m) & (j >= 0) & (j < n))
+
+
+@dataclass(frozen=True, eq=False)
+class Corners:
+    """Triangles (k,3) of corners, counter-clockwise in (u, v): lattice positions i, j, values w and slopes by u and v
+    per lattice step (k,3); NaN where the slopes are unknown."""
+
+    i: Ints
+    j: Ints
+    w: Floats
+    slope_u: Floats
+    slope_v: Floats
+
+
+def triangles_near(subdivision: Subdivision, w: Floats, near: Bools) -> Corners:
+    """The triangles through which the curve can pass: whole cells of the grid cut along their better diagonal, others
+    into a fan around their middle."""
+    lattice = subdivision.lattice
+    plain, fans = _plain_cells(subdivision, w, near), _fans(subdivision)
+    parts = [_cut(lattice, w, plain), *fans]
+    return Corners(*(np.concatenate([getattr(part, name) for part in parts]) for name in Corners.__annotations__))
+
+
+def _plain_cells(subdivision: Subdivision, w: Floats, near: Bools) -> Cells:
+    """Cells of the grid that change sign, are not split and have no split neighbour."""
+    i, j = np.nonzero(near & ~_same_sign(w))
+    if subdivision.lattice.levels:
+        free = ~_is_split(subdivision, i, j, 0)
+        for a, b in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+            free &= ~_is_split(subdivision, i + a, j + b, 0)
+        i, j = i[free], j[free]
+    return Cells(i, j)
+
+
+def _is_split(subdivision: Subdivision, i: Ints, j: Ints, level: int) -> Bools:
+    if level >= len(subdivision.split) or not len(subdivision.split[level]):
+        return np.zeros(i.shape, dtype=np.bool_)
+    i, j, inside = _inside(subdivision.lattice, i, j, level)
+    keys = subdivision.split[level]
+    key = i * (subdivision.lattice.rows << level) + j
+    at = np.minimum(np.searchsorted(keys, key), len(keys) - 1)
+    return np.asarray(inside & (keys[at] == key))
+
+
+def _cut(lattice: Lattice, w: Floats, cells: Cells) -> Corners:
+    """Two triangles for each cell of the grid, by the better diagonal of the graph, with the slopes that belong to the
+    average normals."""
+    i = np.stack([cells.i, cells.i + 1, cells.i + 1, cells.i])
+    j = np.stack([cells.j, cells.j, cells.j + 1, cells.j + 1])
+    # Angles need a scale: the mean slope of these cells is made one.
+    unit = np.nanmean(np.abs(np.diff(w[i, j], axis=0))) if i.size else 1.0
+    points, normals = _graph(lattice, w / (unit if unit > 0.0 else 1.0), i, j)
+    other = other_diagonal(points, normals)
+    first = np.where(other[:, None], [0, 1, 3], [0, 1, 2])
+    second = np.where(other[:, None], [1, 2, 3], [2, 3, 0])
+    corner = np.concatenate([first, second])
+    cell = np.tile(np.arange(len(other)), 2)[:, None]
+    with np.errstate(all="ignore"):
+        slopes = -normals[..., :2] / normals[..., 2:] * (unit / lattice.units)
+    i, j = i[corner, cell], j[corner, cell]
+    flat = slopes[corner, cell]
+    return Corners(i * lattice.units, j * lattice.units, w[i, j], flat[..., 0], flat[..., 1])
+
+
+def _graph(lattice: Lattice, w: Floats, i: Ints, j: Ints) -> tuple[Floats, Floats]:
+    """Points (i, j, w) and average normals of the graph at grid points of any shape."""
+    (m, n), closed = (lattice.columns, lattice.rows), lattice.field.closed
+    around = []
+    for a, b in ((1, 0), (0, 1), (-1, 0), (0, -1)):
+        x, y = i + a, j + b
+        inside = (closed[0] | (x >= 0) & (x <= m)) & (closed[1] | (y >= 0) & (y <= n))
+        # On a seam the neighbour beyond the last point is the one after the first.
+        value = w[x % m if closed[0] else np.clip(x, 0, m), y % n if closed[1] else np.clip(y, 0, n)]
+        around.append(np.stack([x, y, np.where(inside, value, np.nan)], axis=-1))
+    points = np.stack([i, j, w[i, j]], axis=-1)
+    return points, normals_among(points, np.stack(around))
+
+
+def _fans(subdivision: Subdivision) -> list[Corners]:
+    """Triangles of all cells that are not split but smaller than the grid's, or next to smaller ones."""
+    lattice, found = subdivision.lattice, []
+    for level in range(lattice.levels + 1):
+        cells = _leaves(subdivision, level)
+        half = lattice.units >> level + 1
+        i, j = 2 * half * cells.i, 2 * half * cells.j
+        middle = (i + half, j + half)
+        ring = ((0, 0, 0, -1), (2, 0, 1, 0), (2, 2, 0, 1), (0, 2, -1, 0))
+        for k, (a, b, to_i, to_j) in enumerate(ring):
+            c, d = ring[(k + 1) % 4][:2]
+            start, end = (i + a * half, j + b * half), (i + c * half, j + d * half)
+            # A side with smaller cells beyond has their corner in its middle.
+            cut = _is_split(subdivision, cells.i + to_i, cells.j + to_j, level)
+            between = (i + (a + c) // 2 * half, j + (b + d) // 2 * half)
+            stop = tuple(np.where(cut, y, x) for x, y in zip(end, between, strict=True))
+            found.append((middle, start, stop))
+            found.append(tuple((x[cut], y[cut]) for x, y in (middle, between, end)))
+    i, j = (np.concatenate([np.stack([p[axis] for p in one], axis=1) for one in found]) for axis in (0, 1))
+    unknown = np.full(i.shape, np.nan)
+    return [Corners(i, j, lattice.values((i, j)), unknown, unknown)] if i.size else []
+
+
+def _leaves(subdivision: Subdivision, level: int) -> Cells:
+    """Cells of a level that are cut into a fan: children of split cells, or on level 0 neighbours of split ones."""
+    rows, split = subdivision.lattice.rows, subdivision.split
+    none = np.zeros(0, dtype=np.intp)
+    if level == 0:
+        i, j = np.divmod(split[0], rows) if split else (none, none)
+        beside = np.array([(1, 0), (-1, 0), (0, 1), (0, -1)])
+        i, j, inside = _inside(subdivision.lattice, i[:, None] + beside[:, 0], j[:, None] + beside[:, 1], 0)
+        i, j = np.divmod(np.unique(i[inside] * rows + j[inside]), rows)
+    else:
+        i, j = np.divmod(split[level - 1], rows << level - 1)
+        i, j = (2 * i[:, None] + [0, 0, 1, 1]).ravel(), (2 * j[:, None] + [0, 1, 0, 1]).ravel()
+    whole = ~_is_split(subdivision, i, j, level)
+    return Cells(i[whole], j[whole])

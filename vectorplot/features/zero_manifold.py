@@ -1,0 +1,245 @@
+"""Curves f(u, v) = 0 on a rectangle of parameters, traced whole: branches, nodes, double points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.errors import InputError
+from vectorplot.features.grid_triangulation import triangulate_surface
+from vectorplot.features.scalar_field import Function, Gradient, ScalarField, grid_points, grid_values, scalar_field
+from vectorplot.features.zero_cells import MOST_CELLS, Lattice, near_cells, subdivided, triangles_near
+from vectorplot.features.zero_nodes import MOST_ALONE, DoublePoints, double_points, joined_at_nodes
+from vectorplot.features.zero_refinement import (
+    Polylines,
+    Positions,
+    refined,
+    starts_of,
+    up_to_holes,
+    without_repeats,
+)
+from vectorplot.features.zero_segments import NOISE, RESIDUAL, crossing_segments
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.outline import concat
+from vectorplot.surfaces.surface import Domain
+
+DOUBLE = 1e-10
+"""Part of the scale of f below which a critical value counts as zero."""
+
+
+@dataclass(frozen=True, eq=False)
+class ZeroManifold:
+    """The curve f(u, v) = 0.
+
+    points (p,2) parameters u, v; offsets (b+1,): branch i has the points offsets[i] to offsets[i+1]; closed (b,): the
+    last point joins the first, which is not repeated. f is positive on the left of a branch (from node to node of it).
+    Along a branch parameters run on over seams, beyond the domain: turns (b,2) are the periods that a closed branch
+    has run through when it is back at its start.
+    nodes (n,2): where branches meet; a branch goes straight on through each. isolated (i,2): single points where f is
+    zero but does not change its sign. touching (t,2): places of a line along which f is zero without changing sign.
+    doubts: a sentence for each thing that could not be decided. grid (columns+1, rows+1, 3): u, v and f.
+    """
+
+    domain: Domain
+    points: Floats
+    offsets: Ints
+    closed: Bools
+    turns: Ints
+    nodes: Floats
+    isolated: Floats
+    touching: Floats
+    doubts: tuple[str, ...]
+    grid: Floats
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __getitem__(self, branch: int) -> Floats:
+        """(k,2) the points of a branch; a closed one ends with its first point, moved by its turns."""
+        own = self.points[self.offsets[branch] : self.offsets[branch + 1]]
+        if not self.closed[branch]:
+            return own
+        return np.concatenate([own, own[:1] + self.turns[branch] * np.array(self.domain.size)])
+
+    @cached_property
+    def triangulation(self) -> tuple[Ints, Floats]:
+        """The optimised triangles of the graph w = f(u, v) over the grid, and its average normals."""
+        return triangulate_surface(self.grid, closed_u=self.domain.closed_u, closed_v=self.domain.closed_v)
+
+
+def zero_manifold_of_f_uv(
+    f: Function,
+    domain: Domain,
+    *,
+    columns: int,
+    rows: int,
+    gradient: Gradient | None = None,
+    resolution: float = 1e-3,
+    positions: Positions | None = None,
+    tolerance: float | None = None,
+) -> ZeroManifold:
+    """The curve f(u, v) = 0 over a domain, all its branches, each point refined on f to 1e-12 of the scale of f.
+
+    f takes arrays u, v (k,) and returns (k,) values; in closed directions it is periodic. The scale of f is the median
+    of |f| on the grid of columns x rows cells. Where the values and slopes in a cell leave open more than a single
+    arc, the cell is subdivided down to resolution, a part of the domain: a closed branch that is larger is found if
+    the grid feels it, that is if slopes of the size met at the corners of a cell could reach zero inside it.
+    positions(u, v) -> (k, 2 or 3) and tolerance: points are put in until chords stay within tolerance of the curve,
+    measured between positions (millimetres on a page, for example); without positions in u and v themselves.
+    Errors: InputError for fewer than two columns or rows, three in a closed direction.
+    Degenerate: f of one sign gives no branch; a change of sign through a pole or a jump is none either; where f is not
+    finite there is a hole, and branches end at its border; zeros at grid points count as positive, which gives one
+    polyline for a curve along grid lines; a border all along which f is zero is a pole of the surface, not a curve.
+    Source: Glaeser, section 8.4, figures 11 and 12; errata G8-08 to G8-14.
+    """
+    _check(domain, columns, rows, resolution)
+    field, w = grid_values(scalar_field(f, domain, gradient), columns, rows)
+    scale = _scale(w)
+    w[np.abs(w) <= NOISE * scale] = 0.0
+    near, odd = near_cells(w, field.closed)
+    odd &= near
+    levels = _levels(columns, rows, resolution)
+    subdivision = subdivided(Lattice(field, columns, rows, levels), odd)
+    lattice = subdivision.lattice
+    traced = crossing_segments(lattice, triangles_near(subdivision, w, near), scale)
+    cell = field.size / (columns << levels, rows << levels)
+    middles = field.start + (np.stack([subdivision.odd.i, subdivision.odd.j], axis=1) + 0.5) * cell
+    doubles = double_points(field, middles, cell, DOUBLE * scale)
+    line = doubles.flat & (doubles.flat.sum() > MOST_ALONE)
+    single = doubles.points[~line]
+    joined = joined_at_nodes(field, traced.points, traced.pairs, single, cell)
+    lines = _polylines(field, joined.points, joined.segments)
+    lines, dots = without_repeats(lines, field.size)
+    lines = _to_holes(field, lines, single[joined.meets > 0], cell, RESIDUAL * scale) if np.isnan(w).any() else lines
+    unsure = 0
+    if tolerance is not None:
+        measure = positions or (lambda u, v: np.stack([u, v], axis=-1))
+        lines, unsure = refined(field, lines, measure, tolerance, RESIDUAL * scale)
+    alone = single[joined.meets == 0]
+    isolated = np.concatenate([alone, field.wrapped(_far(field, dots, single, cell))])
+    return _result(
+        field,
+        lines,
+        single[joined.meets > 0],
+        isolated,
+        doubles.points[line],
+        _doubts(w, traced.poles, subdivision.complete, unsure, doubles, line),
+        np.concatenate([grid_points(field, columns, rows), w[..., None]], axis=2),
+    )
+
+
+def _check(domain: Domain, columns: int, rows: int, resolution: float) -> None:
+    for count, closed, word in ((columns, domain.closed_u, "columns"), (rows, domain.closed_v, "rows")):
+        if count < 2 + closed:
+            raise InputError(f"{count} {word} of cells: expected {2 + closed} or more")
+    if not 0.0 < resolution:
+        raise InputError(f"resolution {resolution:g}: expected a positive part of the domain")
+
+
+def _scale(w: Floats) -> float:
+    """The median of |w|, or where that is zero the largest."""
+    size = np.abs(w[np.isfinite(w)])
+    if not len(size):
+        return 0.0
+    return float(np.median(size)) or float(size.max())
+
+
+def _levels(columns: int, rows: int, resolution: float) -> int:
+    """How often a cell is halved until it is no larger than resolution."""
+    return int(np.clip(np.ceil(np.log2(1.0 / (min(columns, rows) * resolution)) - 1e-9), 0, 20))
+
+
+def _polylines(field: ScalarField, points: Floats, segments: Ints) -> Polylines:
+    """The segments joined to polylines whose parameters run on over seams; closed ones repeat their first point."""
+    branches = concat(segments)
+    size = np.diff(branches.offsets) + branches.closed
+    offsets = np.concatenate([[0], np.cumsum(size)])
+    path = np.repeat(np.arange(len(size)), size)
+    place = np.arange(offsets[-1]) - offsets[path]
+    index = branches.offsets[path] + place
+    index = np.where(branches.closed[path] & (place == size[path] - 1), branches.offsets[path], index)
+    result = points[branches.points[index.astype(np.intp)]]
+    last = place == size[path] - 1
+    for axis in (0, 1):
+        if field.closed[axis] and len(result):
+            x = result[:, axis]
+            jump = np.concatenate([[0.0], -np.round(np.diff(x) / field.size[axis])])
+            jump[place == 0] = 0.0
+            turned = np.cumsum(jump)
+            result[:, axis] = x + (turned - turned[offsets[path]]) * field.size[axis]
+    return Polylines(result, np.asarray(last, dtype=np.bool_))
+
+
+def _to_holes(field: ScalarField, lines: Polylines, nodes: Floats, cell: Floats, zero: float) -> Polylines:
+    """The polylines with open ends that lie neither on a border nor in a node led on to the border of the hole there."""
+    p = lines.points
+    for side in (0, 1):
+        starts, lasts = starts_of(lines.last), np.flatnonzero(lines.last)
+        closed = _is_closed(field, p[starts], p[lasts])
+        end, before = (starts, starts + 1) if side == 0 else (lasts, lasts - 1)
+        free = ~closed & ~_on_border(field, p[end])
+        end, before = end[free], before[free]
+        more, goes = up_to_holes(field, p[end], p[before], cell, zero)
+        at, more = end[goes], more[goes]
+        if side == 0:
+            p, last = np.insert(p, at, more, axis=0), np.insert(lines.last, at, False)
+        else:
+            p, last = np.insert(p, at + 1, more, axis=0), np.insert(lines.last, at, False)
+        lines = Polylines(p, last)
+    return lines
+
+
+def _on_border(field: ScalarField, points: Floats) -> Bools:
+    """(k,) points on an open border of the domain."""
+    part = (points - field.start) / field.size
+    return np.asarray(((np.abs(part - 0.5) >= 0.5 - 1e-9) & ~np.array(field.closed)).any(axis=1), dtype=np.bool_)
+
+
+def _is_closed(field: ScalarField, first: Floats, last: Floats) -> Bools:
+    """(b,) polylines that end where they start, whole periods aside."""
+    turned = (last - first) / field.size
+    return np.asarray((np.abs(turned - np.where(field.closed, np.round(turned), 0.0)) <= 1e-12).all(axis=1))
+
+
+def _far(field: ScalarField, points: Floats, known: Floats, cell: Floats) -> Floats:
+    """The points that are not within two cells of a known one."""
+    d = points[:, None] - known[None]
+    d = (d - np.where(field.closed, np.round(d / field.size), 0.0) * field.size) / cell
+    return points[~((d * d).sum(axis=2) <= 4.0).any(axis=1)]
+
+
+def _result(
+    field: ScalarField,
+    lines: Polylines,
+    nodes: Floats,
+    isolated: Floats,
+    touching: Floats,
+    doubts: tuple[str, ...],
+    grid: Floats,
+) -> ZeroManifold:
+    """The manifold of these polylines; of closed ones the repeated point is dropped."""
+    first, last = starts_of(lines.last), np.flatnonzero(lines.last)
+    ends = lines.points[first], lines.points[last]
+    closed = _is_closed(field, *ends) & (last - first > 1)
+    turns = np.where(closed[:, None], np.round((ends[1] - ends[0]) / field.size), 0.0).astype(np.intp)
+    kept = np.ones(len(lines.points), dtype=np.bool_)
+    kept[last[closed]] = False
+    offsets = np.concatenate([[0], np.cumsum(last - first + 1 - closed)]).astype(np.intp)
+    return ZeroManifold(
+        field.domain, lines.points[kept], offsets, closed, turns, nodes, isolated, touching, doubts, grid
+    )
+
+
+def _doubts(w: Floats, poles: int, complete: bool, unsure: int, doubles: DoublePoints, line: Bools) -> tuple[str, ...]:
+    """What could not be decided, a sentence each."""
+    flat = (w[:-1, :-1] == 0.0) & (w[1:, :-1] == 0.0) & (w[1:, 1:] == 0.0) & (w[:-1, 1:] == 0.0)
+    found = [
+        (flat.any(), f"f is zero all over {flat.sum()} cells: only the border towards negative values is a curve"),
+        (poles > 0, f"f changes its sign without being zero at {poles} places: poles or jumps, not part of the curve"),
+        (not complete, f"more than {MOST_CELLS} small cells: branches smaller than a cell of the grid may be missing"),
+        (unsure > 0, f"{unsure} segments could not be refined: the curve was not found beside their chords"),
+        (line.any(), f"f touches zero along a line without changing its sign: {line.sum()} places of it are given"),
+    ]
+    return tuple(text for said, text in found if said)
