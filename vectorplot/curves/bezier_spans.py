@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.curves.bezier_tangents import Directions, Lines
 from vectorplot.geometry.mesh import Floats, Ints
 
-_STEPS = 4
+_STEPS = 3
 _RIDGE = 1e-5
 """Where handles hardly change the shape, as on a straight line, their steps stay small."""
 
@@ -140,18 +140,16 @@ class _Problem:
         along_one, along_two = (speed * one).sum(axis=0), (speed * two).sum(axis=0)
         along = (apart * speed).sum(axis=0)
         b1, b2 = 3.0 * t * (1.0 - t) ** 2, -3.0 * t * t * (1.0 - t)
-        terms = np.stack(
-            (
-                b1 * b1 * (1.0 - along_one**2),
-                b1 * b2 * ((one * two).sum(axis=0) - along_one * along_two),
-                b2 * b2 * (1.0 - along_two**2),
-                b1 * ((apart * one).sum(axis=0) - along * along_one),
-                b2 * ((apart * two).sum(axis=0) - along * along_two),
-                b1 * b1,
-                b2 * b2,
-            )
+        terms = (
+            b1 * b1 * (1.0 - along_one**2),
+            b1 * b2 * ((one * two).sum(axis=0) - along_one * along_two),
+            b2 * b2 * (1.0 - along_two**2),
+            b1 * ((apart * one).sum(axis=0) - along * along_one),
+            b2 * ((apart * two).sum(axis=0) - along * along_two),
+            b1 * b1,
+            b2 * b2,
         )
-        a, b, c, x, y, weight_one, weight_two = np.add.reduceat(terms, self.starts, axis=1)
+        a, b, c, x, y, weight_one, weight_two = (np.add.reduceat(term, self.starts) for term in terms)
         a, c = a + _RIDGE * weight_one, c + _RIDGE * weight_two
         det = a * c - b * b
         good = (det > 0.0) & (self.counts > 3)
