@@ -70,13 +70,30 @@ class ScalarField:
         first, last = self.start, self.start + self.size
         slack = 4.0 * np.spacing(np.maximum(np.abs(first), np.abs(last)))
         outside = ((at < first - slack) | (at > last + slack)).any(axis=1)
-        at = np.clip(at, self.low, self.high)
+        w = self._evaluated(np.clip(at[:, 0], self.low[0], self.high[0]), np.clip(at[:, 1], self.low[1], self.high[1]))
+        w[outside] = np.nan
+        return w
+
+    def _evaluated(self, u: Floats, v: Floats) -> Floats:
+        """(k,) f at parameters (k,) of the domain; NaN where it is not finite."""
         with np.errstate(all="ignore"):
-            w = np.array(self.f(at[:, 0], at[:, 1]), dtype=np.float64)
-        if w.shape not in ((), outside.shape):
-            raise InputError(f"f(u, v) of {len(at)} parameters has the shape {w.shape}: expected one value for each")
-        w = np.array(np.broadcast_to(w, outside.shape))
-        w[outside | ~np.isfinite(w)] = np.nan
+            w = np.array(self.f(u, v), dtype=np.float64)
+        if w.shape not in ((), u.shape):
+            raise InputError(f"f(u, v) of {len(u)} parameters has the shape {w.shape}: expected one value for each")
+        if w.shape == ():
+            w = np.full(u.shape, w)
+        w[~np.isfinite(w)] = np.nan
+        return w
+
+    def on_grid(self, columns: int, rows: int) -> Floats:
+        """(columns+1, rows+1) f on an even grid; seams are evaluated once, so that both sides agree to the last bit."""
+        u, v = (
+            np.clip(self.start[axis] + np.arange(n + 1 - closed) / n * self.size[axis], self.low[axis], self.high[axis])
+            for axis, (n, closed) in enumerate(zip((columns, rows), self.closed, strict=True))
+        )
+        w = self._evaluated(np.repeat(u, len(v)), np.tile(v, len(u))).reshape(len(u), len(v))
+        if any(self.closed):
+            w = np.pad(w, [(0, int(closed)) for closed in self.closed], mode="wrap")
         return w
 
     def gradients(self, points: Floats) -> Floats:
@@ -122,8 +139,7 @@ def grid_values(field: ScalarField, columns: int, rows: int) -> tuple[ScalarFiel
     a surface vanishes), it gets the values next to it. A single point where f is not defined, such as sin(r) / r at
     r = 0, gets the value next to it.
     """
-    points = grid_points(field, columns, rows)
-    w = _closed_up(field, points)
+    w = field.on_grid(columns, rows)
     low, high = list(field.low), list(field.high)
     for axis, closed in enumerate(field.closed):
         for side, limits, inwards in ((0, low, 1), (-1, high, -1)):
@@ -132,10 +148,10 @@ def grid_values(field: ScalarField, columns: int, rows: int) -> tuple[ScalarFiel
                 limits[axis] += inwards * POLE_STEP * field.size[axis]
     if (tuple(low), tuple(high)) != (field.low, field.high):
         field = replace(field, low=(low[0], low[1]), high=(high[0], high[1]))
-        w = _closed_up(field, points)
+        w = field.on_grid(columns, rows)
     holes = np.isnan(w)
     if holes.any():
-        w[holes] = next_to(field, points[holes], field.size / (columns, rows))
+        w[holes] = next_to(field, grid_points(field, columns, rows)[holes], field.size / (columns, rows))
     return field, w
 
 
@@ -150,13 +166,6 @@ def next_to(field: ScalarField, points: Floats, cell: Floats) -> Floats:
     middle = field.start + field.size / 2.0
     inwards = np.where(points > middle, -1.0, 1.0) * (POLE_STEP, POLE_STEP * 0.618)
     return field.values(points + inwards * cell)
-
-
-def _closed_up(field: ScalarField, points: Floats) -> Floats:
-    """Values on a grid; closed directions are evaluated once at the seam, so that both sides agree to the last bit."""
-    own = points[: -1 if field.closed[0] else None, : -1 if field.closed[1] else None]
-    w = field.values(own.reshape(-1, 2)).reshape(own.shape[:2])
-    return np.pad(w, [(0, int(closed)) for closed in field.closed], mode="wrap")
 
 
 def _vanishes(border: Floats, inner: Floats) -> bool:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vectorplot.features.grid_triangulation import normals_among, other_diagonal
 from vectorplot.features.scalar_field import ScalarField, next_to
@@ -52,7 +54,7 @@ class Lattice:
 
     def values(self, at: Pair) -> Floats:
         """f at lattice points (...), each point evaluated once."""
-        ids, first, back = np.unique(self.ids(at).ravel(), return_index=True, return_inverse=True)
+        _, first, back = np.unique(self.ids(at).ravel(), return_index=True, return_inverse=True)
         points = self.points((at[0].ravel()[first], at[1].ravel()[first]))
         w = self.field.values(points)
         holes = np.isnan(w)
@@ -87,15 +89,18 @@ def near_cells(w: Floats, closed: tuple[bool, bool]) -> tuple[Bools, Bools]:
     f may be zero where a corner's value is no more than what the slopes at the corners let it change in the cell.
     """
     by_u, by_v = _slopes(w, 0, closed[0]), _slopes(w, 1, closed[1])
-    size, change = np.abs(w), np.abs(by_u) + np.abs(by_v)
-    np.nan_to_num(size, copy=False, nan=np.inf)
-    np.nan_to_num(change, copy=False, nan=0.0)
-    least = _over_corners(size, np.minimum)
-    near = least <= _over_corners(change, np.maximum)
-    crossed = np.isfinite(least) & ~_same_sign(w)
-    near |= crossed
+    size, change = np.abs(w), np.abs(by_u)
+    change += np.abs(by_v)
+    if np.isnan(w).any():
+        np.nan_to_num(size, copy=False, nan=np.inf)
+        np.nan_to_num(change, copy=False, nan=0.0)
+    near = _over_corners(size, np.minimum) <= _over_corners(change, np.maximum)
+    negative = w < 0.0
+    near |= _over_corners(negative, np.logical_or) & ~_over_corners(negative, np.logical_and)
+    if np.isnan(w).any():
+        near &= np.isfinite(_over_corners(size, np.minimum))
     i, j = np.nonzero(near)
-    g = np.stack([np.stack([s[i, j], s[i + 1, j], s[i + 1, j + 1], s[i, j + 1]]) for s in (by_u, by_v)], axis=-1)
+    g = np.stack([_corner_values(by_u, i, j), _corner_values(by_v, i, j)], axis=-1)
     odd = np.zeros_like(near)
     odd[i, j] = ~_aligned(g)
     return near, odd
@@ -104,25 +109,32 @@ def near_cells(w: Floats, closed: tuple[bool, bool]) -> tuple[Bools, Bools]:
 def _slopes(w: Floats, axis: int, closed: bool) -> Floats:
     """Central differences of w per cell along an axis, one-sided at borders and next to holes."""
     q = np.moveaxis(w, axis, 0)
-    d = np.diff(q, axis=0)
-    before = np.concatenate([d[-1:] if closed else d[:1], d])
-    after = np.concatenate([d, d[:1] if closed else d[-1:]])
-    s = (before + after) / 2.0
+    s = np.empty_like(q)
+    s[1:-1] = (q[2:] - q[:-2]) * 0.5
+    s[0] = (q[1] - q[-2]) * 0.5 if closed else q[1] - q[0]
+    s[-1] = s[0] if closed else q[-1] - q[-2]
     if np.isnan(s).any():
+        d = np.diff(q, axis=0)
+        before = np.concatenate([d[-1:] if closed else d[:1], d])
+        after = np.concatenate([d, d[:1] if closed else d[-1:]])
         s = np.where(np.isnan(s), np.where(np.isnan(before), after, before), s)
     return np.moveaxis(s, 0, axis)
 
 
-def _over_corners(x: Floats, best: np.ufunc) -> Floats:
+def _over_corners(x: NDArray[Any], best: np.ufunc) -> NDArray[Any]:
     rows = best(x[:-1], x[1:])
     return np.asarray(best(rows[:, :-1], rows[:, 1:]))
 
 
-def _same_sign(w: Floats) -> Bools:
-    """Cells whose corners are all negative, or none of them."""
-    negative = w < 0.0
-    any_, all_ = _over_corners(negative, np.logical_or), _over_corners(negative, np.logical_and)
-    return np.asarray(any_ == all_, dtype=np.bool_)
+def _corner_values(x: Floats, i: Ints, j: Ints) -> Floats:
+    """(4,k) values at the corners of cells."""
+    return np.stack([x[i, j], x[i + 1, j], x[i + 1, j + 1], x[i, j + 1]])
+
+
+def _one_sign(w: Floats) -> Bools:
+    """(k,) cells whose corners (4,k) are all negative, or none of them."""
+    negative = (w < 0.0).sum(axis=0)
+    return np.asarray(negative % 4 == 0, dtype=np.bool_)
 
 
 def _aligned(g: Floats) -> Bools:
@@ -140,6 +152,8 @@ def subdivided(lattice: Lattice, odd: Bools) -> Subdivision:
     marked: list[Cells] = []
     complete = True
     for level in range(lattice.levels):
+        if not len(i):
+            break
         if len(i) > MOST_CELLS:
             complete = False
             i, j = i[:0], j[:0]
@@ -183,8 +197,8 @@ def _most(differences: Floats) -> Floats:
 def _graded(lattice: Lattice, marked: list[Cells]) -> list[Ints]:
     """Keys of the cells to split by level, more of them than marked: around a split cell everything has its size."""
     split: list[Ints] = []
-    above = Cells(*(np.zeros(0, dtype=np.intp),) * 2)
-    for level in reversed(range(lattice.levels)):
+    above = Cells(*np.zeros((2, 0), dtype=np.intp))
+    for level in reversed(range(len(marked))):
         i, j = (np.concatenate([x, y]) for x, y in ((marked[level].i, above.i), (marked[level].j, above.j)))
         keys = np.unique(i * (lattice.rows << level) + j)
         split.append(keys)
@@ -219,14 +233,16 @@ def triangles_near(subdivision: Subdivision, w: Floats, near: Bools) -> Corners:
     """The triangles through which the curve can pass: whole cells of the grid cut along their better diagonal, others
     into a fan around their middle."""
     lattice = subdivision.lattice
-    plain, fans = _plain_cells(subdivision, w, near), _fans(subdivision)
+    plain, fans = _plain_cells(subdivision, w, near), _fans(subdivision, w)
     parts = [_cut(lattice, w, plain), *fans]
     return Corners(*(np.concatenate([getattr(part, name) for part in parts]) for name in Corners.__annotations__))
 
 
 def _plain_cells(subdivision: Subdivision, w: Floats, near: Bools) -> Cells:
     """Cells of the grid that change sign, are not split and have no split neighbour."""
-    i, j = np.nonzero(near & ~_same_sign(w))
+    i, j = np.nonzero(near)
+    crossed = ~_one_sign(_corner_values(w, i, j))
+    i, j = i[crossed], j[crossed]
     if subdivision.lattice.levels:
         free = ~_is_split(subdivision, i, j, 0)
         for a, b in ((1, 0), (-1, 0), (0, 1), (0, -1)):
@@ -279,10 +295,10 @@ def _graph(lattice: Lattice, w: Floats, i: Ints, j: Ints) -> tuple[Floats, Float
     return points, normals_among(points, np.stack(around))
 
 
-def _fans(subdivision: Subdivision) -> list[Corners]:
+def _fans(subdivision: Subdivision, w: Floats) -> list[Corners]:
     """Triangles of all cells that are not split but smaller than the grid's, or next to smaller ones."""
-    lattice, found = subdivision.lattice, []
-    for level in range(lattice.levels + 1):
+    lattice, found = subdivision.lattice, list[list[Ints]]()
+    for level in range(len(subdivision.split) + 1 if subdivision.split else 0):
         cells = _leaves(subdivision, level)
         half = lattice.units >> level + 1
         i, j = 2 * half * cells.i, 2 * half * cells.j
@@ -294,25 +310,30 @@ def _fans(subdivision: Subdivision) -> list[Corners]:
             # A side with smaller cells beyond has their corner in its middle.
             cut = _is_split(subdivision, cells.i + to_i, cells.j + to_j, level)
             between = (i + (a + c) // 2 * half, j + (b + d) // 2 * half)
-            stop = tuple(np.where(cut, y, x) for x, y in zip(end, between, strict=True))
-            found.append((middle, start, stop))
-            found.append(tuple((x[cut], y[cut]) for x, y in (middle, between, end)))
-    i, j = (np.concatenate([np.stack([p[axis] for p in one], axis=1) for one in found]) for axis in (0, 1))
-    unknown = np.full(i.shape, np.nan)
-    return [Corners(i, j, lattice.values((i, j)), unknown, unknown)] if i.size else []
+            stop = [np.where(cut, y, x) for x, y in zip(end, between, strict=True)]
+            found += [[np.stack([middle[k], start[k], stop[k]], axis=1) for k in (0, 1)]]
+            found += [[np.stack([middle[k][cut], between[k][cut], end[k][cut]], axis=1) for k in (0, 1)]]
+    if not found:
+        return []
+    i, j = (np.concatenate([one[axis] for one in found]) for axis in (0, 1))
+    value, unknown = lattice.values((i, j)), np.full(i.shape, np.nan)
+    # At points of the grid other triangles have the grid's value: all must see the same sign.
+    on_grid = (i % lattice.units == 0) & (j % lattice.units == 0)
+    value[on_grid] = w[i[on_grid] // lattice.units, j[on_grid] // lattice.units]
+    return [Corners(i, j, value, unknown, unknown)]
 
 
 def _leaves(subdivision: Subdivision, level: int) -> Cells:
     """Cells of a level that are cut into a fan: children of split cells, or on level 0 neighbours of split ones."""
     rows, split = subdivision.lattice.rows, subdivision.split
-    none = np.zeros(0, dtype=np.intp)
     if level == 0:
-        i, j = np.divmod(split[0], rows) if split else (none, none)
+        i, j = np.divmod(split[0], rows)
         beside = np.array([(1, 0), (-1, 0), (0, 1), (0, -1)])
         i, j, inside = _inside(subdivision.lattice, i[:, None] + beside[:, 0], j[:, None] + beside[:, 1], 0)
         i, j = np.divmod(np.unique(i[inside] * rows + j[inside]), rows)
     else:
-        i, j = np.divmod(split[level - 1], rows << level - 1)
+        parent: Ints = split[level - 1]
+        i, j = parent // (rows << level - 1), parent % (rows << level - 1)
         i, j = (2 * i[:, None] + [0, 0, 1, 1]).ravel(), (2 * j[:, None] + [0, 1, 0, 1]).ravel()
     whole = ~_is_split(subdivision, i, j, level)
     return Cells(i[whole], j[whole])

@@ -114,10 +114,12 @@ def bracketed_zeros(
     Where f is not defined inside a bracket the value is NaN.
     """
     t, w = np.array(guess, dtype=np.float64), np.full(len(guess), np.nan)
-    which = np.arange(len(t))
-    a, b, fa, fb = np.zeros(len(t)), np.ones(len(t)), w0.copy(), w1.copy()
+    which: Ints = np.arange(len(t))
+    a: Floats = np.zeros(len(t))
+    b: Floats = np.ones(len(t))
+    fa, fb = w0.copy(), w1.copy()
     x = np.clip(t, 0.0, 1.0)
-    width = np.ones(len(t))
+    width = b.copy()
     for round_ in range(ROUNDS):
         fx = f(x, which)
         t[which], w[which] = x, fx
@@ -125,11 +127,13 @@ def bracketed_zeros(
         # The point that leaves the bracket serves the parabola once more.
         left = (fx < 0.0) == (fa < 0.0)
         old, f_old = np.where(left, a, b), np.where(left, fa, fb)
-        a, fa, b, fb = np.where(left, x, a), np.where(left, fx, fa), np.where(left, b, x), np.where(left, fb, fx)
+        a, fa = np.where(left, x, a), np.where(left, fx, fa)
+        b, fb = np.where(left, b, x), np.where(left, fb, fx)
         goes_on = ~done
         if not goes_on.any():
             break
-        which, a, b, fa, fb, old, f_old, width = (y[goes_on] for y in (which, a, b, fa, fb, old, f_old, width))
+        which = which[goes_on]
+        a, b, fa, fb, old, f_old, width = (y[goes_on] for y in (a, b, fa, fb, old, f_old, width))
         x = _next_try(a, b, fa, fb, old, f_old)
         if round_ % 3 == 2:
             x = np.where(b - a > width / 4.0, (a + b) / 2.0, x)

@@ -112,7 +112,7 @@ def zero_manifold_of_f_uv(
     joined = joined_at_nodes(field, traced.points, traced.pairs, single, cell)
     lines = _polylines(field, joined.points, joined.segments)
     lines, dots = without_repeats(lines, field.size)
-    lines = _to_holes(field, lines, single[joined.meets > 0], cell, RESIDUAL * scale) if np.isnan(w).any() else lines
+    lines = _to_holes(field, lines, cell, RESIDUAL * scale) if np.isnan(w).any() else lines
     unsure = 0
     if tolerance is not None:
         measure = positions or (lambda u, v: np.stack([u, v], axis=-1))
@@ -172,8 +172,8 @@ def _polylines(field: ScalarField, points: Floats, segments: Ints) -> Polylines:
     return Polylines(result, np.asarray(last, dtype=np.bool_))
 
 
-def _to_holes(field: ScalarField, lines: Polylines, nodes: Floats, cell: Floats, zero: float) -> Polylines:
-    """The polylines with open ends that lie neither on a border nor in a node led on to the border of the hole there."""
+def _to_holes(field: ScalarField, lines: Polylines, cell: Floats, zero: float) -> Polylines:
+    """The polylines with open ends inside the domain led on to the border of the hole there."""
     p = lines.points
     for side in (0, 1):
         starts, lasts = starts_of(lines.last), np.flatnonzero(lines.last)
@@ -207,7 +207,7 @@ def _far(field: ScalarField, points: Floats, known: Floats, cell: Floats) -> Flo
     """The points that are not within two cells of a known one."""
     d = points[:, None] - known[None]
     d = (d - np.where(field.closed, np.round(d / field.size), 0.0) * field.size) / cell
-    return points[~((d * d).sum(axis=2) <= 4.0).any(axis=1)]
+    return np.asarray(points[~((d * d).sum(axis=2) <= 4.0).any(axis=1)])
 
 
 def _result(

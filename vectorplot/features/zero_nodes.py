@@ -34,6 +34,8 @@ def double_points(field: ScalarField, starts: Floats, cell: Floats, zero: float)
 
     cell (2,) is the size of the cells that the starts are the middles of; values up to zero count as zero.
     """
+    if not len(starts):
+        return DoublePoints(starts, np.zeros(0, dtype=np.bool_))
     points, curvature = _critical(field, starts, cell)
     away = np.abs((points - starts) / cell).max(axis=1, initial=0.0)
     with np.errstate(invalid="ignore"):
@@ -101,6 +103,8 @@ def joined_at_nodes(field: ScalarField, points: Floats, segments: Ints, nodes: F
 
     Ends that are opposite in the cyclic order around a node are joined to each other, so that branches go straight on.
     """
+    if not len(nodes):
+        return Joined(points, segments, np.zeros(0, dtype=np.intp))
     inside = _node_around(field, points, nodes, cell)
     at_node = inside[segments]
     broken = (at_node[:, 0] < 0) != (at_node[:, 1] < 0)
