@@ -17,6 +17,8 @@ CORNER_ANGLE = np.radians(30.0)
 """A polyline that turns by more at one point has a corner there."""
 
 _ZERO = 1e-9
+"""Points nearer than this part of the extent are one."""
+
 _WINDOW = 8.0
 """Tangents are taken over so many tolerances to both sides, at least to the next points."""
 
@@ -128,7 +130,7 @@ class _Fit:
         knots[lines.first] = knots[lines.last] = True
         loop = np.flatnonzero(lines.closed & ~cornered)
         start, end = lines.length[lines.first[loop]], lines.length[lines.last[loop]]
-        quarters = start + (end - start) * np.array([[0.25], [0.5], [0.75]])
+        quarters = start + (end - start) * (np.array([[0.25], [0.5], [0.75]]) - _ZERO)
         knots[np.searchsorted(lines.length, quarters)] = True
         return knots
 
@@ -158,7 +160,8 @@ class _Fit:
         number = np.arange(len(owner)) - np.repeat(np.cumsum(parts - 1) - (parts - 1), parts - 1) + 1
         length = self.lines.length
         start, end = length[spans.first[owner]], length[spans.last[owner]]
-        index = np.searchsorted(length, start + (end - start) * (number / parts[owner]))
+        # A little less than the part: where a point lies on it, rounding does not choose.
+        index = np.searchsorted(length, start + (end - start) * (number / parts[owner] - _ZERO))
         knots[np.clip(index, spans.first[owner] + 1, spans.last[owner] - 1)] = True
         inside = np.flatnonzero(knots)
         first = np.sort(np.concatenate((spans.first, inside)))
@@ -274,7 +277,7 @@ def _measured(points: Floats, line: Ints, closed: Bools) -> Lines:
 
 def _sampled(curve: Curve, count: int) -> tuple[Floats, Floats]:
     t = np.linspace(curve.start, curve.end, count + 1)
-    points, tangents = curve.points(t), curve.tangents(t)
+    points, tangents = np.array(curve.points(t)), np.array(curve.tangents(t))
     if curve.closed:
         points[-1], tangents[-1] = points[0], tangents[0]
     return points, tangents
