@@ -37,10 +37,10 @@ class Range:
         """The parameters within the range, where it is closed; unchanged where they are inside already."""
         if not self.closed:
             return t
-        return t - self.length * np.where((t.real < self.start) | (t.real > self.end), self._turns(t), 0.0)
-
-    def _turns(self, t: Numbers) -> Floats:
-        return np.asarray(np.floor((t.real - self.start) / self.length))
+        outside = np.isfinite(t) & ((t.real < self.start) | (t.real > self.end))
+        if not outside.any():
+            return t
+        return t - self.length * np.floor((np.where(outside, t.real, self.start) - self.start) / self.length)
 
     def centres(self, t: Floats, step: float) -> Floats:
         """Middles of five nodes around t that stay inside the range."""
@@ -99,7 +99,9 @@ class NumericFunction:
 
     def _shaped(self, evaluate: Callable[[list[Floats]], Floats], parameters: Sequence[Floats]) -> Floats:
         arrays = np.broadcast_arrays(*(np.asarray(p, dtype=np.float64) for p in parameters))
-        return evaluate([a.ravel() for a in arrays]).reshape(*arrays[0].shape, self.function.components)
+        # Infinite parameters are as good as none, and no arithmetic warns of them.
+        flat = [np.where(np.isfinite(a), a, np.nan).ravel() for a in arrays]
+        return evaluate(flat).reshape(*arrays[0].shape, self.function.components)
 
     def _asked(self, parameters: Sequence[Numbers]) -> Numbers:
         """(n, k) what the function says at finite parameters inside, NaN elsewhere."""
@@ -206,7 +208,8 @@ def _five_points(
     weights = np.polynomial.polynomial.polyval(s, _SLOPES[:, ::-1].T)
     nodes = [np.tile(p, 5) for p in parameters]
     nodes[axis] = (centres + step * _NODES[:, None]).ravel()
-    values = function(nodes).reshape(5, len(s), -1)
+    values = function(nodes)
+    values = values.reshape(5, len(s), values.shape[-1])
     # From the middle value, so that a large constant costs no digits.
     return np.asarray(np.einsum("jn,jnk->nk", weights, values - values[2]) / step)
 

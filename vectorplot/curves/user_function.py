@@ -125,13 +125,14 @@ def _agree(values: Numbers, single: UserFunction, probes: Sequence[Floats]) -> b
         alone = single(*(p[some] for p in probes))
     except InputError:
         return True  # a function that wants arrays
-    return bool(np.allclose(values[some], alone, rtol=1e-9, atol=1e-9 * float(np.max(np.abs(alone))), equal_nan=True))
+    largest = float(np.max(np.abs(alone[np.isfinite(alone)]), initial=0.0))
+    return bool(np.allclose(values[some], alone, rtol=1e-9, atol=1e-9 * largest, equal_nan=True))
 
 
 def _hinted(single: UserFunction) -> UserFunction:
     warnings.warn(
         f"{single.name} takes one number at a time: it works, but slowly; numpy's functions take arrays",
         InputWarning,
-        stacklevel=4,
+        stacklevel=5,
     )
     return single

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.geometry.mesh import Bools, Floats
-from vectorplot.surfaces.surface import Domain, Surface, normals
+from vectorplot.surfaces.surface import Domain, Surface
 
 # A cross product below this part of what the second derivatives allow is that of a pole.
 _POLE = 1e-9
@@ -16,13 +16,15 @@ def unit_normals(surface: Surface, u: Floats, v: Floats) -> Floats:
 
     Where the cross product vanishes the normal is the limit from the side of the middle of the domain: along the line
     v = const. at a pole where u does not move the point (top of a sphere), along u = const. where v does not; so that
-    normals near the pole run into it without a spike. An apex has one limit for each line that ends there.
+    normals near the pole run into it without a spike. An apex has one limit for each line that ends there. Where a
+    surface passes through its axis (spindle torus) the normals of the two sides are opposite, and that side decides.
     Degenerate: NaN in holes, and where the first derivative of the cross product vanishes too.
     Error: at a pole as good as the second partials.
     """
     u, v = np.broadcast_arrays(np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64))
-    product = np.asarray(normals(surface, u, v), dtype=np.float64).copy()
-    suspect = _small(product, *surface.partials(u, v), surface.domain)
+    along_u, along_v = surface.partials(u, v)
+    product = np.asarray(np.cross(along_u, along_v), dtype=np.float64)
+    suspect = _small(product, along_u, along_v, surface.domain)
     if suspect.any():
         product[suspect] = _with_limits(surface, u[suspect], v[suspect], product[suspect])
     # Divided by the largest component first: a product of tiny partials has a square that underflows.
@@ -44,8 +46,8 @@ def _with_limits(surface: Surface, u: Floats, v: Floats, product: Floats) -> Flo
     uu, uv, vv = surface.second_partials(u, v)
     domain = surface.domain
     width, height = domain.size
-    a = _inwards(u, domain.u_start, domain.u_end, domain.closed_u)
-    b = _inwards(v, domain.v_start, domain.v_end, domain.closed_v)
+    a = _inwards(u, domain.u_start, domain.u_end)
+    b = _inwards(v, domain.v_start, domain.v_end)
     towards_u, towards_v = a * width * uu + b * height * uv, a * width * uv + b * height * vv
     limit = np.cross(towards_u, along_v) + np.cross(along_u, towards_v)
     bound = (_length(along_u) + _length(uu) * width + _length(uv) * height) * (
@@ -56,10 +58,9 @@ def _with_limits(surface: Surface, u: Floats, v: Floats, product: Floats) -> Flo
     return np.where(gone[:, None], np.nan, np.where(vanished[:, None], limit, product))
 
 
-def _inwards(t: Floats, start: float, end: float, closed: bool) -> Floats:
-    """(n, 1) the sign of the way to the middle; 0 where the parameter closes and no side is inside."""
-    side = np.where(t <= 0.5 * (start + end), 1.0, -1.0)
-    return side[:, None] * (0.0 if closed else 1.0)
+def _inwards(t: Floats, start: float, end: float) -> Floats:
+    """(n, 1) the sign of the way to the middle. The way along the line of a pole itself does not count: it stands."""
+    return np.where(t <= 0.5 * (start + end), 1.0, -1.0)[:, None]
 
 
 def _length(vectors: Floats) -> Floats:
