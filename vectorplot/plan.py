@@ -101,7 +101,9 @@ class Walk:
 
 
 def _count(result: Any) -> int:
-    return len(result) if hasattr(result, "__len__") else 1
+    """How many things a stage made; of several results the first tells."""
+    first = result[0] if isinstance(result, tuple) and result and hasattr(result[0], "__len__") else result
+    return len(first) if hasattr(first, "__len__") else 1
 
 
 def _peak_mb() -> float:

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from vectorplot.draw import default_camera, in_frame
+from vectorplot.draw import default_camera
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.strokes import LineKind
@@ -22,6 +22,7 @@ from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import rotated_boxes
 from vectorplot.testing.surfaces import bumpy_icosphere
+from vectorplot.visibility.framing import in_frame
 from vectorplot.visibility.hidden_lines import visible_parts
 from vectorplot.visibility.lines import edge_lines, joined_lines
 from vectorplot.visibility.occluders import solid_items

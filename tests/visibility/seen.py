@@ -6,12 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.draw import DRAWN, in_frame
+from vectorplot.draw import DRAWN
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing import visible_by_rays
+from vectorplot.visibility.framing import in_frame
 from vectorplot.visibility.hidden_lines import Visibility, counted_parts, visible_parts
 from vectorplot.visibility.lines import Lines, edge_lines, intersection_lines, joined_lines
 from vectorplot.visibility.occluders import solid_items

@@ -67,6 +67,10 @@ class Drawing:
     title: str = ""
     page_from_world: Floats = field(default_factory=lambda: np.eye(4))
 
+    def __repr__(self) -> str:
+        layers = ", ".join(f"{layer.name} {sum(map(len, layer.marks))}" for layer in self.layers)
+        return f"<Drawing {self.title!r}: {self.width_mm:g}x{self.height_mm:g} mm, strokes: {layers or 'none'}>"
+
     def _repr_svg_(self) -> str:
         from vectorplot.backends.svg import svg_text
 

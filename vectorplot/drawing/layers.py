@@ -78,7 +78,12 @@ def layers_by_colour(paths: Paths, colours: Sequence[str]) -> tuple[Layer, ...]:
 
 
 def ink(colour: str) -> str:
-    """The ink, #rrggbb, for the name of a palette; light and dark ones share that of their parent."""
+    """The ink, #rrggbb, for the name of a palette; light and dark ones share that of their parent.
+
+    A colour given as #rrggbb is its own ink.
+    """
+    if colour.startswith("#"):
+        return colour
     return COLOURS.get(colour.removeprefix("light").removeprefix("dark"), COLOURS["gray"])
 
 

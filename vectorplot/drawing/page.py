@@ -4,8 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.drawing.drawing import Paths
+from vectorplot.drawing.duplicates import without_duplicates
 from vectorplot.geometry.mesh import Floats
 from vectorplot.scene.scene import Page
+from vectorplot.scene.view import View
+from vectorplot.visibility.hidden_lines import Visibility
+from vectorplot.visibility.lines import Lines
+
+COINCIDENT_MM = 1e-4
+"""Strokes that are no further apart than this lie on each other, ends on the same point."""
 
 
 def fitted(page: Page, low: Floats, high: Floats) -> Floats:
@@ -26,3 +34,57 @@ def centred(page: Page, picture_height: float, height_mm: float) -> Floats:
     """(3,3) matrix from image to page: the image's origin goes to the middle, picture_height becomes height_mm."""
     scale = height_mm / picture_height
     return np.array([[scale, 0.0, page.width_mm / 2.0], [0.0, scale, page.height_mm / 2.0], [0.0, 0.0, 1.0]])
+
+
+def page_from_image(view: View, lines: Lines, seen: Visibility, page: Page, fit: bool, whole: bool) -> Floats:
+    """(3,3) matrix from image to page."""
+    if not fit:
+        return centred(page, view.picture_height, page.height_mm)
+    if not whole:
+        return centred(page, view.picture_height, page.height_mm - 2.0 * page.margin_mm)
+    if not len(seen.segment):
+        return fitted(page, np.zeros(2), np.zeros(2))
+    start, end = _part_ends(lines, seen)
+    images = np.concatenate([view.image_of(start), view.image_of(end)], axis=1)
+    low, high = images.min(axis=1), images.max(axis=1)
+    if (high - low).max() <= view.tolerance:
+        # Lines along the sight rays: their image is a point, and rounding must not fill the page.
+        return fitted(page, low, low)
+    return fitted(page, low, high)
+
+
+def _part_ends(lines: Lines, seen: Visibility) -> tuple[Floats, Floats]:
+    """Both ends (3,k) of all parts; where a part goes on to the end of its line, exactly that end."""
+    start, end = lines.start[:, seen.segment], lines.end[:, seen.segment]
+    along = end - start
+    return start + seen.low * along, np.where(seen.high < 1.0, start + seen.high * along, end)
+
+
+def strokes_on_page(view: View, lines: Lines, seen: Visibility, page_from_image: Floats) -> Paths:
+    """The parts of lines as strokes on the page, each line once where several lie on each other.
+
+    Of coincident strokes the visible one stays, then the one whose kind comes first, then the one nearer the eye.
+    """
+    ends = np.stack(_part_ends(lines, seen), axis=2).reshape(3, -1)
+    image = view.image_of(ends)
+    points = (page_from_image[:2, :2] @ image).T + page_from_image[:2, 2]
+    count = len(seen.segment)
+    kind, item = lines.kind[seen.segment], lines.item[seen.segment]
+    offsets = np.arange(0, 2 * count + 1, 2)
+    open_ = np.zeros(count, dtype=np.bool_)
+    # Lines at the same depth but for rounding go by their items: so neither size nor place decides which one stays.
+    depth = np.round(view.depth_of(ends).reshape(-1, 2).sum(axis=1), 8)
+    order = np.lexsort((item, depth, kind, seen.hidden_by > 0))
+    rank = np.empty(count, dtype=np.intp)
+    rank[order] = np.arange(count)
+    world = page_from_world(view, page_from_image)
+    paths = Paths(points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends))
+    return without_duplicates(paths, rank, COINCIDENT_MM, world)
+
+
+def page_from_world(view: View, page_from_image: Floats) -> Floats:
+    """(4,4) matrix from points (x,y,z,1) of the world to homogeneous points of the page in mm; the third row keeps
+    z."""
+    scaled = np.diag([1.0 / view.scale, 1.0 / view.scale, 1.0])
+    rows = page_from_image @ scaled @ view.image_from_world
+    return np.vstack([rows[:2], [0.0, 0.0, 1.0, 0.0], rows[2:]])

@@ -40,12 +40,16 @@ def face_intersections(faces: Faces, part: Ints, tolerance: float) -> Intersecti
     one, two = _pairs_of_faces(faces, part, tolerance)
     for first in range(0, len(one), PAIRS_AT_ONCE):
         found.append(_meet(faces, one[first : first + PAIRS_AT_ONCE], two[first : first + PAIRS_AT_ONCE], tolerance))
-    return Intersections(
-        np.concatenate([f.start for f in found], axis=1),
-        np.concatenate([f.end for f in found], axis=1),
-        np.concatenate([f.one for f in found]),
-        np.concatenate([f.two for f in found]),
-    )
+    start, end = (np.concatenate([getattr(f, name) for f in found], axis=1) for name in ("start", "end"))
+    one, two = (np.concatenate([getattr(f, name) for f in found]) for name in ("one", "two"))
+    first = _first_of_equal(start, end, tolerance)
+    return Intersections(start[:, first], end[:, first], one[first], two[first])
+
+
+def _first_of_equal(start: Floats, end: Floats, tolerance: float) -> Ints:
+    """The segments of which no earlier one is the same: many faces may meet in one edge."""
+    steps = np.round(np.concatenate([start + end, np.abs(end - start)]) / (8.0 * tolerance)).T
+    return np.asarray(np.sort(np.unique(steps, axis=0, return_index=True)[1]), dtype=np.intp)
 
 
 def _pairs_of_faces(faces: Faces, part: Ints, tolerance: float) -> tuple[Ints, Ints]:
@@ -162,8 +166,9 @@ def _meet(faces: Faces, one: Ints, two: Ints, tolerance: float) -> Intersections
     normal_one, normal_two = unit_normals(faces, one), unit_normals(faces, two)
     origin_one, origin_two = (faces.points[:, faces.corners[faces.offsets[f]]] for f in (one, two))
     across = np.cross(normal_one, normal_two, axis=0)
-    apart = ~_straddles(faces, two, normal_one, origin_one, tolerance) | ((across * across).sum(axis=0) == 0.0)
-    kept = np.flatnonzero(~apart)
+    meet = _reaches_over(faces, two, normal_one, origin_one, tolerance) & ((across * across).sum(axis=0) > 0.0)
+    some = np.flatnonzero(meet)
+    kept = some[_reaches_over(faces, one[some], normal_two[:, some], origin_two[:, some], tolerance)]
     one, two, across = one[kept], two[kept], across[:, kept]
     start, end, cuts = _cut_by_plane(faces, one, normal_two[:, kept], origin_two[:, kept], across, tolerance)
     kept_two = normal_two[:, kept][:, cuts]
@@ -195,13 +200,14 @@ def _heights(
     return height, position, owner, starts
 
 
-def _straddles(faces: Faces, which: Ints, normal: Floats, origin: Floats, tolerance: float) -> Bools:
-    """Which faces reach both sides of a plane, or touch it without lying in it."""
+def _reaches_over(faces: Faces, which: Ints, normal: Floats, origin: Floats, tolerance: float) -> Bools:
+    """Which faces reach both sides of a plane, or have an edge in it without lying in it."""
     if not len(which):
         return np.zeros(0, dtype=np.bool_)
     height, _, _, starts = _heights(faces, which, normal, origin, tolerance)
     low, high = np.minimum.reduceat(height, starts), np.maximum.reduceat(height, starts)
-    return np.asarray((low <= 0.0) & (high >= 0.0) & (low < high), dtype=np.bool_)
+    in_plane = np.add.reduceat((height == 0.0).astype(np.intp), starts)
+    return np.asarray((low < 0.0) & (high > 0.0) | (in_plane > 1) & (low < high), dtype=np.bool_)
 
 
 def _cut_by_plane(

@@ -56,11 +56,15 @@ class Lattice:
         """f at lattice points (...), each point evaluated once."""
         _, first, back = np.unique(self.ids(at).ravel(), return_index=True, return_inverse=True)
         points = self.points((at[0].ravel()[first], at[1].ravel()[first]))
+        return self.values_beside(points)[back].reshape(at[0].shape)
+
+    def values_beside(self, points: Floats) -> Floats:
+        """(k,) f at points (k,2), or right beside them where it is not defined; NaN in a hole."""
         w = self.field.values(points)
         holes = np.isnan(w)
         if holes.any():
             w[holes] = next_to(self.field, points[holes], self.field.size / self.shape)
-        return w[back].reshape(at[0].shape)
+        return w
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +106,8 @@ def near_cells(w: Floats, closed: tuple[bool, bool]) -> tuple[Bools, Bools]:
     i, j = np.nonzero(near)
     g = np.stack([_corner_values(by_u, i, j), _corner_values(by_v, i, j)], axis=-1)
     odd = np.zeros_like(near)
-    odd[i, j] = ~_aligned(g)
+    # Where f is zero all over there is no curve to look for.
+    odd[i, j] = ~_aligned(g) & (_corner_values(w, i, j) != 0.0).any(axis=0)
     return near, odd
 
 
@@ -145,9 +150,9 @@ def _aligned(g: Floats) -> Bools:
     return np.asarray((product > ALIGNED * sizes).all(axis=0), dtype=np.bool_)
 
 
-def subdivided(lattice: Lattice, odd: Bools) -> Subdivision:
+def subdivided(lattice: Lattice, odd: Bools, noise: float) -> Subdivision:
     """The cells of the grid that are odd (columns, rows), cut into four again and again as long as they stay odd, down
-    to the lattice's last level; neighbours differ by one level at most."""
+    to the lattice's last level; neighbours differ by one level at most. Values up to noise count as zero."""
     i, j = np.nonzero(odd)
     marked: list[Cells] = []
     complete = True
@@ -161,17 +166,18 @@ def subdivided(lattice: Lattice, odd: Bools) -> Subdivision:
         i, j = (
             (2 * x[:, None] + step).ravel() for x, step in ((i, np.array([0, 0, 1, 1])), (j, np.array([0, 1, 0, 1])))
         )
-        still = _odd(lattice, Cells(i, j), level + 1)
+        still = _odd(lattice, Cells(i, j), level + 1, noise)
         i, j = i[still], j[still]
     return Subdivision(lattice, _graded(lattice, marked), Cells(i, j), complete)
 
 
-def _odd(lattice: Lattice, cells: Cells, level: int) -> Bools:
+def _odd(lattice: Lattice, cells: Cells, level: int, noise: float) -> Bools:
     """(k,) cells in which f may be zero and the curve more than one arc, judged by nine values each."""
     step = lattice.units >> level + 1
     a, b = np.meshgrid(np.arange(3), np.arange(3), indexing="ij")
     at = (step * (2 * cells.i + a[..., None]), step * (2 * cells.j + b[..., None]))
     w = lattice.values(at)
+    w[np.abs(w) <= noise] = 0.0
     holes = np.isnan(w)
     by_u, by_v = np.diff(w, axis=0), np.diff(w, axis=1)
     change = _most(by_u) + _most(by_v)
@@ -180,7 +186,7 @@ def _odd(lattice: Lattice, cells: Cells, level: int) -> Bools:
     crossed = negative.any(axis=(0, 1)) & (~negative & ~holes).any(axis=(0, 1))
     g = np.stack([_at_nodes(by_u, 0), _at_nodes(by_v, 1)], axis=-1)
     aligned = _aligned(g.reshape(9, -1, 2))
-    return np.asarray((np.isfinite(least) & (least <= change) | crossed) & ~aligned)
+    return np.asarray((np.isfinite(least) & (least <= change) | crossed) & ~aligned & (w != 0.0).any(axis=(0, 1)))
 
 
 def _at_nodes(d: Floats, axis: int) -> Floats:
@@ -325,15 +331,23 @@ def _fans(subdivision: Subdivision, w: Floats) -> list[Corners]:
 
 def _leaves(subdivision: Subdivision, level: int) -> Cells:
     """Cells of a level that are cut into a fan: children of split cells, or on level 0 neighbours of split ones."""
-    rows, split = subdivision.lattice.rows, subdivision.split
-    if level == 0:
-        i, j = np.divmod(split[0], rows)
-        beside = np.array([(1, 0), (-1, 0), (0, 1), (0, -1)])
-        i, j, inside = _inside(subdivision.lattice, i[:, None] + beside[:, 0], j[:, None] + beside[:, 1], 0)
-        i, j = np.divmod(np.unique(i[inside] * rows + j[inside]), rows)
-    else:
-        parent: Ints = split[level - 1]
-        i, j = parent // (rows << level - 1), parent % (rows << level - 1)
-        i, j = (2 * i[:, None] + [0, 0, 1, 1]).ravel(), (2 * j[:, None] + [0, 1, 0, 1]).ravel()
-    whole = ~_is_split(subdivision, i, j, level)
-    return Cells(i[whole], j[whole])
+    cells = _children(subdivision, level - 1) if level else _beside_split(subdivision)
+    whole = ~_is_split(subdivision, cells.i, cells.j, level)
+    return Cells(cells.i[whole], cells.j[whole])
+
+
+def _children(subdivision: Subdivision, level: int) -> Cells:
+    """The quarters of the split cells of a level."""
+    rows, keys = subdivision.lattice.rows << level, subdivision.split[level]
+    i, j = 2 * (keys // rows), 2 * (keys % rows)
+    return Cells((i[:, None] + (0, 0, 1, 1)).ravel(), (j[:, None] + (0, 1, 0, 1)).ravel())
+
+
+def _beside_split(subdivision: Subdivision) -> Cells:
+    """The cells of the grid that have a side in common with a split one."""
+    rows, keys = subdivision.lattice.rows, subdivision.split[0]
+    i, j, inside = _inside(
+        subdivision.lattice, (keys // rows)[:, None] + (1, -1, 0, 0), (keys % rows)[:, None] + (0, 0, 1, -1), 0
+    )
+    found = np.unique(i[inside] * rows + j[inside])
+    return Cells(found // rows, found % rows)

@@ -98,25 +98,26 @@ def zero_manifold_of_f_uv(
     field, w = grid_values(scalar_field(f, domain, gradient), columns, rows)
     scale = _scale(w)
     w[np.abs(w) <= NOISE * scale] = 0.0
+    zero = _zero(field, scale)
     near, odd = near_cells(w, field.closed)
     odd &= near
     levels = _levels(columns, rows, resolution)
-    subdivision = subdivided(Lattice(field, columns, rows, levels), odd)
+    subdivision = subdivided(Lattice(field, columns, rows, levels), odd, NOISE * scale)
     lattice = subdivision.lattice
-    traced = crossing_segments(lattice, triangles_near(subdivision, w, near), scale)
+    traced = crossing_segments(lattice, triangles_near(subdivision, w, near), scale, zero)
     cell = field.size / (columns << levels, rows << levels)
     middles = field.start + (np.stack([subdivision.odd.i, subdivision.odd.j], axis=1) + 0.5) * cell
-    doubles = double_points(field, middles, cell, DOUBLE * scale)
+    doubles = double_points(field, middles, cell, max(DOUBLE * scale, zero))
     line = doubles.flat & (doubles.flat.sum() > MOST_ALONE)
     single = doubles.points[~line]
     joined = joined_at_nodes(field, traced.points, traced.pairs, single, cell)
     lines = _polylines(field, joined.points, joined.segments)
     lines, dots = without_repeats(lines, field.size)
-    lines = _to_holes(field, lines, cell, RESIDUAL * scale) if np.isnan(w).any() else lines
+    lines = _to_holes(field, lines, cell, zero) if np.isnan(w).any() else lines
     unsure = 0
     if tolerance is not None:
         measure = positions or (lambda u, v: np.stack([u, v], axis=-1))
-        lines, unsure = refined(field, lines, measure, tolerance, RESIDUAL * scale)
+        lines, unsure = refined(field, lines, measure, tolerance, zero)
     alone = single[joined.meets == 0]
     isolated = np.concatenate([alone, field.wrapped(_far(field, dots, single, cell))])
     return _result(
@@ -144,6 +145,12 @@ def _scale(w: Floats) -> float:
     if not len(size):
         return 0.0
     return float(np.median(size)) or float(size.max())
+
+
+def _zero(field: ScalarField, scale: float) -> float:
+    """The |f| that points are brought down to; more than RESIDUAL where parameters are large and rounded."""
+    rounding = np.spacing(np.abs(field.start) + field.size) / field.size
+    return scale * max(RESIDUAL, 64.0 * float(rounding.max()))
 
 
 def _levels(columns: int, rows: int, resolution: float) -> int:

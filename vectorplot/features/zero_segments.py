@@ -13,7 +13,7 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints
 RESIDUAL = 1e-12
 """Part of the scale of f down to which |f| is brought at every point."""
 
-NOISE = 2.0**-50
+NOISE = 2.0**-46
 """Part of the scale of f below which a value at a grid point is rounding and counts as zero."""
 
 FALLS = 1e-3
@@ -41,7 +41,7 @@ class Sides:
     slope: Floats
 
 
-def crossing_segments(lattice: Lattice, corners: Corners, scale: float) -> Segments:
+def crossing_segments(lattice: Lattice, corners: Corners, scale: float, zero: float) -> Segments:
     """The piece of the curve in every triangle that changes sign.
 
     A side is one for both its triangles, and so is the point on it. Zero counts as positive, so a curve through a
@@ -63,7 +63,7 @@ def crossing_segments(lattice: Lattice, corners: Corners, scale: float) -> Segme
     a, b = np.where(swap, b, a), np.where(swap, a, b)
     first, side = _distinct(ids[each, a], ids[each, b])
     sides = _sides(corners, w, rows[first], a[first], b[first])
-    points, genuine = _zeros(lattice, sides, scale)
+    points, genuine = _zeros(lattice, sides, scale, zero)
     one, two = side[: len(row)], side[len(row) :]
     pairs = np.stack([np.where(alone, two, one), np.where(alone, one, two)], axis=1)
     return Segments(points, pairs[genuine[pairs].all(axis=1)], int((~genuine).sum()))
@@ -85,22 +85,34 @@ def _sides(corners: Corners, w: Floats, row: Ints, a: Ints, b: Ints) -> Sides:
     return Sides(start, along, np.stack([w[row, a], w[row, b]], axis=1), np.stack(slope, axis=1))
 
 
-def _zeros(lattice: Lattice, sides: Sides, scale: float) -> tuple[Floats, Bools]:
+def _zeros(lattice: Lattice, sides: Sides, scale: float, zero: float) -> tuple[Floats, Bools]:
     """The points (k,2) of the curve on the sides, and which of them are zeros of f indeed."""
     w0, w1 = sides.w.T
     size = np.maximum(np.abs(w0), np.abs(w1))
-    small = np.minimum(np.maximum(RESIDUAL / 8.0 * size, NOISE * scale), RESIDUAL * scale)
+    small = np.minimum(np.maximum(RESIDUAL / 8.0 * size, NOISE * scale), zero)
 
     def at(t: Floats, which: Ints) -> Floats:
         i, j = (sides.start[which] + t[:, None] * sides.along[which]).T
-        return lattice.field.values(lattice.points((i, j)))
+        return lattice.values_beside(lattice.points((i, j)))
 
     t, rest = bracketed_zeros(at, w0, w1, _guess(sides), small)
     exact = (w0 == 0.0) | (w1 == 0.0)
     t = np.where(w0 == 0.0, 0.0, np.where(w1 == 0.0, 1.0, t))
-    falls = np.abs(rest) <= np.maximum(FALLS * np.minimum(np.abs(w0), np.abs(w1)), RESIDUAL * scale)
+    falls = np.abs(rest) <= np.maximum(FALLS * np.minimum(np.abs(w0), np.abs(w1)), _rounding(lattice, sides) + zero)
     i, j = (sides.start + t[:, None] * sides.along).T
     return lattice.points((i, j)), np.asarray(exact | falls, dtype=np.bool_)
+
+
+def _rounding(lattice: Lattice, sides: Sides) -> Floats:
+    """(k,) what the rounding of the parameters alone makes of f: far from zero there are few of them in a cell."""
+    field = lattice.field
+    part = (
+        np.spacing(np.abs(field.start) + field.size)
+        * lattice.shape
+        / field.size
+        / np.abs(sides.along).max(axis=1)[:, None]
+    )
+    return np.asarray(4.0 * part.sum(axis=1) * np.abs(sides.w[:, 1] - sides.w[:, 0]))
 
 
 def _guess(sides: Sides) -> Floats:

@@ -94,6 +94,12 @@ class Scene:
     background: str | None = None
     title: str = ""
 
+    def __len__(self) -> int:
+        return len(self.items)
+
+    def __repr__(self) -> str:
+        return f"<Scene {self.title!r}: {len(self.items)} items, {len(self.lights)} lights>"
+
     @cached_property
     def vertices(self) -> Floats:
         """(v,3) the vertices of all items, one item after the other."""

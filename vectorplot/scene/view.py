@@ -55,6 +55,9 @@ class View:
     scale: float
     axes: Floats
 
+    def __len__(self) -> int:
+        return self.face_count
+
     @property
     def face_count(self) -> int:
         """How many faces there are."""

@@ -26,7 +26,7 @@ def covered_cells(view: View, grid: Grid, occluders: Occluders) -> Floats32:
     table = np.full(int(grid.first[-1]), np.inf, dtype=np.float32)
     occluder, column, row, level = _inner_cells(grid, occluders.box)
     if len(occluder):
-        whole = _inside_outline(view, grid, occluders, occluder, column, row, level, np.minimum, MARGIN)
+        whole = _inside_outline(view, grid, occluders, (occluder, column, row, level), np.minimum, MARGIN)
         cell = grid.numbers(column[whole], row[whole], level[whole])
         np.minimum.at(table, cell, occluders.farthest[occluder[whole]])
     for level_above in range(grid.levels - 1, 0, -1):
@@ -47,12 +47,10 @@ def entered(view: View, grid: Grid, occluders: Occluders, which: Ints) -> Entrie
     occluder, level = which[thing], level[thing]
     doubtful = np.flatnonzero(large[thing])
     if len(doubtful):
-        free = np.ones(len(thing), dtype=np.bool_)
-        free[doubtful] = ~_inside_outline(
-            view, grid, occluders, *(part[doubtful] for part in (occluder, column, row, level)), np.maximum, -MARGIN
-        )
-        free[~large[thing]] = False
-        occluder, column, row, level = (part[~free] for part in (occluder, column, row, level))
+        cells = tuple(part[doubtful] for part in (occluder, column, row, level))
+        kept = np.ones(len(thing), dtype=np.bool_)
+        kept[doubtful] = _inside_outline(view, grid, occluders, cells, np.maximum, -MARGIN)
+        occluder, column, row, level = occluder[kept], column[kept], row[kept], level[kept]
     return grids.entries(grid, occluder, column, row, level)
 
 
@@ -60,15 +58,14 @@ def _inside_outline(
     view: View,
     grid: Grid,
     occluders: Occluders,
-    occluder: Ints,
-    column: Ints,
-    row: Ints,
-    level: Ints,
+    cells: tuple[Ints, ...],
     extreme: Callable[[Floats, float], Floats],
     margin: float,
 ) -> Bools:
-    """Which cells have an extreme distance above the margin from every plane of an occluder's outline: with the minimum
-    those that lie wholly inside it, with the maximum all those that touch it and a few near its corners."""
+    """Which cells, given as (occluder, column, row, level), have an extreme distance above the margin from every
+    plane of an occluder's outline: with the minimum those that lie wholly inside it, with the maximum all those that
+    touch it and a few near its corners."""
+    occluder, column, row, level = cells
     size = grid.cell * (1 << level)
     corner = np.stack([grid.left + column * size, grid.bottom + row * size])
     if view.eye is None:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.geometry.mesh import Floats
+from vectorplot.scene.scene import Page
 from vectorplot.scene.view import View
+from vectorplot.visibility.lines import Lines
 
 WIDEST_DEG = 60.0
 """A picture that is fitted to the page shows what lies up to so many degrees off the principal ray."""
@@ -69,3 +71,25 @@ def reaches_too_far(view: View, start: Floats, end: Floats) -> bool:
         if view.depth_of(points).min() < view.near or np.abs(view.image_of(points)).max() > limit:
             return True
     return False
+
+
+def in_frame(view: View, lines: Lines, page: Page, fit: bool) -> tuple[Lines, bool]:
+    """The lines in front of the eye and inside the picture, and whether all of them fit a page.
+
+    Without fit, and where the scene reaches too far to be fitted, the picture is the camera's field of vision.
+    """
+    fitted = fit and not reaches_too_far(view, lines.start, lines.end)
+    planes = near_plane(view)
+    if not fitted:
+        width, height = page.width_mm - 2.0 * page.margin_mm, page.height_mm - 2.0 * page.margin_mm
+        unit = view.picture_height / (height if fit else page.height_mm)
+        planes = np.concatenate([planes, window_planes(view, unit * width / 2.0, unit * height / 2.0)])
+    if len(planes):
+        low, high = inside(planes, lines.start, lines.end)
+        kept = np.flatnonzero(low < high)
+        lines, low, high = lines.some(kept), low[kept], high[kept]
+        along = lines.end - lines.start
+        start = np.where(low > 0.0, lines.start + low * along, lines.start)
+        end = np.where(high < 1.0, lines.start + high * along, lines.end)
+        lines = Lines(start, end, lines.kind, lines.item, lines.side)
+    return lines, fitted

@@ -15,6 +15,9 @@ Floats32 = NDArray[np.float32]
 MAX_CELLS = 1 << 20
 """Of the finest grid."""
 
+SMALLEST_CELL = 1e-9
+"""In units of the image, in which the scene is about 1 wide."""
+
 PIECES_PER_SEGMENT = 2.0
 """How finely segments may be cut at cell borders, on the average."""
 
@@ -47,8 +50,8 @@ class Grid:
         """The pyramid over the rectangle (left, right, bottom, top) whose finest cells have at least this size."""
         left, right, bottom, top = box
         width, height = max(right - left, 0.0), max(top - bottom, 0.0)
-        extent = max(width, height, np.finfo(float).tiny)
-        cell = max(cell, extent / 2048.0, np.sqrt(width * height / MAX_CELLS), extent * 1e-300)
+        extent = max(width, height)
+        cell = float(max(cell, extent / 2048.0, np.sqrt(width * height / MAX_CELLS), SMALLEST_CELL))
         columns, rows = [int(width / cell) + 1], [int(height / cell) + 1]
         while columns[-1] > 1 or rows[-1] > 1:
             columns.append((columns[-1] + 1) // 2)

@@ -45,6 +45,9 @@ class Visibility:
     high: Floats
     hidden_by: Ints
 
+    def __len__(self) -> int:
+        return len(self.segment)
+
 
 def visible_parts(
     view: View, faces: ProjectedFaces, solid: Bools, segments: Segments, progress: Progress

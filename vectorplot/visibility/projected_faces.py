@@ -31,6 +31,9 @@ class ProjectedFaces:
     box: Floats32
     nearest: Floats32
 
+    def __len__(self) -> int:
+        return len(self.facing)
+
 
 def project_faces(view: View) -> ProjectedFaces:
     """The faces of the view in the image.

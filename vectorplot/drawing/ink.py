@@ -1,0 +1,43 @@
+"""From pieces to what a pen draws: long strokes in a good order."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from vectorplot.drawing.dashes import dashed
+from vectorplot.drawing.drawing import Layer, Paths
+from vectorplot.drawing.join import joined
+from vectorplot.drawing.page import COINCIDENT_MM
+from vectorplot.drawing.pen_order import pen_ordered
+from vectorplot.drawing.pieces import chosen, concatenated
+from vectorplot.drawing.simplify import without_collinear_points
+from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.strokes import LineKind
+
+COLLINEAR_MM = 1e-3
+"""A point that is no further from the straight line between its neighbours is left out: the last digit of the files."""
+
+DASH_MM = (2.0, 1.0)
+"""Dash and gap of hidden lines."""
+
+
+def inked(layers: tuple[Layer, ...], hidden: str, world: Floats) -> tuple[Layer, ...]:
+    """Each layer's strokes joined, without collinear points, hidden ones dashed if asked for, in the order of the
+    pen."""
+    return tuple(
+        replace(layer, marks=tuple(_pen_strokes(mark, hidden, world) for mark in layer.marks)) for layer in layers
+    )
+
+
+def _pen_strokes(paths: Paths, hidden: str, world: Floats) -> Paths:
+    if not len(paths):
+        return paths
+    group = (paths.item * len(LineKind) + paths.kind) * (int(paths.hidden_by.max()) + 1) + paths.hidden_by
+    long = without_collinear_points(joined(paths, group, COINCIDENT_MM), COLLINEAR_MM)
+    if hidden == "dashed" and (long.hidden_by > 0).any():
+        behind = np.flatnonzero(long.hidden_by > 0)
+        dashes = dashed(chosen(long, behind), *DASH_MM, world)
+        long = concatenated((chosen(long, np.flatnonzero(long.hidden_by == 0)), dashes))
+    return pen_ordered(long)
