@@ -224,7 +224,6 @@ def test_a_function_that_is_zero_over_an_area_gives_no_noise():
     def noise(u, v):
         return 1e-16 * np.sin(1e4 * u + 1e5 * v)
 
-    curve = traced(noise)
     assert len(traced(lambda u, v: 0 * u)) == 0
     curve = traced(lambda u, v: np.where(u < 0.0123, 0.3 * np.round(noise(u, v), 18) + 1e-16, 1 + u) - 1e-16)
     assert len(curve) == 0 and len(curve.touching) == 0

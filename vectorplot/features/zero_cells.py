@@ -15,7 +15,7 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints
 ALIGNED = 0.25
 """Cosine down to which the gradients in a cell count as pointing the same way: then the curve is one arc there."""
 
-MOST_CELLS = 1 << 17
+MOST_CELLS = 1 << 15
 """Cells of one size that are subdivided at most."""
 
 Pair = tuple[Ints, Ints]

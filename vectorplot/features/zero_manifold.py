@@ -82,10 +82,11 @@ def zero_manifold_of_f_uv(
 ) -> ZeroManifold:
     """The curve f(u, v) = 0 over a domain, all its branches, each point refined on f to 1e-12 of the scale of f.
 
-    f takes arrays u, v (k,) and returns (k,) values; in closed directions it is periodic. The scale of f is the median
-    of |f| on the grid of columns x rows cells. Where the values and slopes in a cell leave open more than a single
-    arc, the cell is subdivided down to resolution, a part of the domain: a closed branch that is larger is found if
-    the grid feels it, that is if slopes of the size met at the corners of a cell could reach zero inside it.
+    f takes arrays u, v (k,) and returns (k,) values; in closed directions it is periodic. The scale of f is what
+    nineteen in twenty values on the grid of columns x rows cells do not exceed. Where the values and slopes in a cell
+    leave open more than a single arc, the cell is subdivided down to resolution, a part of the domain: a closed branch
+    that is larger is found if the grid feels it, that is if slopes of the size met at the corners of a cell could
+    reach zero inside it.
     positions(u, v) -> (k, 2 or 3) and tolerance: points are put in until chords stay within tolerance of the curve,
     measured between positions (millimetres on a page, for example); without positions in u and v themselves.
     Errors: InputError for fewer than two columns or rows, three in a closed direction.
@@ -107,7 +108,7 @@ def zero_manifold_of_f_uv(
     traced = crossing_segments(lattice, triangles_near(subdivision, w, near), scale, zero)
     cell = field.size / (columns << levels, rows << levels)
     middles = field.start + (np.stack([subdivision.odd.i, subdivision.odd.j], axis=1) + 0.5) * cell
-    doubles = double_points(field, middles, cell, max(DOUBLE * scale, zero))
+    doubles = double_points(field, middles, cell, max(DOUBLE * scale, zero), NOISE * scale)
     line = doubles.flat & (doubles.flat.sum() > MOST_ALONE)
     single = doubles.points[~line]
     joined = joined_at_nodes(field, traced.points, traced.pairs, single, cell)
@@ -140,11 +141,15 @@ def _check(domain: Domain, columns: int, rows: int, resolution: float) -> None:
 
 
 def _scale(w: Floats) -> float:
-    """The median of |w|, or where that is zero the largest."""
+    """The size that nineteen in twenty of the values do not exceed, or if that is zero the largest.
+
+    Poles hardly raise it, and large areas where f is zero do not make it the size of their rounding.
+    """
     size = np.abs(w[np.isfinite(w)])
     if not len(size):
         return 0.0
-    return float(np.median(size)) or float(size.max())
+    place = int(0.95 * (len(size) - 1))
+    return float(np.partition(size, place)[place]) or float(size.max())
 
 
 def _zero(field: ScalarField, scale: float) -> float:

@@ -29,10 +29,11 @@ class DoublePoints:
     flat: Bools
 
 
-def double_points(field: ScalarField, starts: Floats, cell: Floats, zero: float) -> DoublePoints:
+def double_points(field: ScalarField, starts: Floats, cell: Floats, zero: float, noise: float) -> DoublePoints:
     """The double points near starts (k,2), found by Newton on the gradient.
 
-    cell (2,) is the size of the cells that the starts are the middles of; values up to zero count as zero.
+    cell (2,) is the size of the cells that the starts are the middles of; values up to zero count as zero; points
+    around which values up to noise fill a whole sector lie in or at an area where f is zero, and are none.
     """
     if not len(starts):
         return DoublePoints(starts, np.zeros(0, dtype=np.bool_))
@@ -41,12 +42,22 @@ def double_points(field: ScalarField, starts: Floats, cell: Floats, zero: float)
     with np.errstate(invalid="ignore"):
         good = (away <= 3.0) & (np.abs(field.values(points)) <= zero) & np.isfinite(curvature).all(axis=1)
     points, curvature = points[good], curvature[good]
+    good = ~_in_area(field, points, cell, noise)
+    points, curvature = points[good], curvature[good]
     if not len(points):
         return DoublePoints(points, np.zeros(0, dtype=np.bool_))
     group = close_points(np.pad(_around(field, points) / cell, ((0, 0), (0, 1))), 0.05)
     first = np.unique(group, return_index=True)[1]
     size = np.sort(np.abs(curvature[first]), axis=1)
     return DoublePoints(points[first], np.asarray(size[:, 0] <= FLAT * size[:, 1], dtype=np.bool_))
+
+
+def _in_area(field: ScalarField, points: Floats, cell: Floats, noise: float) -> Bools:
+    """(k,) whether f is zero in three or more of eight places around points; off the axes, where nodes have zeros."""
+    angle = 0.4142 + np.arange(8) * np.pi / 4.0
+    ring = points[:, None] + np.stack([np.cos(angle), np.sin(angle)], axis=1) * cell
+    w = field.values(ring.reshape(-1, 2)).reshape(-1, 8)
+    return np.asarray((np.abs(w) <= noise).sum(axis=1) >= 3, dtype=np.bool_)
 
 
 def _around(field: ScalarField, points: Floats) -> Floats:
