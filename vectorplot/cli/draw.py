@@ -6,6 +6,7 @@ import errno
 import math
 import os
 import sys
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +15,7 @@ import click
 from vectorplot.cli.options import DRAWN, KINDS, at_least, between, format_of, kinds, number, point, sheet
 from vectorplot.cli.progress import progress_bar, table, told_warnings
 from vectorplot.cli.view import CameraOptions, camera_from, page_from
+from vectorplot.errors import InputWarning
 
 if TYPE_CHECKING:
     from vectorplot.plan import StageReport
@@ -104,6 +106,8 @@ def draw_file(
             progress=progress,
             explain=reports.append,
         )
+        if not any(len(paths) for layer in drawing.layers for paths in layer.marks):
+            warnings.warn(f"{scene_file}: nothing to draw: the picture is empty", InputWarning, stacklevel=2)
         content = walk.run("write", write, drawing, format_)
         write_out(out, content)
 
