@@ -185,3 +185,12 @@ def test_too_few_cells(columns, closed):
 def test_a_function_that_does_not_give_one_value_each():
     with pytest.raises(InputError, match="one value for each"):
         zero_manifold_of_f_uv(lambda u, v: np.stack([u, v]), SQUARE, columns=4, rows=4)
+
+
+def test_a_curve_that_leaves_the_domain_between_two_grid_points_is_cut_there():
+    top = 1.001
+    curve = zero_manifold_of_f_uv(lambda u, v: v + (u - 0.025) ** 2 - top, SQUARE, columns=20, rows=20, tolerance=1e-4)
+    assert len(curve) == 2 and np.abs(curve.points).max() <= 1 + 1e-12 and not curve.doubts
+    ends = np.concatenate([curve[k][[0, -1]] for k in range(2)])
+    on_top = np.sort(ends[ends[:, 1] > 0.999, 0])
+    assert np.allclose(on_top, 0.025 + np.array([-1, 1]) * np.sqrt(top - 1), atol=1e-9)

@@ -107,7 +107,8 @@ def near_cells(w: Floats, closed: tuple[bool, bool]) -> tuple[Bools, Bools]:
     g = np.stack([_corner_values(by_u, i, j), _corner_values(by_v, i, j)], axis=-1)
     odd = np.zeros_like(near)
     # Where f is zero all over there is no curve to look for.
-    odd[i, j] = ~_aligned(g) & (_corner_values(w, i, j) != 0.0).any(axis=0)
+    turning = _turning_at_border(g[[[0, 3], [1, 2]]], i, j, near.shape, closed)
+    odd[i, j] = (~_aligned(g) | turning) & (_corner_values(w, i, j) != 0.0).any(axis=0)
     return near, odd
 
 
@@ -150,6 +151,17 @@ def _aligned(g: Floats) -> Bools:
     return np.asarray((product > ALIGNED * sizes).all(axis=0), dtype=np.bool_)
 
 
+def _turning_at_border(g: Floats, i: Ints, j: Ints, ends: tuple[int, int], closed: tuple[bool, bool]) -> Bools:
+    """(k,) cells with a side on an open border of the domain along which f stops rising or falling: there the curve
+    may leave the domain and come back. g (p,p,k,2) are gradients at nodes of the cells, ends the numbers of cells."""
+    found = np.zeros(len(i), dtype=np.bool_)
+    for axis, at in ((0, i), (1, j)):
+        for side, last in ((0, 0), (-1, ends[axis] - 1)):
+            along = np.take(g, side, axis=axis)[..., 1 - axis]
+            found |= (at == last) & (along.min(axis=0) * along.max(axis=0) <= 0.0) & (not closed[axis])
+    return found
+
+
 def subdivided(lattice: Lattice, odd: Bools, noise: float) -> Subdivision:
     """The cells of the grid that are odd (columns, rows), cut into four again and again as long as they stay odd, down
     to the lattice's last level; neighbours differ by one level at most. Values up to noise count as zero."""
@@ -185,8 +197,10 @@ def _odd(lattice: Lattice, cells: Cells, level: int, noise: float) -> Bools:
     negative = w < 0.0
     crossed = negative.any(axis=(0, 1)) & (~negative & ~holes).any(axis=(0, 1))
     g = np.stack([_at_nodes(by_u, 0), _at_nodes(by_v, 1)], axis=-1)
-    aligned = _aligned(g.reshape(9, -1, 2))
-    return np.asarray((np.isfinite(least) & (least <= change) | crossed) & ~aligned & (w != 0.0).any(axis=(0, 1)))
+    ends = (lattice.columns << level, lattice.rows << level)
+    turning = _turning_at_border(g, cells.i, cells.j, ends, lattice.field.closed)
+    simple = _aligned(g.reshape(9, -1, 2)) & ~turning
+    return np.asarray((np.isfinite(least) & (least <= change) | crossed) & ~simple & (w != 0.0).any(axis=(0, 1)))
 
 
 def _at_nodes(d: Floats, axis: int) -> Floats:
