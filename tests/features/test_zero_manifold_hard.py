@@ -228,3 +228,10 @@ def test_a_function_that_is_zero_over_an_area_gives_no_noise():
     curve = traced(lambda u, v: np.where(u < 0.0123, 0.3 * np.round(noise(u, v), 18) + 1e-16, 1 + u) - 1e-16)
     assert len(curve) == 0 and len(curve.touching) == 0
     assert any("zero all over" in text for text in curve.doubts)
+
+
+@pytest.mark.hard(40)
+def test_oval_below_the_resolution_is_found_or_said_to_be_missing():
+    curve = traced(lambda u, v: (u - 0.1234) ** 2 + (v + 0.0456) ** 2 - 1e-8)
+    assert len(curve) == 0 and "smaller than the resolution" in curve.doubts[0]
+    assert len(traced(lambda u, v: (u - 0.1234) ** 2 + (v + 0.0456) ** 2 - 1e-8, resolution=5e-5)) == 1

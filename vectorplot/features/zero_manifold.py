@@ -11,7 +11,7 @@ from vectorplot.errors import InputError
 from vectorplot.features.grid_triangulation import triangulate_surface
 from vectorplot.features.scalar_field import Function, Gradient, ScalarField, grid_points, grid_values, scalar_field
 from vectorplot.features.zero_cells import MOST_CELLS, Lattice, near_cells, subdivided, triangles_near
-from vectorplot.features.zero_nodes import MOST_ALONE, DoublePoints, double_points, joined_at_nodes
+from vectorplot.features.zero_nodes import MOST_ALONE, double_points, joined_at_nodes
 from vectorplot.features.zero_refinement import (
     Polylines,
     Positions,
@@ -112,6 +112,7 @@ def zero_manifold_of_f_uv(
     line = doubles.flat & (doubles.flat.sum() > MOST_ALONE)
     single = doubles.points[~line]
     joined = joined_at_nodes(field, traced.points, traced.pairs, single, cell)
+    missed = _far(field, doubles.ovals, traced.points, cell)
     lines = _polylines(field, joined.points, joined.segments)
     lines, dots = without_repeats(lines, field.size)
     lines = _to_holes(field, lines, cell, zero) if np.isnan(w).any() else lines
@@ -127,7 +128,7 @@ def zero_manifold_of_f_uv(
         single[joined.meets > 0],
         isolated,
         doubles.points[line],
-        _doubts(w, traced.poles, subdivision.complete, unsure, doubles, line),
+        _doubts(w, traced.poles, subdivision.complete, unsure, len(missed), int(line.sum())),
         np.concatenate([grid_points(field, columns, rows), w[..., None]], axis=2),
     )
 
@@ -244,7 +245,7 @@ def _result(
     )
 
 
-def _doubts(w: Floats, poles: int, complete: bool, unsure: int, doubles: DoublePoints, line: Bools) -> tuple[str, ...]:
+def _doubts(w: Floats, poles: int, complete: bool, unsure: int, missed: int, line: int) -> tuple[str, ...]:
     """What could not be decided, a sentence each."""
     flat = (w[:-1, :-1] == 0.0) & (w[1:, :-1] == 0.0) & (w[1:, 1:] == 0.0) & (w[:-1, 1:] == 0.0)
     found = [
@@ -252,6 +253,7 @@ def _doubts(w: Floats, poles: int, complete: bool, unsure: int, doubles: DoubleP
         (poles > 0, f"f changes its sign without being zero at {poles} places: poles or jumps, not part of the curve"),
         (not complete, f"more than {MOST_CELLS} small cells: branches smaller than a cell of the grid may be missing"),
         (unsure > 0, f"{unsure} segments could not be refined: the curve was not found beside their chords"),
-        (line.any(), f"f touches zero along a line without changing its sign: {line.sum()} places of it are given"),
+        (missed > 0, "closed branches smaller than the resolution are missing: ask for a finer one"),
+        (line > 0, f"f touches zero along a line without changing its sign: {line} places of it are given"),
     ]
     return tuple(text for said, text in found if said)

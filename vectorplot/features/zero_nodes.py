@@ -23,10 +23,11 @@ MOST_ALONE = 16
 @dataclass(frozen=True, eq=False)
 class DoublePoints:
     """points (k,2) where f and its gradient vanish; flat (k,): f has no curvature in some direction there, as along a
-    line where f touches zero, or in a cusp."""
+    line where f touches zero, or in a cusp. ovals (o,2): middles of closed branches smaller than a cell."""
 
     points: Floats
     flat: Bools
+    ovals: Floats
 
 
 def double_points(field: ScalarField, starts: Floats, cell: Floats, zero: float, noise: float) -> DoublePoints:
@@ -36,20 +37,24 @@ def double_points(field: ScalarField, starts: Floats, cell: Floats, zero: float,
     around which values up to noise fill a whole sector lie in or at an area where f is zero, and are none.
     """
     if not len(starts):
-        return DoublePoints(starts, np.zeros(0, dtype=np.bool_))
+        return DoublePoints(starts, np.zeros(0, dtype=np.bool_), starts)
     points, curvature = _critical(field, starts, cell)
     away = np.abs((points - starts) / cell).max(axis=1, initial=0.0)
     with np.errstate(invalid="ignore"):
-        good = (away <= 3.0) & (np.abs(field.values(points)) <= zero) & np.isfinite(curvature).all(axis=1)
+        w, least = field.values(points), np.abs(curvature).min(axis=1)
+        good = (away <= 3.0) & (np.abs(w) <= zero) & np.isfinite(curvature).all(axis=1)
+        # A hollow that dips below zero, or a hill that rises above it, within less than a cell.
+        dips = (curvature * w[:, None] < 0.0).all(axis=1) & (2.0 * np.abs(w) < least)
+    ovals = points[(away <= 3.0) & (np.abs(w) > zero) & dips]
     points, curvature = points[good], curvature[good]
     good = ~_in_area(field, points, cell, noise)
     points, curvature = points[good], curvature[good]
     if not len(points):
-        return DoublePoints(points, np.zeros(0, dtype=np.bool_))
+        return DoublePoints(points, np.zeros(0, dtype=np.bool_), ovals)
     group = close_points(np.pad(_around(field, points) / cell, ((0, 0), (0, 1))), 0.05)
     first = np.unique(group, return_index=True)[1]
     size = np.sort(np.abs(curvature[first]), axis=1)
-    return DoublePoints(points[first], np.asarray(size[:, 0] <= FLAT * size[:, 1], dtype=np.bool_))
+    return DoublePoints(points[first], np.asarray(size[:, 0] <= FLAT * size[:, 1], dtype=np.bool_), ovals)
 
 
 def _in_area(field: ScalarField, points: Floats, cell: Floats, noise: float) -> Bools:
