@@ -194,3 +194,22 @@ def test_a_curve_that_leaves_the_domain_between_two_grid_points_is_cut_there():
     ends = np.concatenate([curve[k][[0, -1]] for k in range(2)])
     on_top = np.sort(ends[ends[:, 1] > 0.999, 0])
     assert np.allclose(on_top, 0.025 + np.array([-1, 1]) * np.sqrt(top - 1), atol=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_random_waves_have_the_same_branches_as_on_a_much_finer_grid(seed):
+    waves = np.random.default_rng(seed).normal(size=(2, 9, 9))
+    domain = Domain(0, TURN, 0, TURN, closed_u=seed % 3 > 0, closed_v=seed % 3 > 1)
+
+    def f(u, v):
+        k = np.arange(-4, 5)
+        along_u, along_v = np.exp(1j * np.multiply.outer(k, u)), np.exp(1j * np.multiply.outer(k, v))
+        return np.einsum("ij,ik,jk->k", waves[0] + 1j * waves[1], along_u, along_v).real
+
+    curve = zero_manifold_of_f_uv(f, domain, columns=30, rows=30, tolerance=1e-3)
+    fine = zero_manifold_of_f_uv(f, domain, columns=150, rows=150)
+    assert len(curve) == len(fine) and sorted(curve.closed) == sorted(fine.closed) and not curve.doubts
+    assert np.abs(f(*curve.points.T)).max() < 1e-11 * np.abs(curve.grid[..., 2]).max()
+    ends = np.concatenate([curve[k][[0, -1]] for k in range(len(curve)) if not curve.closed[k]] or [np.zeros((0, 2))])
+    on_border = (np.abs(ends / TURN - 0.5) >= 0.5 - 1e-9) & ~np.array([domain.closed_u, domain.closed_v])
+    assert on_border.any(axis=1).all()

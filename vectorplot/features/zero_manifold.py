@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.errors import InputError
 from vectorplot.features.grid_triangulation import triangulate_surface
 from vectorplot.features.scalar_field import Function, Gradient, ScalarField, grid_points, grid_values, scalar_field
-from vectorplot.features.zero_cells import MOST_CELLS, Lattice, near_cells, subdivided, triangles_near
+from vectorplot.features.zero_cells import MOST_CELLS, Lattice, Subdivision, near_cells, subdivided, triangles_near
 from vectorplot.features.zero_nodes import MOST_ALONE, double_points, joined_at_nodes
 from vectorplot.features.zero_refinement import (
     Polylines,
@@ -20,7 +20,7 @@ from vectorplot.features.zero_refinement import (
     up_to_holes,
     without_repeats,
 )
-from vectorplot.features.zero_segments import NOISE, RESIDUAL, crossing_segments
+from vectorplot.features.zero_segments import NOISE, RESIDUAL, Segments, crossing_segments
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.outline import concat
 from vectorplot.surfaces.surface import Domain
@@ -98,39 +98,60 @@ def zero_manifold_of_f_uv(
     _check(domain, columns, rows, resolution)
     field, w = grid_values(scalar_field(f, domain, gradient), columns, rows)
     scale = _scale(w)
-    w[np.abs(w) <= NOISE * scale] = 0.0
     zero = _zero(field, scale)
+    w[np.abs(w) <= NOISE * scale] = 0.0
     near, odd = near_cells(w, field.closed)
-    odd &= near
-    levels = _levels(columns, rows, resolution)
-    subdivision = subdivided(Lattice(field, columns, rows, levels), odd, NOISE * scale)
-    lattice = subdivision.lattice
-    traced = crossing_segments(lattice, triangles_near(subdivision, w, near), scale, zero)
-    cell = field.size / (columns << levels, rows << levels)
-    middles = field.start + (np.stack([subdivision.odd.i, subdivision.odd.j], axis=1) + 0.5) * cell
-    doubles = double_points(field, middles, cell, max(DOUBLE * scale, zero), NOISE * scale)
-    line = doubles.flat & (doubles.flat.sum() > MOST_ALONE)
-    single = doubles.points[~line]
-    joined = joined_at_nodes(field, traced.points, traced.pairs, single, cell)
-    missed = _far(field, doubles.ovals, traced.points, cell)
-    lines = _polylines(field, joined.points, joined.segments)
-    lines, dots = without_repeats(lines, field.size)
-    lines = _to_holes(field, lines, cell, zero) if np.isnan(w).any() else lines
-    unsure = 0
+    lattice = Lattice(field, columns, rows, _levels(columns, rows, resolution))
+    subdivision = subdivided(lattice, odd, NOISE * scale)
+    found = _found(subdivision, crossing_segments(lattice, triangles_near(subdivision, w, near), scale, zero), scale)
+    lines, unsure = found.lines, 0
+    if np.isnan(w).any():
+        lines = _to_holes(field, lines, _smallest_cell(lattice), zero)
     if tolerance is not None:
         measure = positions or (lambda u, v: np.stack([u, v], axis=-1))
         lines, unsure = refined(field, lines, measure, tolerance, zero)
-    alone = single[joined.meets == 0]
-    isolated = np.concatenate([alone, field.wrapped(_far(field, dots, single, cell))])
+    doubts = _doubts(w, found, subdivision.complete, unsure)
     return _result(
-        field,
+        field, lines, found, doubts, np.concatenate([grid_points(field, columns, rows), w[..., None]], axis=2)
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """The curve before its chords are looked at: polylines, the double points of ZeroManifold, and how many changes of
+    sign are no zeros and how many closed branches are smaller than a cell."""
+
+    lines: Polylines
+    nodes: Floats
+    isolated: Floats
+    touching: Floats
+    poles: int
+    missed: int
+
+
+def _found(subdivision: Subdivision, traced: Segments, scale: float) -> _Found:
+    """The segments joined to polylines, through the double points among the odd cells."""
+    lattice, odd = subdivision.lattice, subdivision.odd
+    field, cell = lattice.field, _smallest_cell(subdivision.lattice)
+    middles = field.start + (np.stack([odd.i, odd.j], axis=1) + 0.5) * cell
+    doubles = double_points(field, middles, cell, max(DOUBLE * scale, _zero(field, scale)), NOISE * scale)
+    line = doubles.flat & (doubles.flat.sum() > MOST_ALONE)
+    single = doubles.points[~line]
+    joined = joined_at_nodes(field, traced.points, traced.pairs, single, cell)
+    lines, dots = without_repeats(_polylines(field, joined.points, joined.segments), field.size)
+    return _Found(
         lines,
         single[joined.meets > 0],
-        isolated,
+        np.concatenate([single[joined.meets == 0], field.wrapped(_far(field, dots, single, cell))]),
         doubles.points[line],
-        _doubts(w, traced.poles, subdivision.complete, unsure, len(missed), int(line.sum())),
-        np.concatenate([grid_points(field, columns, rows), w[..., None]], axis=2),
+        traced.poles,
+        len(_far(field, doubles.ovals, traced.points, cell)),
     )
+
+
+def _smallest_cell(lattice: Lattice) -> Floats:
+    """(2,) the size of the cells of the last level."""
+    return np.asarray(lattice.field.size / (lattice.columns << lattice.levels, lattice.rows << lattice.levels))
 
 
 def _check(domain: Domain, columns: int, rows: int, resolution: float) -> None:
@@ -223,15 +244,7 @@ def _far(field: ScalarField, points: Floats, known: Floats, cell: Floats) -> Flo
     return np.asarray(points[~((d * d).sum(axis=2) <= 4.0).any(axis=1)])
 
 
-def _result(
-    field: ScalarField,
-    lines: Polylines,
-    nodes: Floats,
-    isolated: Floats,
-    touching: Floats,
-    doubts: tuple[str, ...],
-    grid: Floats,
-) -> ZeroManifold:
+def _result(field: ScalarField, lines: Polylines, found: _Found, doubts: tuple[str, ...], grid: Floats) -> ZeroManifold:
     """The manifold of these polylines; of closed ones the repeated point is dropped."""
     first, last = starts_of(lines.last), np.flatnonzero(lines.last)
     ends = lines.points[first], lines.points[last]
@@ -241,19 +254,29 @@ def _result(
     kept[last[closed]] = False
     offsets = np.concatenate([[0], np.cumsum(last - first + 1 - closed)]).astype(np.intp)
     return ZeroManifold(
-        field.domain, lines.points[kept], offsets, closed, turns, nodes, isolated, touching, doubts, grid
+        field.domain,
+        lines.points[kept],
+        offsets,
+        closed,
+        turns,
+        found.nodes,
+        found.isolated,
+        found.touching,
+        doubts,
+        grid,
     )
 
 
-def _doubts(w: Floats, poles: int, complete: bool, unsure: int, missed: int, line: int) -> tuple[str, ...]:
+def _doubts(w: Floats, found: _Found, complete: bool, unsure: int) -> tuple[str, ...]:
     """What could not be decided, a sentence each."""
     flat = (w[:-1, :-1] == 0.0) & (w[1:, :-1] == 0.0) & (w[1:, 1:] == 0.0) & (w[:-1, 1:] == 0.0)
-    found = [
+    poles, line = found.poles, len(found.touching)
+    texts = [
         (flat.any(), f"f is zero all over {flat.sum()} cells: only the border towards negative values is a curve"),
         (poles > 0, f"f changes its sign without being zero at {poles} places: poles or jumps, not part of the curve"),
         (not complete, f"more than {MOST_CELLS} small cells: branches smaller than a cell of the grid may be missing"),
         (unsure > 0, f"{unsure} segments could not be refined: the curve was not found beside their chords"),
-        (missed > 0, "closed branches smaller than the resolution are missing: ask for a finer one"),
+        (found.missed > 0, "closed branches smaller than the resolution are missing: ask for a finer one"),
         (line > 0, f"f touches zero along a line without changing its sign: {line} places of it are given"),
     ]
-    return tuple(text for said, text in found if said)
+    return tuple(text for said, text in texts if said)
