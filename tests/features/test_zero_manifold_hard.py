@@ -235,3 +235,10 @@ def test_oval_below_the_resolution_is_found_or_said_to_be_missing():
     curve = traced(lambda u, v: (u - 0.1234) ** 2 + (v + 0.0456) ** 2 - 1e-8)
     assert len(curve) == 0 and "smaller than the resolution" in curve.doubts[0]
     assert len(traced(lambda u, v: (u - 0.1234) ** 2 + (v + 0.0456) ** 2 - 1e-8, resolution=5e-5)) == 1
+
+
+@pytest.mark.hard(39)
+def test_circles_that_touch_meet_in_one_node():
+    curve = traced(lambda u, v: (u * u + v * v - 0.49) * ((u - 1.2) ** 2 + v * v - 0.25), cells=20)
+    assert len(curve.nodes) == 1 and np.abs(curve.nodes[0] - (0.7, 0.0)).max() < 2e-3
+    assert not len(curve.isolated) and not len(curve.touching)

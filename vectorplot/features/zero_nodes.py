@@ -51,10 +51,21 @@ def double_points(field: ScalarField, starts: Floats, cell: Floats, zero: float,
     points, curvature = points[good], curvature[good]
     if not len(points):
         return DoublePoints(points, np.zeros(0, dtype=np.bool_), ovals)
-    group = close_points(np.pad(_around(field, points) / cell, ((0, 0), (0, 1))), 0.05)
-    first = np.unique(group, return_index=True)[1]
-    size = np.sort(np.abs(curvature[first]), axis=1)
-    return DoublePoints(points[first], np.asarray(size[:, 0] <= FLAT * size[:, 1], dtype=np.bool_), ovals)
+    first = _apart(field, points, cell, 0.05)
+    points, size = points[first], np.sort(np.abs(curvature[first]), axis=1)
+    flat = size[:, 0] <= FLAT * size[:, 1]
+    if flat.sum() <= MOST_ALONE:
+        # Newton comes to a flat point slowly and from several sides.
+        kept = np.flatnonzero(flat)[_apart(field, points[flat], cell, 1.0)]
+        order = np.sort(np.concatenate([np.flatnonzero(~flat), kept]))
+        points, flat = points[order], flat[order]
+    return DoublePoints(points, np.asarray(flat, dtype=np.bool_), ovals)
+
+
+def _apart(field: ScalarField, points: Floats, cell: Floats, cells: float) -> Ints:
+    """Positions of points that are further apart than a number of cells: the first of each cluster."""
+    group = close_points(np.pad(_around(field, points) / cell, ((0, 0), (0, 1))), cells)
+    return np.unique(group, return_index=True)[1]
 
 
 def _in_area(field: ScalarField, points: Floats, cell: Floats, noise: float) -> Bools:

@@ -97,7 +97,8 @@ def refined(
             break
         probes, on = _probed(field, points[first], points[first + 1], zero)
         bad = _deviation(positions, points[first], points[first + 1], probes) > tolerance * MISSED
-        unsure += int((~on.all(axis=0)).sum())
+        long = _lengths(positions, points[first], points[first + 1]) > tolerance
+        unsure += int((long & ~on.all(axis=0)).sum())
         split = first[bad & on.all(axis=0)]
         open_[:] = False
         open_[split] = True
@@ -129,6 +130,12 @@ def _deviation(positions: Positions, start: Floats, end: Floats, probes: Floats)
             away = arm - t[:, None] * chord
             most = np.fmax(most, np.sqrt((away * away).sum(axis=1)))
     return most
+
+
+def _lengths(positions: Positions, start: Floats, end: Floats) -> Floats:
+    """(k,) distances between positions."""
+    d = _positions(positions, end) - _positions(positions, start)
+    return np.asarray(np.sqrt((d * d).sum(axis=1)))
 
 
 def _positions(positions: Positions, points: Floats) -> Floats:
