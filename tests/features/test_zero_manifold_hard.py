@@ -242,3 +242,9 @@ def test_circles_that_touch_meet_in_one_node():
     curve = traced(lambda u, v: (u * u + v * v - 0.49) * ((u - 1.2) ** 2 + v * v - 0.25), cells=20)
     assert len(curve.nodes) == 1 and np.abs(curve.nodes[0] - (0.7, 0.0)).max() < 2e-3
     assert not len(curve.isolated) and not len(curve.touching)
+
+
+def test_a_circle_that_touches_the_border_is_one_closed_branch():
+    curve = traced(lambda u, v: u * u + v * v - 1, cells=10, tolerance=1e-3)
+    assert len(curve) == 1 and curve.closed.all() and not curve.doubts
+    assert abs(np.linalg.norm(np.diff(curve[0], axis=0), axis=1).sum() - TURN) < 5e-3

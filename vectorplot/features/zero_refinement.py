@@ -37,6 +37,10 @@ def onto_curve(field: ScalarField, points: Floats, across: Floats, zero: float) 
     s = np.zeros(len(points))
     active = np.arange(len(points))
     before, w_before = np.full(len(points), 0.01), field.values(points + 0.01 * across)
+    # Next to a border or a hole the first step goes the other way.
+    turned = np.flatnonzero(np.isnan(w_before))
+    before[turned] *= -1.0
+    w_before[turned] = field.values(points[turned] - 0.01 * across[turned])
     w = field.values(points)
     done = np.abs(w) <= zero
     active = active[~done]
