@@ -111,12 +111,17 @@ def unit_normals(faces: Faces, which: Ints) -> Floats:
     normal = np.zeros_like(a)
     before = p[:, faces.corners[start + 1]] - a
     for step in range(2, int(size.max(initial=0))):
-        has = step < size
-        arm = p[:, faces.corners[start + np.where(has, step, 1)]] - a
-        normal += np.cross(before, arm, axis=0) * has
+        # Where a face has no such corner the arm stays, and adds nothing.
+        arm = p[:, faces.corners[start + np.minimum(step, size - 1)]] - a
+        normal += cross(before, arm)
         before = arm
-    length = np.sqrt((normal * normal).sum(axis=0))
-    return normal / np.where(length > 0.0, length, 1.0)
+    length = np.sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2])
+    return np.asarray(normal / np.where(length > 0.0, length, 1.0), dtype=np.float64)
+
+
+def cross(a: Floats, b: Floats) -> Floats:
+    """(3,n) cross products of columns."""
+    return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
 
 
 def _candidates(faces: Faces, kinds: Collection[LineKind], angle_deg: float) -> Ints:

@@ -194,8 +194,9 @@ def _all_hits(
                 piece, occluder = piece[close], occluder[close]
                 close = np.flatnonzero((occluders.nearest[occluder] < pieces.farthest[piece]) & alive[piece])
                 piece, occluder = piece[close], occluder[close]
-                low, high = pieces.low[piece], pieces.high[piece]
-                yield piece, clip_pairs(view, segments, occluders, pieces.segment[piece], occluder, low, high), occluder
+                segment, low, high = pieces.segment[piece], pieces.low[piece], pieces.high[piece]
+                beyond = pieces.nearest[piece] > occluders.farthest[occluder]
+                yield piece, clip_pairs(view, segments, occluders, segment, occluder, low, high, beyond), occluder
         progress(float(end) / len(order))
 
 

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.features.edges import unbalanced_vertices
+from vectorplot.features.edges import cross, unbalanced_vertices
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.view import View
-from vectorplot.visibility.projected_faces import Floats32, ProjectedFaces, cross, newell
+from vectorplot.visibility.projected_faces import Floats32, ProjectedFaces, newell
 
 MAX_SOLID_FACES = 128
 """A convex solid with more faces hides through its faces: few of them matter to a line, but all of its outline

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.features.edges import cross
+from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.occluders import Occluders
-from vectorplot.visibility.projected_faces import cross
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,29 +35,39 @@ class Hits:
 
 
 def clip_pairs(
-    view: View, segments: Segments, occluders: Occluders, segment: Ints, occluder: Ints, low: Floats, high: Floats
+    view: View,
+    segments: Segments,
+    occluders: Occluders,
+    segment: Ints,
+    occluder: Ints,
+    low: Floats,
+    high: Floats,
+    beyond: Bools,
 ) -> Hits:
     """What occluders hide of segments between the parameters low and high, pair by pair.
 
     The points that a convex thing hides, itself included, form a convex set, so a zone is one interval: the segment
-    clipped by the occluder's planes, those towards the eye first. A distance below the view's tolerance is zero, and
-    zero does not hide; where a segment lies in a plane of the outline, only the shadow's side counts.
+    clipped by the occluder's planes, those towards the eye first; beyond (n,) tells the pairs that need not be
+    clipped by these, since the part lies behind all of the occluder. A distance below the view's tolerance is zero,
+    and zero does not hide; where a segment lies in a plane of the outline, only the shadow's side counts.
     Source: Glaeser, section 7.2; errata G7-01 and G7-02.
     """
-    pair, reach = _behind_first_plane(view, segments, occluders, segment, occluder)
+    skipped = np.where(beyond, occluders.behind[occluder], 0)
+    pair, reach = _over_first_plane(view, segments, occluders, segment, occluders.first[occluder] + skipped, beyond)
     low, high, side = low[pair], high[pair], np.zeros(len(pair), dtype=np.intp)
     ends = np.concatenate([segments.start[:, segment[pair]], segments.end[:, segment[pair]]])
-    first, behind = occluders.first[occluder[pair]], occluders.behind[occluder[pair]]
-    count = occluders.first[occluder[pair] + 1] - first
+    occluder, skipped = occluder[pair], skipped[pair]
+    first, behind = occluders.first[occluder] + skipped, occluders.behind[occluder] - skipped
+    count = occluders.first[occluder + 1] - first
+    through = [(pair[:0], low[:0], high[:0], side[:0])]
     for step in range(int(count.max(initial=0))):
         if step:
-            plane = first + np.minimum(step, count - 1)
-            reach = _heights(view, occluders, plane, ends)
+            reach = _heights(view, occluders, first + step, ends)
         at_start, at_end = reach
         inside = (at_start > 0.0) | (at_end > 0.0)
-        along = np.flatnonzero((at_start == 0.0) & (at_end == 0.0) & (step >= behind) & (step < count))
+        along = np.flatnonzero((at_start == 0.0) & (at_end == 0.0) & (step >= behind))
         if len(along):
-            inward = occluders.planes[:3, first[along] + np.minimum(step, count[along] - 1)]
+            inward = occluders.planes[:3, first[along] + step]
             new = _shadow_side(view, ends[:3, along], ends[3:, along], inward)
             inside[along] = (side[along] == 0) | (side[along] == new)
             side[along] = new
@@ -67,30 +77,33 @@ def clip_pairs(
             leaving = at_start[crossing] > 0.0
             low[crossing] = np.where(leaving, low[crossing], np.maximum(low[crossing], where))
             high[crossing] = np.where(leaving, np.minimum(high[crossing], where), high[crossing])
-        inside |= step >= count
         inside &= low < high
+        last = inside & (count == step + 1)
+        if last.any():
+            through.append((pair[last], low[last], high[last], side[last]))
+            inside &= ~last
         if not inside.all():
             kept = np.flatnonzero(inside)
             pair, side, low, high, ends = pair[kept], side[kept], low[kept], high[kept], ends[:, kept]
             first, count, behind = first[kept], count[kept], behind[kept]
-        if not len(pair):
-            break
+    pair, low, high, side = (np.concatenate(column) for column in zip(*through, strict=True))
     return Hits(pair, low, high, side)
 
 
-def _behind_first_plane(
-    view: View, segments: Segments, occluders: Occluders, segment: Ints, occluder: Ints
+def _over_first_plane(
+    view: View, segments: Segments, occluders: Occluders, segment: Ints, plane: Ints, beyond: Bools
 ) -> tuple[Ints, tuple[Floats, Floats]]:
-    """The pairs of which the segment reaches behind the occluder's first plane, and both ends' distances from it.
+    """The pairs of which the segment reaches over the first plane that is looked at, and both ends' distances from it.
 
-    Most pairs of a mesh end here: the faces around a line do not hide it.
+    Most pairs of a mesh end here: the faces around a line do not hide it. A line in a plane of the outline stays.
     """
-    a, b, c, d = (row[occluders.first[occluder]] for row in occluders.planes)
+    a, b, c, d = (row[plane] for row in occluders.planes)
     x, y, z = segments.start
     at_start = a * x[segment] + b * y[segment] + c * z[segment] - d
     x, y, z = segments.end
     at_end = a * x[segment] + b * y[segment] + c * z[segment] - d
-    pair = np.flatnonzero(np.maximum(at_start, at_end) > view.tolerance)
+    least = np.where(beyond, -view.tolerance, view.tolerance)
+    pair = np.flatnonzero(np.maximum(at_start, at_end) > least)
     return pair, (_snapped(at_start[pair], view.tolerance), _snapped(at_end[pair], view.tolerance))
 
 

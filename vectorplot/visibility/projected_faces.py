@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from vectorplot.features.edges import cross
 from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.scene.view import View
 
@@ -127,23 +128,19 @@ def _through_near_plane(view: View, faces: ProjectedFaces) -> None:
 
 def newell(view: View, faces: Ints) -> tuple[Floats, Floats, Ints]:
     """Area vectors (3,n) of some faces, the length of the longest arm from their first corner, and that corner."""
-    first = view.corners[view.offsets[faces]]
-    if view.is_triangular:
-        a = view.points[:, first]
-        b = view.points[:, view.corners[view.offsets[faces] + 1]] - a
-        c = view.points[:, view.corners[view.offsets[faces] + 2]] - a
-        return cross(b, c), np.sqrt(np.maximum((b * b).sum(axis=0), (c * c).sum(axis=0))), first
-    sizes = view.face_sizes[faces]
-    starts = np.cumsum(sizes) - sizes
-    owner = np.repeat(np.arange(len(faces)), sizes)
-    position = np.arange(len(owner)) - (starts - view.offsets[faces])[owner]
-    origin = view.points[:, first][:, owner]
-    arm = view.points[:, view.corners[position]] - origin
-    after = view.points[:, view.corners[view.after(position)]] - origin
-    length = np.sqrt((arm * arm).sum(axis=0))
-    return np.add.reduceat(cross(arm, after), starts, axis=1), np.maximum.reduceat(length, starts), first
+    start, size = view.offsets[faces], view.face_sizes[faces]
+    first = view.corners[start]
+    a = view.points[:, first]
+    before = view.points[:, view.corners[start + 1]] - a
+    normal, longest = np.zeros_like(a), _square(before)
+    for step in range(2, int(size.max(initial=0))):
+        # Where a face has no such corner the arm stays, and adds nothing.
+        arm = view.points[:, view.corners[start + np.minimum(step, size - 1)]] - a
+        normal += cross(before, arm)
+        longest = np.maximum(longest, _square(arm))
+        before = arm
+    return normal, np.sqrt(longest), first
 
 
-def cross(a: Floats, b: Floats) -> Floats:
-    """(3,n) cross products of columns."""
-    return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+def _square(a: Floats) -> Floats:
+    return np.asarray(a[0] * a[0] + a[1] * a[1] + a[2] * a[2], dtype=np.float64)
