@@ -97,8 +97,12 @@ def mesh_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: floa
 
 def _sharp_pairs(faces: Faces, face: Ints, forward: Bools, first: Ints, angle_deg: float) -> Bools:
     """Which edges with the two faces at first and first + 1 are creases."""
-    one, two = unit_normals(faces, face[first]), unit_normals(faces, face[first + 1])
-    cosine = (one * two).sum(axis=0)
+    used = np.zeros(len(faces.offsets) - 1, dtype=np.bool_)
+    used[face[first]] = used[face[first + 1]] = True
+    number = np.cumsum(used) - 1
+    normals = unit_normals(faces, np.flatnonzero(used))
+    one, two = normals[:, number[face[first]]], normals[:, number[face[first + 1]]]
+    cosine = one[0] * two[0] + one[1] * two[1] + one[2] * two[2]
     cosine = np.where(forward[first] == forward[first + 1], -cosine, cosine)
     return np.asarray(cosine < np.cos(np.radians(angle_deg)), dtype=np.bool_)
 

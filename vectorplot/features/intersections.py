@@ -42,8 +42,8 @@ def face_intersections(faces: Faces, part: Ints, tolerance: float) -> Intersecti
         found.append(_meet(faces, one[first : first + PAIRS_AT_ONCE], two[first : first + PAIRS_AT_ONCE], tolerance))
     start, end = (np.concatenate([getattr(f, name) for f in found], axis=1) for name in ("start", "end"))
     one, two = (np.concatenate([getattr(f, name) for f in found]) for name in ("one", "two"))
-    first = _first_of_equal(start, end, tolerance)
-    return Intersections(start[:, first], end[:, first], one[first], two[first])
+    kept = _first_of_equal(start, end, tolerance)
+    return Intersections(start[:, kept], end[:, kept], one[kept], two[kept])
 
 
 def _first_of_equal(start: Floats, end: Floats, tolerance: float) -> Ints:
