@@ -139,7 +139,7 @@ def test_models_read_as_trimesh_reads_them(path: Path) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         (item,) = read(path).items
-        other = trimesh.load_mesh(path, process=False, skip_materials=True)
+        other = trimesh.load_mesh(path, process=False)
     expected = np.linalg.norm(np.cross(*(other.triangles[:, k] - other.triangles[:, 0] for k in (1, 2))), axis=1).sum()
     mesh = item.shape
     fans = np.concatenate([[[f[0], f[k], f[k + 1]] for k in range(1, len(f) - 1)] for f in mesh.polygons()])
