@@ -1,0 +1,180 @@
+"""How far two curves are apart, as sets of points: the Hausdorff distance of polylines in the plane or in space."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.testing.polylines import Curves, points_of, polylines_of
+
+ACCURACY = 1e-9
+"""The default accuracy, as a part of the extent of both curves."""
+
+PAIRS = 1 << 20
+
+
+class Worst(NamedTuple):
+    """The point of one curve that is furthest from the other one: its distance, the point, the polyline and the
+    parameter it has there (index of a segment and share of it), and which of the two it lies on."""
+
+    distance: float
+    point: Floats
+    curve: int
+    parameter: float
+    which: str
+
+
+def hausdorff(a: Curves, b: Curves, *, closed: bool = False, accuracy: float | None = None) -> float:
+    """The Hausdorff distance of two curves: how far the points of either can be from the other one.
+
+    a, b: polylines (n, 2 or 3), or several of them, as sets of segments; of a drawing those in the world. closed: both
+    close even where the last point does not repeat the first. Symmetric; direction and splitting do not matter.
+    Error: the true distance is larger by no more than accuracy (default 1e-9 of the extent of both), and not smaller
+    but for rounding.
+    Errors: AssertionError for curves without points or with points that are not finite.
+    Degenerate: a single point is a curve too.
+    """
+    return worst_of_both(a, b, closed=closed, accuracy=accuracy).distance
+
+
+def worst_of_both(
+    a: Curves, b: Curves, *, closed: bool = False, accuracy: float | None = None, enough: float = 0.0
+) -> Worst:
+    """The point of two curves that is furthest from the other one, see hausdorff; of distances that are not larger
+    than enough, any."""
+    first, second = Segments.of(a, closed), Segments.of(b, closed)
+    if first.ends.shape[2] != second.ends.shape[2]:
+        raise InputError("one curve lies in the plane, the other in space")
+    corners = np.concatenate([first.ends, second.ends]).reshape(-1, first.ends.shape[2])
+    middle, extent = corners.mean(axis=0), float(np.linalg.norm(np.ptp(corners, axis=0)))
+    # Below the rounding of the coordinates nothing can be told.
+    rounding = 16.0 * float(np.spacing(np.abs(corners).max()))
+    fine = max(ACCURACY * extent if accuracy is None else accuracy, rounding)
+    first, second = first.moved(-middle), second.moved(-middle)
+    there = furthest(first, second, fine, enough, "first")
+    back = furthest(second, first, fine, max(enough, there.distance), "second")
+    worst = max(there, back, key=lambda found: found.distance)
+    return worst._replace(point=worst.point + middle)
+
+
+@dataclass(frozen=True, eq=False)
+class Segments:
+    """ends (n,2,d) of segments; curve (n,) and index (n,) of each: its polyline, and its place there."""
+
+    ends: Floats
+    curve: Ints
+    index: Ints
+
+    @classmethod
+    def of(cls, curves: Curves, closed: bool) -> Segments:
+        """The segments of curves; a polyline of one point is a segment without length."""
+        parts = polylines_of(curves)
+        if closed:
+            parts = [np.concatenate([part, part[:1]]) for part in parts]
+        parts = [np.repeat(part, 2, axis=0) if len(part) == 1 else part for part in parts]
+        found = points_of(parts)
+        start = np.flatnonzero(found.curve[:-1] == found.curve[1:])
+        return cls(np.stack([found.points[start], found.points[start + 1]], axis=1), found.curve[start], start)._own()
+
+    def _own(self) -> Segments:
+        """The same, the index counted from the start of each polyline."""
+        first = np.searchsorted(self.curve, self.curve)
+        return Segments(self.ends, self.curve, self.index - self.index[first])
+
+    def moved(self, by: Floats) -> Segments:
+        """The same segments, moved."""
+        return Segments(self.ends + by, self.curve, self.index)
+
+
+class Tree:
+    """Segments in short pieces, for the nearest segment to a point."""
+
+    def __init__(self, ends: Floats) -> None:
+        from scipy.spatial import cKDTree
+
+        long = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        piece = float(long.sum()) / max(len(ends), 64)
+        count = np.maximum(np.ceil(long / piece), 1.0).astype(np.intp) if piece > 0.0 else np.ones(len(ends), np.intp)
+        self.owner = np.repeat(np.arange(len(ends)), count)
+        place = np.arange(len(self.owner)) - (np.cumsum(count) - count)[self.owner]
+        share = ((place + 0.5) / count[self.owner])[:, None]
+        self.ends = ends
+        self.half = 0.5 * float((long / count).max())
+        self.tree: Any = cKDTree(ends[self.owner, 0] * (1.0 - share) + ends[self.owner, 1] * share)
+
+    def nearest(self, points: Floats) -> tuple[Floats, Ints]:
+        """(n,) distance of points from the nearest segment, and its index."""
+        distance, segment = np.full(len(points), np.inf), np.zeros(len(points), dtype=np.intp)
+        left, count = np.arange(len(points)), 4
+        while len(left):
+            count = min(count, len(self.owner))
+            sure = np.zeros(len(left), dtype=np.bool_)
+            chunk = max(PAIRS // count, 1)
+            for first in range(0, len(left), chunk):
+                rows = left[first : first + chunk]
+                middles, piece = self.tree.query(points[rows], k=np.arange(1, count + 1))
+                candidates = self.owner[piece]
+                far = to_segments(points[rows][:, None], self.ends[candidates])
+                best = np.argmin(far, axis=1)
+                each = np.arange(len(rows))
+                distance[rows], segment[rows] = far[each, best], candidates[each, best]
+                # Any segment not asked for has its nearest piece's middle at least as far away as the last one's.
+                sure[first : first + chunk] = distance[rows] <= middles[:, -1] - self.half
+            if count == len(self.owner):
+                break
+            left, count = left[~sure], 4 * count
+        return distance, segment
+
+
+def to_segments(points: Floats, ends: Floats) -> Floats:
+    """(...,) distances of points (..., d) from segments (..., 2, d)."""
+    start, way = ends[..., 0, :], ends[..., 1, :] - ends[..., 0, :]
+    arm = points - start
+    square = (way * way).sum(axis=-1)
+    share = np.clip((arm * way).sum(axis=-1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+    return np.asarray(np.linalg.norm(arm - share[..., None] * way, axis=-1))
+
+
+def furthest(segments: Segments, others: Segments, accuracy: float, enough: float, which: str) -> Worst:
+    """The point of segments that is furthest from others, its distance right to accuracy; or any within enough.
+
+    Pieces are halved while the distance might exceed the largest found so far. It cannot exceed what is reached from
+    the ends at the piece's own length; nor, since the distance from one segment is convex along another, the larger of
+    the two ends' distances from any one segment.
+    """
+    tree = Tree(others.ends)
+    owner, low, high = np.arange(len(segments.ends)), np.zeros(len(segments.ends)), np.ones(len(segments.ends))
+    best = Worst(-1.0, segments.ends[0, 0], int(segments.curve[0]), 0.0, which)
+    while len(owner):
+        ends = [_along(segments.ends[owner], share) for share in (low, high)]
+        distance, bound = _bounds(tree, others.ends, ends[0], ends[1])
+        for found, share in zip(distance, (low, high), strict=True):
+            k = int(np.argmax(found))
+            if found[k] > best.distance:
+                s = owner[k]
+                point = _along(segments.ends[s][None], share[k : k + 1])[0]
+                best = Worst(float(found[k]), point, int(segments.curve[s]), float(segments.index[s] + share[k]), which)
+        open_ = bound > max(best.distance + accuracy, enough)
+        owner, low, high = owner[open_], low[open_], high[open_]
+        middle = 0.5 * (low + high)
+        owner, low, high = np.tile(owner, 2), np.concatenate([low, middle]), np.concatenate([middle, high])
+    return best
+
+
+def _along(ends: Floats, share: Floats) -> Floats:
+    return np.asarray(ends[:, 0] * (1.0 - share[:, None]) + ends[:, 1] * share[:, None])
+
+
+def _bounds(tree: Tree, others: Floats, p: Floats, q: Floats) -> tuple[tuple[Floats, Floats], Floats]:
+    """(n,) distances at both ends p, q of pieces, and an upper bound for the distance between them."""
+    at_p, by_p = tree.nearest(p)
+    at_q, by_q = tree.nearest(q)
+    _, by_middle = tree.nearest(0.5 * (p + q))
+    bound = 0.5 * (at_p + at_q + np.linalg.norm(q - p, axis=1))
+    for segment in (by_p, by_q, by_middle):
+        bound = np.minimum(bound, np.maximum(to_segments(p, others[segment]), to_segments(q, others[segment])))
+    return (at_p, at_q), bound

@@ -1,0 +1,282 @@
+"""Assertions on curves: that they lie where they are said to lie, whoever traced them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.curves.parameters import vector
+from vectorplot.errors import InputError
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.vectors import length, normalize
+from vectorplot.scene.scene import Light
+from vectorplot.surfaces.normals import unit_normals
+from vectorplot.surfaces.surface import ImplicitSurface, Surface
+from vectorplot.testing.curve_distance import Worst, worst_of_both
+from vectorplot.testing.nearest import nearest_places
+from vectorplot.testing.polylines import CurvePoints, Curves, points_of, polylines_of
+
+AnySurface = Surface | ImplicitSurface
+
+ZERO = 1e-9
+"""Part of the extent of a curve below which a distance between its ends is none."""
+
+
+class Places(NamedTuple):
+    """What a surface is at some points (n,3): distance (n,k) from k places on it near each, unit normals (n,k,3) and
+    parameters (n,k,2) there (None: the surface has none), and the extent of the surface."""
+
+    distance: Floats
+    normals: Floats
+    parameters: Floats | None
+    extent: float
+
+    def name(self, k: int, j: int) -> str:
+        """The parameters of a place, in words."""
+        if self.parameters is None:
+            return ""
+        u, v = self.parameters[k, j]
+        return f" at u = {u:.10g}, v = {v:.10g}"
+
+
+def assert_on_surface(points: Curves, surface: AnySurface, tolerance: float) -> None:
+    """Nothing, where all points of curves lie within a distance of tolerance from a surface.
+
+    The distance from an implicit surface is taken as |F| / |gradient of F|, right to first order; from a parametrised
+    one it is that of the nearest point found from a grid of parameters.
+    Errors: AssertionError with the worst point, its parameters and its distance; no points at all, points not finite.
+    Degenerate: where F is 0 the distance is 0, whatever the gradient.
+    """
+    _check_tolerance(tolerance)
+    found = _points_in_space(points)
+    places = places_near(surface, found.points)
+    _assert_near(found, places, tolerance, "the surface")
+
+
+def assert_on_both(points: Curves, a: AnySurface, b: AnySurface, tolerance: float) -> None:
+    """Nothing, where all points of curves lie within a distance of tolerance from two surfaces: their intersection.
+
+    Errors: AssertionError with the surface, the worst point, its parameters and its distance; see assert_on_surface.
+    """
+    _check_tolerance(tolerance)
+    found = _points_in_space(points)
+    for surface, name in ((a, "the first surface"), (b, "the second surface")):
+        _assert_near(found, places_near(surface, found.points), tolerance, name)
+
+
+def assert_contour(points: Curves, surface: AnySurface, eye: Camera | ArrayLike, tolerance: float) -> None:
+    """Nothing, where all points of curves are points of the contour of a surface: n . (x - eye) = 0.
+
+    eye: its place (3,), or a camera, which may be parallel. tolerance: the angle in radians that the sight ray may make
+    with the tangent plane; and, times the extent of the surface, the distance that points may have from it.
+    Errors: AssertionError with the worst point, its parameters and its angle; points without a normal; see
+    assert_on_surface.
+    Degenerate: of several sheets that meet in a point, one that fits is enough.
+    Source: Glaeser, section 8.4, equation 27.
+    """
+
+    def error(rays: Floats, normals: Floats) -> Floats:
+        across = length(np.cross(normals, rays))
+        return np.asarray(np.abs(np.arctan2((normals * rays).sum(axis=-1), across)))
+
+    found, places = _on(points, surface, tolerance)
+    text = "not on the contour: the angle between sight ray and tangent plane"
+    _assert_angle(found, places, error(_sight_rays(found.points, eye)[:, None], places.normals), tolerance, text)
+
+
+def assert_isophote(
+    points: Curves, surface: AnySurface, light: Light | ArrayLike, angle: float, tolerance: float
+) -> None:
+    """Nothing, where all points of curves are points of an isophote: normal and direction to the light make an angle.
+
+    light: the direction (3,) to it, or a Light, which may be a point. angle in radians, 0 to pi, with the surface's
+    own normals: x_u cross x_v, or the gradient; on the other side it is pi less that. tolerance: the difference of
+    angles that is allowed, in radians; and, times the extent of the surface, the distance of points from it.
+    Errors: AssertionError with the worst point, its parameters and its angle; points without a normal; see
+    assert_on_surface.
+    Degenerate: of several sheets that meet in a point, one that fits is enough.
+    Source: Glaeser, section 8.4, equation 28.
+    """
+    if not 0.0 <= angle <= np.pi:
+        raise InputError(f"isophote: an angle of {angle:g} is not between 0 and pi")
+    found, places = _on(points, surface, tolerance)
+    rays, normals = _light_rays(found.points, light)[:, None], places.normals
+    error = np.abs(np.arctan2(length(np.cross(normals, rays)), (normals * rays).sum(axis=-1)) - angle)
+    text = f"not on the isophote of {angle:.10g}: the difference of the angle between normal and light"
+    _assert_angle(found, places, error, tolerance, text)
+
+
+def assert_same_curve(a: Curves, b: Curves, tolerance: float, *, closed: bool = False) -> None:
+    """Nothing, where two curves are within tolerance of each other everywhere, between their points too.
+
+    Direction, start, sampling and splitting do not matter: curves are compared as sets of points. closed: both close
+    even where the last point does not repeat the first.
+    Errors: AssertionError with the worst point, where it is on its curve, and its distance from the other one.
+    """
+    _check_tolerance(tolerance)
+    worst = worst_of_both(a, b, closed=closed, accuracy=1e-3 * tolerance, enough=tolerance)
+    assert worst.distance <= tolerance, _difference(worst, tolerance)
+
+
+def assert_closed(curve: Curves, tolerance: float | None = None) -> None:
+    """Nothing, where every curve ends where it starts: within tolerance, or 1e-9 of its extent.
+
+    Errors: AssertionError with the curve, its two ends and the gap between them; curves of one place only.
+    """
+    found = points_of(curve)
+    first = np.flatnonzero(found.place == 0)
+    last = np.append(first[1:], len(found.points)) - 1
+    extent = length(np.maximum.reduceat(found.points, first) - np.minimum.reduceat(found.points, first))
+    gap = length(found.points[last] - found.points[first])
+    assert (extent > 0.0).all(), f"curve {int(np.argmin(extent))} is a single place"
+    allowed = ZERO * extent if tolerance is None else np.full(len(first), tolerance)
+    worst = int(np.argmax(gap / np.maximum(allowed, np.finfo(float).tiny)))
+    assert gap[worst] <= allowed[worst], (
+        f"{int((gap > allowed).sum())} of {len(first)} curves are open: from {found.name(int(first[worst]))}, to "
+        f"{found.name(int(last[worst]))}, there is a gap of {gap[worst]:.4g}, tolerance {allowed[worst]:.4g}"
+    )
+
+
+class BranchCount(NamedTuple):
+    """How many connected pieces curves have: closed ones, without a loose end, and open ones; and at how many nodes
+    more than two ends meet."""
+
+    closed: int
+    open: int
+    nodes: int
+
+
+def branch_count(curves: Curves, tolerance: float | None = None) -> BranchCount:
+    """How many branches there are when polylines are joined whose ends meet, within tolerance or 1e-9 of the extent.
+
+    So the cutting of a curve into strokes does not count. Degenerate: polylines of one place do not count at all;
+    curves that cross between their ends are not joined.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    parts = [part for part in polylines_of(curves) if np.ptp(part, axis=0).any()]
+    if not parts:
+        return BranchCount(0, 0, 0)
+    ends = points_of([end for part in parts for end in (part[:1], part[-1:])]).points
+    extent = float(np.linalg.norm(np.ptp(np.concatenate(parts), axis=0)))
+    pairs = cKDTree(ends).query_pairs(ZERO * extent if tolerance is None else tolerance, output_type="ndarray")
+
+    def groups(links: ArrayLike, count: int) -> tuple[int, Floats]:
+        i, j = np.asarray(links).reshape(-1, 2).T
+        return connected_components(coo_array((np.ones(len(i)), (i, j)), shape=(count, count)), directed=False)  # type: ignore[no-any-return]
+
+    count, node = groups(pairs, len(ends))
+    degree = np.bincount(node, minlength=count)
+    branches, branch = groups(node.reshape(-1, 2), count)
+    loose = np.bincount(branch[degree == 1], minlength=branches) > 0
+    return BranchCount(int((~loose).sum()), int(loose.sum()), int((degree > 2).sum()))
+
+
+def places_near(surface: AnySurface, points: Floats) -> Places:
+    """The places of a surface near points (n,3); of an implicit surface the point itself stands for its place."""
+    implicit = callable(getattr(surface, "gradients", None))
+    if not implicit and not callable(getattr(surface, "partials", None)):
+        raise InputError(f"{type(surface).__name__} is no surface: it has neither partials nor gradients")
+    return _implicit_places(surface, points) if implicit else _parametrised_places(surface, points)  # type: ignore[arg-type]
+
+
+def _implicit_places(surface: ImplicitSurface, points: Floats) -> Places:
+    value, gradient = np.abs(surface.values(points)), surface.gradients(points)
+    slope = length(gradient)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        distance = np.where(value == 0.0, 0.0, value / slope)
+        normals = gradient / slope[:, None]
+    distance = np.where(np.isnan(distance), np.inf, distance)
+    extent = float(np.linalg.norm(np.ptp(np.asarray(surface.box), axis=0)))
+    return Places(distance[:, None], normals[:, None], None, extent)
+
+
+def _parametrised_places(surface: Surface, points: Floats) -> Places:
+    feet = nearest_places(surface, points)
+    normals = unit_normals(surface, feet.u, feet.v)
+    return Places(feet.distance, normals, np.stack([feet.u, feet.v], axis=-1), feet.extent)
+
+
+def _points_in_space(points: Curves) -> CurvePoints:
+    found = points_of(points)
+    if found.points.shape[1] != 3:
+        raise InputError("points on surfaces have three coordinates")
+    return found
+
+
+def _check_tolerance(tolerance: float) -> None:
+    if not 0.0 < tolerance < np.inf:
+        raise InputError(f"tolerance {tolerance:g} must be positive and finite")
+
+
+def _on(points: Curves, surface: AnySurface, tolerance: float) -> tuple[CurvePoints, Places]:
+    """Points and their places on a surface. Errors: AssertionError where they are not on it."""
+    _check_tolerance(tolerance)
+    found = _points_in_space(points)
+    places = places_near(surface, found.points)
+    _assert_near(found, places, tolerance * places.extent, "the surface")
+    return found, places
+
+
+def _assert_near(found: CurvePoints, places: Places, tolerance: float, name: str) -> None:
+    """Nothing where the nearest place of each point is within tolerance."""
+    nearest = np.argmin(places.distance, axis=1)
+    distance = places.distance[np.arange(len(nearest)), nearest]
+    k = int(np.argmax(distance))
+    assert distance[k] <= tolerance, (
+        f"{int((distance > tolerance).sum())} of {len(distance)} points are not on {name}: the worst, "
+        f"{found.name(k)}{places.name(k, int(nearest[k]))}, is {distance[k]:.4g} away, tolerance {tolerance:.4g}"
+    )
+
+
+def _assert_angle(found: CurvePoints, places: Places, error: Floats, tolerance: float, text: str) -> None:
+    """Nothing where the angle is right on one sheet at least through each point."""
+    sheet = places.distance <= tolerance * places.extent
+    known = np.isfinite(error) & sheet
+    lost = np.flatnonzero(~known.any(axis=1))
+    assert not len(lost), f"{len(lost)} points have no normal, the first: {found.name(int(lost[0]))}"
+    error = np.where(known, error, np.inf)
+    best = np.argmin(error, axis=1)
+    least = error[np.arange(len(best)), best]
+    k = int(np.argmax(least))
+    assert least[k] <= tolerance, (
+        f"{int((least > tolerance).sum())} of {len(least)} points are {text} is {least[k]:.4g} at the worst, "
+        f"{found.name(k)}{places.name(k, int(best[k]))}, tolerance {tolerance:.4g}"
+    )
+
+
+def _unit_arms(points: Floats, place: Floats) -> Floats:
+    """(n,3) unit vectors from points to a place; NaN where they coincide."""
+    arm = place - points
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(arm / length(arm)[:, None])
+
+
+def _sight_rays(points: Floats, eye: Camera | ArrayLike) -> Floats:
+    """(n,3) unit vectors to the eye."""
+    if isinstance(eye, Camera) and eye.parallel:
+        return np.broadcast_to(eye.direction, points.shape)
+    return _unit_arms(points, vector("eye", eye.eye if isinstance(eye, Camera) else eye))
+
+
+def _light_rays(points: Floats, light: Light | ArrayLike) -> Floats:
+    """(n,3) unit vectors to the light."""
+    if isinstance(light, Light) and not light.parallel:
+        return _unit_arms(points, vector("light", light.position))
+    direction = vector("light", light.position if isinstance(light, Light) else light)
+    return np.broadcast_to(normalize(direction), points.shape)
+
+
+def _difference(worst: Worst, tolerance: float) -> str:
+    """One line on where a curve leaves the other one."""
+    place = ", ".join(f"{x:.10g}" for x in worst.point)
+    return (
+        f"the curves differ: ({place}), at {worst.parameter:.6g} (index and share of the segment) of the "
+        f"{worst.which} one's curve {worst.curve}, is {worst.distance:.4g} away from the other, "
+        f"tolerance {tolerance:.4g}"
+    )

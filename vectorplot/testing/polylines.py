@@ -1,0 +1,119 @@
+"""What counts as a curve in the assertions: arrays, lists of arrays, strokes, paths, drawings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.drawing.drawing import Drawing, Paths
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.strokes import LineKind, Strokes
+
+Curves = Drawing | Paths | Strokes | ArrayLike | Sequence[ArrayLike]
+"""A polyline (n, 2 or 3), several of them, or what holds polylines. A closed one repeats its first point."""
+
+
+def curves_in_space(drawing: Drawing, *, kind: str | None = None, item: str | None = None) -> list[Floats]:
+    """The strokes of a drawing as polylines (n,3) in the world, visible and hidden ones; closed ones repeat their
+    first point.
+
+    kind: only those of a LineKind, by its word; item: only those of an item, by its name.
+    Errors: InputError for a kind or an item that does not exist.
+    """
+    wanted_kind = None if kind is None else int(LineKind.from_word(kind))
+    if item is not None and item not in drawing.items:
+        raise InputError(f"item {item!r}: the drawing has {', '.join(drawing.items) or 'none'}")
+    found: list[Floats] = []
+    for layer in drawing.layers:
+        for paths in layer.marks:
+            kept = np.ones(len(paths), dtype=np.bool_)
+            if wanted_kind is not None:
+                kept &= paths.kind == wanted_kind
+            if item is not None:
+                kept &= np.isin(paths.item, [k for k, name in enumerate(drawing.items) if name == item])
+            found += cut(paths.points3d, paths.offsets, paths.closed, kept)
+    return found
+
+
+def cut(points: Floats, offsets: Ints, closed: Bools, kept: Bools) -> list[Floats]:
+    """The polylines that are kept, each an array; closed ones with their first point once more."""
+    if not kept.any():
+        return []
+    size = np.diff(offsets) + closed
+    starts = np.concatenate([[0], np.cumsum(size)])
+    path = np.repeat(np.arange(len(size)), size)
+    place = np.arange(starts[-1]) - starts[path]
+    place[closed[path] & (place == size[path] - 1)] = 0
+    return [
+        part
+        for part, wanted in zip(np.split(points[offsets[path] + place], starts[1:-1]), kept, strict=True)
+        if wanted and len(part)
+    ]
+
+
+def polylines_of(curves: Curves) -> list[Floats]:
+    """The polylines (n, 2 or 3) of curves in any form; those of drawings are in the world.
+
+    Errors: InputError for other shapes.
+    """
+    if isinstance(curves, Drawing):
+        return curves_in_space(curves)
+    if isinstance(curves, Paths):
+        return cut(curves.points3d, curves.offsets, curves.closed, np.ones(len(curves), dtype=np.bool_))
+    if isinstance(curves, Strokes):
+        every = np.ones(len(curves), dtype=np.bool_)
+        return cut(curves.points, curves.offsets, ~every, every)
+    if isinstance(curves, (list, tuple)) and any(np.ndim(part) == 2 for part in curves):
+        return [one_polyline(part) for part in curves if len(part)]
+    try:
+        array = np.asarray(curves, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError("curves must be arrays (n,2) or (n,3), lists of such, or a drawing") from None
+    if array.ndim == 3:
+        return [one_polyline(part) for part in array if len(part)]
+    return [one_polyline(array)] if array.size else []
+
+
+def one_polyline(points: ArrayLike) -> Floats:
+    """(n, 2 or 3) a polyline; a single point is one too. Errors: InputError for other shapes."""
+    array = np.atleast_2d(np.asarray(points, dtype=np.float64))
+    if array.ndim != 2 or array.shape[1] not in (2, 3):
+        raise InputError(f"a curve is an array (n,2) or (n,3), not one of shape {np.shape(points)}")
+    return array
+
+
+class CurvePoints(NamedTuple):
+    """points (p, 2 or 3) of curves; curve (p,) and place (p,): which curve each lies on, and its place there."""
+
+    points: Floats
+    curve: Ints
+    place: Ints
+
+    def name(self, k: int) -> str:
+        """Which point that is, in words."""
+        coordinates = ", ".join(f"{x:.10g}" for x in self.points[k])
+        which = f" of curve {self.curve[k]}" if self.curve[-1] > 0 else ""
+        return f"point {self.place[k]}{which}, ({coordinates})"
+
+
+def points_of(curves: Curves) -> CurvePoints:
+    """All points of curves. Errors: AssertionError if there are none, or one is not finite."""
+    parts = polylines_of(curves)
+    assert parts, "there are no points: nothing to verify"
+    if len({part.shape[1] for part in parts}) > 1:
+        raise InputError("curves must be all in the plane, or all in space")
+    size = [len(part) for part in parts]
+    found = CurvePoints(
+        np.concatenate(parts),
+        np.repeat(np.arange(len(parts)), size),
+        np.concatenate([np.arange(count) for count in size]),
+    )
+    bad = np.flatnonzero(~np.isfinite(found.points).all(axis=1))
+    assert not len(bad), (
+        f"{len(bad)} of {len(found.points)} points are not finite, the first: {found.name(int(bad[0]))}"
+    )
+    return found
