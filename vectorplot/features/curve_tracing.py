@@ -1,0 +1,125 @@
+"""Curves on a surface where a condition holds: traced, led through poles, measured in space or on a page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.features.poles import through_poles
+from vectorplot.features.scalar_field import Function, Gradient
+from vectorplot.features.surface_curves import SurfaceCurves
+from vectorplot.features.zero_manifold import zero_manifold_of_f_uv
+from vectorplot.geometry.mesh import Floats
+from vectorplot.surfaces.surface import Domain, Surface
+
+Picture = Callable[[Floats], Floats]
+
+FLAT = 1e-9
+"""Part of the size of a condition that differences of user functions may be wrong by: all over a cell, it is zero."""
+
+ROUNDING = 4.0 * float(np.finfo(np.float64).eps)
+
+
+@dataclass(frozen=True)
+class Tracing:
+    """How curves on a surface are traced.
+
+    columns, rows: cells of the grid. resolution: the part of the domain down to which cells are subdivided.
+    tolerance: points are put in until chords stay within this distance of the true curve; None: a thousandth of the
+    extent of the surface. picture: takes points (k,3) to where the tolerance is measured, (k,2) or (k,3), for example
+    millimetres on a page; without it in space.
+    """
+
+    columns: int = 48
+    rows: int = 48
+    resolution: float = 1e-3
+    tolerance: float | None = None
+    picture: Picture | None = None
+
+
+def extent(surface: Surface) -> tuple[float, float]:
+    """The diagonal of the box around points of the surface, and their largest coordinate."""
+    points = samples(surface)[2]
+    if not len(points):
+        return 0.0, 0.0
+    return float(np.linalg.norm(np.ptp(points, axis=0))), float(np.abs(points).max())
+
+
+def samples(surface: Surface) -> tuple[Floats, Floats, Floats]:
+    """Parameters u, v (k,) on a coarse grid, and the points (k,3) there; none in holes."""
+    u, v = (a.ravel() for a in np.meshgrid(*surface.domain.grid(16, 16), indexing="ij"))
+    points = surface.points(u, v)
+    good = np.isfinite(points).all(axis=1)
+    return u[good], v[good], points[good]
+
+
+def wrapped(domain: Domain, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+    """The parameters moved by whole periods into the domain, in its closed directions."""
+    width, height = domain.size
+    if domain.closed_u:
+        u = u - np.floor((u - domain.u_start) / width) * width
+    if domain.closed_v:
+        v = v - np.floor((v - domain.v_start) / height) * height
+    return u, v
+
+
+def curves_where_zero(
+    surface: Surface,
+    f: Function,
+    *,
+    size: float,
+    rounding: float,
+    tracing: Tracing,
+    level: float = 0.0,
+    gradient: Gradient | None = None,
+) -> SurfaceCurves:
+    """The curves f(u, v) = 0 on a surface.
+
+    size: how large f is where it is far from zero; rounding: the error that f is computed with: smaller values count as
+    zero. Where f is below FLAT of its size all over a cell of the grid, values as small as that count as zero
+    everywhere, so that an area where f is zero is not filled with lines.
+    Errors: InputError for a grid that is too coarse.
+    """
+    domain = surface.domain
+    u, v = (a.ravel() for a in np.meshgrid(*domain.grid(tracing.columns, tracing.rows), indexing="ij"))
+    on_grid = np.asarray(f(u, v), dtype=np.float64)
+    small = (np.abs(on_grid) <= FLAT * size).reshape(tracing.columns + 1, tracing.rows + 1)
+    flat = (small[1:, 1:] & small[1:, :-1] & small[:-1, 1:] & small[:-1, :-1]).any()
+    noise = max(rounding, FLAT * size if flat else 0.0)
+
+    def snapped(u: Floats, v: Floats) -> Floats:
+        w = np.asarray(f(u, v), dtype=np.float64)
+        return np.where(np.abs(w) <= noise, 0.0, w)
+
+    def space(u: Floats, v: Floats) -> Floats:
+        points = surface.points(*wrapped(domain, u, v))
+        return points if tracing.picture is None else tracing.picture(points)
+
+    tolerance = 1e-3 * extent(surface)[0] if tracing.tolerance is None else tracing.tolerance
+    found = zero_manifold_of_f_uv(
+        snapped,
+        domain,
+        columns=tracing.columns,
+        rows=tracing.rows,
+        gradient=gradient,
+        resolution=tracing.resolution,
+        positions=space,
+        tolerance=tolerance or None,
+    )
+    curves = through_poles(surface, found)
+    own = curves.points
+    return SurfaceCurves(
+        own[:, 0],
+        own[:, 1],
+        surface.points(*wrapped(domain, own[:, 0], own[:, 1])),
+        curves.offsets,
+        curves.closed,
+        curves.turns,
+        np.full(len(curves.closed), level),
+        curves.isolated,
+        curves.nodes,
+        curves.touching,
+        curves.doubts,
+    )

@@ -1,0 +1,82 @@
+"""Curves that lie on a parametrised surface."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceCurves:
+    """Polylines on a surface, each point known by its parameters and in space.
+
+    u, v (n,); points (n,3); offsets (m+1,): curve i has the points offsets[i] to offsets[i+1]; closed (m,): the last
+    point joins the first, which is not repeated. Along a curve parameters run on over seams, beyond the domain:
+    turns (m,2) are the periods that a closed curve has run through when it is back at its start. A curve through a pole
+    has the pole twice, with the parameters it comes and goes with. levels (m,): the level a curve of a family belongs
+    to, the constant parameter of a parameter line; otherwise 0.
+    isolated (i,2): parameters of single points that satisfy the condition; nodes (k,2): of points where curves cross;
+    touching (t,2): of places where the condition is just touched along a line.
+    doubts: a sentence for each thing that could not be decided.
+    """
+
+    u: Floats
+    v: Floats
+    points: Floats
+    offsets: Ints
+    closed: Bools
+    turns: Ints
+    levels: Floats
+    isolated: Floats
+    nodes: Floats
+    touching: Floats
+    doubts: tuple[str, ...]
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __getitem__(self, curve: int) -> Floats:
+        """(k,3) the points of a curve; a closed one ends with its first point."""
+        own = self.points[self.offsets[curve] : self.offsets[curve + 1]]
+        return np.concatenate([own, own[:1]]) if self.closed[curve] else own
+
+
+def together(families: Sequence[SurfaceCurves]) -> SurfaceCurves:
+    """All the curves in one; a doubt that several of them have is said once."""
+    families = [no_curves(), *families]
+    counts = np.concatenate([np.diff(c.offsets) for c in families])
+    return SurfaceCurves(
+        np.concatenate([c.u for c in families]),
+        np.concatenate([c.v for c in families]),
+        np.concatenate([c.points for c in families]),
+        np.concatenate([[0], np.cumsum(counts)]).astype(np.intp),
+        np.concatenate([c.closed for c in families]),
+        np.concatenate([c.turns for c in families]),
+        np.concatenate([c.levels for c in families]),
+        np.concatenate([c.isolated for c in families]),
+        np.concatenate([c.nodes for c in families]),
+        np.concatenate([c.touching for c in families]),
+        tuple(dict.fromkeys(text for c in families for text in c.doubts)),
+    )
+
+
+def no_curves(doubts: tuple[str, ...] = ()) -> SurfaceCurves:
+    """No curve at all."""
+    none, pairs = np.zeros(0), np.zeros((0, 2))
+    return SurfaceCurves(
+        none,
+        none,
+        np.zeros((0, 3)),
+        np.zeros(1, dtype=np.intp),
+        np.zeros(0, dtype=np.bool_),
+        np.zeros((0, 2), dtype=np.intp),
+        none,
+        pairs,
+        pairs,
+        pairs,
+        doubts,
+    )
