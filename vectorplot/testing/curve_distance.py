@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.testing.polylines import Curves, points_of, polylines_of
 
 ACCURACY = 1e-9
@@ -106,8 +106,9 @@ class Tree:
         self.half = 0.5 * float((long / count).max())
         self.tree: Any = cKDTree(ends[self.owner, 0] * (1.0 - share) + ends[self.owner, 1] * share)
 
-    def nearest(self, points: Floats) -> tuple[Floats, Ints]:
-        """(n,) distance of points from the nearest segment, and its index."""
+    def nearest(self, points: Floats, floor: float) -> tuple[Floats, Ints]:
+        """(n,) distance of points from the nearest segment, and its index; where the distance from some segment is no
+        larger than floor, that one may do."""
         distance, segment = np.full(len(points), np.inf), np.zeros(len(points), dtype=np.intp)
         left, count = np.arange(len(points)), 4
         while len(left):
@@ -123,7 +124,8 @@ class Tree:
                 each = np.arange(len(rows))
                 distance[rows], segment[rows] = far[each, best], candidates[each, best]
                 # Any segment not asked for has its nearest piece's middle at least as far away as the last one's.
-                sure[first : first + chunk] = distance[rows] <= middles[:, -1] - self.half
+                reached = distance[rows] <= np.maximum(middles[:, -1] - self.half, floor)
+                sure[first : first + chunk] = reached
             if count == len(self.owner):
                 break
             left, count = left[~sure], 4 * count
@@ -147,34 +149,61 @@ def furthest(segments: Segments, others: Segments, accuracy: float, enough: floa
     the two ends' distances from any one segment.
     """
     tree = Tree(others.ends)
-    owner, low, high = np.arange(len(segments.ends)), np.zeros(len(segments.ends)), np.ones(len(segments.ends))
-    best = Worst(-1.0, segments.ends[0, 0], int(segments.curve[0]), 0.0, which)
+    best = Worst(0.0, segments.ends[0, 0], int(segments.curve[0]), 0.0, which)
+
+    def looked(owner: Ints, share: Floats, seen: Worst) -> tuple[Seen, Worst]:
+        points = _along(segments.ends[owner], share)
+        # Half the accuracy is for distances that are not looked into, half for pieces that are not halved.
+        floor = max(seen.distance + 0.5 * accuracy, enough)
+        distance, by = tree.nearest(points, floor)
+        k = int(np.argmax(distance))
+        if distance[k] > floor:
+            s = owner[k]
+            parameter = float(segments.index[s] + share[k])
+            seen = Worst(float(distance[k]), points[k], int(segments.curve[s]), parameter, which)
+        return Seen(share, points, distance, by), seen
+
+    owner = np.arange(len(segments.ends))
+    # A few true distances first spare the others: those that are smaller need not be known exactly.
+    few = owner[:: max(len(owner) // 64, 1)]
+    best = looked(few, np.zeros(len(few)), best)[1]
+    low, best = looked(owner, np.zeros(len(owner)), best)
+    high, best = looked(owner, np.ones(len(owner)), best)
     while len(owner):
-        ends = [_along(segments.ends[owner], share) for share in (low, high)]
-        distance, bound = _bounds(tree, others.ends, ends[0], ends[1])
-        for found, share in zip(distance, (low, high), strict=True):
-            k = int(np.argmax(found))
-            if found[k] > best.distance:
-                s = owner[k]
-                point = _along(segments.ends[s][None], share[k : k + 1])[0]
-                best = Worst(float(found[k]), point, int(segments.curve[s]), float(segments.index[s] + share[k]), which)
-        open_ = bound > max(best.distance + accuracy, enough)
-        owner, low, high = owner[open_], low[open_], high[open_]
-        middle = 0.5 * (low + high)
-        owner, low, high = np.tile(owner, 2), np.concatenate([low, middle]), np.concatenate([middle, high])
+        middle, best = looked(owner, 0.5 * (low.share + high.share), best)
+        open_ = _bound(others.ends, low, middle, high) > max(best.distance + accuracy, enough)
+        low, middle, high = low.rows(open_), middle.rows(open_), high.rows(open_)
+        owner = np.tile(owner[open_], 2)
+        low, high = low.and_(middle), middle.and_(high)
     return best
+
+
+class Seen(NamedTuple):
+    """Points (n,d) at shares of segments, their distances from other segments, and the index of one of these that is
+    as near."""
+
+    share: Floats
+    points: Floats
+    distance: Floats
+    by: Ints
+
+    def rows(self, kept: Bools) -> Seen:
+        """Some of them."""
+        return Seen(self.share[kept], self.points[kept], self.distance[kept], self.by[kept])
+
+    def and_(self, more: Seen) -> Seen:
+        """These, and more."""
+        return Seen(*(np.concatenate(pair) for pair in zip(self, more, strict=True)))
+
+
+def _bound(others: Floats, low: Seen, middle: Seen, high: Seen) -> Floats:
+    """(n,) upper bounds for the distance of pieces from low to high."""
+    p, q = low.points, high.points
+    bound = 0.5 * (low.distance + high.distance + np.linalg.norm(q - p, axis=1))
+    for by in (low.by, middle.by, high.by):
+        bound = np.minimum(bound, np.maximum(to_segments(p, others[by]), to_segments(q, others[by])))
+    return np.asarray(bound)
 
 
 def _along(ends: Floats, share: Floats) -> Floats:
     return np.asarray(ends[:, 0] * (1.0 - share[:, None]) + ends[:, 1] * share[:, None])
-
-
-def _bounds(tree: Tree, others: Floats, p: Floats, q: Floats) -> tuple[tuple[Floats, Floats], Floats]:
-    """(n,) distances at both ends p, q of pieces, and an upper bound for the distance between them."""
-    at_p, by_p = tree.nearest(p)
-    at_q, by_q = tree.nearest(q)
-    _, by_middle = tree.nearest(0.5 * (p + q))
-    bound = 0.5 * (at_p + at_q + np.linalg.norm(q - p, axis=1))
-    for segment in (by_p, by_q, by_middle):
-        bound = np.minimum(bound, np.maximum(to_segments(p, others[segment]), to_segments(q, others[segment])))
-    return (at_p, at_q), bound
