@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,6 +21,9 @@ FLAT = 1e-9
 
 ROUNDING = 4.0 * float(np.finfo(np.float64).eps)
 
+TURN = 0.0137
+"""Part of a closed direction by which the grid is turned."""
+
 
 @dataclass(frozen=True)
 class Tracing:
@@ -32,8 +35,8 @@ class Tracing:
     millimetres on a page; without it in space.
     """
 
-    columns: int = 48
-    rows: int = 48
+    columns: int = 47
+    rows: int = 45
     resolution: float = 1e-3
     tolerance: float | None = None
     picture: Picture | None = None
@@ -90,7 +93,7 @@ def curves_where_zero(
     noise = max(rounding, FLAT * size if flat else 0.0)
 
     def snapped(u: Floats, v: Floats) -> Floats:
-        w = np.asarray(f(u, v), dtype=np.float64)
+        w = np.asarray(f(*wrapped(domain, u, v)), dtype=np.float64)
         return np.where(np.abs(w) <= noise, 0.0, w)
 
     def space(u: Floats, v: Floats) -> Floats:
@@ -100,10 +103,10 @@ def curves_where_zero(
     tolerance = 1e-3 * extent(surface)[0] if tracing.tolerance is None else tracing.tolerance
     found = zero_manifold_of_f_uv(
         snapped,
-        domain,
+        _turned(domain),
         columns=tracing.columns,
         rows=tracing.rows,
-        gradient=gradient,
+        gradient=None if gradient is None else lambda u, v: gradient(*wrapped(domain, u, v)),
         resolution=tracing.resolution,
         positions=space,
         tolerance=tolerance or None,
@@ -118,8 +121,22 @@ def curves_where_zero(
         curves.closed,
         curves.turns,
         np.full(len(curves.closed), level),
-        curves.isolated,
-        curves.nodes,
-        curves.touching,
+        _at_home(domain, curves.isolated),
+        _at_home(domain, curves.nodes),
+        _at_home(domain, curves.touching),
         curves.doubts,
     )
+
+
+def _turned(domain: Domain) -> Domain:
+    """The domain, in closed directions from another start: symmetric surfaces then have no nodes at grid points."""
+    u = TURN * domain.size[0] if domain.closed_u else 0.0
+    v = TURN * domain.size[1] if domain.closed_v else 0.0
+    return replace(
+        domain, u_start=domain.u_start + u, u_end=domain.u_end + u, v_start=domain.v_start + v, v_end=domain.v_end + v
+    )
+
+
+def _at_home(domain: Domain, points: Floats) -> Floats:
+    """(k,2) the parameters within the domain."""
+    return np.stack(wrapped(domain, points[:, 0], points[:, 1]), axis=1)

@@ -94,33 +94,26 @@ def _lines(surface: Surface, axis: int, values: Floats, tracing: Tracing) -> Sur
 def _at(surface: Surface, axis: int, fixed: Floats, running: Floats) -> Floats:
     """(n,3) points of the surface."""
     u, v = (fixed, running) if axis == 0 else (running, fixed)
-    # The end of a closed range stays: it is where the line closes.
     return surface.points(u, v)
 
 
 def _without_holes(surface: Surface, axis: int, bundle: _Bundle) -> _Bundle:
     """The lines cut where the surface has holes, their ends at the borders of the holes by halving."""
-    good = np.isfinite(_at(surface, axis, bundle.fixed, bundle.running)).all(axis=1)
+    good: Bools = np.asarray(np.isfinite(_at(surface, axis, bundle.fixed, bundle.running)).all(axis=1))
     if good.all():
         return bundle
     change = np.flatnonzero((good[1:] != good[:-1]) & ~bundle.last[:-1])
-    inside, outside = np.where(good[change], change, change + 1), np.where(good[change], change + 1, change)
-    fixed, low, high = bundle.fixed[change], bundle.running[inside], bundle.running[outside]
+    enters = ~good[change]
+    fixed, low, high = bundle.fixed[change], bundle.running[change + enters], bundle.running[change + ~enters]
     for _ in range(50):
         middle = 0.5 * (low + high)
         there = np.isfinite(_at(surface, axis, fixed, middle)).all(axis=1)
         low, high = np.where(there, middle, low), np.where(there, high, middle)
-    # The point in the hole next to the surface becomes its border; one between two parts is needed for both.
-    enters = ~good[change]
-    at = np.where(enters, inside, outside)
-    running = np.insert(bundle.running, at, low)
-    fixed_all, last = np.insert(bundle.fixed, at, fixed), np.insert(bundle.last, at, False)
-    kept = np.insert(good, at, True)
-    ends = np.insert(bundle.last & good, at, ~enters)
-    last = last | ends
+    running, owner = np.insert(bundle.running, change + 1, low), np.insert(bundle.fixed, change + 1, fixed)
+    kept, last = np.insert(good, change + 1, True), np.insert(bundle.last & good, change + 1, ~enters)
     # A line that consists of a single point is no line.
     kept &= ~(last & np.concatenate([[True], (last | ~kept)[:-1]]))
-    return _Bundle(fixed_all[kept], running[kept], last[kept])
+    return _Bundle(owner[kept], running[kept], last[kept])
 
 
 def _refined(surface: Surface, axis: int, bundle: _Bundle, tracing: Tracing, size: float) -> _Bundle:
@@ -165,9 +158,9 @@ def _curves(surface: Surface, axis: int, bundle: _Bundle) -> SurfaceCurves:
     domain: Domain = surface.domain
     begin, finish = ((domain.v_start, domain.v_end), (domain.u_start, domain.u_end))[axis]
     goes_round = (domain.closed_v, domain.closed_u)[axis]
-    last = np.flatnonzero(bundle.last)
-    first = np.concatenate([[0], last[:-1] + 1])[: len(last)].astype(np.intp)
-    closed = goes_round & (bundle.running[first] == begin) & (bundle.running[last] == finish)
+    last: Ints = np.flatnonzero(bundle.last)
+    first: Ints = np.concatenate([[0], last[:-1] + 1])[: len(last)].astype(np.intp)
+    closed: Bools = np.asarray(goes_round & (bundle.running[first] == begin) & (bundle.running[last] == finish))
     kept = np.ones(len(bundle.last), dtype=np.bool_)
     kept[last[closed]] = False
     turns = np.zeros((len(last), 2), dtype=np.intp)
@@ -177,7 +170,6 @@ def _curves(surface: Surface, axis: int, bundle: _Bundle) -> SurfaceCurves:
     offsets = np.concatenate([[0], np.cumsum(last - first + 1 - closed)]).astype(np.intp)
     none = np.zeros((0, 2))
     points = surface.points(*wrapped(domain, u, v))
-    # At the open end of a line in a closed direction, interrupted by a hole, wrapping changes nothing but rounding.
     return SurfaceCurves(u, v, points, offsets, closed, turns, bundle.fixed[first], none, none, none, ())
 
 

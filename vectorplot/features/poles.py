@@ -30,8 +30,7 @@ class Pole:
 
 @dataclass(frozen=True, eq=False)
 class Branches:
-    """points (n,2), offsets (m+1,), closed (m,), turns (m,2), isolated (i,2), nodes (k,2), touching (t,2), doubts: as of
-    a ZeroManifold."""
+    """Curves and single points: all fields as of a ZeroManifold."""
 
     points: Floats
     offsets: Ints
@@ -78,7 +77,7 @@ def through_poles(surface: Surface, found: ZeroManifold) -> Branches:
     if not own:
         own_points = found.isolated, found.nodes, found.touching
         return Branches(found.points, found.offsets, found.closed, found.turns, *own_points, found.doubts)
-    closed, turns = list(found.closed), list(found.turns)
+    closed, turns = found.closed.tolist(), list(found.turns)
     isolated, nodes, touching = (_away(own, p) for p in (found.isolated, found.nodes, found.touching))
     for pole in own:
         # A ring around a pole, nearer than the first step from it, is the pole itself.
@@ -140,8 +139,8 @@ Lines = list[Floats]
 
 
 def _joined(
-    surface: Surface, pole: Pole, ends: list[tuple[int, int]], lines: Lines, closed: list[Bools], turns: list[Ints]
-) -> tuple[Lines, list[Bools], list[Ints]]:
+    surface: Surface, pole: Pole, ends: list[tuple[int, int]], lines: Lines, closed: list[bool], turns: list[Ints]
+) -> tuple[Lines, list[bool], list[Ints]]:
     """The branches, with pairs of ends that arrive at the pole from opposite directions made one."""
     if len(ends) < 2:
         return lines, closed, turns
@@ -158,7 +157,7 @@ def _joined(
         cosines[[i, j]] = cosines[:, [i, j]] = 1.0
         (a, side_a), (b, side_b) = open_ends[ends[i]], open_ends[ends[j]]
         if a == b:
-            closed[a] = np.bool_(True)
+            closed[a] = True
             continue
         first = lines[a] if side_a == -1 else lines[a][::-1]
         second = lines[b] if side_b == 0 else lines[b][::-1]

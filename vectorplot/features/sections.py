@@ -26,7 +26,7 @@ def intersection(surface: Surface, other: ImplicitSurface, *, tracing: Tracing =
     coincide in an area, a doubt.
     Source: Glaeser, section 8.4, equation 29, figure 16.
     """
-    u, v, points = samples(surface)
+    points = samples(surface)[2]
     if not len(points):
         return no_curves()
     long = np.linalg.norm(other.gradients(points), axis=1)
