@@ -52,7 +52,7 @@ def coverage(owner: Ints, low: Floats, high: Floats, side: Ints) -> tuple[Ints, 
     """How many intervals cover each part of [0, 1]: (owner, low, high, count) of the parts with count > 0, ascending.
 
     side (n,): 1 for an interval that covers the left side of its owner only, -1 the right side only, 0 both. The
-    count of a part is the smaller of the counts of its two sides. """
+    count of a part is the smaller of the counts of its two sides."""
     if not len(owner):
         return owner, low, high, np.zeros(0, dtype=np.intp)
     at, who = np.concatenate([low, high]), np.concatenate([owner, owner])
