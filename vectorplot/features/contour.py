@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.curves.parameters import vector
-from vectorplot.features.curve_tracing import ROUNDING, Tracing, curves_where_zero, samples
+from vectorplot.features.curve_tracing import VALUE_ROUNDING, Tracing, curves_where_zero, samples
 from vectorplot.features.surface_curves import SurfaceCurves, no_curves
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats
@@ -36,7 +36,7 @@ def contour(surface: Surface, eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> 
     def f(u: Floats, v: Floats) -> Floats:
         return np.asarray(((surface.points(u, v) - centre) * unit_normals(surface, u, v)).sum(axis=-1))
 
-    return curves_where_zero(surface, f, size=size, rounding=ROUNDING * large, tracing=tracing)
+    return curves_where_zero(surface, f, size=size, rounding=VALUE_ROUNDING * large, tracing=tracing)
 
 
 def parallel_contour(surface: Surface, direction: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
@@ -53,7 +53,7 @@ def parallel_contour(surface: Surface, direction: ArrayLike, *, tracing: Tracing
     def f(u: Floats, v: Floats) -> Floats:
         return np.asarray(unit_normals(surface, u, v) @ d)
 
-    return curves_where_zero(surface, f, size=1.0, rounding=ROUNDING, tracing=tracing)
+    return curves_where_zero(surface, f, size=1.0, rounding=VALUE_ROUNDING, tracing=tracing)
 
 
 def contour_in_view(surface: Surface, camera: Camera, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:

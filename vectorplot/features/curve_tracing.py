@@ -19,7 +19,8 @@ Picture = Callable[[Floats], Floats]
 FLAT = 1e-9
 """Part of the size of a condition that differences of user functions may be wrong by: all over a cell, it is zero."""
 
-ROUNDING = 4.0 * float(np.finfo(np.float64).eps)
+VALUE_ROUNDING = 4.0 * float(np.finfo(np.float64).eps)
+"""Part of the largest of its terms that the value of a condition is wrong by."""
 
 TURN = 0.0137
 """Part of a closed direction by which the grid is turned."""

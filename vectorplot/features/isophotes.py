@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
-from vectorplot.features.curve_tracing import ROUNDING, Tracing, curves_where_zero, samples
+from vectorplot.features.curve_tracing import VALUE_ROUNDING, Tracing, curves_where_zero, samples
 from vectorplot.features.surface_curves import SurfaceCurves, no_curves, together
 from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.vectors import normalize
@@ -33,7 +33,7 @@ def isophotes(surface: Surface, light: ArrayLike, cosines: ArrayLike, *, tracing
     """
     towards = normalize(vector("isophotes: light", light))
     return _isophotes(
-        surface, lambda u, v: np.asarray(unit_normals(surface, u, v) @ towards), ROUNDING, cosines, tracing
+        surface, lambda u, v: np.asarray(unit_normals(surface, u, v) @ towards), VALUE_ROUNDING, cosines, tracing
     )
 
 
@@ -56,7 +56,7 @@ def point_light_isophotes(
             return np.asarray((way * unit_normals(surface, u, v)).sum(axis=-1) / np.linalg.norm(way, axis=-1))
 
     nearest = float(np.linalg.norm(points - lamp, axis=1).min()) or np.inf
-    rounding = ROUNDING * max(1.0, min(float(np.abs(points).max() + np.abs(lamp).max()) / nearest, 1e6))
+    rounding = VALUE_ROUNDING * max(1.0, min(float(np.abs(points).max() + np.abs(lamp).max()) / nearest, 1e6))
     return _isophotes(surface, cosine, rounding, cosines, tracing)
 
 

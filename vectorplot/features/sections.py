@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.features.curve_tracing import ROUNDING, Tracing, curves_where_zero, extent, samples
+from vectorplot.features.curve_tracing import VALUE_ROUNDING, Tracing, curves_where_zero, extent, samples
 from vectorplot.features.surface_curves import SurfaceCurves, no_curves, together
 from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.vectors import normalize
@@ -42,7 +42,7 @@ def intersection(surface: Surface, other: ImplicitSurface, *, tracing: Tracing =
         return np.asarray((slopes * along_u).sum(axis=-1)), np.asarray((slopes * along_v).sum(axis=-1))
 
     curves = curves_where_zero(
-        surface, f, size=slope * size, rounding=ROUNDING * slope * large, tracing=tracing, gradient=gradient
+        surface, f, size=slope * size, rounding=VALUE_ROUNDING * slope * large, tracing=tracing, gradient=gradient
     )
     return _warned(curves)
 
@@ -73,7 +73,7 @@ def plane_sections(
                     surface,
                     lambda u, v, d=d: np.asarray(surface.points(u, v) @ n - d),  # type: ignore[misc]
                     size=size,
-                    rounding=ROUNDING * (large + abs(d)),
+                    rounding=VALUE_ROUNDING * (large + abs(d)),
                     tracing=tracing,
                     level=float(d),
                     gradient=gradient,
