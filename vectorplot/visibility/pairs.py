@@ -11,6 +11,9 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.occluders import Occluders
 
+FULL = 0.6
+"""Pairs that are done with are taken out when they are more than the rest of this part."""
+
 
 @dataclass(frozen=True, eq=False)
 class Segments:
@@ -60,14 +63,15 @@ def clip_pairs(
     first, behind = occluders.first[occluder] + skipped, occluders.behind[occluder] - skipped
     count = occluders.first[occluder + 1] - first
     through = [(pair[:0], low[:0], high[:0], side[:0])]
+    final = occluders.planes.shape[1] - 1
     for step in range(int(count.max(initial=0))):
         if step:
-            reach = _heights(view, occluders, first + step, ends)
+            reach = _heights(view, occluders, np.minimum(first + step, final), ends)
         at_start, at_end = reach
         inside = (at_start > 0.0) | (at_end > 0.0)
         along = np.flatnonzero((at_start == 0.0) & (at_end == 0.0) & (step >= behind))
         if len(along):
-            inward = occluders.planes[:3, first[along] + step]
+            inward = occluders.planes[:3, np.minimum(first[along] + step, final)]
             new = _shadow_side(view, ends[:3, along], ends[3:, along], inward)
             inside[along] = (side[along] == 0) | (side[along] == new)
             side[along] = new
@@ -82,7 +86,10 @@ def clip_pairs(
         if last.any():
             through.append((pair[last], low[last], high[last], side[last]))
             inside &= ~last
-        if not inside.all():
+        if np.count_nonzero(inside) > FULL * len(inside):
+            # Few are done with: they stay, marked by an empty interval, since moving the others costs more.
+            high[~inside] = -1.0
+        else:
             kept = np.flatnonzero(inside)
             pair, side, low, high, ends = pair[kept], side[kept], low[kept], high[kept], ends[:, kept]
             first, count, behind = first[kept], count[kept], behind[kept]
