@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
@@ -51,15 +52,16 @@ def cylinder_intersection(r: float, s: float, a: float) -> tuple[Curve, ...]:
 
 
 @dataclass(frozen=True)
-class _Branch:
+class _Branch(ABC):
     """What all branches share: the coordinates as functions with two derivatives."""
 
     start: ClassVar[float] = 0.0
     end: ClassVar[float] = 2.0 * np.pi
     closed: ClassVar[bool] = True
 
+    @abstractmethod
     def _coordinates(self, t: Floats) -> tuple[_Jet, _Jet, _Jet]:
-        raise NotImplementedError
+        """x, y and z at the parameters t, each with two derivatives."""
 
     def points(self, t: Floats) -> Floats:
         """(..., 3) points."""
