@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
@@ -243,3 +244,28 @@ def test_sizes_whose_products_leave_the_range_of_numbers_are_an_error(size: floa
     for camera in (None, Camera((5 * size, -7 * size, 4 * size)), Camera((5.0, -7.0, 4.0))):
         with pytest.raises(InputError, match="out of range"):
             draw(tiny, camera)
+
+
+def model_files() -> list[Path]:
+    folder = Path(os.environ.get("VECTORPLOT_MODELS", DATA.parent.parent / "shared" / "models"))
+    return sorted(folder.glob("*.obj"))
+
+
+NO_MODELS = pytest.param(None, marks=pytest.mark.skip(reason="no models"))
+
+
+@pytest.mark.filterwarnings("ignore::vectorplot.errors.InputWarning")
+@pytest.mark.parametrize("path", model_files() or [NO_MODELS], ids=str)
+@pytest.mark.parametrize("name", ["front", "back", "left", "right", "top", "slanting"])
+def test_models_from_six_views_as_rays_see_them(path: Path, name: str) -> None:
+    scene = read(path)
+    low, high = scene.bounds
+    middle, size = (low + high) / 2.0, float(np.linalg.norm(high - low))
+    if name == "slanting":
+        eye = middle + size * np.array([1.0, 0.7, 1.3])
+        camera = Camera(tuple(eye), tuple(middle), up=(0.0, 1.0, 0.0))
+    else:
+        camera = Camera.view(name, tuple(middle), 2.0 * size)
+    for hidden in ("none", "solid"):
+        drawing = draw(scene, camera, hidden=hidden)
+        assert assert_drawing_is_right(drawing, scene, camera, samples=250) > 100
