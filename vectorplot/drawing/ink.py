@@ -17,8 +17,8 @@ from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.strokes import LineKind
 
 COLLINEAR_MM = 1e-4
-"""A point that is no further from the straight line between its neighbours is left out. So a stroke moves by less than a
-millionth of a picture on a sheet of paper: what is drawn stays as visible as it was found to be."""
+"""A point that is no further from the straight line between its neighbours is left out. So a stroke moves by less than
+a millionth of a picture on a sheet of paper: what is drawn stays as visible as it was found to be."""
 
 DASH_MM = (2.0, 1.0)
 """Dash and gap of hidden lines."""
