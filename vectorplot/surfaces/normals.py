@@ -1,4 +1,4 @@
-"""Unit normals, at poles and singular points too."""
+"""Unit normals and how they turn, at poles and singular points too."""
 
 from __future__ import annotations
 
@@ -9,6 +9,10 @@ from vectorplot.surfaces.surface import Domain, Surface
 
 # A cross product below this part of what the second derivatives allow is that of a pole.
 _POLE = 1e-9
+
+# Part of the domain by which a pole is looked at from inside where the normal's derivatives are asked for: the rounding
+# of a cross product as small as that is no larger than what the normal turns on the way.
+_ASIDE = 1e-6
 
 
 def unit_normals(surface: Surface, u: Floats, v: Floats) -> Floats:
@@ -33,6 +37,41 @@ def unit_normals(surface: Surface, u: Floats, v: Floats) -> Floats:
         return np.asarray(product / np.linalg.norm(product, axis=-1, keepdims=True))
 
 
+def normal_partials(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+    """Unit normals and their derivatives by u and by v, each (..., 3): N = n / |n|, N_u = (n_u - (n_u.N) N) / |n|.
+
+    n = x_u cross x_v, n_u = x_uu cross x_v + x_u cross x_uv. At a pole the derivatives are those a millionth of the
+    domain inside.
+    Degenerate: NaN in holes, and where the normals are NaN. Error: as good as the second partials.
+    """
+    u, v = np.broadcast_arrays(np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64))
+    unit = unit_normals(surface, u, v)
+    by_u, by_v, vanished = _turning(surface, u, v, unit)
+    if vanished.any():
+        domain = surface.domain
+        inner_u = u[vanished] + _inwards(u[vanished], domain.u_start, domain.u_end)[:, 0] * _ASIDE * domain.size[0]
+        inner_v = v[vanished] + _inwards(v[vanished], domain.v_start, domain.v_end)[:, 0] * _ASIDE * domain.size[1]
+        inside = unit_normals(surface, inner_u, inner_v)
+        by_u[vanished], by_v[vanished], _ = _turning(surface, inner_u, inner_v, inside)
+    return unit, by_u, by_v
+
+
+def _turning(surface: Surface, u: Floats, v: Floats, unit: Floats) -> tuple[Floats, Floats, Bools]:
+    """Derivatives (..., 3) of the unit normals by u and by v, and (...,) where they are lost at a pole."""
+    along_u, along_v = surface.partials(u, v)
+    uu, uv, vv = surface.second_partials(u, v)
+    product = np.cross(along_u, along_v)
+    vanished = _length(product) <= _POLE * _bound(surface.domain, (along_u, along_v), (uu, uv, vv))
+    size = np.abs(product).max(axis=-1, keepdims=True, initial=0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        inverse = 1.0 / (np.linalg.norm(product / size, axis=-1, keepdims=True) * size)
+        turned = [
+            np.asarray((d - (d * unit).sum(axis=-1, keepdims=True) * unit) * inverse)
+            for d in (np.cross(uu, along_v) + np.cross(along_u, uv), np.cross(uv, along_v) + np.cross(along_u, vv))
+        ]
+    return turned[0], turned[1], np.asarray(vanished, dtype=np.bool_)
+
+
 def _small(product: Floats, along_u: Floats, along_v: Floats, domain: Domain) -> Bools:
     """(...,) where the product is small beside the squared size of the surface, as far as partials tell it."""
     width, height = domain.size
@@ -50,12 +89,19 @@ def _with_limits(surface: Surface, u: Floats, v: Floats, product: Floats) -> Flo
     b = _inwards(v, domain.v_start, domain.v_end)
     towards_u, towards_v = a * width * uu + b * height * uv, a * width * uv + b * height * vv
     limit = np.cross(towards_u, along_v) + np.cross(along_u, towards_v)
-    bound = (_length(along_u) + _length(uu) * width + _length(uv) * height) * (
-        _length(along_v) + _length(uv) * width + _length(vv) * height
-    )
+    bound = _bound(domain, (along_u, along_v), (uu, uv, vv))
     vanished = _length(product) <= _POLE * bound
     gone = vanished & (_length(limit) <= _POLE * bound)
     return np.where(gone[:, None], np.nan, np.where(vanished[:, None], limit, product))
+
+
+def _bound(domain: Domain, first: tuple[Floats, Floats], second: tuple[Floats, Floats, Floats]) -> Floats:
+    """(...,) how large the cross product can be on a domain with these partials."""
+    (width, height), (uu, uv, vv) = domain.size, second
+    return np.asarray(
+        (_length(first[0]) + _length(uu) * width + _length(uv) * height)
+        * (_length(first[1]) + _length(uv) * width + _length(vv) * height)
+    )
 
 
 def _inwards(t: Floats, start: float, end: float) -> Floats:

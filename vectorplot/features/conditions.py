@@ -1,0 +1,234 @@
+"""The conditions f(u, v) = 0 that curves on a surface satisfy, with their slopes: one place for each formula.
+
+Tracers follow these curves, and visibility is decided by the same functions.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.curves.parameters import number, vector
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.vectors import dot, normalize
+from vectorplot.surfaces.normals import normal_partials, unit_normals
+from vectorplot.surfaces.surface import ImplicitSurface, Surface
+
+Slopes = tuple[Floats, Floats]
+
+
+class Condition(Protocol):
+    """What holds along a curve on a surface: f(u, v) = 0. Functions take arrays u, v of one shape (...), within the
+    domain, and are vectorised."""
+
+    def values(self, u: Floats, v: Floats) -> Floats:
+        """(...,) f; NaN in holes of the surface."""
+        ...
+
+    def slopes(self, u: Floats, v: Floats) -> Slopes:
+        """(...,) derivatives of f by u and by v."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class CentralContour:
+    """f = N.(x - eye): the surface turns away from the eye (3,). Positive where the unit normal N points away from it.
+
+    The slopes are N_u.(x - eye), N_v.(x - eye), since N is at right angles to the partials.
+    Errors: InputError for an eye that is not three finite numbers.
+    Source: Glaeser, section 8.4, equations 25 to 27.
+    """
+
+    surface: Surface
+    eye: ArrayLike
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "eye", vector("contour: eye", self.eye))
+
+    def values(self, u: Floats, v: Floats) -> Floats:
+        """(...,) distances of the eye from the tangent planes, negative on the side of the normal."""
+        return dot(self.surface.points(u, v) - np.asarray(self.eye), unit_normals(self.surface, u, v))
+
+    def slopes(self, u: Floats, v: Floats) -> Slopes:
+        """(...,) derivatives by u and by v."""
+        way = self.surface.points(u, v) - np.asarray(self.eye)
+        _, by_u, by_v = normal_partials(self.surface, u, v)
+        return dot(way, by_u), dot(way, by_v)
+
+
+@dataclass(frozen=True, eq=False)
+class ParallelContour:
+    """f = N.d: the surface turns away from an eye at infinity in the direction d (3,), of any length, kept as a unit
+    vector. Positive where the unit normal N points towards the eye.
+
+    Errors: InputError for a direction without length.
+    Source: Glaeser, section 8.4, equation 27 for an eye at infinity.
+    """
+
+    surface: Surface
+    direction: ArrayLike
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "direction", normalize(vector("contour: direction", self.direction)))
+
+    def values(self, u: Floats, v: Floats) -> Floats:
+        """(...,) cosines of the angles between normal and direction."""
+        return np.asarray(unit_normals(self.surface, u, v) @ np.asarray(self.direction))
+
+    def slopes(self, u: Floats, v: Floats) -> Slopes:
+        """(...,) derivatives by u and by v."""
+        return _turning_towards(self.surface, np.asarray(self.direction), u, v)
+
+
+@dataclass(frozen=True, eq=False)
+class Isophote:
+    """f = N.l - c: parallel light l (3,), of any length, kept as a unit vector, meets the surface at the cosine c.
+
+    Errors: InputError for a light without length, a cosine not within -1 and 1.
+    Source: Glaeser, section 8.4, equation 28.
+    """
+
+    surface: Surface
+    light: ArrayLike
+    cosine: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "light", normalize(vector("isophotes: light", self.light)))
+        _check_cosine(self.cosine)
+
+    def values(self, u: Floats, v: Floats) -> Floats:
+        """(...,) cosines of the angles between normal and light, less c."""
+        return np.asarray(unit_normals(self.surface, u, v) @ np.asarray(self.light) - self.cosine)
+
+    def slopes(self, u: Floats, v: Floats) -> Slopes:
+        """(...,) derivatives by u and by v."""
+        return _turning_towards(self.surface, np.asarray(self.light), u, v)
+
+
+@dataclass(frozen=True, eq=False)
+class PointIsophote:
+    """f = N.w / |w| - c, w = light - x: the light of a point (3,) meets the surface at the cosine c.
+
+    The slopes are N_u.w / |w| + (N.w) (x_u.w) / |w|^3, and so by v.
+    Degenerate: NaN where the light stands on the surface.
+    Errors: InputError for a light that is not three finite numbers, a cosine not within -1 and 1.
+    """
+
+    surface: Surface
+    light: ArrayLike
+    cosine: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "light", vector("isophotes: light", self.light))
+        _check_cosine(self.cosine)
+
+    def values(self, u: Floats, v: Floats) -> Floats:
+        """(...,) cosines of the angles between normal and light, less c."""
+        way = self._way(u, v)[0]
+        return dot(way, unit_normals(self.surface, u, v)) - self.cosine
+
+    def slopes(self, u: Floats, v: Floats) -> Slopes:
+        """(...,) derivatives by u and by v."""
+        way, distance = self._way(u, v)
+        unit, normal_u, normal_v = normal_partials(self.surface, u, v)
+        along_u, along_v = self.surface.partials(u, v)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            nearing = dot(unit, way) / distance
+        return (
+            np.asarray(dot(normal_u, way) + nearing * dot(along_u, way)),
+            np.asarray(dot(normal_v, way) + nearing * dot(along_v, way)),
+        )
+
+    def _way(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        """(..., 3) unit vectors to the light, and its distances (...)."""
+        way = np.asarray(self.light) - self.surface.points(u, v)
+        distance = np.linalg.norm(way, axis=-1)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return np.asarray(way / distance[..., None]), np.asarray(distance)
+
+
+@dataclass(frozen=True, eq=False)
+class ImplicitSection:
+    """f = F(x(u, v)): the surface meets the implicit surface F = 0.
+
+    Source: Glaeser, section 8.4, equation 29.
+    """
+
+    surface: Surface
+    implicit: ImplicitSurface
+
+    def values(self, u: Floats, v: Floats) -> Floats:
+        """(...,) F on the surface."""
+        return self.implicit.values(self.surface.points(u, v))
+
+    def slopes(self, u: Floats, v: Floats) -> Slopes:
+        """(...,) derivatives by u and by v."""
+        along_u, along_v = self.surface.partials(u, v)
+        gradients = self.implicit.gradients(self.surface.points(u, v))
+        return dot(gradients, along_u), dot(gradients, along_v)
+
+
+@dataclass(frozen=True, eq=False)
+class PlaneSection:
+    """f = n.x - d: the surface meets the plane of the normal n (3,), of any length, kept as a unit vector, at the
+    offset d.
+
+    Errors: InputError for a normal without length, an offset that is not finite.
+    """
+
+    surface: Surface
+    normal: ArrayLike
+    offset: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "normal", normalize(vector("plane sections: normal", self.normal)))
+        number("plane sections: offset", self.offset)
+
+    def values(self, u: Floats, v: Floats) -> Floats:
+        """(...,) distances from the plane, positive on the side of its normal."""
+        return np.asarray(self.surface.points(u, v) @ np.asarray(self.normal) - self.offset)
+
+    def slopes(self, u: Floats, v: Floats) -> Slopes:
+        """(...,) derivatives by u and by v."""
+        along_u, along_v = self.surface.partials(u, v)
+        return np.asarray(along_u @ np.asarray(self.normal)), np.asarray(along_v @ np.asarray(self.normal))
+
+
+@dataclass(frozen=True, eq=False)
+class ParameterCondition:
+    """f = u - value for the axis 0, v - value for the axis 1: a parameter line or a border.
+
+    Errors: InputError for another axis, a value that is not finite.
+    """
+
+    axis: int
+    value: float
+
+    def __post_init__(self) -> None:
+        if self.axis not in (0, 1):
+            raise InputError(f"parameter line: axis {self.axis!r}: expected 0 for u or 1 for v")
+        number("parameter line: value", self.value)
+
+    def values(self, u: Floats, v: Floats) -> Floats:
+        """(...,) the parameter, less the value."""
+        return np.asarray((u, v)[self.axis] - self.value)
+
+    def slopes(self, u: Floats, v: Floats) -> Slopes:
+        """(...,) one and zero, or zero and one."""
+        one, zero = np.ones(np.shape(u)), np.zeros(np.shape(u))
+        return (one, zero) if self.axis == 0 else (zero, one)
+
+
+def _turning_towards(surface: Surface, direction: Floats, u: Floats, v: Floats) -> Slopes:
+    """(...,) derivatives of N.d by u and by v."""
+    _, by_u, by_v = normal_partials(surface, u, v)
+    return np.asarray(by_u @ direction), np.asarray(by_v @ direction)
+
+
+def _check_cosine(cosine: float) -> None:
+    if not abs(number("isophotes: cosine", cosine)) <= 1.0:
+        raise InputError(f"isophotes: cosine {cosine:g}: cosines must lie between -1 and 1")
