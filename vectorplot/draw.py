@@ -26,7 +26,7 @@ from vectorplot.visibility.occluders import solid_items
 from vectorplot.visibility.pairs import Segments
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 
-DRAWN = ("contour", "boundary", "crease", "intersection", "pattern")
+DRAWN = ("contour", "boundary", "crease", "intersection", "pattern", "parameter", "isophote", "section")
 """The kinds of lines that are drawn where nothing else is said."""
 
 

@@ -19,6 +19,8 @@ PENS = {
     "intersection": Pen(0.35, BLACK),
     "hidden": Pen(0.13, BLACK),
     "pattern": Pen(0.18, BLACK),
+    "isophote": Pen(0.18, BLACK),
+    "section": Pen(0.18, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -29,6 +31,9 @@ KIND_LAYER = {
     LineKind.EDGES: "visible",
     LineKind.INTERSECTION: "intersection",
     LineKind.PATTERN: "pattern",
+    LineKind.PARAMETER: "visible",
+    LineKind.ISOPHOTE: "isophote",
+    LineKind.SECTION: "section",
 }
 
 COLOURS = {
@@ -48,8 +53,8 @@ COLOURS = {
 
 
 def layers_by_kind(paths: Paths) -> tuple[Layer, ...]:
-    """Layers visible, contour, intersection, hidden (not plotted) and pattern, without the empty ones at the end: so
-    each kind keeps its number from drawing to drawing."""
+    """Layers visible, contour, intersection, hidden (not plotted), pattern, isophote and section, without the empty
+    ones at the end: so each kind keeps its number from drawing to drawing."""
     names = tuple(PENS)
     of_kind = np.array([names.index(KIND_LAYER[kind]) for kind in LineKind])
     which = np.where(paths.hidden_by > 0, names.index("hidden"), of_kind[paths.kind])

@@ -24,6 +24,12 @@ class LineKind(IntEnum):
     """Any other edge of a face."""
     PATTERN = 5
     """The outline of a pattern on a face."""
+    PARAMETER = 6
+    """A line of a parametrised surface along which u or v is constant."""
+    ISOPHOTE = 7
+    """A line of a smooth surface along which it takes the same light."""
+    SECTION = 8
+    """A line in which a plane meets a smooth surface."""
 
     @property
     def word(self) -> str:

@@ -11,10 +11,10 @@ def describe(scene: Scene) -> list[str]:
     """The lines that say what is in a scene: of every item counts, closedness, convexity and size; then the whole."""
     lines = []
     for item in scene.items:
-        lines.append(f"{item.name}: {_counts(item.shape)}")
+        lines.append(f"{item.name}: {_counts(item.mesh)}")
     low, high = scene.bounds
     size = " x ".join(f"{extent:.6g}" for extent in high - low)
-    faces = sum(item.shape.face_count for item in scene.items)
+    faces = sum(item.mesh.face_count for item in scene.items)
     counts = (_number(len(scene.items), "item"), _number(faces, "face"), _number(len(scene.lights), "light"))
     lines.append(f"{', '.join(counts)}, size {size}")
     return lines

@@ -102,7 +102,7 @@ class _Reader(ItemReader):
         parts: tuple[Mesh, ...] = ()
         if draft.parts is not None:
             places = [self.places[part] for part in draft.parts]
-            parts = tuple(self.items[place].shape for place in places)
+            parts = tuple(self.items[place].mesh for place in places)
             self.parts.update(places)
         self.places[draft.name] = len(self.items)
         self.items.append(finished(draft, self.source, parts))

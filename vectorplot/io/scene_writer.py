@@ -87,7 +87,7 @@ def _item(item: Item) -> str:
             if word not in LINE_WORDS:
                 raise InputError(f"{item.name}: '{word}' is no kind of line")
         words.append(f"lines {', '.join(item.lines) or 'none'}")
-    return " ".join(words) + _mesh(item.shape) + _patterns(item.patterns)
+    return " ".join(words) + _mesh(item.mesh) + _patterns(item.patterns)
 
 
 def _material(material: Material) -> list[str]:

@@ -10,6 +10,9 @@ import numpy as np
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats, Mesh
+from vectorplot.scene.extent import surface_bounds
+from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
+from vectorplot.surfaces.surface import ImplicitSurface, Surface
 
 
 @dataclass(frozen=True)
@@ -47,17 +50,27 @@ class Pattern:
 class Item:
     """A shape in the scene, and how it is drawn.
 
-    colour: the name of a palette; lines: the words of the kinds to draw (None: what the drawing asks for);
-    occludes: whether it hides what is behind it.
+    shape: a polyhedron, or a smooth surface; colour: the name of a palette; lines: the words of the kinds to draw
+    (None: what the drawing asks for); occludes: whether it hides what is behind it; curves: which lines there are on a
+    smooth surface.
     """
 
     name: str
-    shape: Mesh
+    shape: Mesh | Surface | ImplicitSurface
     colour: str = "gray"
     material: Material = field(default_factory=Material)
     patterns: tuple[Pattern, ...] = ()
     lines: tuple[str, ...] | None = None
     occludes: bool = True
+    curves: SurfaceLines = NO_LINES
+
+    @property
+    def mesh(self) -> Mesh:
+        """The polyhedron; of a smooth surface a mesh without vertices and faces."""
+        return self.shape if isinstance(self.shape, Mesh) else _NO_MESH
+
+
+_NO_MESH = Mesh(np.zeros((0, 3)), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
 
 
 @dataclass(frozen=True)
@@ -102,13 +115,25 @@ class Scene:
 
     @cached_property
     def vertices(self) -> Floats:
-        """(v,3) the vertices of all items, one item after the other."""
-        shapes = [item.shape.vertices for item in self.items]
+        """(v,3) the vertices of all polyhedra, one item after the other."""
+        shapes = [item.mesh.vertices for item in self.items]
         return shapes[0] if len(shapes) == 1 else np.concatenate([np.zeros((0, 3)), *shapes])
 
     @cached_property
     def bounds(self) -> Floats:
-        """(2,3) smallest and largest coordinates over all items; zeros for an empty scene."""
-        if not len(self.vertices):
+        """(2,3) smallest and largest coordinates over all items; zeros for an empty scene.
+
+        Errors: InputError, with the item's name, for a surface without a finite point.
+        """
+        boxes = [_bounds(item.name, item.shape) for item in self.items if not isinstance(item.shape, Mesh)]
+        corners = np.concatenate([self.vertices, *boxes]) if boxes else self.vertices
+        if not len(corners):
             return np.zeros((2, 3))
-        return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)])
+        return np.array([corners.min(axis=0), corners.max(axis=0)])
+
+
+def _bounds(name: str, shape: Surface | ImplicitSurface) -> Floats:
+    try:
+        return surface_bounds(shape)
+    except InputError as error:
+        raise InputError(f"{name}: {error.cause}") from None

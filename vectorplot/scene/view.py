@@ -31,7 +31,8 @@ class View:
 
     points (3,v); corners (c,), offsets (f+1,) as in Mesh, but without the faces that are not present, and with those
     that are not planar and convex cut into triangles: inner (c,) marks their diagonals; face_item (f,); item_vertices
-    (i+1,): item k has the points item_vertices[k] to item_vertices[k+1]; occludes (i,); eye (3,) the eye, or for a
+    (i+1,): item k has the points item_vertices[k] to item_vertices[k+1], none if it is a smooth surface; smooth
+    surfaces have no faces either; occludes (i,); eye (3,) the eye, or for a
     parallel projection None: then every ray runs along +z; target (3,); focus: depth of the image plane, which is put
     into the middle of the scene; near: the smallest depth that is drawn; tolerance: what counts as distance zero;
     picture_height: of the camera's picture in the image plane. world_from_view: point = centre + scale * (p @ axes).
@@ -132,7 +133,7 @@ def look(scene: Scene, camera: Camera) -> View:
     Errors: InputError where the scene is so small, or the eye so far away, that its coordinates have no digits left.
     Degenerate: an empty scene gives a view without points.
     """
-    meshes = [item.shape for item in scene.items]
+    meshes = [item.mesh for item in scene.items]
     low, high = scene.bounds
     centre, scale = (low + high) / 2.0, float((high - low).max()) / 2.0
     if not scale > 0.0:
@@ -175,7 +176,7 @@ def look(scene: Scene, camera: Camera) -> View:
 
 def _faces(scene: Scene, first_vertex: Ints) -> tuple[Ints, Ints, Ints]:
     """Corners, offsets and item of all present faces."""
-    meshes = [item.shape for item in scene.items]
+    meshes = [item.mesh for item in scene.items]
     if len(meshes) == 1 and meshes[0].present is None:
         return meshes[0].corners, meshes[0].offsets, np.zeros(meshes[0].face_count, dtype=np.intp)
     none = np.zeros(0, dtype=np.intp)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, TypeGuard
 
 import numpy as np
 
@@ -90,3 +90,13 @@ def normals(surface: Surface, u: Floats, v: Floats) -> Floats:
 def is_hole(points: Floats) -> Bools:
     """(...,) where points (..., 3) are not finite."""
     return np.asarray(~np.isfinite(points).all(axis=-1), dtype=np.bool_)
+
+
+def is_parametrised(shape: object) -> TypeGuard[Surface]:
+    """Whether a shape is a parametrised surface: it has a domain."""
+    return hasattr(shape, "domain")
+
+
+def is_implicit(shape: object) -> TypeGuard[ImplicitSurface]:
+    """Whether a shape is an implicit surface: it has a box and gradients, and no domain."""
+    return hasattr(shape, "box") and hasattr(shape, "gradients") and not hasattr(shape, "domain")

@@ -95,7 +95,7 @@ def occluders(scene: Scene, middle: Floats, size: float, items: Sequence[int] | 
     owners = [index for index in wanted if scene.items[index].occludes]
     triangles, edges = [np.zeros((0, 3, 3))], [np.zeros((0, 2, 3))]
     for index in owners:
-        mesh = scene.items[index].shape
+        mesh = scene.items[index].mesh
         vertices = (mesh.vertices - middle) / size
         triangles.append(vertices[triangulated(mesh)[0]])
         edges.append(vertices[edges_of_faces(mesh)])

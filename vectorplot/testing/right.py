@@ -123,6 +123,6 @@ def edge_points(scene: Scene, samples: int, *, seed: int = 0) -> tuple[Floats, I
     """Random points (n,3) on the edges of the faces of all items, and (n,) the index of the item each lies on."""
     lines, owner = [np.zeros((0, 2, 3))], [np.zeros(0, dtype=np.intp)]
     for index, item in enumerate(scene.items):
-        lines.append(item.shape.vertices[edges_of_faces(item.shape)])
+        lines.append(item.mesh.vertices[edges_of_faces(item.mesh)])
         owner.append(np.full(len(lines[-1]), index, dtype=np.intp))
     return on_segments(np.concatenate(lines), np.concatenate(owner), samples, np.random.default_rng(seed))

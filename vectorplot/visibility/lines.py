@@ -22,20 +22,28 @@ from vectorplot.visibility.projected_faces import ProjectedFaces
 class Lines:
     """Straight lines in the view's coordinates: start and end (3,n), kind (n,) LineKind values, item (n,); side (n,):
     1 or -1 for an outline, where its surface lies to the left or right of start -> end in the image, 0 for other
-    lines."""
+    lines; smooth (n,): a chord of a smooth curve, both of its ends on it."""
 
     start: Floats
     end: Floats
     kind: Ints
     item: Ints
     side: Ints
+    smooth: Bools
 
     def __len__(self) -> int:
         return len(self.kind)
 
     def some(self, which: Ints | Bools) -> Lines:
         """Some of the lines."""
-        return Lines(self.start[:, which], self.end[:, which], self.kind[which], self.item[which], self.side[which])
+        return Lines(
+            self.start[:, which],
+            self.end[:, which],
+            self.kind[which],
+            self.item[which],
+            self.side[which],
+            self.smooth[which],
+        )
 
 
 def joined_lines(parts: Collection[Lines]) -> Lines:
@@ -46,7 +54,13 @@ def joined_lines(parts: Collection[Lines]) -> Lines:
         np.concatenate([np.zeros(0, dtype=np.intp), *(p.kind for p in parts)]),
         np.concatenate([np.zeros(0, dtype=np.intp), *(p.item for p in parts)]),
         np.concatenate([np.zeros(0, dtype=np.intp), *(p.side for p in parts)]),
+        np.concatenate([np.zeros(0, dtype=np.bool_), *(p.smooth for p in parts)]),
     )
+
+
+def straight_lines(start: Floats, end: Floats, kind: Ints, item: Ints, side: Ints) -> Lines:
+    """Lines none of which is a chord of a curve."""
+    return Lines(start, end, kind, item, side, np.zeros(len(kind), dtype=np.bool_))
 
 
 def wanted_kinds(scene: Scene, kinds: frozenset[LineKind]) -> list[tuple[frozenset[LineKind], Bools]]:
@@ -77,7 +91,8 @@ def edge_lines(
         item = view.face_item[which[edges.face]]
         kept = edges.front | backs[item]
         start, end = edges.start[kept], edges.end[kept]
-        parts.append(Lines(view.points[:, start], view.points[:, end], edges.kind[kept], item[kept], edges.side[kept]))
+        ends = view.points[:, start], view.points[:, end]
+        parts.append(straight_lines(*ends, edges.kind[kept], item[kept], edges.side[kept]))
     return joined_lines(parts)
 
 
@@ -111,7 +126,7 @@ def intersection_lines(
     kept = wants[one] | wants[two]
     owner = np.where(wants[one], one, two)[kept]
     kind = np.full(int(kept.sum()), int(LineKind.INTERSECTION))
-    return Lines(met.start[:, kept], met.end[:, kept], kind, owner, np.zeros_like(kind))
+    return straight_lines(met.start[:, kept], met.end[:, kept], kind, owner, np.zeros_like(kind))
 
 
 def pattern_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines:
@@ -121,11 +136,11 @@ def pattern_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines
         if LineKind.PATTERN not in kinds_of(item, kinds):
             continue
         for pattern in item.patterns:
-            if item.shape.present is None or item.shape.present[pattern.face]:
-                outline = pattern_outline(item.shape, pattern.face, pattern.points)
+            if item.mesh.present is None or item.mesh.present[pattern.face]:
+                outline = pattern_outline(item.mesh, pattern.face, pattern.points)
                 starts.append(outline)
                 ends.append(np.roll(outline, -1, axis=0))
                 items.append(np.full(len(outline), number))
     start, end = (view.points_of(np.concatenate([np.zeros((0, 3)), *part])) for part in (starts, ends))
     owner = np.concatenate([np.zeros(0, dtype=np.intp), *items])
-    return Lines(start, end, np.full(len(owner), int(LineKind.PATTERN)), owner, np.zeros_like(owner))
+    return straight_lines(start, end, np.full(len(owner), int(LineKind.PATTERN)), owner, np.zeros_like(owner))

@@ -1,0 +1,70 @@
+"""How far smooth surfaces reach."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats
+from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
+
+GRID = 64
+"""Cells of the grid over the domain, in each direction, on which a surface is looked at first."""
+
+LOOKS = 9
+"""Points in each direction of the finer grids around the outermost points."""
+
+ROUNDS = 4
+"""How often the grids around the outermost points are refined, fourfold each time."""
+
+LARGEST_GROWTH = 0.1
+"""Where refining moves a bound by more than this part of the extent, the surface runs off to infinity there."""
+
+
+def surface_bounds(shape: Surface | ImplicitSurface) -> Floats:
+    """(2,3) smallest and largest coordinates of a smooth surface; of an implicit one those of its box.
+
+    Error: less than a thousandth of the extent, as long as bumps are wider than a GRIDth of the domain.
+    Errors: InputError for a surface without a finite point, and for what is no surface.
+    Degenerate: where a surface runs off to infinity, it ends with the points of the first grid.
+    """
+    if is_parametrised(shape):
+        return _parametrised_bounds(shape)
+    if is_implicit(shape):
+        return np.array(shape.box, dtype=np.float64)
+    raise InputError(f"a {type(shape).__name__} is no mesh and no surface")
+
+
+def _parametrised_bounds(surface: Surface) -> Floats:
+    domain = surface.domain
+    u, v = (grid.ravel() for grid in np.meshgrid(*domain.grid(GRID, GRID), indexing="ij"))
+    points = _finite_points(surface, u, v)
+    if not np.isfinite(points).any():
+        raise InputError("the surface has no finite point")
+    first = np.stack([np.nanmin(points, axis=0), np.nanmax(points, axis=0)])
+    # Towards the six sides: the lowest points along -x, -y, -z, x, y, z are the best.
+    heights = np.concatenate([points, -points], axis=1)
+    best = np.nanargmin(heights, axis=0)
+    at_u, at_v = u[best], v[best]
+    side, sign = np.arange(6) % 3, np.repeat([1.0, -1.0], 3)
+    step = np.array(domain.size) / GRID
+    finer = np.linspace(-1.0, 1.0, LOOKS)
+    for _ in range(ROUNDS):
+        around_u = np.clip(at_u[:, None, None] + finer[:, None] * step[0], domain.u_start, domain.u_end)
+        around_v = np.clip(at_v[:, None, None] + finer * step[1], domain.v_start, domain.v_end)
+        around_u, around_v = (part.reshape(6, -1) for part in np.broadcast_arrays(around_u, around_v))
+        looked = _finite_points(surface, around_u, around_v)[np.arange(6)[:, None], np.arange(LOOKS**2), side[:, None]]
+        index = np.nanargmin(looked * sign[:, None], axis=1)
+        at_u, at_v = around_u[np.arange(6), index], around_v[np.arange(6), index]
+        outermost = looked[np.arange(6), index]
+        step /= 4.0
+    refined = outermost.reshape(2, 3)
+    runs_off = np.abs(refined - first) > LARGEST_GROWTH * float(np.ptp(first, axis=0).max())
+    return np.where(runs_off, first, refined)
+
+
+def _finite_points(surface: Surface, u: Floats, v: Floats) -> Floats:
+    """Points, all three coordinates NaN where one of them is not finite."""
+    points = np.array(surface.points(u, v), dtype=np.float64)
+    points[~np.isfinite(points).all(axis=-1)] = np.nan
+    return points

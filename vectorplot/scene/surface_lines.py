@@ -1,0 +1,97 @@
+"""Which lines are drawn on a smooth surface besides its contour and its borders."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.errors import InputError
+
+Vector = tuple[float, float, float]
+
+MAX_LINES = 10_000
+"""The largest number of lines of one sort on one item."""
+
+
+def _numbers(name: str, values: tuple[float, ...]) -> tuple[float, ...]:
+    try:
+        result = tuple(float(value) for value in values)
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: expected numbers") from None
+    if len(result) > MAX_LINES:
+        raise InputError(f"{name}: {len(result)} of them, expected at most {MAX_LINES}")
+    if not np.isfinite(result).all():
+        raise InputError(f"{name}: expected finite numbers")
+    return result
+
+
+@dataclass(frozen=True)
+class Section:
+    """Parallel planes, in world coordinates: the points whose height along the normal is one of the offsets.
+
+    normal: any length but zero, kept with length 1; offsets (k,): distances from the origin along the normal.
+    Errors: InputError for a normal without length, numbers that are not finite, more than MAX_LINES offsets.
+    Source: Glaeser, section 9.3.
+    """
+
+    normal: Vector
+    offsets: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        normal = np.array(self.normal, dtype=np.float64)
+        if normal.shape != (3,) or not np.isfinite(normal).all() or not normal.any():
+            raise InputError("sections: expected a normal of three finite numbers, not all zero")
+        # Divided by the largest first: squares of very long normals would overflow.
+        normal /= np.abs(normal).max()
+        x, y, z = (normal / np.linalg.norm(normal)).tolist()
+        object.__setattr__(self, "normal", (x, y, z))
+        object.__setattr__(self, "offsets", _numbers("sections", self.offsets))
+
+
+@dataclass(frozen=True)
+class SurfaceLines:
+    """The lines that a smooth item asks for.
+
+    columns, rows: how many parameter lines u = const. and v = const. there are, evenly spaced, 0 for none; isophotes:
+    the cosines of the angle between normal and light along them; light: which light of the scene they are of, None for
+    the first one, or, in a scene without, one from the upper left of the eye; sections: families of plane sections.
+    Errors: InputError for counts below 0 or above MAX_LINES, cosines that are not between -1 and 1.
+    Source: Glaeser, sections 8.2 and 9.3.
+    """
+
+    columns: int = 0
+    rows: int = 0
+    isophotes: tuple[float, ...] = ()
+    light: int | None = None
+    sections: tuple[Section, ...] = ()
+
+    def __post_init__(self) -> None:
+        for word, count in (("columns", self.columns), ("rows", self.rows)):
+            if not 0 <= count <= MAX_LINES or count != int(count):
+                raise InputError(f"parameter lines: {count} {word}, expected a whole number from 0 to {MAX_LINES}")
+        cosines = _numbers("isophotes", self.isophotes)
+        if any(abs(cosine) > 1.0 for cosine in cosines):
+            bad = next(cosine for cosine in cosines if abs(cosine) > 1.0)
+            raise InputError(f"isophotes: {bad:g} is no cosine, expected -1 to 1")
+        if self.light is not None and self.light < 0:
+            raise InputError(f"isophotes: there is no light {self.light}, lights are counted from 0")
+        object.__setattr__(self, "isophotes", cosines)
+        object.__setattr__(self, "sections", tuple(self.sections))
+
+    def __bool__(self) -> bool:
+        return bool(self.columns or self.rows or self.isophotes or self.sections)
+
+
+NO_LINES = SurfaceLines()
+"""Only contour and borders."""
+
+
+def even_cosines(count: int) -> tuple[float, ...]:
+    """Cosines of isophotes, evenly spaced between -1 and 1, both left out: for nine of them -0.8, -0.6, ..., 0.8.
+
+    Errors: InputError for counts below 1 or above MAX_LINES.
+    """
+    if not 1 <= count <= MAX_LINES:
+        raise InputError(f"isophotes: {count} of them, expected 1 to {MAX_LINES}")
+    return tuple((2 * k - count - 1) / (count + 1) for k in range(1, count + 1))
