@@ -5,8 +5,8 @@ import numpy as np
 from vectorplot.drawing.drawing import Paths
 
 
-def polylines(*lines, closed=(), kind=None, item=None, hidden_by=None):
-    """Strokes through the given points; closed: their numbers. points3d is the page's points, one unit above it."""
+def polylines(*lines, closed=(), kind=None, item=None, hidden_by=None, smooth=()):
+    """Strokes through the given points; closed, smooth: their numbers. points3d is the page's points, one unit above it."""
     count = len(lines)
     points = np.concatenate([np.asarray(line, dtype=float).reshape(-1, 2) for line in lines] or [np.zeros((0, 2))])
     zeros = np.zeros(count, dtype=np.intp)
@@ -18,6 +18,7 @@ def polylines(*lines, closed=(), kind=None, item=None, hidden_by=None):
         zeros if item is None else np.asarray(item, dtype=np.intp),
         zeros if hidden_by is None else np.asarray(hidden_by, dtype=np.intp),
         np.column_stack((points, np.ones(len(points)))),
+        np.isin(np.arange(count), smooth),
     )
 
 

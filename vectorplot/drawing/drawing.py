@@ -23,7 +23,8 @@ class Paths:
 
     points (p,2) in mm, y upwards from the lower left corner; offsets (m+1,); closed (m,): the last point joins the
     first (which is not repeated); kind (m,) LineKind values; item (m,) indices into Drawing.items; hidden_by (m,)
-    number of items in front, 0 = visible; points3d (p,3) the same points in the world."""
+    number of items in front, 0 = visible; points3d (p,3) the same points in the world; smooth (m,): the points lie on a
+    smooth curve, between them is more of it; none does unless said otherwise."""
 
     points: Floats
     offsets: Ints
@@ -32,6 +33,11 @@ class Paths:
     item: Ints
     hidden_by: Ints
     points3d: Floats
+    smooth: Bools = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
+
+    def __post_init__(self) -> None:
+        if not len(self.smooth):
+            object.__setattr__(self, "smooth", np.zeros(len(self), dtype=np.bool_))
 
     def __len__(self) -> int:
         return len(self.offsets) - 1

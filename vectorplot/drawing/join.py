@@ -21,10 +21,10 @@ _TURN = 1 << 30
 def joined(paths: Paths, group: Ints, tolerance_mm: float) -> Paths:
     """The same lines in as few and as long strokes as their ends allow.
 
-    group (m,): only strokes of equal group are joined; a joined stroke has the kind, item and hidden_by of its first
-    part. Ends within tolerance_mm are one node, unless they lie one behind the other in the world. Two ends at a node
-    are joined; of more, those that go on most nearly straight are joined first. Strokes that come back to their start
-    are closed, their first point not repeated.
+    group (m,): only strokes of equal group, and smooth ones with smooth ones, are joined; a joined stroke has the kind,
+    item and hidden_by of its first part. Ends within tolerance_mm are one node, unless they lie one behind the other in
+    the world. Two ends at a node are joined; of more, those that go on most nearly straight are joined first. Strokes
+    that come back to their start are closed, their first point not repeated.
     Degenerate: closed strokes stay as they are and come last; a straight stroke with both ends at one node is left out;
     two straight strokes between the same nodes and no others become one.
     """
@@ -33,7 +33,8 @@ def joined(paths: Paths, group: Ints, tolerance_mm: float) -> Paths:
     if not len(open_):
         return chosen(paths, paths.closed) if (~paths.closed).any() else paths
     first, last = paths.offsets[open_], paths.offsets[open_ + 1] - 1
-    node = _nodes(paths.points[np.stack((first, last), axis=1).ravel()], np.repeat(group[open_], 2), tolerance_mm)
+    alike = 2 * group + paths.smooth
+    node = _nodes(paths.points[np.stack((first, last), axis=1).ravel()], np.repeat(alike[open_], 2), tolerance_mm)
     dot = (node[::2] == node[1::2]) & (sizes[open_] == 2)
     if dot.any():
         rest = np.sort(np.concatenate((open_[~dot], np.flatnonzero(paths.closed))))
@@ -158,6 +159,7 @@ def _assembled(paths: Paths, open_: Ints, order: Chains) -> Paths:
         paths.item[source],
         paths.hidden_by[source],
         paths.points3d[index],
+        paths.smooth[source],
     )
 
 

@@ -78,7 +78,7 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, page_from_image:
     rank = np.empty(count, dtype=np.intp)
     rank[order] = np.arange(count)
     world = page_from_world(view, page_from_image)
-    paths = Paths(points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends))
+    paths = Paths(points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends), lines.smooth[seen.segment])
     return without_duplicates(paths, rank, COINCIDENT_MM, world)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from vectorplot.drawing.drawing import Paths
@@ -41,6 +43,7 @@ def chosen(paths: Paths, which: Ints | Bools) -> Paths:
         paths.item[index],
         paths.hidden_by[index],
         paths.points3d[points],
+        paths.smooth[index],
     )
 
 
@@ -58,6 +61,7 @@ def concatenated(parts: tuple[Paths, ...]) -> Paths:
         np.concatenate([part.item for part in parts]),
         np.concatenate([part.hidden_by for part in parts]),
         np.concatenate([part.points3d for part in parts]),
+        np.concatenate([part.smooth for part in parts]),
     )
 
 
@@ -72,8 +76,8 @@ def unrolled(paths: Paths, start: Ints, extra: Ints) -> Paths:
     local = ranges(start, longer)
     index = np.repeat(paths.offsets[:-1], longer) + local % np.maximum(np.repeat(counts, longer), 1)
     open_ = np.zeros(len(paths), dtype=np.bool_)
-    return Paths(
-        paths.points[index], offsets_of(longer), open_, paths.kind, paths.item, paths.hidden_by, paths.points3d[index]
+    return replace(
+        paths, points=paths.points[index], offsets=offsets_of(longer), closed=open_, points3d=paths.points3d[index]
     )
 
 
@@ -97,7 +101,16 @@ def sections(
     for places, segment, t in ((offsets[:-1], first, t_first), (offsets[1:] - 1, last, t_last)):
         points[places], points3d[places] = _divided(paths, segment, t, page_from_world)
     open_ = np.zeros(len(stroke), dtype=np.bool_)
-    return Paths(points, offsets, open_, paths.kind[stroke], paths.item[stroke], paths.hidden_by[stroke], points3d)
+    return Paths(
+        points,
+        offsets,
+        open_,
+        paths.kind[stroke],
+        paths.item[stroke],
+        paths.hidden_by[stroke],
+        points3d,
+        paths.smooth[stroke],
+    )
 
 
 def _divided(paths: Paths, segment: Ints, t: Floats, page_from_world: Floats) -> tuple[Floats, Floats]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from vectorplot.geometry.mesh import Floats
@@ -91,5 +93,5 @@ def in_frame(view: View, lines: Lines, page: Page, fit: bool) -> tuple[Lines, bo
         along = lines.end - lines.start
         start = np.where(low > 0.0, lines.start + low * along, lines.start)
         end = np.where(high < 1.0, lines.start + high * along, lines.end)
-        lines = Lines(start, end, lines.kind, lines.item, lines.side)
+        lines = replace(lines, start=start, end=end)
     return lines, fitted
