@@ -6,12 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.curves.parameters import vector
+from vectorplot.features.conditions import CentralContour, ParallelContour
 from vectorplot.features.curve_tracing import VALUE_ROUNDING, Tracing, curves_where_zero, samples
 from vectorplot.features.surface_curves import SurfaceCurves, no_curves
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Floats
-from vectorplot.geometry.vectors import normalize
-from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Surface
 
 DEFAULT = Tracing()
@@ -32,11 +30,8 @@ def contour(surface: Surface, eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> 
         return no_curves()
     size = float(np.linalg.norm(points - centre, axis=1).max())
     large = float(np.abs(points).max() + np.abs(centre).max())
-
-    def f(u: Floats, v: Floats) -> Floats:
-        return np.asarray(((surface.points(u, v) - centre) * unit_normals(surface, u, v)).sum(axis=-1))
-
-    return curves_where_zero(surface, f, size=size, rounding=VALUE_ROUNDING * large, tracing=tracing)
+    condition = CentralContour(surface, centre)
+    return curves_where_zero(surface, condition, size=size, rounding=VALUE_ROUNDING * large, tracing=tracing)
 
 
 def parallel_contour(surface: Surface, direction: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
@@ -48,12 +43,8 @@ def parallel_contour(surface: Surface, direction: ArrayLike, *, tracing: Tracing
     Degenerate: a surface all seen edge-on (a cylinder along its axis) has no contour, and a doubt says so.
     Source: Glaeser, section 8.4, equation 27 for an eye at infinity.
     """
-    d = normalize(vector("contour: direction", direction))
-
-    def f(u: Floats, v: Floats) -> Floats:
-        return np.asarray(unit_normals(surface, u, v) @ d)
-
-    return curves_where_zero(surface, f, size=1.0, rounding=VALUE_ROUNDING, tracing=tracing)
+    condition = ParallelContour(surface, direction)
+    return curves_where_zero(surface, condition, size=1.0, rounding=VALUE_ROUNDING, tracing=tracing)
 
 
 def contour_in_view(surface: Surface, camera: Camera, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:

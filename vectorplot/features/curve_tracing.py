@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.features.conditions import Condition
 from vectorplot.features.poles import through_poles
-from vectorplot.features.scalar_field import Function, Gradient
 from vectorplot.features.surface_curves import SurfaceCurves
 from vectorplot.features.zero_manifold import zero_manifold_of_f_uv
 from vectorplot.geometry.mesh import Floats
@@ -71,15 +71,14 @@ def wrapped(domain: Domain, u: Floats, v: Floats) -> tuple[Floats, Floats]:
 
 def curves_where_zero(
     surface: Surface,
-    f: Function,
+    condition: Condition,
     *,
     size: float,
     rounding: float,
     tracing: Tracing,
     level: float = 0.0,
-    gradient: Gradient | None = None,
 ) -> SurfaceCurves:
-    """The curves f(u, v) = 0 on a surface.
+    """The curves on a surface along which a condition f(u, v) = 0 holds.
 
     size: how large f is where it is far from zero; rounding: the error that f is computed with: smaller values count as
     zero. Where f is below FLAT of its size all over a cell of the grid, values as small as that count as zero
@@ -88,13 +87,13 @@ def curves_where_zero(
     """
     domain = surface.domain
     u, v = (a.ravel() for a in np.meshgrid(*domain.grid(tracing.columns, tracing.rows), indexing="ij"))
-    on_grid = np.asarray(f(u, v), dtype=np.float64)
+    on_grid = np.asarray(condition.values(u, v), dtype=np.float64)
     small = (np.abs(on_grid) <= FLAT * size).reshape(tracing.columns + 1, tracing.rows + 1)
     flat = (small[1:, 1:] & small[1:, :-1] & small[:-1, 1:] & small[:-1, :-1]).any()
     noise = max(rounding, FLAT * size if flat else 0.0)
 
     def snapped(u: Floats, v: Floats) -> Floats:
-        w = np.asarray(f(*wrapped(domain, u, v)), dtype=np.float64)
+        w = np.asarray(condition.values(*wrapped(domain, u, v)), dtype=np.float64)
         return np.where(np.abs(w) <= noise, 0.0, w)
 
     def space(u: Floats, v: Floats) -> Floats:
@@ -107,7 +106,7 @@ def curves_where_zero(
         _turned(domain),
         columns=tracing.columns,
         rows=tracing.rows,
-        gradient=None if gradient is None else lambda u, v: gradient(*wrapped(domain, u, v)),
+        gradient=lambda u, v: condition.slopes(*wrapped(domain, u, v)),
         resolution=tracing.resolution,
         positions=space,
         tolerance=tolerance or None,

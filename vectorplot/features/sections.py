@@ -7,12 +7,10 @@ import warnings
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError, InputWarning
+from vectorplot.features.conditions import ImplicitSection, PlaneSection
 from vectorplot.features.curve_tracing import VALUE_ROUNDING, Tracing, curves_where_zero, extent, samples
 from vectorplot.features.surface_curves import SurfaceCurves, no_curves, together
-from vectorplot.geometry.mesh import Floats
-from vectorplot.geometry.vectors import normalize
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 
 DEFAULT = Tracing()
@@ -33,16 +31,12 @@ def intersection(surface: Surface, other: ImplicitSurface, *, tracing: Tracing =
     slope = float(np.quantile(long[np.isfinite(long)], 0.95)) if np.isfinite(long).any() else 0.0
     size, large = extent(surface)
 
-    def f(u: Floats, v: Floats) -> Floats:
-        return other.values(surface.points(u, v))
-
-    def gradient(u: Floats, v: Floats) -> tuple[Floats, Floats]:
-        slopes = other.gradients(surface.points(u, v))
-        along_u, along_v = surface.partials(u, v)
-        return np.asarray((slopes * along_u).sum(axis=-1)), np.asarray((slopes * along_v).sum(axis=-1))
-
     curves = curves_where_zero(
-        surface, f, size=slope * size, rounding=VALUE_ROUNDING * slope * large, tracing=tracing, gradient=gradient
+        surface,
+        ImplicitSection(surface, other),
+        size=slope * size,
+        rounding=VALUE_ROUNDING * slope * large,
+        tracing=tracing,
     )
     return _warned(curves)
 
@@ -56,30 +50,23 @@ def plane_sections(
     Errors: InputError for a normal without length, offsets that are not finite.
     Degenerate: as for `intersection`.
     """
-    n = normalize(vector("plane sections: normal", normal))
     levels = np.atleast_1d(np.asarray(offsets, dtype=np.float64))
-    if levels.ndim != 1 or not np.isfinite(levels).all():
-        raise InputError("plane sections: offsets must be finite numbers")
+    if levels.ndim != 1:
+        raise InputError("plane sections: offsets must be numbers in a row")
     size, large = extent(surface)
-
-    def gradient(u: Floats, v: Floats) -> tuple[Floats, Floats]:
-        along_u, along_v = surface.partials(u, v)
-        return np.asarray(along_u @ n), np.asarray(along_v @ n)
-
     return together(
         [
             _warned(
                 curves_where_zero(
                     surface,
-                    lambda u, v, d=d: np.asarray(surface.points(u, v) @ n - d),  # type: ignore[misc]
+                    plane,
                     size=size,
-                    rounding=VALUE_ROUNDING * (large + abs(d)),
+                    rounding=VALUE_ROUNDING * (large + abs(plane.offset)),
                     tracing=tracing,
-                    level=float(d),
-                    gradient=gradient,
+                    level=plane.offset,
                 )
             )
-            for d in levels
+            for plane in [PlaneSection(surface, normal, float(d)) for d in levels]
         ]
     )
 
