@@ -13,9 +13,9 @@ from vectorplot.testing.curves import (
     branch_count,
 )
 from vectorplot.testing.polylines import curves_in_space
-from vectorplot.testing.rays import Sight, visible_by_rays
 from vectorplot.testing.right import assert_drawing_is_right, edge_points
 from vectorplot.testing.shapes import hard_shapes
+from vectorplot.testing.sight import Sight, visible_by_rays
 
 __all__ = [
     "BranchCount",

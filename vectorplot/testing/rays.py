@@ -1,4 +1,4 @@
-"""What hides a point, found by looking: a ray from the point to the eye against every triangle of the scene.
+"""Sight rays from points to the eye, against every triangle of the scene.
 
 Slow and plain, and independent of the engine it checks. Trees and grids are replaced by two rounds of bounding spheres.
 """
@@ -7,10 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats, Ints, Mesh
@@ -25,13 +23,6 @@ REACH = 1e-3
 
 CHUNK = 1 << 18
 CLUSTER = 64
-
-
-class Sight(NamedTuple):
-    """hidden_by (n,): how many items hide each point; clearance (n,): how sure that is, see visible_by_rays."""
-
-    hidden_by: Ints
-    clearance: Floats
 
 
 @dataclass(frozen=True)
@@ -53,26 +44,6 @@ class Solids:
 
     def __len__(self) -> int:
         return len(self.item)
-
-
-def visible_by_rays(scene: Scene, camera: Camera, points: ArrayLike, *, items: Sequence[int] | None = None) -> Sight:
-    """How many items hide each of the points (n,3) from the camera's eye, by brute force; 0: the point is visible.
-
-    An item counts once, however often it is met; a face that touches the point does not hide it, and neither does one
-    that is seen edge-on. Items that do not occlude and faces that are not present hide nothing; items: the indices of
-    those that may hide (None: all).
-
-    clearance is the distance, as a part of the scene's largest side and at most 0.001, from the ray to the nearest
-    edge of a face that the point does not touch, or from the point to a face on its ray that it does not touch.
-    Compare only where it is larger than the accuracy asked for: nearer, the answer turns on rounding.
-    """
-    targets = np.asarray(points, dtype=np.float64).reshape(-1, 3)
-    bounds = scene.bounds
-    middle, size = bounds.mean(axis=0), float((bounds[1] - bounds[0]).max()) or 1.0
-    rays = sight_rays(camera, targets, middle, size)
-    triangles, edges = occluders(scene, middle, size, items)
-    hidden, clearance = hits(rays, triangles, len(scene.items))
-    return Sight(hidden, np.minimum(clearance, edge_distances(rays, edges)))
 
 
 def sight_rays(camera: Camera, points: Floats, middle: Floats, size: float) -> Rays:
@@ -224,12 +195,16 @@ def distance_to_segment(point: Floats, a: Floats, b: Floats) -> Floats:
     return np.asarray(np.linalg.norm(arm - share[:, None] * edge, axis=1))
 
 
-def edge_distances(rays: Rays, edges: Solids) -> Floats:
-    """(n,) distance from each ray to the nearest edge that its point does not touch, at most REACH."""
+def edge_distances(rays: Rays, edges: Solids, own: Floats | None = None) -> Floats:
+    """(n,) distance from each ray to the nearest edge that its point does not touch, at most REACH.
+
+    own (n,): edges no further from the point than this do not count either; None: those that touch it.
+    """
+    touching = np.full(len(rays.length), CONTACT) if own is None else own
     clearance = np.full(len(rays.length), REACH)
     for ray, index in near_pairs(rays, edges):
         start, end = edges.corners[index, 0], edges.corners[index, 1]
-        free = distance_to_segment(rays.origin[ray], start, end) > CONTACT
+        free = distance_to_segment(rays.origin[ray], start, end) > touching[ray]
         ray, start, end = ray[free], start[free], end[free]
         origin = rays.origin[ray]
         tip = origin + rays.direction[ray] * rays.length[ray][:, None]

@@ -11,7 +11,8 @@ from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Scene
 from vectorplot.testing.compare import path_segments
-from vectorplot.testing.rays import edges_of_faces, visible_by_rays
+from vectorplot.testing.rays import edges_of_faces
+from vectorplot.testing.sight import visible_by_rays
 
 
 def assert_drawing_is_right(
