@@ -60,7 +60,7 @@ def _pairs_of_faces(faces: Faces, part: Ints, tolerance: float) -> tuple[Ints, I
         return none, none
     low, high = _part_boxes(faces, part, parts)
     low, high = low - tolerance, high + tolerance
-    a, b = _overlaps(low, high, low, high)
+    a, b = overlapping_boxes(low, high, low, high)
     a, b = a[a < b], b[a < b]
     meeting = np.zeros(parts, dtype=np.bool_)
     meeting[a], meeting[b] = True, True
@@ -112,11 +112,11 @@ def _within_pairs(
         [np.concatenate([ends[:1, face] + AXIS_SHIFT * pair, ends[1:, face]]) for ends in (low, high)]
         for pair, face in sides
     ]
-    one, two = _overlaps(*boxes[0], *boxes[1])
+    one, two = overlapping_boxes(*boxes[0], *boxes[1])
     return sides[0][1][one], sides[1][1][two]
 
 
-def _overlaps(low: Floats, high: Floats, other_low: Floats, other_high: Floats) -> tuple[Ints, Ints]:
+def overlapping_boxes(low: Floats, high: Floats, other_low: Floats, other_high: Floats) -> tuple[Ints, Ints]:
     """All (i, j) whose boxes overlap: box i of the first kind (3,n), box j of the second (3,m).
 
     Sweeps along the axis on which the fewest intervals overlap: of two that do, one begins within the other.

@@ -1,0 +1,155 @@
+"""Where double curves end: at pinch points and swallowtails, and at borders where the surface goes on elsewhere."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.features.double_curves import Course, followed
+from vectorplot.features.sheets import Sheet, SurfaceSheet
+from vectorplot.geometry.mesh import Bools, Floats
+from vectorplot.geometry.weld import close_points
+
+NEAR_SELF = 9.0
+"""Cells between the two places of an end within which a pinch point is looked for."""
+
+SHRINKING = (1.0, 0.75, 0.5, 0.375, 0.25)
+"""Parts of the distance between the two places for which the curve is computed, before it is extrapolated to none."""
+
+SAME_PLACE = 1e-9
+"""Part of the extent within which two ends are one point."""
+
+
+ON_BORDER = 1e-4
+"""Cells from a border within which a place is on it."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Pairs:
+    """Places middle +- half (cos, sin)(angle) on one surface, in cells."""
+
+    middle: Floats
+    angle: float
+    half: float
+
+    @property
+    def way(self) -> Floats:
+        """(2,) the direction from the middle to the first place."""
+        return np.array([np.cos(self.angle), np.sin(self.angle)])
+
+
+def into_pinch_points(sheet: SurfaceSheet, courses: list[Course]) -> list[Course]:
+    """The courses of a surface that meets itself, those whose two places come together led to the point where they
+    are one.
+
+    The equation (x(m + r w) - x(m - r w)) / 2r = 0 for the middle m and the direction w stays regular there; its
+    solutions are even in r, so those for some r give the one for r = 0 by extrapolation.
+    """
+    return [_led(sheet, _led(sheet, c).reversed()).reversed() for c in courses]
+
+
+def _led(sheet: SurfaceSheet, course: Course) -> Course:
+    """The course, its last point led into a pinch point if one is near."""
+    a, b = course.one[-1], sheet.aligned(course.two[-1:], course.one[-1:])[0]
+    d = 0.5 * (a - b) / sheet.cell
+    half = float(np.hypot(*d))
+    if course.closed or not 0.0 < half <= 0.5 * NEAR_SELF or at_border(sheet, course.one[-1:], course.two[-1:])[0]:
+        return course
+    start = _Pairs(0.5 * (a + b) / sheet.cell, float(np.arctan2(d[1], d[0])), half)
+    found = []
+    for part in SHRINKING:
+        start = _solved(sheet, _Pairs(start.middle, start.angle, part * half))
+        if start is None:
+            return course
+        found.append(start)
+    squares = np.array(SHRINKING) ** 2
+    weights = np.array([np.prod([s / (s - t) for s in squares if s != t]) for t in squares])
+    end = weights @ np.array([f.middle for f in found]) * sheet.cell
+    if np.abs((end - found[-1].middle * sheet.cell) / sheet.cell).max() > half or not _inside(sheet, end):
+        return course
+    kept = [found[k] for k in (1, 2, 4)]
+    one = np.array([*((f.middle + f.half * f.way) * sheet.cell for f in kept), end])
+    two = np.array([*((f.middle - f.half * f.way) * sheet.cell for f in kept), end])
+    return followed(sheet, sheet, course, Course(one, two))
+
+
+def _solved(sheet: SurfaceSheet, start: _Pairs) -> _Pairs | None:
+    """The pair of places with one point, at the same distance from one another; None if there is none near."""
+    middle, angle = start.middle.copy(), start.angle
+    size = sheet.size[0]
+    for _ in range(30):
+        now = _Pairs(middle, angle, start.half)
+        places = np.array([middle + now.half * now.way, middle - now.half * now.way]) * sheet.cell
+        points = sheet.points(places)
+        by_u, by_v = sheet.surface.partials(*sheet.home(places))
+        turned = np.array([-now.way[1], now.way[0]]) * sheet.cell
+        by_place = np.stack([by_u * sheet.cell[0], by_v * sheet.cell[1]], axis=2)
+        jacobian = np.zeros((3, 3))
+        jacobian[:, :2] = (by_place[0] - by_place[1]) / (2.0 * now.half)
+        jacobian[:, 2] = 0.5 * ((by_u[0] + by_u[1]) * turned[0] + (by_v[0] + by_v[1]) * turned[1])
+        gap = (points[0] - points[1]) / (2.0 * now.half)
+        if not np.isfinite(jacobian).all() or not np.isfinite(gap).all():
+            return None
+        step = np.linalg.lstsq(jacobian, -gap, rcond=1e-10)[0]
+        middle, angle = middle + step[:2], angle + float(step[2])
+        if np.abs(middle - start.middle).max() > 2.0 * NEAR_SELF:
+            return None
+        if np.abs(step).max() <= 1e-13 or float(np.abs(gap).max()) <= 1e-15 * size:
+            break
+    return _Pairs(middle, angle, start.half) if float(np.abs(gap).max()) <= 1e-11 * size else None
+
+
+def _inside(sheet: SurfaceSheet, place: Floats) -> bool:
+    domain = sheet.surface.domain
+    return bool(
+        (domain.closed_u or domain.u_start <= place[0] <= domain.u_end)
+        and (domain.closed_v or domain.v_start <= place[1] <= domain.v_end)
+    )
+
+
+def at_border(sheet: SurfaceSheet, *places: Floats) -> Bools:
+    """(k,) whether one of the places (k,2) of a point is on an open border of the domain, or all but there."""
+    domain = sheet.surface.domain
+    found = np.zeros(len(places[0]), dtype=np.bool_)
+    ends = ((domain.u_start, domain.u_end), (domain.v_start, domain.v_end))
+    for axis, closed in enumerate((domain.closed_u, domain.closed_v)):
+        for place in () if closed else places:
+            found |= (np.abs(place[:, axis, None] - ends[axis]) <= ON_BORDER * sheet.cell[axis]).any(axis=1)
+    return found
+
+
+def stitched(one: Sheet, courses: list[Course], size: float, large: float) -> list[Course]:
+    """The courses, those joined that end where exactly one other end is: over a seam that the domain does not know of.
+
+    Places do not run on over such a seam; where both sheets are one they may exchange their roles there.
+    """
+    ends = [(k, last) for k, c in enumerate(courses) if not c.closed and len(c) > 1 for last in (False, True)]
+    if len(ends) < 2:
+        return courses
+    places = np.array([courses[k].one[-1 if last else 0] for k, last in ends])
+    points = one.points(places)
+    group = close_points(points, max(SAME_PLACE * size, 1e-14 * large))
+    owner, last = np.array([k for k, _ in ends]), np.array([s for _, s in ends])
+    mate = np.full(len(ends), -1)
+    for g in np.unique(group):
+        own = np.flatnonzero(group == g)
+        if len(own) == 2:
+            mate[own] = own[::-1]
+    result, used = [c for c in courses if c.closed or len(c) < 2], np.zeros(len(ends), dtype=np.bool_)
+    # Chains begin at ends without a mate; what is left are rings.
+    for start in [*np.flatnonzero(mate < 0).tolist(), *range(len(ends))]:
+        if used[start]:
+            continue
+        parts, at = [], start
+        while at >= 0 and not used[at]:
+            other = at ^ 1
+            used[[at, other]] = True
+            parts.append(courses[owner[at]].reversed() if last[at] else courses[owner[at]])
+            at = int(mate[other])
+        if at == start:
+            parts.append(parts[0].part(0, 1))
+        result.append(
+            Course(np.concatenate([p.one for p in parts]), np.concatenate([p.two for p in parts]), at == start)
+        )
+    return result

@@ -1,0 +1,261 @@
+"""Sheets: shapes whose intersections are looked for, known by places, tangent planes and a tessellation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+
+from vectorplot.features.curve_tracing import extent, wrapped
+from vectorplot.features.tessellation import FREE, Tessellation, edges_of, surface_tessellation
+from vectorplot.geometry.convex_faces import convex_faces
+from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+from vectorplot.surfaces.normals import unit_normals
+from vectorplot.surfaces.surface import Surface
+
+LONGEST_STEP = 2.0
+"""Cells that a place is moved by at most in one step."""
+
+
+class Sheet(Protocol):
+    """A shape on which places (k,d) are points. All functions take many places at once."""
+
+    @property
+    def tessellation(self) -> Tessellation:
+        """Triangles near the shape, with the places of their corners."""
+        ...
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """The diagonal of the box around it, and its largest coordinate."""
+        ...
+
+    def points(self, places: Floats) -> Floats:
+        """(k,3) points; NaN in holes."""
+        ...
+
+    def normals(self, places: Floats) -> Floats:
+        """(k,3) unit normals; NaN where there is none."""
+        ...
+
+    def moved(self, places: Floats, steps: Floats) -> Floats:
+        """(k,d) places moved by steps (k,3) in their tangent planes, to first order; never over a border."""
+        ...
+
+    def along_rails(self, places: Floats, rails: Ints) -> Floats:
+        """(k,3) directions of the lines that rails (k,) name, at places on them."""
+        ...
+
+    def bends(self, places: Floats, frames: Floats) -> Floats:
+        """(k,2,2) second derivatives of the height above the first two axes of frames (k,3,3), along the third."""
+        ...
+
+    def aligned(self, places: Floats, others: Floats) -> Floats:
+        """(k,d) the same places, as many whole periods on as brings them nearest to other places (k,d)."""
+        ...
+
+    def cells_apart(self, places: Floats, others: Floats) -> Floats:
+        """(k,) how many cells lie between places and others, the short way round."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceSheet:
+    """A parametrised surface, tessellated by columns times rows cells; places are (u, v), beyond seams too."""
+
+    surface: Surface
+    columns: int
+    rows: int
+
+    @cached_property
+    def tessellation(self) -> Tessellation:
+        """As `surface_tessellation` makes it."""
+        return surface_tessellation(self.surface, self.columns, self.rows)
+
+    @cached_property
+    def size(self) -> tuple[float, float]:
+        """The diagonal of the box around it, and its largest coordinate."""
+        return extent(self.surface)
+
+    @cached_property
+    def cell(self) -> Floats:
+        """(2,) the size of a cell in u and v."""
+        return np.asarray(self.surface.domain.size, dtype=np.float64) / (self.columns, self.rows)
+
+    def points(self, places: Floats) -> Floats:
+        """(k,3) points; NaN in holes."""
+        return self.surface.points(*self.home(places))
+
+    def normals(self, places: Floats) -> Floats:
+        """(k,3) unit normals."""
+        return unit_normals(self.surface, *self.home(places))
+
+    def moved(self, places: Floats, steps: Floats) -> Floats:
+        """(k,2) places moved; a direction in which the surface stands still is not moved in."""
+        along_u, along_v = self.surface.partials(*self.home(places))
+        long_u, long_v = (np.sqrt((a * a).sum(axis=1)) for a in (along_u, along_v))
+        with np.errstate(all="ignore"):
+            a, b = along_u / long_u[:, None], along_v / long_v[:, None]
+            a, b = (np.where(np.isfinite(x), x, 0.0) for x in (a, b))
+            cosine, by_a, by_b = (a * b).sum(axis=1), (a * steps).sum(axis=1), (b * steps).sum(axis=1)
+            sine = np.maximum(1.0 - cosine * cosine, 1e-14)
+            change = np.stack([(by_a - cosine * by_b) / sine / long_u, (by_b - cosine * by_a) / sine / long_v], axis=1)
+        change = np.where(np.isfinite(change), change, 0.0)
+        longest = np.abs(change / self.cell).max(axis=1, initial=0.0)
+        return self._inside(places + change / np.maximum(longest / LONGEST_STEP, 1.0)[:, None])
+
+    def along_rails(self, places: Floats, rails: Ints) -> Floats:
+        """(k,3) derivatives by the other parameter than the one that rails (k,), 0 or 1, keep."""
+        along_u, along_v = self.surface.partials(*self.home(places))
+        return np.where((rails == 0)[:, None], along_v, along_u)
+
+    def bends(self, places: Floats, frames: Floats) -> Floats:
+        """(k,2,2) second derivatives of the height above the first two axes of frames (k,3,3), along the third."""
+        at = self.home(places)
+        along_u, along_v = self.surface.partials(*at)
+        uu, uv, vv = self.surface.second_partials(*at)
+        with np.errstate(all="ignore"):
+            product = np.cross(along_u, along_v)
+            height = product / (product * frames[:, 2]).sum(axis=1, keepdims=True)
+            bend = np.stack([(d * height).sum(axis=1) for d in (uu, uv, uv, vv)], axis=1).reshape(-1, 2, 2)
+            flat = np.stack([np.einsum("kij,kj->ki", frames[:, :2], d) for d in (along_u, along_v)], axis=2)
+            inverse = _inverse(flat)
+            return np.asarray(np.einsum("kji,kjl,klm->kim", inverse, bend, inverse))
+
+    def aligned(self, places: Floats, others: Floats) -> Floats:
+        """(k,2) the same places, as many whole periods on as brings them nearest to other places."""
+        return np.asarray(others + self._between(places, others))
+
+    def cells_apart(self, places: Floats, others: Floats) -> Floats:
+        """(k,) the larger number of cells in u and in v, the short way round."""
+        return np.asarray(np.abs(self._between(places, others) / self.cell).max(axis=-1, initial=0.0))
+
+    def home(self, places: Floats) -> tuple[Floats, Floats]:
+        """u and v (k,) within the domain."""
+        return wrapped(self.surface.domain, places[..., 0], places[..., 1])
+
+    def _between(self, places: Floats, others: Floats) -> Floats:
+        domain, d = self.surface.domain, places - others
+        turns = np.where((domain.closed_u, domain.closed_v), np.round(d / domain.size), 0.0)
+        return np.asarray(d - turns * domain.size)
+
+    def _inside(self, places: Floats) -> Floats:
+        domain = self.surface.domain
+        closed = np.array([domain.closed_u, domain.closed_v])
+        low = np.where(closed, -np.inf, (domain.u_start, domain.v_start))
+        high = np.where(closed, np.inf, (domain.u_end, domain.v_end))
+        return np.clip(places, low, high)
+
+
+@dataclass(frozen=True, eq=False)
+class MeshSheet:
+    """The faces of a mesh; places are x, y, z and the number of a triangle. Faces that are not planar and convex are
+    cut into triangles; a planar face has one plane."""
+
+    mesh: Mesh
+
+    @cached_property
+    def size(self) -> tuple[float, float]:
+        """The diagonal of the box around it, and its largest coordinate."""
+        vertices = self.mesh.vertices
+        if not len(vertices):
+            return 0.0, 0.0
+        return float(np.linalg.norm(np.ptp(vertices, axis=0))), float(np.abs(vertices).max())
+
+    @cached_property
+    def faces(self) -> Ints:
+        """(t,) the face of the mesh that every triangle belongs to."""
+        return self._cut[1]
+
+    @cached_property
+    def tessellation(self) -> Tessellation:
+        """The triangles. Rails are the numbers of edges, of those between faces; diagonals are free."""
+        triangles, faces = self._cut
+        points = self.mesh.vertices
+        edges, sides, uses = edges_of(triangles, len(points))
+        low, high = np.full(len(edges), len(faces)), np.full(len(edges), -1)
+        np.minimum.at(low, sides.ravel(), np.repeat(faces, 3))
+        np.maximum.at(high, sides.ravel(), np.repeat(faces, 3))
+        inner = (low == high) & (uses == 2)
+        places = np.concatenate(
+            [points[triangles], np.broadcast_to(np.arange(len(faces))[:, None, None], (len(faces), 3, 1))], axis=2
+        )
+        rails = np.where(inner, FREE, np.arange(len(edges)))
+        return Tessellation(points, triangles, places, np.arange(len(faces)), edges, sides, rails, uses == 1)
+
+    def points(self, places: Floats) -> Floats:
+        """(k,3) points."""
+        return places[..., :3]
+
+    def normals(self, places: Floats) -> Floats:
+        """(k,3) normals of the planes of the triangles."""
+        return np.asarray(self._planes[0][places[:, 3].astype(np.intp)])
+
+    def moved(self, places: Floats, steps: Floats) -> Floats:
+        """(k,4) places moved, and put into the plane of their triangle."""
+        triangle = places[:, 3].astype(np.intp)
+        normal, origin = (x[triangle] for x in self._planes)
+        points = places[:, :3] + steps
+        points = points - ((points - origin) * normal).sum(axis=1, keepdims=True) * normal
+        return np.concatenate([points, places[:, 3:]], axis=1)
+
+    def along_rails(self, places: Floats, rails: Ints) -> Floats:
+        """(k,3) directions of edges."""
+        ends = self.mesh.vertices[self.tessellation.edges[rails]]
+        return np.asarray(ends[:, 1] - ends[:, 0])
+
+    def bends(self, places: Floats, frames: Floats) -> Floats:
+        """(k,2,2) zeros: faces are flat."""
+        return np.zeros((len(places), 2, 2))
+
+    def aligned(self, places: Floats, others: Floats) -> Floats:
+        """The places."""
+        return places
+
+    def cells_apart(self, places: Floats, others: Floats) -> Floats:
+        """(k,) distances, measured by the boxes of the triangles the others lie on."""
+        low, high = self.tessellation.boxes
+        size = np.linalg.norm(high - low, axis=0)[others[..., 3].astype(np.intp)]
+        return np.asarray(np.linalg.norm(places[..., :3] - others[..., :3], axis=-1) / size)
+
+    @cached_property
+    def _cut(self) -> tuple[Ints, Ints]:
+        """Triangles (t,3) with an area, and the faces (t,) they come from."""
+        mesh = self.mesh
+        parts = convex_faces(mesh.vertices.T, mesh.corners, mesh.offsets, ZERO_OF_EXTENT * self.size[0])
+        sizes = np.diff(parts.offsets) - 2
+        part = np.repeat(np.arange(len(sizes)), sizes)
+        step = np.arange(len(part)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+        first = parts.offsets[part]
+        triangles = parts.corners[np.stack([first, first + step + 1, first + step + 2], axis=1)]
+        face = parts.source[part]
+        a, b, c = (mesh.vertices[triangles[:, k]] for k in range(3))
+        good = (np.cross(b - a, c - a) != 0.0).any(axis=1)
+        if mesh.present is not None:
+            good &= mesh.present[face]
+        return triangles[good], face[good]
+
+    @cached_property
+    def _planes(self) -> tuple[Floats, Floats]:
+        """Unit normals and points (t,3) of the planes: of the face where it is planar, else of the triangle."""
+        triangles, faces = self._cut
+        a, b, c = (self.mesh.vertices[triangles[:, k]] for k in range(3))
+        own = np.cross(b - a, c - a)
+        own /= np.linalg.norm(own, axis=1, keepdims=True)
+        whole = self.mesh.face_normals[faces]
+        origin = self.mesh.vertices[self.mesh.corners[self.mesh.offsets[faces]]]
+        off = np.abs(((np.stack([a, b, c]) - origin) * whole).sum(axis=2)).max(axis=0, initial=0.0)
+        bent: Bools = np.ones(self.mesh.face_count, dtype=np.bool_)
+        bent[:] = False
+        bent[faces[off > ZERO_OF_EXTENT * self.size[0]]] = True
+        use = bent[faces][:, None]
+        return np.where(use, own, whole), np.where(use, a, origin)
+
+
+def _inverse(matrices: Floats) -> Floats:
+    """(k,2,2) inverses; not finite where there is none."""
+    (a, b), (c, d) = matrices[:, 0].T, matrices[:, 1].T
+    return np.asarray(np.stack([d, -b, -c, a], axis=1).reshape(-1, 2, 2) / (a * d - b * c)[:, None, None])

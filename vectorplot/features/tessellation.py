@@ -1,0 +1,143 @@
+"""Triangles that stand in for a surface while its intersections are looked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.errors import InputError
+from vectorplot.features.curve_tracing import TURN, wrapped
+from vectorplot.features.grid_triangulation import average_normals, cut_cells
+from vectorplot.features.poles import poles
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.surfaces.surface import Domain, Surface
+
+UNEVEN = 0.17
+"""Part of a cell by which grid points are moved at most: symmetric surfaces then meet in no corner and along no edge."""
+
+MOST_CELLS = 1 << 20
+"""Cells a tessellation may have."""
+
+FREE = -1
+"""The rail of an edge that is no border."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tessellation:
+    """Triangles with the places on the true surface that their corners have.
+
+    points (n,3); triangles (t,3) of points, places (t,3,d) of their corners; a point may have several places (seams,
+    poles). cells (t,): the cell a triangle belongs to. edges (e,2), smaller point first; sides (t,3): the edge from
+    corner k to the next. rails (e,): what a point on the edge must stay on, as its sheet numbers such lines; FREE for
+    edges inside. border (e,): edges of one triangle.
+    """
+
+    points: Floats
+    triangles: Ints
+    places: Floats
+    cells: Ints
+    edges: Ints
+    sides: Ints
+    rails: Ints
+    border: Bools
+
+    @cached_property
+    def boxes(self) -> tuple[Floats, Floats]:
+        """Smallest and largest coordinates (3,t) of the triangles."""
+        corners = self.points[self.triangles]
+        return corners.min(axis=1).T, corners.max(axis=1).T
+
+
+def edges_of(triangles: Ints, count: int) -> tuple[Ints, Ints, Ints]:
+    """The edges (e,2) of triangles (t,3) of points 0 to count; (t,3) the edge from every corner to the next; (e,) how
+    many triangles an edge has."""
+    after = np.roll(triangles, -1, axis=1)
+    key = np.minimum(triangles, after) * count + np.maximum(triangles, after)
+    keys, sides, uses = np.unique(key.ravel(), return_inverse=True, return_counts=True)
+    return np.stack(np.divmod(keys, max(count, 1)), axis=1), sides.reshape(-1, 3), uses
+
+
+def surface_tessellation(surface: Surface, columns: int, rows: int) -> Tessellation:
+    """The triangles of an uneven grid of columns times rows cells; places are (u, v).
+
+    Seams and poles are closed: their triangles share points. Rails are 0 for a border u = const., 1 for v = const.
+    Errors: InputError for fewer than three columns or rows, or too many.
+    Degenerate: triangles without area and those with a corner in a hole are left out.
+    Source: Glaeser, section 8.4 (polygonised surfaces).
+    """
+    _check(columns, rows)
+    domain = surface.domain
+    places = _uneven_grid(domain, columns, rows)
+    with np.errstate(all="ignore"):
+        points = surface.points(*wrapped(domain, places[..., 0], places[..., 1]))
+    number = _numbers(surface, columns, rows).ravel()
+    at = np.arange((columns + 1) * (rows + 1)).reshape(columns + 1, rows + 1)
+    corners = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]]).reshape(4, -1)
+    normals = average_normals(points, closed_u=domain.closed_u, closed_v=domain.closed_v).reshape(-1, 3)
+    flat = points.reshape(-1, 3)
+    with np.errstate(invalid="ignore"):
+        grid_triangles = cut_cells(corners, flat[corners], normals[corners])
+    cells = np.repeat(np.arange(columns * rows), 2)
+    triangles = number[grid_triangles]
+    good = np.isfinite(flat[grid_triangles]).all(axis=(1, 2))
+    good &= (triangles != np.roll(triangles, -1, axis=1)).all(axis=1)
+    triangles, grid_triangles, cells = triangles[good], grid_triangles[good], cells[good]
+    edges, sides, uses = edges_of(triangles, len(flat))
+    own = places.reshape(-1, 2)[grid_triangles]
+    rails = np.full(len(edges), FREE)
+    for axis, closed in enumerate((domain.closed_u, domain.closed_v)):
+        ends = ((domain.u_start, domain.u_end), (domain.v_start, domain.v_end))[axis]
+        for end in () if closed else ends:
+            on = (own[..., axis] == end) & (np.roll(own[..., axis], -1, axis=1) == end)
+            rails[sides[on]] = axis
+    border = np.asarray(uses == 1, dtype=np.bool_)
+    rails[~border] = FREE
+    return Tessellation(flat, triangles, own, cells, edges, sides, rails, border)
+
+
+def _check(columns: int, rows: int) -> None:
+    if min(columns, rows) < 3 or columns * rows > MOST_CELLS:
+        raise InputError(f"a tessellation of {columns} columns and {rows} rows: expected 3 or more, at most {MOST_CELLS} cells")
+
+
+def _uneven_grid(domain: Domain, columns: int, rows: int) -> Floats:
+    """(columns+1, rows+1, 2) parameters; the borders stay where they are, seams meet."""
+    shape = (columns + 1, rows + 1)
+    # The same numbers every time: a drawing made twice is the same.
+    moves = np.random.default_rng(8).uniform(-UNEVEN, UNEVEN, (*shape, 2))
+    result = np.zeros((*shape, 2))
+    starts = (domain.u_start, domain.v_start)
+    for axis, closed in enumerate((domain.closed_u, domain.closed_v)):
+        count, start, size = shape[axis] - 1, starts[axis], domain.size[axis]
+        step = np.moveaxis(moves[..., axis], axis, 0)
+        other_closed = (domain.closed_v, domain.closed_u)[axis]
+        if other_closed:
+            step[:, -1] = step[:, 0]
+        if closed:
+            step[-1] = step[0]
+            line = start + (np.arange(count + 1) / count + TURN) * size
+        else:
+            step[[0, -1]] = 0.0
+            line = np.linspace(start, start + size, count + 1)
+            line[-1] = (domain.u_end, domain.v_end)[axis]
+        moved = line[:, None] + step * (size / count)
+        if closed:
+            moved[-1] = moved[0] + size
+        result[..., axis] = np.moveaxis(moved, 0, axis)
+    return result
+
+
+def _numbers(surface: Surface, columns: int, rows: int) -> Ints:
+    """(columns+1, rows+1) numbers of grid points; on seams and at poles several are one point."""
+    domain = surface.domain
+    number = np.arange((columns + 1) * (rows + 1)).reshape(columns + 1, rows + 1)
+    if domain.closed_u:
+        number[-1] = number[0]
+    if domain.closed_v:
+        number[:, -1] = number[:, 0]
+    for pole in poles(surface):
+        border = np.moveaxis(number, pole.axis, 0)[0 if pole.inwards > 0.0 else -1]
+        border[:] = border[0]
+    return number
