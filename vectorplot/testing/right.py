@@ -13,6 +13,7 @@ from vectorplot.scene.scene import Scene
 from vectorplot.testing.compare import path_segments
 from vectorplot.testing.rays import edges_of_faces
 from vectorplot.testing.sight import visible_by_rays
+from vectorplot.testing.stroke_points import some_of, stroke_points
 
 
 def assert_drawing_is_right(
@@ -29,26 +30,28 @@ def assert_drawing_is_right(
 ) -> int:
     """How many points were compared, where all agree with rays; otherwise an AssertionError that names the worst fault.
 
-    Random points on the strokes must be hidden by as many items as the drawing says. must_show (n,3): points in the
+    Random points on the strokes must be hidden by as many items as the drawing says; on strokes of smooth curves these
+    are their vertices, and points of their chords that have been moved to the surface. must_show (n,3): points in the
     world (edge_points gives some) that must be within tolerance_mm of a visible stroke if rays find them visible and
     they lie on the page, margin_mm inside its border. Points nearer to a transition than clearance (see
     visible_by_rays) are left out.
     Errors: AssertionError.
     """
-    points, paths = stroke_points(drawing, samples, seed)
+    found = stroke_points(drawing, scene, camera, samples, seed)
     compared = 0
-    if len(points):
-        kind, item, said = paths.T
-        sight = visible_by_rays(scene, camera, points)
-        sure = sight.clearance > clearance
-        wrong = np.flatnonzero(sure & (sight.hidden_by != said))
+    if len(found.points):
+        sight = visible_by_rays(scene, camera, found.points)
+        size = float(np.ptp(scene.bounds, axis=0).max()) or 1.0
+        sure = sight.clearance > np.maximum(clearance, found.aside / size)
+        wrong = np.flatnonzero(sure & (sight.hidden_by != found.hidden_by))
         compared = int(sure.sum())
         if len(wrong):
             k = wrong[np.argmax(sight.clearance[wrong])]
-            what = f"a {LineKind(kind[k]).word} of {drawing.items[item[k]]}"
+            what = f"a {LineKind(found.kind[k]).word} of {drawing.items[found.item[k]]}"
             raise AssertionError(
-                f"{len(wrong)} of {compared} points on strokes are wrong; at {points[k].tolist()} {what} is drawn as "
-                f"hidden by {said[k]} items, rays find {sight.hidden_by[k]} (clearance {sight.clearance[k]:.2g})"
+                f"{len(wrong)} of {compared} points on strokes are wrong; at {found.points[k].tolist()} {what} is "
+                f"drawn as hidden by {found.hidden_by[k]} items, rays find {sight.hidden_by[k]} "
+                f"(clearance {sight.clearance[k]:.2g})"
             )
     if must_show is None:
         return compared
@@ -81,7 +84,7 @@ def assert_shown(
         return 0
     lines = [np.zeros((0, 2, 2))]
     for layer in drawing.layers:
-        for marks in layer.marks:
+        for marks in layer.strokes:
             start, end, path = path_segments(marks.offsets, marks.closed)
             lines.append(np.stack([marks.points[start], marks.points[end]], axis=1)[marks.hidden_by[path] == 0])
     tree = STRtree(linestrings(np.concatenate(lines)))
@@ -95,35 +98,13 @@ def assert_shown(
     return len(page)
 
 
-def stroke_points(drawing: Drawing, samples: int, seed: int) -> tuple[Floats, Ints]:
-    """Random points (n,3) on the strokes in the world, and (n,3) kind, item and hidden_by; half of them by length."""
-    segments, owners = [np.zeros((0, 2, 3))], [np.zeros((0, 3), dtype=np.intp)]
-    for layer in drawing.layers:
-        for marks in layer.marks:
-            start, end, path = path_segments(marks.offsets, marks.closed)
-            segments.append(np.stack([marks.points3d[start], marks.points3d[end]], axis=1))
-            owners.append(np.stack([marks.kind, marks.item, marks.hidden_by], axis=1)[path])
-    lines, owner = np.concatenate(segments), np.concatenate(owners)
-    return on_segments(lines, owner, samples, np.random.default_rng(seed))
-
-
-def on_segments(lines: Floats, owner: Ints, samples: int, random: np.random.Generator) -> tuple[Floats, Ints]:
-    """Random points on segments with their owners: half of them by length, half with one chance for each segment."""
-    length = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1)
-    if not length.sum() > 0.0:
-        return np.zeros((0, 3)), owner[:0]
-    by_length = np.searchsorted(np.cumsum(length), random.random(samples // 2) * length.sum(), side="right")
-    index = np.concatenate(
-        [by_length.clip(max=len(lines) - 1), random.integers(len(lines), size=samples - samples // 2)]
-    )
-    share = random.random(samples)[:, None]
-    return lines[index, 0] * (1.0 - share) + lines[index, 1] * share, owner[index]
-
-
 def edge_points(scene: Scene, samples: int, *, seed: int = 0) -> tuple[Floats, Ints]:
     """Random points (n,3) on the edges of the faces of all items, and (n,) the index of the item each lies on."""
     lines, owner = [np.zeros((0, 2, 3))], [np.zeros(0, dtype=np.intp)]
     for index, item in enumerate(scene.items):
         lines.append(item.mesh.vertices[edges_of_faces(item.mesh)])
         owner.append(np.full(len(lines[-1]), index, dtype=np.intp))
-    return on_segments(np.concatenate(lines), np.concatenate(owner), samples, np.random.default_rng(seed))
+    edges, items = np.concatenate(lines), np.concatenate(owner)
+    which, share = some_of(edges, samples, np.random.default_rng(seed))
+    part = share[: len(which), None]
+    return edges[which, 0] * (1.0 - part) + edges[which, 1] * part, items[which]
