@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, ParamSpec, TypeVar
 
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Scene
 
@@ -48,6 +49,9 @@ def plan_draw(scene: Scene, kinds: frozenset[LineKind], hidden: str, halo_mm: fl
         stages.append(Stage("intersections", "items, or parts of an item, may pierce each other"))
     if LineKind.PATTERN in wanted and any(item.patterns for item in scene.items):
         stages.append(Stage("patterns", "faces carry patterns"))
+    if any(not isinstance(item.shape, Mesh) for item in scene.items):
+        stages.append(Stage("curves", "items are smooth surfaces"))
+        stages.append(Stage("smooth surfaces", "they hide curves and lines"))
     stages.append(Stage("frame", "what is in front of the eye and inside the picture"))
     if hidden == "none":
         stages.append(Stage("visible lines", "hidden lines are left out"))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from vectorplot.drawing.drawing import Paths
@@ -34,6 +36,19 @@ def centred(page: Page, picture_height: float, height_mm: float) -> Floats:
     """(3,3) matrix from image to page: the image's origin goes to the middle, picture_height becomes height_mm."""
     scale = height_mm / picture_height
     return np.array([[scale, 0.0, page.width_mm / 2.0], [0.0, scale, page.height_mm / 2.0], [0.0, 0.0, 1.0]])
+
+
+def mm_per_image(view: View, surfaces: Sequence[Floats], page: Page, fit: bool) -> float:
+    """About how many mm a unit of the image will be on the page; surfaces: points (k,3) of smooth ones."""
+    if not fit:
+        return float(page.height_mm / view.picture_height)
+    points = np.concatenate([view.points, *(points.T for points in surfaces)], axis=1)
+    points = points[:, np.isfinite(points).all(axis=0) & (view.depth_of(points) > view.near)]
+    if not points.shape[1]:
+        return float(page.height_mm / view.picture_height)
+    image = view.image_of(points)
+    fitting = fitted(page, image.min(axis=1), image.max(axis=1))[0, 0]
+    return float(max(fitting, (page.height_mm - 2.0 * page.margin_mm) / view.picture_height))
 
 
 def page_from_image(view: View, lines: Lines, seen: Visibility, page: Page, fit: bool, whole: bool) -> Floats:

@@ -22,7 +22,8 @@ from vectorplot.visibility.projected_faces import ProjectedFaces
 class Lines:
     """Straight lines in the view's coordinates: start and end (3,n), kind (n,) LineKind values, item (n,); side (n,):
     1 or -1 for an outline, where its surface lies to the left or right of start -> end in the image, 0 for other
-    lines; smooth (n,): a chord of a smooth curve, both of its ends on it."""
+    lines; smooth (n,): a chord of a smooth curve, both of its ends on it; behind (n,): how many smooth surfaces hide
+    all of it."""
 
     start: Floats
     end: Floats
@@ -30,6 +31,7 @@ class Lines:
     item: Ints
     side: Ints
     smooth: Bools
+    behind: Ints
 
     def __len__(self) -> int:
         return len(self.kind)
@@ -43,6 +45,7 @@ class Lines:
             self.item[which],
             self.side[which],
             self.smooth[which],
+            self.behind[which],
         )
 
 
@@ -55,12 +58,13 @@ def joined_lines(parts: Collection[Lines]) -> Lines:
         np.concatenate([np.zeros(0, dtype=np.intp), *(p.item for p in parts)]),
         np.concatenate([np.zeros(0, dtype=np.intp), *(p.side for p in parts)]),
         np.concatenate([np.zeros(0, dtype=np.bool_), *(p.smooth for p in parts)]),
+        np.concatenate([np.zeros(0, dtype=np.intp), *(p.behind for p in parts)]),
     )
 
 
 def straight_lines(start: Floats, end: Floats, kind: Ints, item: Ints, side: Ints) -> Lines:
-    """Lines none of which is a chord of a curve."""
-    return Lines(start, end, kind, item, side, np.zeros(len(kind), dtype=np.bool_))
+    """Lines none of which is a chord of a curve, nor behind a smooth surface."""
+    return Lines(start, end, kind, item, side, np.zeros(len(kind), dtype=np.bool_), np.zeros(len(kind), dtype=np.intp))
 
 
 def wanted_kinds(scene: Scene, kinds: frozenset[LineKind]) -> list[tuple[frozenset[LineKind], Bools]]:

@@ -1,0 +1,179 @@
+"""Where the images of curves cross those of folds and borders in front of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.strokes import LineKind
+from vectorplot.scene.view import View
+from vectorplot.visibility.smooth import projection
+from vectorplot.visibility.smooth.curves import Curves
+from vectorplot.visibility.smooth.events import Events, hopped, on_chord, once
+from vectorplot.visibility.smooth.sheet import Sheet, dot
+
+ROUNDS, HOPS = 8, 3
+"""Steps of Newton on one pair of chords; how often the pair may go over to neighbouring chords."""
+
+RESIDUAL = 1e-11
+"""How far the images of a crossing may be apart; the scene is about 1 large."""
+
+GAP = 1e-6
+"""An edge less than this in front of a curve is one that the curve touches."""
+
+RESIDUAL_OF_GAP = 1e-3
+"""Part of the cube of the gap that the residual of a crossing may be: two curves that touch come as close as they
+like, but not at a distance."""
+
+NEAR_MISSES = 2.0
+"""Chords that pass at so many of their tolerances are tried too."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """Chords of curves and chords of edges, by the points at which they begin, and parts of them: all (k,)."""
+
+    chord: Ints
+    part: Floats
+    edge: Ints
+    edge_part: Floats
+
+    def some(self, which: Bools | Ints) -> Pairs:
+        """Some of the pairs."""
+        return Pairs(self.chord[which], self.part[which], self.edge[which], self.edge_part[which])
+
+
+def crossings(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, tolerance: float) -> Events:
+    """The events where curves pass behind edges: the folds (kind contour) and borders (boundary) of the sheets.
+
+    tolerance: how far chords are off their curves, in the image. Behind a fold there are two sheets more or less, by
+    the side of the fold to which the sheet turns; behind a border one.
+    """
+    pairs = _close_pairs(view, curves, edges, tolerance)
+    for _ in range(HOPS):
+        pairs = _met(view, curves, edges, pairs)
+        chord, part = hopped(curves, pairs.chord, pairs.part)
+        edge, edge_part = hopped(edges, pairs.edge, pairs.edge_part)
+        moved = (chord != pairs.chord) | (edge != pairs.edge)
+        pairs = Pairs(chord, part, edge, edge_part)
+        if not moved.any():
+            break
+    inside, part = on_chord(pairs.part)
+    edge_inside, edge_part = on_chord(pairs.edge_part)
+    pairs = Pairs(pairs.chord, part, pairs.edge, edge_part).some(inside & edge_inside)
+    pairs = pairs.some(once(curves, pairs.chord, pairs.part, pairs.edge + pairs.edge_part))
+    return _events(view, sheets, curves, edges, pairs)
+
+
+def _close_pairs(view: View, curves: Curves, edges: Curves, tolerance: float) -> Pairs:
+    """The pairs of chords that come close to each other in the image, the edge not behind, and where they do."""
+    margin = NEAR_MISSES * tolerance
+    one, two = _Boxes.of(view, curves), _Boxes.of(view, edges)
+    near, far = one.overlapping(two, margin)
+    not_behind = two.nearest[far] <= one.farthest[near]
+    near, far = near[not_behind], far[not_behind]
+    part, edge_part, apart = _approach(one.start[near], one.end[near], two.start[far], two.end[far])
+    close = apart <= margin
+    return Pairs(one.chord[near[close]], part[close], two.chord[far[close]], edge_part[close])
+
+
+@dataclass(frozen=True, eq=False)
+class _Boxes:
+    """Chords in front of the eye: their numbers (c,), ends (c,2) in the image and depths."""
+
+    chord: Ints
+    start: Floats
+    end: Floats
+    nearest: Floats
+    farthest: Floats
+
+    @classmethod
+    def of(cls, view: View, curves: Curves) -> _Boxes:
+        image, depth = projection.image(view, curves.points), projection.depth(view, curves.points)
+        chord = curves.chords
+        long = (curves.points[chord] != curves.points[chord + 1]).any(axis=1)
+        chord = chord[long & (depth[chord] > view.near) & (depth[chord + 1] > view.near)]
+        a, b = depth[chord], depth[chord + 1]
+        return cls(chord, image[chord], image[chord + 1], np.minimum(a, b), np.maximum(a, b))
+
+    def overlapping(self, other: _Boxes, margin: float) -> tuple[Ints, Ints]:
+        """The pairs of chords whose boxes, enlarged by a margin, overlap."""
+        import shapely
+
+        if not len(self.chord) or not len(other.chord):
+            return np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp)
+        low, high = np.minimum(other.start, other.end), np.maximum(other.start, other.end)
+        tree = shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
+        low, high = np.minimum(self.start, self.end) - margin, np.maximum(self.start, self.end) + margin
+        near, far = tree.query(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
+        return np.asarray(near), np.asarray(far)
+
+
+def _approach(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Floats, Floats]:
+    """Parts (k,) of segments a b and c d (k,2) at which they cross or come closest, and their distance there."""
+    ab, cd, ac = b - a, d - c, c - a
+    area = ab[:, 0] * cd[:, 1] - ab[:, 1] * cd[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s = (ac[:, 0] * cd[:, 1] - ac[:, 1] * cd[:, 0]) / area
+        t = (ac[:, 0] * ab[:, 1] - ac[:, 1] * ab[:, 0]) / area
+    s = np.clip(np.where(np.isfinite(s), s, 0.5), 0.0, 1.0)
+    t = np.clip(np.where(np.isfinite(t), t, 0.5), 0.0, 1.0)
+    for _ in range(2):
+        t = np.clip(dot(a + s[:, None] * ab - c, cd) / dot(cd, cd).clip(1e-300), 0.0, 1.0)
+        s = np.clip(dot(c + t[:, None] * cd - a, ab) / dot(ab, ab).clip(1e-300), 0.0, 1.0)
+    away = a + s[:, None] * ab - c - t[:, None] * cd
+    return s, t, np.sqrt(dot(away, away))
+
+
+def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
+    """The pairs at parts where the images meet; those that find no meeting are left out."""
+    part, edge_part = pairs.part.copy(), pairs.edge_part.copy()
+    off = np.full(len(part), np.inf)
+    active = np.arange(len(part))
+    for _ in range(ROUNDS):
+        if not len(active):
+            break
+        one, two = curves.at(pairs.chord[active], part[active]), edges.at(pairs.edge[active], edge_part[active])
+        gap = projection.image(view, two.points) - projection.image(view, one.points)
+        off[active] = np.sqrt(dot(gap, gap))
+        a, b = (projection.image_slopes(view, x.points, x.slopes) for x in (one, two))
+        area = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            s = (gap[:, 0] * b[:, 1] - gap[:, 1] * b[:, 0]) / area
+            t = (gap[:, 0] * a[:, 1] - gap[:, 1] * a[:, 0]) / area
+        s, t = (np.clip(np.where(np.isfinite(x), x, 0.0), -0.7, 0.7) for x in (s, t))
+        part[active] = np.clip(part[active] + s, -1.5, 2.5)
+        edge_part[active] = np.clip(edge_part[active] + t, -1.5, 2.5)
+        active = active[(np.abs(s) > 1e-14) | (np.abs(t) > 1e-14)]
+    # Beyond the chords' ends the search goes on with the neighbours, whatever the residual.
+    beyond = (part < 0.0) | (part > 1.0) | (edge_part < 0.0) | (edge_part > 1.0)
+    kept = (off <= RESIDUAL * 100.0) | (beyond & (off < np.inf))
+    return Pairs(pairs.chord, part, pairs.edge, edge_part).some(kept)
+
+
+def _events(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, pairs: Pairs) -> Events:
+    """The crossings of the pairs that really are behind an edge."""
+    one, two = curves.at(pairs.chord, pairs.part), edges.at(pairs.edge, pairs.edge_part)
+    away = projection.image(view, two.points) - projection.image(view, one.points)
+    residual = np.sqrt(dot(away, away))
+    gap = projection.depth(view, one.points) - projection.depth(view, two.points)
+    real = (gap > GAP) & (residual <= RESIDUAL) & (residual <= RESIDUAL_OF_GAP * gap**3)
+    pairs = pairs.some(real)
+    points, places = two.points[real], two.places[real]
+    direction = projection.image_slopes(view, one.points[real], one.slopes[real])
+    edge = edges.owner[pairs.edge]
+    covered = np.zeros_like(points)
+    step = np.where(edges.kind[edge] == LineKind.CONTOUR, 2, 1)
+    way = projection.sight(view, points)
+    for number in np.unique(edges.sheet[edge]).tolist():
+        sheet = sheets[number]
+        fold = np.flatnonzero((edges.sheet[edge] == number) & (step == 2))
+        bend = sheet.bends(places[fold], way[fold])
+        covered[fold] = np.sign(bend)[:, None] * sheet.normals(places[fold])
+        border = np.flatnonzero((edges.sheet[edge] == number) & (step == 1))
+        covered[border] = sheet.inwards(places[border])
+    side = dot(direction, projection.image_slopes(view, points, covered))
+    change = np.where(np.isfinite(side), np.sign(side), 0.0).astype(np.intp) * step
+    return Events(pairs.chord, pairs.part, edges.item[edge], change)

@@ -1,0 +1,123 @@
+"""Curves of one kind on one sheet: what is known of them between the points of their polylines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from vectorplot.features.conditions import Condition
+from vectorplot.geometry.mesh import Floats
+from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
+
+ROUNDS = 6
+"""Steps of Newton from a chord to its curve."""
+
+FARTHEST = 0.5
+"""So many lengths of its chord a curve may be away from it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Along:
+    """Points of curves: places and points (k,3); slopes (k,3): derivatives by the part of the chord."""
+
+    places: Floats
+    points: Floats
+    slopes: Floats
+
+
+class Family(Protocol):
+    """Curves of one kind on one sheet."""
+
+    @property
+    def sheet(self) -> int:
+        """The sheet they lie on, or -1."""
+        ...
+
+    @property
+    def second(self) -> int:
+        """Another sheet they lie on, or -1."""
+        ...
+
+    def between(
+        self, places: tuple[Floats, Floats], points: tuple[Floats, Floats], part: Floats, level: Floats
+    ) -> Along:
+        """The curves at a part (k,) of chords from one place (k,3) and point (k,3) to another; level (k,): of each
+        curve."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class StraightLines:
+    """Lines that are their own chords."""
+
+    sheet: int = -1
+    second: int = -1
+
+    def between(
+        self, places: tuple[Floats, Floats], points: tuple[Floats, Floats], part: Floats, level: Floats
+    ) -> Along:
+        """The curves at a part of their chords."""
+        slopes = points[1] - points[0]
+        middle = points[0] + part[:, None] * slopes
+        return Along(middle, middle, slopes)
+
+
+@dataclass(frozen=True, eq=False)
+class ParameterCurves:
+    """Curves that are straight in the parameters: parameter lines, borders; and, nearly, those known by points only."""
+
+    surface: ParametricSheet
+    sheet: int
+    second: int = -1
+
+    def between(
+        self, places: tuple[Floats, Floats], points: tuple[Floats, Floats], part: Floats, level: Floats
+    ) -> Along:
+        """The curves at a part of their chords."""
+        way = places[1] - places[0]
+        at = places[0] + part[:, None] * way
+        along_u, along_v = self.surface.partials(at)
+        return Along(at, self.surface.points(at), way[:, :1] * along_u + way[:, 1:2] * along_v)
+
+
+@dataclass(frozen=True, eq=False)
+class ConditionCurves:
+    """Curves of a parametrised surface along which a condition has the value of their level."""
+
+    surface: ParametricSheet
+    sheet: int
+    condition: Condition
+    second: int = -1
+
+    def between(
+        self, places: tuple[Floats, Floats], points: tuple[Floats, Floats], part: Floats, level: Floats
+    ) -> Along:
+        """The curves at a part of their chords: from the chord straight across to where the condition holds."""
+        size = np.array(self.surface.surface.domain.size)
+        way = (places[1] - places[0])[:, :2] / size
+        base = places[0][:, :2] / size + part[:, None] * way
+        across = np.stack([-way[:, 1], way[:, 0]], axis=1)
+        off = np.zeros(len(part))
+        for _ in range(ROUNDS):
+            u, v = self.surface.parameters((base + off[:, None] * across) * size)
+            slopes = np.stack(self.condition.slopes(u, v), axis=1) * size
+            with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+                step = (self.condition.values(u, v) - level) / (slopes * across).sum(axis=1)
+            step = np.clip(np.where(np.isfinite(step), step, 0.0), -FARTHEST, FARTHEST)
+            off = np.clip(off - step, -FARTHEST, FARTHEST)
+            if not (np.abs(step) > 1e-13).any():
+                break
+        at = base + off[:, None] * across
+        u, v = self.surface.parameters(at * size)
+        slopes = np.stack(self.condition.slopes(u, v), axis=1) * size
+        tangent = np.stack([-slopes[:, 1], slopes[:, 0]], axis=1)
+        forward = (tangent * way).sum(axis=1)
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            tangent = tangent * ((way * way).sum(axis=1) / forward)[:, None]
+        tangent = np.where(np.isfinite(tangent).all(axis=1)[:, None], tangent, way)
+        places_at = np.concatenate([at * size, np.zeros((len(at), 1))], axis=1)
+        along_u, along_v = self.surface.partials(places_at)
+        moved = tangent * size
+        return Along(places_at, self.surface.points(places_at), moved[:, :1] * along_u + moved[:, 1:] * along_v)

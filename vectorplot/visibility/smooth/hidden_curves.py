@@ -1,0 +1,68 @@
+"""What smooth surfaces hide of curves and lines: the second engine, as a sentence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.scene.view import View
+from vectorplot.visibility.smooth.crossings import crossings
+from vectorplot.visibility.smooth.curves import Curves
+from vectorplot.visibility.smooth.events import all_events
+from vectorplot.visibility.smooth.own_events import edge_on_curves, own_events
+from vectorplot.visibility.smooth.pieces import Pieces, counted, cut
+from vectorplot.visibility.smooth.piercings import piercings
+from vectorplot.visibility.smooth.sheet import Sheet
+from vectorplot.visibility.smooth.targets import target
+
+
+@dataclass(frozen=True, eq=False)
+class HiddenCurves:
+    """Pieces of curves, and the number (p,) of items with smooth surfaces that hide each."""
+
+    pieces: Pieces
+    hidden_by: Ints
+
+
+def hidden_curves(
+    view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, items: int, tolerance: float
+) -> HiddenCurves:
+    """By how many items with smooth surfaces each piece of the curves is hidden.
+
+    items: how many the scene has; edges: the folds and borders of the sheets that hide what is behind them;
+    tolerance: how far chords are off their curves, in the image.
+    The number of sheets in front of a curve changes only where its image crosses that of a fold or border in front, at
+    a cusp of a contour, and where it pierces a sheet or passes the contour of its own: there the curves are cut. Then
+    each piece is decided once, by the sight line of its safest point, or by the changes from a neighbour.
+    Source: Glaeser, section 8.4 and figure 13 for what is drawn; the decisions are this package's own.
+    """
+    targets = tuple(target(view, sheet) for sheet in sheets)
+    edge_on = edge_on_curves(view, sheets, curves)
+    events = all_events(
+        [
+            own_events(view, sheets, curves, edge_on),
+            crossings(view, sheets, curves, edges, tolerance),
+            piercings(view, targets, curves),
+        ]
+    )
+    pieces = cut(curves, events, items)
+    counts = counted(view, targets, curves, edges, edge_on, pieces, items)
+    return HiddenCurves(pieces, np.asarray((counts > 0).sum(axis=1)))
+
+
+def cut_curves(curves: Curves, found: HiddenCurves) -> tuple[Floats, Floats, Ints, Ints]:
+    """The chords of all pieces, cut at events: start and end (c,3), curve (c,), hidden_by (c,)."""
+    pieces = found.pieces
+    count = pieces.end_chord - pieces.begin_chord + 1
+    first = np.cumsum(count) - count
+    owner = np.repeat(np.arange(len(pieces)), count)
+    step = np.arange(len(owner)) - first[owner]
+    chord = pieces.begin_chord[owner] + step
+    start, end = curves.points[chord].copy(), curves.points[chord + 1].copy()
+    inner = np.flatnonzero(pieces.begin_part > 0.0)
+    start[first[inner]] = curves.at(pieces.begin_chord[inner], pieces.begin_part[inner]).points
+    inner = np.flatnonzero(pieces.end_part < 1.0)
+    end[(first + count - 1)[inner]] = curves.at(pieces.end_chord[inner], pieces.end_part[inner]).points
+    return start, end, pieces.curve[owner], found.hidden_by[owner]

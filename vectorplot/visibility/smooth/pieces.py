@@ -1,0 +1,143 @@
+"""Curves cut at their events, and by how many sheets of each item every piece is hidden."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.scene.view import View
+from vectorplot.visibility.smooth import projection
+from vectorplot.visibility.smooth.curves import Curves
+from vectorplot.visibility.smooth.events import Events
+from vectorplot.visibility.smooth.rays import Samples, counts_in_front
+from vectorplot.visibility.smooth.targets import Target
+
+SAFE = 1e-3
+"""A sight line that passes all edges at this distance in the image, of a scene about 1 large, is trusted."""
+
+CANDIDATES = (0.5, 0.3, 0.7, 0.12, 0.88)
+"""Parts of a piece at which its safest point is looked for."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """Parts of curves between events.
+
+    curve (p,); begin_chord, begin_part, end_chord, end_part (p,): from where to where; change (p, items): by how much
+    the number of sheets in front rises at the beginning of the piece. Along each curve in order.
+    """
+
+    curve: Ints
+    begin_chord: Ints
+    begin_part: Floats
+    end_chord: Ints
+    end_part: Floats
+    change: Ints
+
+    def __len__(self) -> int:
+        return len(self.curve)
+
+
+def cut(curves: Curves, events: Events, items: int) -> Pieces:
+    """The pieces between events; several events at one place are one."""
+    owner = curves.owner[events.chord]
+    order = np.lexsort((events.part, events.chord))
+    chord, part = events.chord[order], events.part[order]
+    place = chord + part
+    new = np.ones(len(order), dtype=np.bool_)
+    new[1:] = (place[1:] != place[:-1]) | (owner[order][1:] != owner[order][:-1])
+    group = np.cumsum(new) - 1
+    change = np.zeros((int(new.sum()), items), dtype=np.intp)
+    np.add.at(change, (group, events.item[order]), events.change[order])
+    chord, part, curve = chord[new], part[new], owner[order][new]
+    # Each curve begins with a piece at its first point; the other pieces begin at events.
+    all_curves = np.arange(len(curves))
+    curve = np.concatenate([all_curves, curve])
+    chord = np.concatenate([curves.offsets[:-1], chord])
+    part = np.concatenate([np.zeros(len(curves)), part])
+    change = np.concatenate([np.zeros((len(curves), items), dtype=np.intp), change])
+    # The first piece of a curve stays first even if an event lies at its very beginning.
+    first = np.arange(len(curve)) < len(curves)
+    order = np.lexsort((chord + part, ~first, curve))
+    curve, chord, part, change = curve[order], chord[order], part[order], change[order]
+    last = np.append(curve[1:] != curve[:-1], True)
+    end_chord = np.where(last, curves.offsets[curve + 1] - 2, np.append(chord[1:], 0))
+    end_part = np.where(last, 1.0, np.append(part[1:], 0.0))
+    return Pieces(curve, chord, part, end_chord, end_part, change)
+
+
+def counted(
+    view: View, targets: tuple[Target, ...], curves: Curves, edges: Curves, edge_on: Bools, pieces: Pieces, items: int
+) -> Ints:
+    """(p, items) the number of sheets of each item in front of every piece.
+
+    edges: folds and borders, near whose images sight lines are not trusted; edge_on (m,): curves that are contours.
+    A piece that has no safe point takes the count of the nearest one on its curve that has, and the changes between.
+    """
+    samples, clearance = _safest(view, curves, edges, edge_on, pieces)
+    counts = counts_in_front(view, targets, samples, items)
+    safe = clearance > SAFE
+    total = np.cumsum(pieces.change, axis=0)
+    # Along a curve, count less the changes so far is the same for all pieces.
+    number = np.arange(len(pieces))
+    curve = pieces.curve
+    before = np.maximum.accumulate(np.where(safe, number, -1))
+    after = np.minimum.accumulate(np.where(safe, number, len(pieces))[::-1])[::-1]
+    has_before = (before >= 0) & (curve[np.maximum(before, 0)] == curve)
+    has_after = (after < len(pieces)) & (curve[np.minimum(after, len(pieces) - 1)] == curve)
+    nearer = has_before & (~has_after | (number - before <= after - number))
+    source = np.where(nearer, before, np.where(has_after, after, number))
+    return np.asarray(np.maximum(counts[source] + total - total[source], 0))
+
+
+def _safest(view: View, curves: Curves, edges: Curves, edge_on: Bools, pieces: Pieces) -> tuple[Samples, Floats]:
+    """The point of each piece whose image is farthest from those of edges, and how far that is."""
+    begin, end = pieces.begin_chord + pieces.begin_part, pieces.end_chord + pieces.end_part
+    count = len(pieces)
+    at = np.concatenate([begin + share * (end - begin) for share in CANDIDATES])
+    chord = np.minimum(at.astype(np.intp), np.tile(pieces.end_chord, len(CANDIDATES)))
+    part = at - chord
+    points = curves.points[chord] + part[:, None] * (curves.points[chord + 1] - curves.points[chord])
+    image = projection.image(view, points)
+    contour = np.tile(edge_on[pieces.curve], len(CANDIDATES))
+    clear = np.empty(len(at))
+    clear[~contour] = _clearance(view, edges, image[~contour])
+    # A contour is an edge itself: what counts is the way to the ends of the piece.
+    ends = [projection.image(view, _on_chords(curves, c, p)) for c, p in _ends(pieces)]
+    away = [np.linalg.norm(image - np.tile(e, (len(CANDIDATES), 1)), axis=1) for e in ends]
+    clear[contour] = np.minimum(*away)[contour]
+    best = np.argmax(clear.reshape(len(CANDIDATES), count), axis=0) * count + np.arange(count)
+    found = curves.at(chord[best], part[best])
+    curve = pieces.curve
+    a, b = curves.second_places[chord[best]], curves.second_places[chord[best] + 1]
+    second = a + part[best, None] * (b - a)
+    samples = Samples(
+        found.points, curves.sheet[curve], found.places, curves.second_sheet[curve], second, edge_on[curve]
+    )
+    return samples, clear[best]
+
+
+def _ends(pieces: Pieces) -> list[tuple[Ints, Floats]]:
+    return [(pieces.begin_chord, pieces.begin_part), (pieces.end_chord, pieces.end_part)]
+
+
+def _on_chords(curves: Curves, chord: Ints, part: Floats) -> Floats:
+    return np.asarray(curves.points[chord] + part[:, None] * (curves.points[chord + 1] - curves.points[chord]))
+
+
+def _clearance(view: View, edges: Curves, image: Floats) -> Floats:
+    """(k,) distances of points (k,2) in the image from the nearest edge."""
+    import shapely
+
+    chord = edges.chords
+    if not len(chord):
+        return np.full(len(image), np.inf)
+    ends = projection.image(view, edges.points)
+    lines = shapely.linestrings(np.stack([ends[chord], ends[chord + 1]], axis=1))
+    tree = shapely.STRtree(lines)
+    distance = np.zeros(len(image))
+    (which, _), found = tree.query_nearest(shapely.points(image), return_distance=True, all_matches=False)
+    distance[which] = found
+    return distance

@@ -1,0 +1,118 @@
+"""Where curves pierce sheets that they do not lie on."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.scene.view import View
+from vectorplot.visibility.smooth import projection
+from vectorplot.visibility.smooth.curves import Curves
+from vectorplot.visibility.smooth.events import Events, all_events, hopped, on_chord, once
+from vectorplot.visibility.smooth.sheet import Sheet, dot
+from vectorplot.visibility.smooth.targets import Target, inside, weights
+
+ROUNDS, HOPS = 10, 3
+"""Steps of Newton; how often a place may go over to a neighbouring chord."""
+
+MET = 1e-10
+"""A curve meets a sheet where they come closer than this; the scene is about 1 large."""
+
+ALONG = 1e-7
+"""A curve that makes a smaller angle with the sheet touches it."""
+
+
+def piercings(view: View, targets: tuple[Target, ...], curves: Curves) -> Events:
+    """The events where curves pierce sheets: behind the sheet there is one more in front."""
+    depth, image = projection.depth(view, curves.points), projection.image(view, curves.points)
+    parts = []
+    for number, target in enumerate(targets):
+        stranger = (curves.sheet != number) & (curves.second_sheet != number)
+        chord = curves.chords[stranger[curves.owner[curves.chords]]]
+        chord = chord[(depth[chord] > view.near) & (depth[chord + 1] > view.near)]
+        if len(chord) and len(target.corners):
+            chord, part, places = _close(target, curves, chord, image, depth)
+            parts.append(_pierced(view, target.sheet, curves, *_met(target.sheet, curves, chord, part, places)))
+    return all_events(parts)
+
+
+def _close(target: Target, curves: Curves, chord: Ints, image: Floats, depth: Floats) -> tuple[Ints, Floats, Floats]:
+    """Chords, parts of them and places on the sheet where they come close to it."""
+    a, b = image[chord], image[chord + 1]
+    box, triangle = target.near_boxes(np.minimum(a, b), np.maximum(a, b))
+    one, two = depth[chord[box]], depth[chord[box] + 1]
+    deep = target.depth[triangle]
+    margin = target.sheet.sag * 2.0
+    near = (np.minimum(one, two) <= deep.max(axis=1) + margin) & (np.maximum(one, two) >= deep.min(axis=1) - margin)
+    box, triangle = box[near], triangle[near]
+    chord = chord[box]
+    corners = target.sheet.vertices[target.corners[triangle]]
+    a, b = curves.points[chord], curves.points[chord + 1]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    with np.errstate(invalid="ignore", divide="ignore"):
+        normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+        one, two = dot(a - corners[:, 0], normal), dot(b - corners[:, 0], normal)
+        part = np.clip(np.where(one != two, one / (one - two), 0.5), 0.0, 1.0)
+        reach = ~(np.minimum(one, two) > margin) & ~(np.maximum(one, two) < -margin)
+    middle = a + part[:, None] * (b - a)
+    size = np.sqrt(((corners[:, 1:] - corners[:, :1]) ** 2).sum(axis=2)).max(axis=1)
+    weight = _in_space(corners, middle)
+    at = np.einsum("ij,ijk->ik", inside(weight), corners)
+    reach &= np.linalg.norm(at - middle, axis=1) <= margin + 0.25 * size
+    places = np.einsum("ij,ijk->ik", inside(weight), target.sheet.vertex_places[target.corners[triangle]])
+    return chord[reach], part[reach], places[reach]
+
+
+def _in_space(corners: Floats, points: Floats) -> Floats:
+    """(k,3) barycentric coordinates of points (k,3) projected into the planes of triangles (k,3,3)."""
+    ab, ac, ap = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], points - corners[:, 0]
+    zero = np.zeros(len(points))
+    long = np.sqrt(dot(ab, ab))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        x = ab / long[:, None]
+        across = ac - dot(ac, x)[:, None] * x
+        y = across / np.sqrt(dot(across, across))[:, None]
+    flat = [
+        np.stack(pair, axis=1)
+        for pair in ((zero, zero), (long, zero), (dot(ac, x), dot(ac, y)), (dot(ap, x), dot(ap, y)))
+    ]
+    return weights(np.stack(flat[:3], axis=1), flat[3])
+
+
+def _met(sheet: Sheet, curves: Curves, chord: Ints, part: Floats, places: Floats) -> tuple[Ints, Floats, Floats]:
+    """Places where the curves meet the sheet: chords, parts, places on the sheet."""
+    for _ in range(HOPS):
+        off = np.full(len(chord), np.inf)
+        for _ in range(ROUNDS):
+            at = curves.at(chord, part)
+            away = at.points - sheet.points(places)
+            off = np.sqrt(dot(away, away))
+            step, places = sheet.missed(at.points, at.slopes, places)
+            part = np.clip(part + np.clip(np.where(np.isfinite(step), step, 0.0), -0.7, 0.7), -1.5, 2.5)
+            if not (off > MET * 1e-3).any():
+                break
+        kept = np.isfinite(places).all(axis=1) & ((off <= 1e3 * MET) | (part < 0.0) | (part > 1.0))
+        chord, part, places = chord[kept], part[kept], places[kept]
+        now, part = hopped(curves, chord, part)
+        moved = (now != chord).any()
+        chord = now
+        if not moved:
+            break
+    away = curves.at(chord, part).points - sheet.points(places)
+    met = (np.sqrt(dot(away, away)) <= MET) & sheet.on_sheet(places)
+    on, part = on_chord(part)
+    kept = met & on
+    return chord[kept], part[kept], places[kept]
+
+
+def _pierced(view: View, sheet: Sheet, curves: Curves, chord: Ints, part: Floats, places: Floats) -> Events:
+    """The events of places where curves meet a sheet, each once; where they only touch it nothing happens."""
+    kept = once(curves, chord, part, np.zeros(len(chord)))
+    chord, part, places = chord[kept], part[kept], places[kept]
+    at, normal = curves.at(chord, part), sheet.normals(places)
+    through = dot(at.slopes, normal) / np.linalg.norm(at.slopes, axis=1).clip(1e-300)
+    towards = dot(projection.sight(view, at.points), normal)
+    crosses = np.abs(through) > ALONG
+    change = np.where(crosses, -np.sign(through * towards), 0.0)
+    change = np.where(np.isfinite(change), change, 0.0).astype(np.intp)
+    return Events(chord, part, np.full(len(chord), sheet.item), change)

@@ -1,0 +1,33 @@
+"""Sight lines and images of points, and of directions at points."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Floats
+from vectorplot.scene.view import View
+
+
+def sight(view: View, points: Floats) -> Floats:
+    """(k,3) vectors to the eye, or in a parallel projection the unit vector towards it."""
+    if view.eye is None:
+        return np.asarray(np.broadcast_to(np.array([0.0, 0.0, 1.0]), points.shape))
+    return np.asarray(view.eye - points)
+
+
+def image(view: View, points: Floats) -> Floats:
+    """(k,2) images of points (k,3)."""
+    return np.asarray(view.image_of(points.T).T)
+
+
+def depth(view: View, points: Floats) -> Floats:
+    """(k,) depths of points (k,3)."""
+    return view.depth_of(points.T)
+
+
+def image_slopes(view: View, points: Floats, directions: Floats) -> Floats:
+    """(k,2) how the images of points (k,3) move when the points move with the velocities directions (k,3)."""
+    if view.eye is None:
+        return directions[:, :2]
+    away = np.maximum(depth(view, points), view.near)[:, None]
+    return (directions[:, :2] + (points[:, :2] - view.eye[:2]) * directions[:, 2:] / away) * (view.focus / away)

@@ -1,0 +1,137 @@
+"""How many sheets of each item are in front of points, by sight lines to the eye met with the true surfaces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.scene.view import View
+from vectorplot.visibility.smooth import projection
+from vectorplot.visibility.smooth.sheet import Sheet, dot
+from vectorplot.visibility.smooth.targets import Target, distance_to, inside, weights
+
+ROUNDS = 12
+
+MET = 1e-10
+"""A sight line meets a sheet where they come closer than this; the scene is about 1 large."""
+
+TOUCHING = 1e-7
+"""A sheet less than this in front of a point is one that the point lies on, or touches."""
+
+LOCAL = 1e-3
+"""Nearer than this, the second meeting of a sight line with the sheet of its point is told by curvature."""
+
+CONTACT, CONTACT_PLACES = 1e-4, 1e-3
+"""From a contour, meetings nearer than the one, or at places nearer than the other, are the contour itself."""
+
+ONE_MEETING = 1e-6
+"""Meetings closer together than this, in space and as places, are one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Points (k,3) to look from; own sheet (k,) or -1 and place (k,3) there; second sheet and place likewise; contour
+    (k,): whether the point lies on the contour of its own sheet."""
+
+    points: Floats
+    sheet: Ints
+    places: Floats
+    second: Ints
+    second_places: Floats
+    contour: Bools
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+
+def counts_in_front(view: View, targets: tuple[Target, ...], samples: Samples, items: int) -> Ints:
+    """(k, items) the number of sheets of each item between the samples and the eye."""
+    counts = np.zeros((len(samples), items), dtype=np.intp)
+    way = projection.sight(view, samples.points)
+    long = np.linalg.norm(way, axis=1)
+    for number, target in enumerate(targets):
+        if not len(target.corners):
+            continue
+        sample, meeting, places = _meetings(view, target, samples, way, number)
+        distance = meeting * long[sample]
+        front = distance > TOUCHING
+        if view.eye is not None:
+            front &= meeting < 1.0
+        for own, own_places, contour in (
+            (samples.sheet, samples.places, samples.contour),
+            (samples.second, samples.second_places, np.zeros(len(samples), dtype=np.bool_)),
+        ):
+            mine = own[sample] == number
+            edge = mine & contour[sample]
+            apart = target.sheet.apart(places, own_places[sample])
+            front &= ~(edge & ((distance < CONTACT) | (apart < CONTACT_PLACES)))
+            local = mine & ~contour[sample]
+            # The sheet itself and its second meeting nearby: the one is no meeting, the other is told below.
+            here = np.flatnonzero((own == number) & ~contour)
+            again = np.full(len(samples), np.inf)
+            again[here] = _second_meeting(target.sheet, way[here], own_places[here]) * long[here]
+            nearby = np.abs(again) < LOCAL
+            reach = np.where(nearby, 2.0, 0.5) * LOCAL
+            front &= ~(local & (np.abs(distance) < reach[sample]) & (apart < 0.05))
+            into = dot(target.sheet.inwards(own_places[here]), way[here]) >= 0.0
+            counts[here, target.sheet.item] += (nearby[here] & (again[here] > 0.0) & into).astype(np.intp)
+        np.add.at(counts, (sample[front], target.sheet.item), 1)
+    return counts
+
+
+def _second_meeting(sheet: Sheet, way: Floats, places: Floats) -> Floats:
+    """(k,) where the sight line meets the sheet again, to second order; in parts of the sight line."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(2.0 * dot(sheet.normals(places), way) / sheet.bends(places, way))
+
+
+def _meetings(view: View, target: Target, samples: Samples, way: Floats, number: int) -> tuple[Ints, Floats, Floats]:
+    """All meetings of the sight lines with a sheet, each once: the sample, the part of the sight line, the place."""
+    if not len(target.corners) or not len(samples):
+        return np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros((0, 3))
+    image = projection.image(view, samples.points)
+    sample, triangle = target.near_boxes(image, image)
+    weight = weights(target.image[triangle], image[sample])
+    spread = np.ptp(target.image[triangle], axis=1).max(axis=1)
+    near = distance_to(target.image[triangle], weight, image[sample]) <= target.margin + 0.02 * spread
+    sample, triangle, weight = sample[near], triangle[near], inside(weight[near])
+    corners = target.corners[triangle]
+    places = np.einsum("ij,ijk->ik", weight, target.sheet.vertex_places[corners])
+    # Another start where curvature says that the own sheet is met again.
+    mine = np.flatnonzero((samples.sheet == number) & ~samples.contour)
+    again = _second_meeting(target.sheet, way[mine], samples.places[mine])
+    close = np.isfinite(again) & (np.abs(again) * np.linalg.norm(way[mine], axis=1) < 0.5)
+    mine, again = mine[close], again[close]
+    there = target.sheet.moved(samples.places[mine], again[:, None] * way[mine])
+    good = np.isfinite(there).all(axis=1)
+    sample, places = np.concatenate([sample, mine[good]]), np.concatenate([places, there[good]])
+    t = np.zeros(len(sample))
+    points, ways = samples.points[sample], way[sample]
+    off = np.full(len(sample), np.inf)
+    active = np.arange(len(sample))
+    for _ in range(ROUNDS):
+        if not len(active):
+            break
+        t[active], places[active] = target.sheet.missed(points[active], ways[active], places[active])
+        away = points[active] + t[active, None] * ways[active] - target.sheet.points(places[active])
+        off[active] = np.sqrt(dot(away, away))
+        active = active[(off[active] > 1e-13) & np.isfinite(off[active])]
+    met = (off <= MET) & target.sheet.on_sheet(places)
+    sample, t, places = sample[met], t[met], places[met]
+    return _different(target.sheet, sample, t * np.linalg.norm(ways[met], axis=1), t, places)
+
+
+def _different(sheet: Sheet, sample: Ints, distance: Floats, t: Floats, places: Floats) -> tuple[Ints, Floats, Floats]:
+    """The meetings without repetitions."""
+    order = np.lexsort((distance, sample))
+    sample, distance, t, places = sample[order], distance[order], t[order], places[order]
+    for _ in range(3):
+        if len(sample) < 2:
+            break
+        same = (sample[1:] == sample[:-1]) & (distance[1:] - distance[:-1] < ONE_MEETING)
+        same &= sheet.apart(places[1:], places[:-1]) < 1e-4
+        kept = np.concatenate([[True], ~same])
+        sample, distance, t, places = sample[kept], distance[kept], t[kept], places[kept]
+    return sample, t, places

@@ -1,0 +1,95 @@
+"""A smooth surface as the engine sees it: known exactly at places, and roughly by a tessellation."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+
+
+class Sheet(Protocol):
+    """A smooth surface in the view's coordinates.
+
+    A place (k,3) says where on the sheet something is: parameters (u, v, 0) of a parametrised surface, the point itself
+    of an implicit one.
+    """
+
+    @property
+    def item(self) -> int:
+        """The item it belongs to."""
+        ...
+
+    @property
+    def hides(self) -> bool:
+        """Whether it hides what is behind it."""
+        ...
+
+    @property
+    def vertices(self) -> Floats:
+        """(m,3) points of a tessellation, on the sheet."""
+        ...
+
+    @property
+    def vertex_places(self) -> Floats:
+        """(m,3) their places."""
+        ...
+
+    @property
+    def corners(self) -> Ints:
+        """(t,3) the vertices of its triangles."""
+        ...
+
+    @property
+    def sag(self) -> float:
+        """How far the tessellation is off the sheet, about."""
+        ...
+
+    def points(self, places: Floats) -> Floats:
+        """(k,3) points."""
+        ...
+
+    def normals(self, places: Floats) -> Floats:
+        """(k,3) unit normals; NaN at singular points."""
+        ...
+
+    def bends(self, places: Floats, directions: Floats) -> Floats:
+        """(k,) how strongly the sheet bends towards its normal along the tangential parts of directions (k,3): the
+        normal part of the acceleration of a path with that velocity."""
+        ...
+
+    def moved(self, places: Floats, steps: Floats) -> Floats:
+        """(k,3) the places that small tangential steps (k,3) lead to, to first order."""
+        ...
+
+    def inwards(self, places: Floats) -> Floats:
+        """(k,3) tangents into the sheet at places on its border; 0 elsewhere."""
+        ...
+
+    def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats]:
+        """(k,) and (k,3): one Newton step for where lines points + t ways meet the sheet: t, and the places there."""
+        ...
+
+    def apart(self, one: Floats, two: Floats) -> Floats:
+        """(k,) how far places are from each other as parts of the domain; whole periods do not count."""
+        ...
+
+    def on_sheet(self, places: Floats) -> Bools:
+        """(k,) whether places lie in the domain."""
+        ...
+
+
+def dot(a: Floats, b: Floats) -> Floats:
+    """(k,) scalar products of the rows."""
+    return np.asarray(np.einsum("ij,ij->i", a, b))
+
+
+def solved(a: Floats, b: Floats, c: Floats, right: Floats) -> Floats:
+    """(k,3) the x with x0 a + x1 b + x2 c = right, for rows of vectors (k,3); not finite where they lie in a plane."""
+    bc = np.cross(b, c)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        factor = 1.0 / dot(a, bc)
+        return np.stack(
+            [dot(right, bc) * factor, dot(right, np.cross(c, a)) * factor, dot(right, np.cross(a, b)) * factor], axis=1
+        )

@@ -1,0 +1,81 @@
+"""Sheets as targets of sight lines and of curves: a tree over the images of their triangles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.scene.view import View
+from vectorplot.visibility.smooth import projection
+from vectorplot.visibility.smooth.sheet import Sheet, dot
+
+if TYPE_CHECKING:
+    import shapely
+
+
+@dataclass(frozen=True, eq=False)
+class Target:
+    """A sheet and its triangles (t,) in front of the eye: their corners' images (t,3,2) and depths (t,3); margin: how
+    far the sheet may be off its triangles."""
+
+    sheet: Sheet
+    corners: Ints
+    image: Floats
+    depth: Floats
+    margin: float
+
+    @cached_property
+    def tree(self) -> shapely.STRtree:
+        """A tree over the triangles' bounding boxes."""
+        import shapely
+
+        low, high = self.image.min(axis=1), self.image.max(axis=1)
+        return shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
+
+    def near_boxes(self, low: Floats, high: Floats) -> tuple[Ints, Ints]:
+        """Pairs of a box (k,2), from low to high, and a triangle whose box, enlarged by the margin, overlaps it."""
+        import shapely
+
+        low, high = low - self.margin, high + self.margin
+        box, triangle = self.tree.query(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
+        return np.asarray(box), np.asarray(triangle)
+
+
+def target(view: View, sheet: Sheet) -> Target:
+    """The sheet as seen in a view; triangles that reach before the near plane are left out, and those of a sheet that
+    hides nothing."""
+    image, depth = projection.image(view, sheet.vertices), projection.depth(view, sheet.vertices)
+    corners = sheet.corners[(depth[sheet.corners] > view.near).all(axis=1)]
+    if not sheet.hides:
+        corners = corners[:0]
+    least = float(depth[corners].min()) if len(corners) else 1.0
+    scale = 1.0 if view.eye is None else view.focus / max(least, view.near)
+    return Target(sheet, corners, image[corners], depth[corners], 2.0 * sheet.sag * scale)
+
+
+def weights(triangle: Floats, points: Floats) -> Floats:
+    """(k,3) barycentric coordinates of points (k,2) in triangles (k,3,2); not finite for those seen edge-on."""
+    a, b, c = triangle[:, 0], triangle[:, 1], triangle[:, 2]
+    ab, ac, ap = b - a, c - a, points - a
+    area = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        two = (ap[:, 0] * ac[:, 1] - ap[:, 1] * ac[:, 0]) / area
+        three = (ab[:, 0] * ap[:, 1] - ab[:, 1] * ap[:, 0]) / area
+    return np.stack([1.0 - two - three, two, three], axis=1)
+
+
+def inside(weight: Floats) -> Floats:
+    """(k,3) the nearest barycentric coordinates within the triangle, about."""
+    clipped = np.clip(np.where(np.isfinite(weight), weight, 1.0 / 3.0), 0.0, 1.0)
+    return np.asarray(clipped / clipped.sum(axis=1, keepdims=True))
+
+
+def distance_to(triangle: Floats, weight: Floats, points: Floats) -> Floats:
+    """(k,) how far points (k,2) are, about, from triangles (k,3,2) in which they have these barycentric coordinates."""
+    nearest = np.einsum("ij,ijk->ik", inside(weight), triangle)
+    away = points - nearest
+    return np.sqrt(dot(away, away))
