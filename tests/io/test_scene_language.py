@@ -18,7 +18,7 @@ from vectorplot.geometry.solids import box
 from vectorplot.geometry.winding import is_closed_oriented
 from vectorplot.io import scene_language
 from vectorplot.io.scene_language import parse_scene, read_scene
-from vectorplot.io.scene_reader import RESERVED
+from vectorplot.io.scene_reserved import RESERVED
 from vectorplot.io.scene_words import PALETTES
 from vectorplot.scene.scene import Light, Page
 
@@ -368,7 +368,7 @@ CONE = "CONE green revolution solid meridian 4 0 0 , 0 0 7 order 30"
         ("CONE revolution meridian 4 0 0, 0 x 7 order 3", "expected a number for a point of the meridian, got 'x'"),
         ("CONE revolution meridian 4 0 0, 0 0 7 order 3.5", "CONE: expected a whole number for order, got '3.5'"),
         ("CONE revolution meridian 4 0 0, 0 0 7 order 1000000000", "CONE: order 1000000000: expected"),
-        ("CONE", "CONE: expected one of vertices, revolution, translation, box, intersection, got the end"),
+        ("CONE", "CONE: expected one of vertices, revolution, translation, box, intersection, surface, got the end"),
         ("CONE 3 4", "CONE: expected one of .*, got '3'"),
         ("CONE green yellow box 1 1 1", "CONE: a second colour, 'yellow'"),
         ("B box 1 1", "<text>:1: B: expected a number for a length of the box, got the end of the file"),

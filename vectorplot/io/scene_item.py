@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import warnings
 from collections.abc import Callable, Sequence
 
@@ -24,16 +23,17 @@ from vectorplot.geometry.solids import (
     prism,
     turned_outwards,
 )
+from vectorplot.io.scene_curves import CurveDraft
+from vectorplot.io.scene_placement import Placement
 from vectorplot.io.scene_words import Words
 from vectorplot.scene.scene import Item, Material, Pattern
-
-Placement = tuple[float, ...]
+from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
+from vectorplot.surfaces.surface import ImplicitSurface, Surface
 
 OPACITY_OF_TRANSPARENT = 0.5
 """Opacity of a transparent item that names none."""
 
 _NORMAL = Material()
-_QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 
 NEEDED = {
     "vertices": ("vertices", "faces"),
@@ -41,6 +41,7 @@ NEEDED = {
     "translation": ("base_points", "trans_vector"),
     "box": ("lengths",),
     "intersection": ("parts",),
+    "surface": ("surface",),
 }
 """What every kind of item cannot be without."""
 
@@ -75,6 +76,8 @@ class Draft:
     patterns: tuple[Pattern, ...] = ()
     lines: tuple[str, ...] | None = None
     occludes: bool | None = None
+    surface: Surface | ImplicitSurface | None = None
+    curves = CurveDraft()
 
     def __init__(self, name: str, index: int) -> None:
         self.name = name
@@ -93,45 +96,18 @@ class Draft:
         return self.shown_caps if self.hollow else BOTH_CAPS
 
 
-def moved(placement: Placement, x: float, y: float, z: float) -> Placement:
-    """A placement followed by a translation."""
-    a, b, c, t, d, e, f, u, g, h, i, v = placement
-    return (a, b, c, t + x, d, e, f, u + y, g, h, i, v + z)
-
-
-def turned(placement: Placement, axis: str, angle_deg: float) -> Placement:
-    """A placement followed by a rotation about an axis through the origin, counter-clockwise seen from its tip.
-
-    Quarter turns are exact. Source: Glaeser, section 1.6, equations 27 to 29.
-    """
-    quarters = angle_deg / 90.0
-    if quarters == int(quarters):
-        cos, sin = _QUARTERS[int(quarters) % 4]
-    else:
-        cos, sin = math.cos(math.radians(angle_deg)), math.sin(math.radians(angle_deg))
-    # Row by row and written out: thousands of items are turned.
-    a, b, c, t, d, e, f, u, g, h, i, v = placement
-    if axis == "x":
-        second = (cos * d - sin * g, cos * e - sin * h, cos * f - sin * i, cos * u - sin * v)
-        return (a, b, c, t, *second, sin * d + cos * g, sin * e + cos * h, sin * f + cos * i, sin * u + cos * v)
-    if axis == "y":
-        third = (cos * g - sin * a, cos * h - sin * b, cos * i - sin * c, cos * v - sin * t)
-        return (sin * g + cos * a, sin * h + cos * b, sin * i + cos * c, sin * v + cos * t, d, e, f, u, *third)
-    first = (cos * a - sin * d, cos * b - sin * e, cos * c - sin * f, cos * t - sin * u)
-    return (*first, sin * a + cos * d, sin * b + cos * e, sin * c + cos * f, sin * t + cos * u, g, h, i, v)
-
-
 def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
     """The item that a complete draft describes; parts: the shapes that an intersection is made of.
 
     Errors: InputError with file, line and the item's name for anything that makes no shape.
     """
+    shape: Mesh | Surface | ImplicitSurface
+    curves = NO_LINES
     try:
-        mesh = _SHAPES[draft.kind or ""](draft, words, parts)
-        if draft.removed is not None:
-            mesh = _without_faces(mesh, draft.removed)
-        if draft.patterns:
-            _check_patterns(draft.patterns, mesh)
+        if draft.surface is not None:
+            shape, curves = _surface(draft, draft.surface)
+        else:
+            shape = _polyhedron(draft, words, parts)
     except InputError as error:
         if error.file is not None:
             raise
@@ -139,13 +115,35 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
     occludes = draft.material != "transparent" if draft.occludes is None else draft.occludes
     return Item(
         draft.name,
-        mesh,
+        shape,
         "gray" if draft.colour is None else draft.colour,
         _material(draft),
         draft.patterns,
         draft.lines,
         occludes,
+        curves,
     )
+
+
+def _surface(draft: Draft, surface: Surface | ImplicitSurface) -> tuple[Surface | ImplicitSurface, SurfaceLines]:
+    from vectorplot.io.scene_surface import check_defined, curves_of, placed_surface
+
+    if draft.removed is not None or draft.patterns:
+        raise InputError("a surface has no faces for 'removed_faces' and 'patterns'")
+    shape = placed_surface(surface, draft.placement)
+    check_defined(shape)
+    return shape, curves_of(draft.curves, shape)
+
+
+def _polyhedron(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    if draft.curves:
+        words.fail(draft.curves.index, f"{draft.owner}'{words.words[draft.curves.index]}' is for surfaces only")
+    mesh = _SHAPES[draft.kind or ""](draft, words, parts)
+    if draft.removed is not None:
+        mesh = _without_faces(mesh, draft.removed)
+    if draft.patterns:
+        _check_patterns(draft.patterns, mesh)
+    return mesh
 
 
 def _material(draft: Draft) -> Material:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.io.scene_item import finished
+from vectorplot.io.scene_item import Draft, finished
 from vectorplot.io.scene_reader import ItemReader
 from vectorplot.io.scene_statements import read_camera, read_light, read_page
 from vectorplot.io.scene_words import SCENE_WORDS, Words
@@ -60,6 +60,7 @@ class _Reader(ItemReader):
         self.parts: set[int] = set()
         self.settings = Scene(items=())
         self.set: set[str] = set()
+        self.lit: list[tuple[int, Draft]] = []
 
     def scene(self) -> Scene:
         """All statements and items up to the end of the text."""
@@ -68,6 +69,8 @@ class _Reader(ItemReader):
                 self.statement(word)
             else:
                 self.item()
+        for place, draft in self.lit:
+            self.items[place] = self.lit_item(self.items[place], draft)
         shown = [item for place, item in enumerate(self.items) if place not in self.parts] if self.parts else self.items
         return replace(self.settings, items=tuple(shown))
 
@@ -102,9 +105,28 @@ class _Reader(ItemReader):
         parts: tuple[Mesh, ...] = ()
         if draft.parts is not None:
             places = [self.places[part] for part in draft.parts]
+            for place in places:
+                if not isinstance(self.items[place].shape, Mesh):
+                    name = self.items[place].name
+                    self.source.fail(draft.kind_index, f"{draft.owner}{name} is a surface: only solids are intersected")
             parts = tuple(self.items[place].mesh for place in places)
             self.parts.update(places)
+        if draft.curves.lit_by is not None:
+            self.lit.append((len(self.items), draft))
         self.places[draft.name] = len(self.items)
         self.items.append(finished(draft, self.source, parts))
         if len(self.items) > MAX_ITEMS:
             self.source.fail(draft.index, f"{draft.owner}more than {MAX_ITEMS} items")
+
+    def lit_item(self, item: Item, draft: Draft) -> Item:
+        """An item with isophotes of the light that its draft names, or counts from 1; lights may come after items."""
+        name = draft.curves.lit_by or ""
+        names = [light.name for light in self.settings.lights]
+        if name in names:
+            index = names.index(name)
+        elif name.isdecimal() and 1 <= int(name) <= len(names):
+            index = int(name) - 1
+        else:
+            known = ", ".join(filter(None, names)) or f"{len(names)} without names"
+            self.source.fail(draft.curves.lit_index, f"{draft.owner}there is no light '{name}' (lights: {known})")
+        return replace(item, curves=replace(item.curves, light=index))

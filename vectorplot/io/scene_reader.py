@@ -9,7 +9,15 @@ from typing import NoReturn
 import numpy as np
 
 from vectorplot.errors import InputWarning
-from vectorplot.io.scene_item import CAP_WORDS, Draft, moved, turned
+from vectorplot.io.scene_curves import (
+    CurveDraft,
+    read_isophotes,
+    read_level_lines,
+    read_parameter_lines,
+    read_sections,
+)
+from vectorplot.io.scene_item import CAP_WORDS, Draft
+from vectorplot.io.scene_placement import Placement, moved, read_matrix, read_rotation, read_scale
 from vectorplot.io.scene_words import (
     COLOURS,
     FORM_WORDS,
@@ -47,7 +55,7 @@ class ItemReader:
 
     def draft(self) -> Draft:
         """A name, and everything up to the next word that says nothing about an item."""
-        words, handlers = self.words, _HANDLERS
+        words, handlers = self.words, HANDLERS
         name = words[self.at]
         if name in handlers or name == "," or self.source.is_number(self.at):
             self.fail(f"expected the name of an item, got {self.source.shown(self.at)}")
@@ -92,10 +100,12 @@ class ItemReader:
         near = close_to(word, _HEADER) if plain else None
         if near:
             self.fail(f"unknown word '{word}', expected '{near}'", draft)
-        if plain and draft.colour is None and close_to(draft.name, list(_HANDLERS)) is None:
+        if plain and draft.colour is None and close_to(draft.name, list(HANDLERS)) is None:
             draft.colour = self.colour(draft.name)
             return False
-        meant = close_to(draft.name, list(_HANDLERS))
+        from vectorplot.io.scene_reserved import RESERVED
+
+        meant = close_to(draft.name, sorted(RESERVED))
         hint = f" (or is '{draft.name}' meant to be '{meant}'?)" if meant else ""
         self.fail(f"expected one of {', '.join(KIND_WORDS)}, got {source.shown(self.at)}{hint}", draft)
 
@@ -146,7 +156,7 @@ class ItemReader:
         self._kind(draft, "box")
         self._once(draft, "lengths")
         while self.words[self.at] in _BEFORE_LENGTHS:
-            _HANDLERS[self.words[self.at]](self, draft)
+            HANDLERS[self.words[self.at]](self, draft)
         draft.lengths, self.at = self.source.numbers(self.at, 3, draft.owner, "a length of the box")
 
     def _read_revolution(self, draft: Draft) -> None:
@@ -192,14 +202,12 @@ class ItemReader:
         self._once(draft, "trans_vector")
         draft.trans_vector, self.at = self.source.numbers(self.at, 3, draft.owner, "trans_vector")
 
-    def _read_rotation(self, draft: Draft) -> None:
-        axis = self.words[self.at + 1]
-        if axis not in ("x", "y", "z"):
-            self.at += 1
-            self.fail(f"expected an axis x, y or z after 'rotation', got {self.source.shown(self.at)}", draft)
-        angle = self.source.number(self.at + 2, draft.owner, "the angle of a rotation")
-        draft.placement = turned(draft.placement, axis, angle)
-        self.at += 3
+    def _read_surface(self, draft: Draft) -> None:
+        from vectorplot.io.scene_surface import read_surface
+
+        self._kind(draft, "surface")
+        self._once(draft, "surface")
+        draft.surface, self.at = read_surface(self.source, self.at, draft.owner)
 
     def _read_vertices(self, draft: Draft) -> None:
         self._kind(draft, "vertices")
@@ -317,7 +325,29 @@ class ItemReader:
             self.fail(f"patterns: expected 'face' and its number, got {source.shown(self.at)}", draft)
 
 
-_HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
+def _curves(
+    read: Callable[[Words, int, str, CurveDraft], tuple[CurveDraft, int]],
+) -> Callable[[ItemReader, Draft], None]:
+    """How to read words about the lines of a surface."""
+
+    def handle(reader: ItemReader, draft: Draft) -> None:
+        draft.curves, reader.at = read(reader.source, reader.at, draft.owner, draft.curves)
+
+    return handle
+
+
+def _modifier(
+    read: Callable[[Words, int, str, Placement], tuple[Placement, int]],
+) -> Callable[[ItemReader, Draft], None]:
+    """How to read words that move an item."""
+
+    def handle(reader: ItemReader, draft: Draft) -> None:
+        draft.placement, reader.at = read(reader.source, reader.at, draft.owner, draft.placement)
+
+    return handle
+
+
+HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
     **dict.fromkeys(COLOURS, ItemReader._read_colour),
     **dict.fromkeys(MATERIALS, ItemReader._read_material),
     **dict.fromkeys(FORM_WORDS, ItemReader._read_form),
@@ -338,13 +368,18 @@ _HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
     "trans_vector": ItemReader._read_vector,
     "box": ItemReader._read_box,
     "intersection": ItemReader._read_intersection,
-    "rotation": ItemReader._read_rotation,
+    "rotation": _modifier(read_rotation),
     "patterns": ItemReader._read_patterns,
     "lines": ItemReader._read_lines,
     "occludes": ItemReader._read_occludes,
+    "scale": _modifier(read_scale),
+    "matrix": _modifier(read_matrix),
+    "surface": ItemReader._read_surface,
+    "parameter_lines": _curves(read_parameter_lines),
+    "isophotes": _curves(read_isophotes),
+    "sections": _curves(read_sections),
+    "level_lines": _curves(read_level_lines),
 }
+"""What reads the words of an item."""
 
 _BEFORE_LENGTHS = frozenset([*COLOURS, *MATERIALS, *FORM_WORDS, *CAP_WORDS])
-
-RESERVED = frozenset([*_HANDLERS, *SCENE_WORDS, "position", "direction", "intensity", "none", "face", "polygon"])
-"""Words that are no names unless they are quoted."""

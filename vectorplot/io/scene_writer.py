@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats, Mesh
-from vectorplot.io.scene_reader import RESERVED
+from vectorplot.io.scene_reserved import RESERVED
 from vectorplot.io.scene_words import COLOURS, LINE_WORDS, MATERIALS, bare_word
 from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
 

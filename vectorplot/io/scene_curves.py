@@ -1,0 +1,113 @@
+"""The lines that a scene file asks for on a smooth surface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from vectorplot.errors import InputError
+from vectorplot.io.scene_words import Words
+from vectorplot.scene.surface_lines import MAX_LINES, NO_LINES, Section, SurfaceLines, Vector, even_cosines
+
+AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+@dataclass(frozen=True)
+class Planes:
+    """Parallel planes as the file asks for them: so many, evenly spread over the item, or at given distances."""
+
+    normal: Vector
+    count: int
+    offsets: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class CurveDraft:
+    """What has been read about the lines of an item so far. lit_by: the light of the isophotes, as the file names it;
+    index: the first word about lines; lit_index: that of the light."""
+
+    index: int = 0
+    lines: SurfaceLines = NO_LINES
+    planes: tuple[Planes, ...] = ()
+    lit_by: str | None = None
+    lit_index: int = 0
+
+    def __bool__(self) -> bool:
+        return self.index > 0
+
+
+def read_parameter_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
+    """Columns u = const. and rows v = const."""
+    columns = words.whole(at + 1, owner, "the columns of parameter_lines")
+    rows = words.whole(at + 2, owner, "the rows of parameter_lines")
+    try:
+        return _with_lines(draft, at, replace(draft.lines, columns=columns, rows=rows)), at + 3
+    except InputError as error:
+        words.fail(at, owner + error.cause)
+
+
+def read_isophotes(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
+    """A number of isophotes, or their cosines, and the light they are of."""
+    start = at
+    count, cosines, at = _count_or_list(words, at + 1, owner, "isophotes")
+    try:
+        lines = replace(draft.lines, isophotes=even_cosines(count) if count else cosines)
+    except InputError as error:
+        words.fail(start, owner + error.cause)
+    draft = _with_lines(draft, start, lines)
+    if words.words[at] == "lit_by":
+        if words.words[at + 1] in ("", ","):
+            words.fail(at + 1, f"{owner}expected the name or the number of a light, got {words.shown(at + 1)}")
+        draft = replace(draft, lit_by=words.string(at + 1), lit_index=at + 1)
+        at += 2
+    return draft, at
+
+
+def read_sections(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
+    """An axis or a normal, and a number of sections or the distances of their planes from the origin."""
+    start, word = at, words.words[at + 1]
+    at += 2
+    if word in AXES:
+        normal = AXES[word]
+    elif word == "normal":
+        (x, y, z), at = words.numbers(at, 3, owner, "the normal of sections")
+        normal = (x, y, z)
+    else:
+        words.fail(at - 1, f"{owner}sections: expected x, y, z or 'normal', got {words.shown(at - 1)}")
+    return _planes(words, start, at, owner, draft, normal)
+
+
+def read_level_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
+    """A number of horizontal sections, or their heights."""
+    return _planes(words, at, at + 1, owner, draft, AXES["z"])
+
+
+def _planes(words: Words, start: int, at: int, owner: str, draft: CurveDraft, normal: Vector) -> tuple[CurveDraft, int]:
+    count, offsets, at = _count_or_list(words, at, owner, words.words[start])
+    try:
+        unit = Section(normal, offsets).normal
+    except InputError as error:
+        words.fail(start, owner + error.cause)
+    total = sum(max(planes.count, len(planes.offsets)) for planes in draft.planes) + max(count, len(offsets))
+    if total > MAX_LINES:
+        words.fail(start, f"{owner}sections: {total} of them, expected at most {MAX_LINES}")
+    return _with_lines(replace(draft, planes=(*draft.planes, Planes(unit, count, offsets))), start, draft.lines), at
+
+
+def _count_or_list(words: Words, at: int, owner: str, what: str) -> tuple[int, tuple[float, ...], int]:
+    """A whole number from 1 to MAX_LINES, or 'at' and numbers with commas between them."""
+    if words.words[at] != "at":
+        count = words.whole(at, owner, f"{what} ('at' begins a list)")
+        if not 1 <= count <= MAX_LINES:
+            words.fail(at, f"{owner}{what}: {count} of them, expected 1 to {MAX_LINES}")
+        return count, (), at + 1
+    values: list[float] = []
+    at += 1
+    while not values or words.words[at] == ",":
+        at += bool(values)
+        values.append(words.number(at, owner, what))
+        at += 1
+    return 0, tuple(values), at
+
+
+def _with_lines(draft: CurveDraft, at: int, lines: SurfaceLines) -> CurveDraft:
+    return replace(draft, index=draft.index or at, lines=lines)

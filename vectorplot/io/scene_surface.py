@@ -1,0 +1,83 @@
+"""Smooth surfaces of scene files: which one, and where it stands; loaded where a file has one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.rotations import axis_frame
+from vectorplot.geometry.solids import IDENTITY
+from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+from vectorplot.io.scene_curves import CurveDraft
+from vectorplot.io.scene_families import SURFACES
+from vectorplot.io.scene_slots import read_family
+from vectorplot.io.scene_words import Words, close_to
+from vectorplot.scene.extent import surface_bounds
+from vectorplot.scene.surface_lines import Section, SurfaceLines, Vector
+from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
+
+HOLE_GRID = 16
+"""Cells of the grid, in each direction of its box, on which the equation of an implicit surface is tried out."""
+
+
+def read_surface(words: Words, at: int, owner: str) -> tuple[Surface | ImplicitSurface, int]:
+    """The surface whose name stands at a word, and the word behind its slots."""
+    name = words.words[at]
+    if name not in SURFACES:
+        near = close_to(name, list(SURFACES))
+        expected = f"'{near}'" if near else f"one of {', '.join(SURFACES)}"
+        words.fail(at, f"{owner}unknown surface {words.shown(at)}, expected {expected}")
+    return read_family(words, at + 1, owner, name, SURFACES)
+
+
+def placed_surface(shape: Surface | ImplicitSurface, placement: Sequence[float]) -> Surface | ImplicitSurface:
+    """The surface under a placement (twelve numbers, rows of a matrix and a shift)."""
+    if tuple(placement) == IDENTITY:
+        return shape
+    rows = np.array(placement).reshape(3, 4)
+    if is_parametrised(shape):
+        return PlacedSurface(shape, rows[:, :3].T, rows[:, 3])
+    assert is_implicit(shape)
+    return PlacedImplicit(shape, rows[:, :3].T, rows[:, 3])
+
+
+def check_defined(shape: Surface | ImplicitSurface) -> None:
+    """Errors: InputError for a surface without a finite point, and for an equation that has no value in its box."""
+    low, high = surface_bounds(shape)
+    if is_implicit(shape):
+        x, y, z = (low + (high - low) * (np.arange(HOLE_GRID + 1) / HOLE_GRID)[:, None]).T
+        points = np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1)
+        if not np.isfinite(shape.values(points)).any():
+            raise InputError("the equation has no value anywhere in its box")
+
+
+def curves_of(draft: CurveDraft, shape: Surface | ImplicitSurface) -> SurfaceLines:
+    """The lines that a draft asks for on a surface that stands in its place."""
+    sections = tuple(
+        Section(planes.normal, planes.offsets or even_offsets(shape, planes.normal, planes.count))
+        for planes in draft.planes
+    )
+    return replace(draft.lines, sections=sections)
+
+
+def even_offsets(shape: Surface | ImplicitSurface, normal: Vector, count: int) -> tuple[float, ...]:
+    """Heights along a normal that divide the extent of a surface, of an implicit one that of its box, evenly.
+
+    Errors: InputError for a surface that lies in one such plane.
+    """
+    frame = axis_frame(normal)
+    if is_parametrised(shape):
+        heights: Floats = surface_bounds(PlacedSurface(shape, frame.T))[:, 2]
+    else:
+        box = surface_bounds(shape)
+        corners = np.stack(np.meshgrid(*box.T, indexing="ij"), axis=-1).reshape(-1, 3)
+        heights = corners @ frame[2]
+    low, high = float(heights.min()), float(heights.max())
+    if not high - low > ZERO_OF_EXTENT * max(float(np.ptp(surface_bounds(shape), axis=0).max()), abs(low), abs(high)):
+        raise InputError("sections: the surface has no extent along their normal")
+    return tuple(low + (high - low) * k / (count + 1) for k in range(1, count + 1))

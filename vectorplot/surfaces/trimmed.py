@@ -1,0 +1,66 @@
+"""Parts of parametrised surfaces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from vectorplot.curves.parameters import parameter_range
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.tolerance import ROUNDING
+from vectorplot.surfaces.surface import Domain, Surface
+
+Range = tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class TrimmedSurface:
+    """The part of a parametrised surface above smaller ranges of u and v; None: the whole range.
+
+    Where the surface is closed a range may run over the seam; if it is as long as the whole one the part is closed too.
+    Errors: InputError for empty ranges, and for ranges that leave the domain.
+    """
+
+    surface: Surface
+    u: Range | None = None
+    v: Range | None = None
+
+    def __post_init__(self) -> None:
+        # Asked once, so that a range that does not fit is an error here and now.
+        _ = self.domain
+
+    @cached_property
+    def domain(self) -> Domain:
+        """The smaller rectangle."""
+        d = self.surface.domain
+        u_start, u_end, closed_u = _part("u", self.u, d.u_start, d.u_end, d.closed_u)
+        v_start, v_end, closed_v = _part("v", self.v, d.v_start, d.v_end, d.closed_v)
+        return Domain(u_start, u_end, v_start, v_end, closed_u=closed_u, closed_v=closed_v)
+
+    def points(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) points."""
+        return self.surface.points(u, v)
+
+    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        """(..., 3) derivatives by u and by v."""
+        return self.surface.partials(u, v)
+
+    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+        """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
+        return self.surface.second_partials(u, v)
+
+
+def _part(name: str, wanted: Range | None, start: float, end: float, closed: bool) -> tuple[float, float, bool]:
+    """Start and end of a part of a range, and whether it is closed."""
+    if wanted is None:
+        return start, end, closed
+    low, high = parameter_range(name, *wanted)
+    slack = ROUNDING * (end - start)
+    if closed:
+        if high - low > end - start + slack:
+            raise InputError(f"{name} from {low:g} to {high:g} is more than one round of {end - start:g}")
+        return low, high, high - low >= end - start - slack
+    if low < start - slack or high > end + slack:
+        raise InputError(f"{name} from {low:g} to {high:g} leaves the range from {start:g} to {end:g}")
+    return max(low, start), min(high, end), False
