@@ -6,7 +6,7 @@ from vectorplot.drawing.drawing import Paths
 
 
 def polylines(*lines, closed=(), kind=None, item=None, hidden_by=None, smooth=()):
-    """Strokes through the given points; closed, smooth: their numbers. points3d is the page's points, one unit above it."""
+    """Strokes through the given points; closed, smooth: their numbers. points3d is the page, one unit higher."""
     count = len(lines)
     points = np.concatenate([np.asarray(line, dtype=float).reshape(-1, 2) for line in lines] or [np.zeros((0, 2))])
     zeros = np.zeros(count, dtype=np.intp)

@@ -155,15 +155,19 @@ def _ink(context: cairo.Context[Any], page: Sheet, scale: float, height: float) 
 
 
 def _stroke(context: cairo.Context[Any], ink: Ink, scale: float, height: float) -> None:
-    """Stroke the polylines. Cairo takes one point a call, so this loops over points."""
+    """Stroke the polylines and curves. Cairo takes one segment a call, so this loops over points."""
     points = (ink.microns * (scale, -scale) + (0.0, height)).tolist()
-    move_to, line_to = context.move_to, context.line_to
-    ends = ink.offsets[1:].tolist()
+    move_to, line_to, curve_to = context.move_to, context.line_to, context.curve_to
+    strokes = zip(ink.offsets[1:].tolist(), ink.closed.tolist(), ink.curved.tolist(), strict=True)
     start = 0
-    for number, (end, closed) in enumerate(zip(ends, ink.closed.tolist(), strict=True), start=1):
+    for number, (end, closed, curved) in enumerate(strokes, start=1):
         move_to(*points[start])
-        for x, y in points[start + 1 : end]:
-            line_to(x, y)
+        if curved:
+            for i in range(start + 1, end, 3):
+                curve_to(*points[i], *points[i + 1], *points[i + 2])
+        else:
+            for x, y in points[start + 1 : end]:
+                line_to(x, y)
         if closed:
             context.close_path()
         if number % _STROKES_AT_ONCE == 0:

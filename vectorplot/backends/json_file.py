@@ -30,7 +30,7 @@ def json_bytes(drawing: Drawing) -> bytes:
     Errors: InputError as vectorplot.backends.sheet, and for points in the world that are not finite.
     """
     check(drawing)
-    paths = concatenated(tuple(marks for layer in drawing.layers for marks in layer.marks))
+    paths = concatenated(tuple(paths for layer in drawing.layers for paths in layer.strokes))
     if not (np.isfinite(paths.points3d).all() and np.isfinite(drawing.page_from_world).all()):
         raise InputError("a point or the projection of the drawing is not finite")
     head = {

@@ -1,22 +1,26 @@
 """What every backend that makes a page draws: checked, clipped strokes in thousandths of a millimetre.
 
-A backend turns a Sheet into bytes and needs three primitives for it: a page, a pen, a polyline. Because all of them
-draw the same integers, their pictures agree.
+A backend turns a Sheet into bytes and needs four primitives for it: a page, a pen, a polyline, a Bézier path. Because
+all of them draw the same integers, their pictures agree.
 """
 
 from __future__ import annotations
 
 import re
 import unicodedata
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.drawing.clip import clipped
-from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
-from vectorplot.drawing.pieces import concatenated, offsets_of
+from vectorplot.curves.bezier import BezierPaths
+from vectorplot.curves.bezier_clip import clipped_paths
+from vectorplot.curves.elliptic_arcs import EllipseArcs
+from vectorplot.drawing.clip import Rectangle, clipped_parts
+from vectorplot.drawing.curves import one_mark
+from vectorplot.drawing.drawing import Curves, Drawing, Layer, Paths, Pen
+from vectorplot.drawing.pieces import chosen, offsets_of, ranges
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Ints
+from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 LARGEST_PAGE_MM = 1_000_000.0
 """A kilometre: cairo's coordinates wrap round at about three (2^23 points)."""
@@ -26,10 +30,12 @@ _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 @dataclass(frozen=True, eq=False)
 class Ink:
-    """The polylines of one layer, as they appear on the page.
+    """The strokes of one layer, as they appear on the page.
 
-    microns (p,2) int64, y upwards, all of them on the page; offsets (m+1,); closed (m,). No two neighbouring points are
-    equal, an open polyline has two points or more and a closed one three or more.
+    microns (p,2) int64, y upwards; offsets (m+1,); closed (m,); curved (m,): a cubic Bézier path, the points of which
+    are its first point and three more for each segment; the others are polylines. A curve lies on the page, its handles
+    may reach beyond it. No two neighbouring points of a polyline are equal, an open one has two points or more and a
+    closed one three or more. arcs: the curves that are arcs of ellipses, in mm, where a format can say so.
     """
 
     label: str
@@ -37,6 +43,8 @@ class Ink:
     microns: Ints
     offsets: Ints
     closed: Bools
+    curved: Bools
+    arcs: EllipseArcs
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,9 +84,10 @@ def check(drawing: Drawing) -> None:
             raise InputError(f"layer {layer.name!r}: colour {layer.pen.colour!r} is not #rrggbb")
         if not 0.0 < layer.pen.width_mm <= LARGEST_PAGE_MM:
             raise InputError(f"layer {layer.name!r}: pen width of {layer.pen.width_mm:g} mm")
-        for paths in layer.marks:
-            if not np.isfinite(paths.points).all():
-                raise InputError(f"layer {layer.name!r}: a point on the page is not finite")
+        points = [paths.points for paths in layer.strokes]
+        points += [mark.beziers.control for mark in layer.marks if isinstance(mark, Curves)]
+        if not all(np.isfinite(some).all() for some in points):
+            raise InputError(f"layer {layer.name!r}: a point on the page is not finite")
 
 
 def plain_text(text: str) -> str:
@@ -88,15 +97,45 @@ def plain_text(text: str) -> str:
 
 
 def _ink(drawing: Drawing, layer: Layer, number: int) -> Ink:
-    page = (0.0, 0.0, drawing.width_mm, drawing.height_mm)
-    paths = concatenated(tuple(clipped(marks, page, drawing.page_from_world) for marks in layer.marks))
     label = f"{'' if layer.plotted else '%'}{number} {plain_text(layer.name)}".rstrip()
-    return Ink(label, layer.pen, *_without_repeats(paths))
+    mark = one_mark(layer.marks)
+    page = (0.0, 0.0, drawing.width_mm, drawing.height_mm)
+    drawn_straight = np.flatnonzero(np.diff(mark.beziers.offsets) == 0)
+    lines, line = clipped_parts(chosen(mark.paths, drawn_straight), page, drawing.page_from_world)
+    beziers, curve = clipped_paths(mark.beziers, np.array(page[:2]), np.array(page[2:]))
+    straight, kept = _without_repeats(lines)
+    curved, stays = _control_polygons(beziers)
+    source = np.concatenate((drawn_straight[line[kept]], curve[stays]))
+    order = np.argsort(source, kind="stable")
+    count = np.concatenate((np.diff(straight.offsets), np.diff(curved.offsets)))[order]
+    first = np.concatenate((straight.offsets[:-1], curved.offsets[:-1] + len(straight.microns)))[order]
+    return Ink(
+        label,
+        layer.pen,
+        np.concatenate((straight.microns, curved.microns))[ranges(first, count)],
+        offsets_of(count),
+        np.concatenate((straight.closed, curved.closed))[order],
+        order >= len(straight.closed),
+        _whole_arcs(mark, page, source[order]),
+    )
 
 
-def _without_repeats(paths: Paths) -> tuple[Ints, Ints, Bools]:
-    """Points in microns, offsets and closed flags; repeated points and strokes without length are gone."""
-    microns = np.rint(paths.points * 1000.0).astype(np.int64)
+@dataclass(frozen=True, eq=False)
+class _Rounded:
+    """Strokes with points in microns (p,2), offsets (m+1,) and closed (m,)."""
+
+    microns: Ints
+    offsets: Ints
+    closed: Bools
+
+
+def _in_microns(points: Floats) -> Ints:
+    return np.rint(points * 1000.0).astype(np.int64)
+
+
+def _without_repeats(paths: Paths) -> tuple[_Rounded, Bools]:
+    """The strokes rounded, without repeated points and without strokes of no length; (m,) which of them remain."""
+    microns = _in_microns(paths.points)
     counts = np.diff(paths.offsets)
     filled = np.flatnonzero(counts > 0)
     starts, ends = paths.offsets[:-1][filled], paths.offsets[1:][filled]
@@ -111,4 +150,33 @@ def _without_repeats(paths: Paths) -> tuple[Ints, Ints, Bools]:
     counts = np.add.reduceat(new.astype(np.intp), starts) if len(filled) else counts[filled]
     long = counts > 1
     points = microns[new][np.repeat(long, counts)]
-    return points, offsets_of(counts[long]), (paths.closed[filled] & (counts > 2))[long]
+    remains = np.zeros(len(paths), dtype=np.bool_)
+    remains[filled[long]] = True
+    return _Rounded(points, offsets_of(counts[long]), (paths.closed[filled] & (counts > 2))[long]), remains
+
+
+def _control_polygons(paths: BezierPaths) -> tuple[_Rounded, Bools]:
+    """The control points of each path, one row; without paths that are no longer than the rounding; (m,) which of them
+    remain."""
+    control = _in_microns(paths.control)
+    size = np.diff(paths.offsets)
+    if not len(size):
+        return _Rounded(np.zeros((0, 2), np.int64), paths.offsets, paths.closed), np.zeros(0, dtype=np.bool_)
+    moves = (control != control[np.repeat(paths.offsets[:-1], size), :1]).any(axis=(1, 2))
+    remains = np.logical_or.reduceat(moves, paths.offsets[:-1])
+    control = control[np.repeat(remains, size)]
+    offsets = offsets_of(3 * size[remains] + 1)
+    heads = offsets_of(size[remains])[:-1]
+    microns = np.insert(control[:, 1:].reshape(-1, 2), 3 * heads, control[heads, 0], axis=0)
+    return _Rounded(microns, offsets, paths.closed[remains]), remains
+
+
+def _whole_arcs(mark: Curves, page: Rectangle, source: Ints) -> EllipseArcs:
+    """The arcs of strokes that the page does not cut; source (m,): the stroke of the mark of each stroke that is drawn,
+    ascending."""
+    control = mark.beziers.control
+    out = ((control < page[:2]) | (control > page[2:])).any(axis=(1, 2))
+    owner = np.repeat(np.arange(len(mark)), np.diff(mark.beziers.offsets))
+    cut = np.bincount(owner[out], minlength=len(mark))[mark.arcs.stroke] > 0
+    arcs = mark.arcs.some(~cut & np.isin(mark.arcs.stroke, source))
+    return replace(arcs, stroke=np.searchsorted(source, arcs.stroke))

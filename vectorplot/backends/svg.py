@@ -1,6 +1,6 @@
 """SVG for pen plotters and web pages: one Inkscape layer per pen, strokes only, millimetres.
 
-svgwrite makes the document and its layers; the polylines of a layer are formatted in bulk and put in their places
+svgwrite makes the document and its layers; the strokes of a layer are formatted in bulk and put in their places
 afterwards, because an object for each of them would cost a hundred times as much.
 """
 
@@ -18,20 +18,25 @@ from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.mesh import Ints
 
 _PLACE = "\0"  # cannot occur in the document: names and titles hold no control characters
-_OPEN, _LOOP, _END = b"\1", b"\2", b"\3"
+_OPEN, _LOOP, _CURVE, _END, _RING, _ARC = b"\1", b"\2", b"\3", b"\4", b"\5", b"\6"
 _ELEMENTS = (
     (_OPEN, b'<polyline points="'),
     (_LOOP, b'<polygon points="'),
+    (_CURVE, b'<path d="M'),
     (_END, b'"/>\n'),
+    (_RING, b'Z"/>\n'),
 )
 _POINTS_AT_ONCE = 1 << 16
+_WIDEST_ARC = np.pi / 2.0
+"""The centre of a wider arc would depend too much on the decimals of its ends and radii."""
 
 
 def svg_text(drawing: Drawing) -> str:
     """The drawing as the text of an SVG file.
 
     Width and height in mm and a viewBox, so that a user unit is 1 mm; three decimals; y downwards. The layers are
-    top-level groups labelled ``1 visible``, ``%2 hidden``; lines are polyline and polygon elements. Ids begin with a
+    top-level groups labelled ``1 visible``, ``%2 hidden``; lines are polyline and polygon elements, curves are path
+    elements with cubic segments, or with elliptic arcs where they are such. Ids begin with a
     hash of the content, so that several drawings can share a web page; nothing else changes from run to run.
     Errors: InputError as vectorplot.backends.sheet. Degenerate: an empty drawing is an empty page.
     """
@@ -41,7 +46,7 @@ def svg_text(drawing: Drawing) -> str:
 def svg_bytes(drawing: Drawing) -> bytes:
     """The drawing as the bytes of an SVG file in UTF-8; see svg_text."""
     page = sheet(drawing)
-    bodies = [polylines(ink, page.height) for ink in page.inks]
+    bodies = [elements(ink, page.height) for ink in page.inks]
     frame = _document(page, bodies).encode("utf-8").split(f"<!--{_PLACE}-->".encode())
     parts = [frame[0]]
     for body, after in zip(bodies, frame[1:], strict=True):
@@ -49,21 +54,63 @@ def svg_bytes(drawing: Drawing) -> bytes:
     return b"".join(parts) + b"\n"
 
 
-def polylines(ink: Ink, height: int) -> bytes:
-    """The polyline and polygon elements of one layer; y is flipped about the page height in microns."""
-    first, last = np.zeros(len(ink.microns), np.uint8), np.zeros(len(ink.microns), np.uint8)
-    first[:] = ord(" ")
-    first[ink.offsets[:-1]] = np.where(ink.closed, ord(_LOOP), ord(_OPEN))
-    last[ink.offsets[1:] - 1] = ord(_END)
+def elements(ink: Ink, height: int) -> bytes:
+    """The polyline, polygon and path elements of one layer; y is flipped about the page height in microns."""
+    shown, first, last = _separators(ink)
     blocks = []
-    for start in range(0, len(ink.microns), _POINTS_AT_ONCE):
+    for start in range(0, len(shown), _POINTS_AT_ONCE):
         block = slice(start, start + _POINTS_AT_ONCE)
-        x, y = ink.microns[block].T
+        x, y = ink.microns[shown[block]].T
         blocks.append(_formatted(first[block], x, height - y, last[block]))
     text = b"".join(blocks)
     for token, element in _ELEMENTS:
         text = text.replace(token, element)
-    return text
+    between = text.split(_ARC)
+    return b"".join(part for pair in zip(between, [*_arc_data(ink, height), b""], strict=True) for part in pair)
+
+
+def _separators(ink: Ink) -> tuple[Ints, NDArray[np.uint8], NDArray[np.uint8]]:
+    """The points that are written (k,), what stands before each of them and what after it.
+
+    Of an arc only the first point: the place of its other data is marked.
+    """
+    starts, ends = ink.offsets[:-1], ink.offsets[1:]
+    arc = np.zeros(len(starts), dtype=np.bool_)
+    arc[ink.arcs.stroke] = True
+    first, last = np.zeros(len(ink.microns), np.uint8), np.zeros(len(ink.microns), np.uint8)
+    first[:] = ord(" ")
+    first[starts] = np.where(ink.curved, ord(_CURVE), np.where(ink.closed, ord(_LOOP), ord(_OPEN)))
+    first[starts[ink.curved] + 1] = ord("C")
+    last[ends - 1] = np.where(ink.curved & ink.closed, ord(_RING), ord(_END))
+    last[starts[arc]] = ord(_ARC)
+    shown = ~np.repeat(arc, np.diff(ink.offsets))
+    shown[starts] = True
+    return np.flatnonzero(shown), first[shown], last[shown]
+
+
+def _arc_data(ink: Ink, height: int) -> list[bytes]:
+    """For each arc the rest of its path element: parts of equal parameter length."""
+    arcs = ink.arcs
+    radii = np.sqrt(np.stack(((arcs.first**2).sum(axis=1), (arcs.second**2).sum(axis=1))))
+    # In the file y goes down: angles and senses of turning are mirrored.
+    tilt = np.degrees(np.arctan2(-arcs.first[:, 1], arcs.first[:, 0]))
+    handed = arcs.first[:, 0] * arcs.second[:, 1] > arcs.first[:, 1] * arcs.second[:, 0]
+    sweep = handed != (arcs.end > arcs.start)
+    count = np.maximum(np.ceil(np.abs(arcs.end - arcs.start) / _WIDEST_ARC - 1e-9), 1.0).astype(np.intp)
+    owner = np.repeat(np.arange(len(arcs)), count)
+    number = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count) + 1
+    part = arcs.some(owner)
+    end = part.points(arcs.start[owner] + (arcs.end - arcs.start)[owner] * (number / count[owner]))
+    data = np.stack((*radii[:, owner], tilt[owner], sweep[owner], end[:, 0], height / 1000.0 - end[:, 1]), axis=1) + 0.0
+    texts = [
+        f"A{rx:.5f} {ry:.5f} {turn:.5f} 0 {sense:.0f} {x:.5f},{y:.5f}" for rx, ry, turn, sense, x, y in data.tolist()
+    ]
+    closed = ink.closed[arcs.stroke].tolist()
+    ends = np.cumsum(count).tolist()
+    return [
+        (" ".join(texts[end - many : end]) + ('Z"/>\n' if ring else '"/>\n')).encode("ascii")
+        for end, many, ring in zip(ends, count.tolist(), closed, strict=True)
+    ]
 
 
 def _formatted(first: NDArray[np.uint8], x: Ints, y: Ints, last: NDArray[np.uint8]) -> bytes:
@@ -77,11 +124,12 @@ def _formatted(first: NDArray[np.uint8], x: Ints, y: Ints, last: NDArray[np.uint
 
 def _millimetres(microns: Ints) -> NDArray[np.uint8]:
     """Decimals in mm as rows of characters, with 0 where a row has no character: no leading or trailing zeros."""
-    whole, part = np.divmod(microns.astype(np.uint32), np.uint32(1000))
-    digits = len(str(int(whole.max(initial=0))))
+    whole, part = np.divmod(np.abs(microns).astype(np.uint32), np.uint32(1000))
+    digits = len(str(int(whole.max(initial=0)))) + 1
     text = np.zeros((len(microns), digits + 4), np.uint8)
+    text[:, 0] = np.where(microns < 0, ord("-"), 0)
     rest = whole
-    for column in range(digits - 1, -1, -1):
+    for column in range(digits - 1, 0, -1):
         rest, digit = np.divmod(rest, np.uint32(10))
         shown = (digit + rest > 0) | (column == digits - 1)
         text[:, column] = np.where(shown, digit + ord("0"), 0)

@@ -50,14 +50,14 @@ class EllipseArc:
         return np.asarray((left * size).T)
 
 
-def arc_error(angle: float) -> float:
-    """How far a cubic segment for an arc of this angle leaves its circle, in radii.
+def arc_error(angle: Floats | float) -> Floats:
+    """How far cubic segments for arcs of these angles leave their circles, in radii.
 
     Source: Goldapp, Approximation of circular arcs by cubic polynomials, CAGD 8 (1991), for handles 4/3 tan(angle/4):
     the square of the radius is wrong by 4/27 sin^6(angle/4) / cos^2(angle/4).
     """
     square = 4.0 / 27.0 * np.sin(angle / 4.0) ** 6 / np.cos(angle / 4.0) ** 2
-    return float(square / (1.0 + np.sqrt(1.0 + square)))
+    return np.asarray(square / (1.0 + np.sqrt(1.0 + square)))
 
 
 def arc_path(arc: EllipseArc, *, tolerance: float) -> BezierPath:
@@ -81,7 +81,7 @@ def arc_path(arc: EllipseArc, *, tolerance: float) -> BezierPath:
         points[-1], tangents[-1] = points[0], tangents[0]
     handles = 4.0 / 3.0 * np.tan((arc.end - arc.start) / count / 4.0) * tangents
     control = np.stack((points[:-1], points[:-1] + handles[:-1], points[1:] - handles[1:], points[1:]), axis=1)
-    return BezierPath(control, arc.closed, radius * arc_error(angle / count))
+    return BezierPath(control, arc.closed, radius * float(arc_error(angle / count)))
 
 
 def recognised_arc(points: Floats, *, tolerance: float, closed: bool = False) -> EllipseArc | None:

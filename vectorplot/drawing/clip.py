@@ -13,7 +13,12 @@ Rectangle = tuple[float, float, float, float]
 
 
 def clipped(paths: Paths, rectangle: Rectangle, page_from_world: Floats | None = None) -> Paths:
-    """The parts of the strokes inside the rectangle, its border included.
+    """The parts of the strokes inside the rectangle, as clipped_parts gives them."""
+    return clipped_parts(paths, rectangle, page_from_world)[0]
+
+
+def clipped_parts(paths: Paths, rectangle: Rectangle, page_from_world: Floats | None = None) -> tuple[Paths, Ints]:
+    """The parts of the strokes inside the rectangle, its border included, and the stroke that each comes from.
 
     rectangle: left, bottom, right, top in mm; page_from_world (4,4) as in Drawing, by default a parallel projection:
     with it points3d is cut where the page is. Strokes keep their order; a closed stroke that is cut becomes open ones
@@ -25,7 +30,7 @@ def clipped(paths: Paths, rectangle: Rectangle, page_from_world: Floats | None =
     low, high = np.array(rectangle[:2]), np.array(rectangle[2:])
     outside: Bools = np.any((paths.points < low) | (paths.points > high), axis=1)
     if not outside.any():
-        return paths
+        return paths, np.arange(len(paths))
     leaves = _any_in_each(outside, paths.offsets)
     index = np.flatnonzero(leaves)
     cut = chosen(paths, index)
@@ -35,8 +40,9 @@ def clipped(paths: Paths, rectangle: Rectangle, page_from_world: Floats | None =
     world = np.eye(4) if page_from_world is None else page_from_world
     parts, stroke = _inside(cut, low, high, world)
     whole = chosen(paths, ~leaves)
-    order = np.argsort(np.concatenate((np.flatnonzero(~leaves), index[stroke])), kind="stable")
-    return chosen(concatenated((whole, parts)), order)
+    source = np.concatenate((np.flatnonzero(~leaves), index[stroke]))
+    order = np.argsort(source, kind="stable")
+    return chosen(concatenated((whole, parts)), order), source[order]
 
 
 def _any_in_each(flags: Bools, offsets: Ints) -> Bools:

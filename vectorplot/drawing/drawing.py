@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from vectorplot.curves.bezier import BezierPaths
+from vectorplot.curves.elliptic_arcs import EllipseArcs
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 
@@ -51,14 +53,33 @@ class Paths:
 
 
 @dataclass(frozen=True, eq=False)
+class Curves:
+    """Strokes of which some are drawn as curves. paths: all of them as polylines; beziers: one path for each, without
+    segments for a stroke that is drawn as its polyline; arcs: those of them that are arcs of ellipses. Paths and arcs
+    begin and end where their polylines do."""
+
+    paths: Paths
+    beziers: BezierPaths
+    arcs: EllipseArcs
+
+    def __len__(self) -> int:
+        return len(self.paths)
+
+
+@dataclass(frozen=True, eq=False)
 class Layer:
     """Marks drawn with one pen. name: what the layer holds, such as ``visible``; plotted: False for a layer that is
     there to be looked at only (its label gets the prefix % that plotter drivers skip)."""
 
     name: str
     pen: Pen
-    marks: tuple[Paths, ...]
+    marks: tuple[Paths | Curves, ...]
     plotted: bool = True
+
+    @property
+    def strokes(self) -> tuple[Paths, ...]:
+        """The polylines of all marks."""
+        return tuple(mark.paths if isinstance(mark, Curves) else mark for mark in self.marks)
 
 
 @dataclass(frozen=True, eq=False)

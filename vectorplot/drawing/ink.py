@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.drawing.curves import with_curves
 from vectorplot.drawing.dashes import dashed
 from vectorplot.drawing.drawing import Layer, Paths
 from vectorplot.drawing.join import joined
@@ -24,12 +25,19 @@ DASH_MM = (2.0, 1.0)
 """Dash and gap of hidden lines."""
 
 
-def inked(layers: tuple[Layer, ...], hidden: str, world: Floats) -> tuple[Layer, ...]:
+def inked(
+    layers: tuple[Layer, ...], hidden: str, world: Floats, curve_tolerance_mm: float | None = None
+) -> tuple[Layer, ...]:
     """Each layer's strokes joined, without collinear points, hidden ones dashed if asked for, in the order of the
-    pen."""
-    return tuple(
-        replace(layer, marks=tuple(_pen_strokes(mark, hidden, world) for mark in layer.marks)) for layer in layers
-    )
+    pen; smooth ones as curves within curve_tolerance_mm, or as polylines where it is None."""
+    found = []
+    for layer in layers:
+        strokes = tuple(_pen_strokes(paths, hidden, world) for paths in layer.strokes)
+        if curve_tolerance_mm is None:
+            found.append(replace(layer, marks=strokes))
+        else:
+            found.append(replace(layer, marks=tuple(with_curves(paths, curve_tolerance_mm) for paths in strokes)))
+    return tuple(found)
 
 
 def _pen_strokes(paths: Paths, hidden: str, world: Floats) -> Paths:

@@ -50,7 +50,7 @@ def lines_by_group(drawing: Drawing) -> dict[Group, Floats]:
     """The segments (n,2,2) of a drawing in mm for each kind, visible and hidden apart."""
     groups: dict[Group, list[Floats]] = {}
     for layer in drawing.layers:
-        for paths in layer.marks:
+        for paths in layer.strokes:
             start, end, path = path_segments(paths.offsets, paths.closed)
             lines = np.stack([paths.points[start], paths.points[end]], axis=1)
             kind, hidden = paths.kind[path], paths.hidden_by[path] > 0

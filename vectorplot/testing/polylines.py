@@ -29,7 +29,7 @@ def curves_in_space(drawing: Drawing, *, kind: str | None = None, item: str | No
         raise InputError(f"item {item!r}: the drawing has {', '.join(drawing.items) or 'none'}")
     found: list[Floats] = []
     for layer in drawing.layers:
-        for paths in layer.marks:
+        for paths in layer.strokes:
             kept = np.ones(len(paths), dtype=np.bool_)
             if wanted_kind is not None:
                 kept &= paths.kind == wanted_kind
