@@ -22,13 +22,12 @@ class Planes:
 
 @dataclass(frozen=True)
 class CurveDraft:
-    """What has been read about the lines of an item so far. lit_by: the light of the isophotes, as the file names it;
-    index: the first word about lines; lit_index: that of the light."""
+    """What has been read about the lines of an item so far. index: the first word about them; lit_index: the one that
+    names the light of the isophotes. 0: there is none."""
 
     index: int = 0
     lines: SurfaceLines = NO_LINES
     planes: tuple[Planes, ...] = ()
-    lit_by: str | None = None
     lit_index: int = 0
 
     def __bool__(self) -> bool:
@@ -57,7 +56,7 @@ def read_isophotes(words: Words, at: int, owner: str, draft: CurveDraft) -> tupl
     if words.words[at] == "lit_by":
         if words.words[at + 1] in ("", ","):
             words.fail(at + 1, f"{owner}expected the name or the number of a light, got {words.shown(at + 1)}")
-        draft = replace(draft, lit_by=words.string(at + 1), lit_index=at + 1)
+        draft = replace(draft, lit_index=at + 1)
         at += 2
     return draft, at
 

@@ -111,7 +111,7 @@ class _Reader(ItemReader):
                     self.source.fail(draft.kind_index, f"{draft.owner}{name} is a surface: only solids are intersected")
             parts = tuple(self.items[place].mesh for place in places)
             self.parts.update(places)
-        if draft.curves.lit_by is not None:
+        if draft.curves.lit_index:
             self.lit.append((len(self.items), draft))
         self.places[draft.name] = len(self.items)
         self.items.append(finished(draft, self.source, parts))
@@ -120,13 +120,14 @@ class _Reader(ItemReader):
 
     def lit_item(self, item: Item, draft: Draft) -> Item:
         """An item with isophotes of the light that its draft names, or counts from 1; lights may come after items."""
-        name = draft.curves.lit_by or ""
-        names = [light.name for light in self.settings.lights]
-        if name in names:
-            index = names.index(name)
-        elif name.isdecimal() and 1 <= int(name) <= len(names):
+        at = draft.curves.lit_index
+        name, lights = self.source.string(at), self.settings.lights
+        names = [light.name for light in lights]
+        if self.words[at].isdecimal() and 1 <= int(name) <= len(lights):
             index = int(name) - 1
+        elif name in names:
+            index = names.index(name)
         else:
             known = ", ".join(filter(None, names)) or f"{len(names)} without names"
-            self.source.fail(draft.curves.lit_index, f"{draft.owner}there is no light '{name}' (lights: {known})")
+            self.source.fail(at, f"{draft.owner}there is no light '{name}' (lights: {known})")
         return replace(item, curves=replace(item.curves, light=index))

@@ -16,11 +16,13 @@ from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
 
 
 def write_scene(scene: Scene) -> str:
-    """The scene in the scene language: parse_scene gives an equal scene back, to the last bit.
+    """The scene in the scene language: parse_scene gives an equal scene back, to the last bit; angles of surfaces to
+    rounding.
 
-    Every shape is written by its vertices and faces, numbered from 1. The text is ASCII; what is no bare word of the
-    language is quoted.
-    Errors: InputError for words the language lacks (a material or a kind of line of one's own).
+    Every polyhedron is written by its vertices and faces, numbered from 1, surfaces by their words. The text is ASCII;
+    what is no bare word of the language is quoted.
+    Errors: InputError for what the language lacks (a material or a kind of line of one's own, a surface of a function
+    in Python).
     Source: Glaeser, section 3.6; erratum G3-16.
     """
     blocks: list[str] = []
@@ -33,7 +35,7 @@ def write_scene(scene: Scene) -> str:
     if scene.camera is not None:
         blocks.append(_camera(scene.camera))
     blocks.extend(_light(light) for light in scene.lights)
-    blocks.extend(_item(item) for item in scene.items)
+    blocks.extend(_item(item, scene.lights) for item in scene.items)
     return "".join(block + "\n" for block in blocks)
 
 
@@ -78,16 +80,30 @@ def _light(light: Light) -> str:
     return " ".join(words)
 
 
-def _item(item: Item) -> str:
+def _item(item: Item, lights: tuple[Light, ...]) -> str:
     colour = item.colour if item.colour in COLOURS else f"colour {dumps(item.colour)}"
-    words = [_name(item.name), colour, "general", *_material(item.material)]
+    form = ["general"] if isinstance(item.shape, Mesh) else []
+    words = [_name(item.name), colour, *form, *_material(item.material)]
     words.append(f"occludes {'yes' if item.occludes else 'no'}")
     if item.lines is not None:
         for word in item.lines:
             if word not in LINE_WORDS:
                 raise InputError(f"{item.name}: '{word}' is no kind of line")
         words.append(f"lines {', '.join(item.lines) or 'none'}")
-    return " ".join(words) + _mesh(item.mesh) + _patterns(item.patterns)
+    return " ".join(words) + _shape(item, lights) + _patterns(item.patterns)
+
+
+def _shape(item: Item, lights: tuple[Light, ...]) -> str:
+    if isinstance(item.shape, Mesh):
+        if item.curves:
+            raise InputError(f"{item.name}: the scene language has lines of its own for surfaces only")
+        return _mesh(item.shape)
+    from vectorplot.io.scene_surface_writer import lines_text, surface_text
+
+    try:
+        return f"\nsurface {surface_text(item.shape)}{lines_text(item.curves, lights)}"
+    except InputError as error:
+        raise InputError(f"{item.name}: {error.cause}") from None
 
 
 def _material(material: Material) -> list[str]:

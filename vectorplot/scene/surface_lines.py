@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.errors import InputError
+from vectorplot.geometry.tolerance import ROUNDING
 
 Vector = tuple[float, float, float]
 
@@ -42,9 +43,11 @@ class Section:
         normal = np.array(self.normal, dtype=np.float64)
         if normal.shape != (3,) or not np.isfinite(normal).all() or not normal.any():
             raise InputError("sections: expected a normal of three finite numbers, not all zero")
-        # Divided by the largest first: squares of very long normals would overflow.
-        normal /= np.abs(normal).max()
-        x, y, z = (normal / np.linalg.norm(normal)).tolist()
+        # Divided by the largest first: squares of very long normals would overflow. A unit vector stays what it is.
+        if abs(np.linalg.norm(normal / np.abs(normal).max()) * np.abs(normal).max() - 1.0) > ROUNDING:
+            normal /= np.abs(normal).max()
+            normal /= np.linalg.norm(normal)
+        x, y, z = normal.tolist()
         object.__setattr__(self, "normal", (x, y, z))
         object.__setattr__(self, "offsets", _numbers("sections", self.offsets))
 

@@ -68,21 +68,24 @@ def _complex(u: Floats, v: Floats) -> Complexes:
 
 
 @dataclass(frozen=True)
-class _HelicoidCurve:
+class HelicoidCurve:
     """P = (i cosh w, sinh w, -i w): its real part is a helicoid, its imaginary part a catenoid."""
 
     def points(self, w: Complexes) -> Complexes:
+        """(..., 3) P."""
         return np.stack([1j * np.cosh(w), np.sinh(w), -1j * w], axis=-1)
 
     def tangents(self, w: Complexes) -> Complexes:
+        """(..., 3) P'."""
         return np.stack([1j * np.sinh(w), np.cosh(w), np.full_like(w, -1j)], axis=-1)
 
     def second_derivatives(self, w: Complexes) -> Complexes:
+        """(..., 3) P''."""
         return np.stack([1j * np.cosh(w), np.sinh(w), np.zeros_like(w)], axis=-1)
 
 
 @dataclass(frozen=True)
-class _SpiralCurve:
+class SpiralCurve:
     """P' = exp(k w) (-sinh w, i cosh w, 1), k = -i growth.
 
     Adding i a to w multiplies P by exp(growth a) and turns it about the third axis by a: a spiral motion.
@@ -91,14 +94,17 @@ class _SpiralCurve:
     growth: float
 
     def points(self, w: Complexes) -> Complexes:
+        """(..., 3) P."""
         k = -1j * self.growth
         up, down = np.exp((k + 1.0) * w) / (k + 1.0), np.exp((k - 1.0) * w) / (k - 1.0)
         return np.stack([0.5 * (down - up), 0.5j * (up + down), np.exp(k * w) / k], axis=-1)
 
     def tangents(self, w: Complexes) -> Complexes:
+        """(..., 3) P'."""
         return np.asarray(self._factor(w) * np.stack([-np.sinh(w), 1j * np.cosh(w), np.ones_like(w)], axis=-1))
 
     def second_derivatives(self, w: Complexes) -> Complexes:
+        """(..., 3) P''."""
         change = np.stack([-np.cosh(w), 1j * np.sinh(w), np.zeros_like(w)], axis=-1)
         return np.asarray(-1j * self.growth * self.tangents(w) + self._factor(w) * change)
 
@@ -116,7 +122,7 @@ def helicoid_to_catenoid(
     """
     number("bending", bending)
     closed = abs(np.cos(bending)) < 1e-12 and is_whole_turns(end - start)
-    return MinimalSurface(_HelicoidCurve(), bending, Domain(-width, width, start, end, closed_v=closed))
+    return MinimalSurface(HelicoidCurve(), bending, Domain(-width, width, start, end, closed_v=closed))
 
 
 def minimal_spiral_surface(
@@ -130,4 +136,4 @@ def minimal_spiral_surface(
     """
     if number("minimal spiral surface: growth", growth) == 0.0:
         raise InputError("minimal spiral surface: growth must not be 0: take helicoid_to_catenoid")
-    return MinimalSurface(_SpiralCurve(growth), number("bending", bending), Domain(-width, width, start, end))
+    return MinimalSurface(SpiralCurve(growth), number("bending", bending), Domain(-width, width, start, end))
