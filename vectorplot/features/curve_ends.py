@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from vectorplot.features.double_curves import Course, followed
 from vectorplot.features.sheets import Sheet, SurfaceSheet
 from vectorplot.geometry.mesh import Bools, Floats
+from vectorplot.geometry.tolerance import ROUNDING
 from vectorplot.geometry.weld import close_points
 
 NEAR_SELF = 9.0
@@ -57,12 +59,13 @@ def _led(sheet: SurfaceSheet, course: Course) -> Course:
     if course.closed or not 0.0 < half <= 0.5 * NEAR_SELF or at_border(sheet, course.one[-1:], course.two[-1:])[0]:
         return course
     start = _Pairs(0.5 * (a + b) / sheet.cell, float(np.arctan2(d[1], d[0])), half)
-    found = []
+    found: list[_Pairs] = []
     for part in SHRINKING:
-        start = _solved(sheet, _Pairs(start.middle, start.angle, part * half))
-        if start is None:
+        solved = _solved(sheet, _Pairs(start.middle, start.angle, part * half))
+        if solved is None:
             return course
-        found.append(start)
+        start = solved
+        found.append(solved)
     squares = np.array(SHRINKING) ** 2
     weights = np.array([np.prod([s / (s - t) for s in squares if s != t]) for t in squares])
     end = weights @ np.array([f.middle for f in found]) * sheet.cell
@@ -77,7 +80,7 @@ def _led(sheet: SurfaceSheet, course: Course) -> Course:
 def _solved(sheet: SurfaceSheet, start: _Pairs) -> _Pairs | None:
     """The pair of places with one point, at the same distance from one another; None if there is none near."""
     middle, angle = start.middle.copy(), start.angle
-    size = sheet.size[0]
+    size, large = sheet.size
     for _ in range(30):
         now = _Pairs(middle, angle, start.half)
         places = np.array([middle + now.half * now.way, middle - now.half * now.way]) * sheet.cell
@@ -97,7 +100,8 @@ def _solved(sheet: SurfaceSheet, start: _Pairs) -> _Pairs | None:
             return None
         if np.abs(step).max() <= 1e-13 or float(np.abs(gap).max()) <= 1e-15 * size:
             break
-    return _Pairs(middle, angle, start.half) if float(np.abs(gap).max()) <= 1e-11 * size else None
+    zero = max(1e-11 * size, 4.0 * ROUNDING * large / start.half)
+    return _Pairs(middle, angle, start.half) if float(np.abs(gap).max()) <= zero else None
 
 
 def _inside(sheet: SurfaceSheet, place: Floats) -> bool:
@@ -141,15 +145,21 @@ def stitched(one: Sheet, courses: list[Course], size: float, large: float) -> li
     for start in [*np.flatnonzero(mate < 0).tolist(), *range(len(ends))]:
         if used[start]:
             continue
-        parts, at = [], start
+        parts: list[Course] = []
+        at = start
         while at >= 0 and not used[at]:
             other = at ^ 1
             used[[at, other]] = True
             parts.append(courses[owner[at]].reversed() if last[at] else courses[owner[at]])
             at = int(mate[other])
-        if at == start:
-            parts.append(parts[0].part(0, 1))
-        result.append(
-            Course(np.concatenate([p.one for p in parts]), np.concatenate([p.two for p in parts]), at == start)
-        )
+        result.append(_chained(parts, closed=at == start))
     return result
+
+
+def _chained(parts: list[Course], *, closed: bool) -> Course:
+    """The courses one after the other; a point that is the same on both sides of a joint stands there once."""
+    kept = parts[:1]
+    for before, after in pairwise([*parts, parts[0].part(0, 1)] if closed else parts):
+        same = (before.one[-1] == after.one[0]).all() and (before.two[-1] == after.two[0]).all()
+        kept.append(after.part(int(same), len(after)))
+    return Course(np.concatenate([c.one for c in kept]), np.concatenate([c.two for c in kept]), closed)

@@ -76,7 +76,7 @@ class Course:
 
     def reversed(self) -> Course:
         """The other way round."""
-        return Course(self.one[::-1], self.two[::-1], self.closed)
+        return Course(_backwards(self.one), _backwards(self.two), self.closed)
 
     def exchanged(self) -> Course:
         """With the roles of the two sheets exchanged; both are of one shape."""
@@ -85,6 +85,14 @@ class Course:
     def part(self, first: int, last: int) -> Course:
         """The points from first to before last, open."""
         return Course(self.one[first:last], self.two[first:last])
+
+
+def _backwards(places: Floats) -> Floats:
+    """Places in the opposite order; a face belongs to the segment that starts at a place on a mesh."""
+    result = places[::-1].copy()
+    if places.shape[1] > 3 and len(places) > 1:
+        result[:-1, 3] = result[1:, 3]
+    return result
 
 
 def followed(one: Sheet, two: Sheet, first: Course, second: Course) -> Course:
@@ -178,4 +186,4 @@ def _distances(a: Floats, b: Floats, p: Floats) -> Floats:
         square = (chord * chord).sum(axis=1)
         t = np.clip((arm * chord).sum(axis=1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
         away = arm - t[:, None] * chord
-        return np.nan_to_num(np.sqrt((away * away).sum(axis=1)))
+        return np.asarray(np.nan_to_num(np.sqrt((away * away).sum(axis=1))))

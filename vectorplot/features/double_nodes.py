@@ -10,7 +10,7 @@ from vectorplot.features.contacts import Contacts
 from vectorplot.features.double_curves import Course, followed
 from vectorplot.features.meeting_points import in_planes, meetings
 from vectorplot.features.sheets import Sheet
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.mesh import Bools, Floats
 
 RADIUS = 2.0
 """Cells around a node within which its branches are put together anew."""
@@ -70,9 +70,7 @@ def _distance(one: Sheet, two: Sheet, course: Course, at: Contacts) -> Floats:
     return np.fmax(one.cells_apart(course.one, at.one), two.cells_apart(course.two, at.two))
 
 
-def _opened(
-    one: Sheet, two: Sheet, courses: list[Course], at: Contacts, same: bool
-) -> tuple[list[Course], list[_End]]:
+def _opened(one: Sheet, two: Sheet, courses: list[Course], at: Contacts, same: bool) -> tuple[list[Course], list[_End]]:
     """The courses without their points near a contact, and the ends that are there then."""
     result = []
     for course in courses:
@@ -110,7 +108,9 @@ def _outside(one: Sheet, two: Sheet, course: Course, inside: Bools) -> list[Cour
         if len(runs) == 1:
             return runs
         turned = _turned_over(one, course)
-        joined = followed(one, two, finish, begin.exchanged().part(1, len(begin)) if turned else begin.part(1, len(begin)))
+        joined = followed(
+            one, two, finish, begin.exchanged().part(1, len(begin)) if turned else begin.part(1, len(begin))
+        )
         runs = [*runs[1:-1], joined]
     return [r for r in runs if len(r) > 1]
 
@@ -192,18 +192,16 @@ def _redirected(ends: list[_End], courses: list[Course], first: _End, *, flipped
 
 def missed_loops(
     one: Sheet, two: Sheet, courses: list[Course], hills: Contacts, zero: float, height: float
-) -> tuple[list[Course], Ints]:
-    """Closed courses around contacts that the triangles did not notice, and the contacts (k,) that are loops, noticed
-    or not.
+) -> list[Course]:
+    """Closed courses around contacts that the triangles did not notice.
 
     Above such a contact the height is a paraboloid whose zeros are an ellipse.
     """
     dips = (hills.bends * hills.heights[:, None] < 0.0).all(axis=1) & (np.abs(hills.heights) > height)
-    loops = np.flatnonzero(dips)
     known = [one.points(c.one) for c in courses]
     points = np.concatenate([np.zeros((0, 3)), *known])
     result = []
-    for k in loops:
+    for k in np.flatnonzero(dips):
         radii = np.sqrt(2.0 * np.abs(hills.heights[k] / hills.bends[k]))
         if radii.max() > LARGEST_LOOP * hills.cells[k]:
             continue
@@ -214,7 +212,7 @@ def missed_loops(
         course = _loop(one, two, hills.of(np.array([k])), radii, zero)
         if course is not None:
             result.append(course)
-    return result, loops
+    return result
 
 
 def _loop(one: Sheet, two: Sheet, at: Contacts, radii: Floats, zero: float) -> Course | None:

@@ -179,7 +179,9 @@ class MeshSheet:
         low, high = np.full(len(edges), len(faces)), np.full(len(edges), -1)
         np.minimum.at(low, sides.ravel(), np.repeat(faces, 3))
         np.maximum.at(high, sides.ravel(), np.repeat(faces, 3))
-        inner = (low == high) & (uses == 2)
+        bent = np.zeros(len(edges), dtype=np.bool_)
+        bent[sides.ravel()] = np.repeat(self._is_bent, 3)
+        inner = (low == high) & (uses == 2) & ~bent
         places = np.concatenate(
             [points[triangles], np.broadcast_to(np.arange(len(faces))[:, None, None], (len(faces), 3, 1))], axis=2
         )
@@ -192,11 +194,11 @@ class MeshSheet:
 
     def normals(self, places: Floats) -> Floats:
         """(k,3) normals of the planes of the triangles."""
-        return np.asarray(self._planes[0][places[:, 3].astype(np.intp)])
+        return np.asarray(self._planes[0][_triangle(places)])
 
     def moved(self, places: Floats, steps: Floats) -> Floats:
         """(k,4) places moved, and put into the plane of their triangle."""
-        triangle = places[:, 3].astype(np.intp)
+        triangle = _triangle(places)
         normal, origin = (x[triangle] for x in self._planes)
         points = places[:, :3] + steps
         points = points - ((points - origin) * normal).sum(axis=1, keepdims=True) * normal
@@ -218,7 +220,7 @@ class MeshSheet:
     def cells_apart(self, places: Floats, others: Floats) -> Floats:
         """(k,) distances, measured by the boxes of the triangles the others lie on."""
         low, high = self.tessellation.boxes
-        size = np.linalg.norm(high - low, axis=0)[others[..., 3].astype(np.intp)]
+        size = np.linalg.norm(high - low, axis=0)[_triangle(others)]
         return np.asarray(np.linalg.norm(places[..., :3] - others[..., :3], axis=-1) / size)
 
     @cached_property
@@ -239,20 +241,31 @@ class MeshSheet:
         return triangles[good], face[good]
 
     @cached_property
+    def _is_bent(self) -> Bools:
+        """(t,) triangles of faces that are not planar."""
+        triangles, faces = self._cut
+        origin = self.mesh.vertices[self.mesh.corners[self.mesh.offsets[faces]]]
+        arms = self.mesh.vertices[triangles] - origin[:, None]
+        off = np.abs((arms * self.mesh.face_normals[faces][:, None]).sum(axis=2)).max(axis=1, initial=0.0)
+        bent = np.zeros(self.mesh.face_count, dtype=np.bool_)
+        bent[faces[off > ZERO_OF_EXTENT * self.size[0]]] = True
+        return np.asarray(bent[faces])
+
+    @cached_property
     def _planes(self) -> tuple[Floats, Floats]:
         """Unit normals and points (t,3) of the planes: of the face where it is planar, else of the triangle."""
         triangles, faces = self._cut
         a, b, c = (self.mesh.vertices[triangles[:, k]] for k in range(3))
         own = np.cross(b - a, c - a)
         own /= np.linalg.norm(own, axis=1, keepdims=True)
-        whole = self.mesh.face_normals[faces]
         origin = self.mesh.vertices[self.mesh.corners[self.mesh.offsets[faces]]]
-        off = np.abs(((np.stack([a, b, c]) - origin) * whole).sum(axis=2)).max(axis=0, initial=0.0)
-        bent: Bools = np.ones(self.mesh.face_count, dtype=np.bool_)
-        bent[:] = False
-        bent[faces[off > ZERO_OF_EXTENT * self.size[0]]] = True
-        use = bent[faces][:, None]
-        return np.where(use, own, whole), np.where(use, a, origin)
+        bent = self._is_bent[:, None]
+        return np.where(bent, own, self.mesh.face_normals[faces]), np.where(bent, a, origin)
+
+
+def _triangle(places: Floats) -> Ints:
+    """The triangle that a place on a mesh names; weighted means of one number are that number but for rounding."""
+    return np.asarray(np.rint(places[..., 3]), dtype=np.intp)
 
 
 def _inverse(matrices: Floats) -> Floats:

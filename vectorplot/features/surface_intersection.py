@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from vectorplot.features.contacts import Contacts, contacts, zero_height
@@ -11,7 +13,7 @@ from vectorplot.features.double_curves import Course, Courses, DoubleCurves, put
 from vectorplot.features.double_nodes import missed_loops, through_nodes
 from vectorplot.features.meeting_points import zero_between
 from vectorplot.features.sheets import Sheet, SurfaceSheet
-from vectorplot.features.surface_pairs import traced
+from vectorplot.features.surface_pairs import Traced, traced
 from vectorplot.features.triangle_pairs import Piercings, overlapping_triangles, piercings
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.weld import close_points
@@ -27,8 +29,8 @@ def surface_intersection(one: Surface, two: Surface, *, tracing: Tracing = DEFAU
     """The curves in which two surfaces meet.
 
     tracing: columns and rows of the grids that both are polygonised by; tolerance (None: a thousandth of the smaller
-    extent) and picture. Closed curves smaller than a cell are found where a Newton iteration for parallel tangent planes
-    finds the contact inside them; there is no smaller resolution.
+    extent) and picture. Closed curves smaller than a cell are found by the place inside them where the tangent planes
+    are parallel: to any size, but one of them for each pair of triangles.
     Errors: InputError for a grid that is too coarse.
     Degenerate: where surfaces touch in a point it is isolated, or a node if curves cross there; where they touch along
     a line its points are touching, with a doubt; where they coincide in an area there is a doubt and no curve. Curves
@@ -41,43 +43,76 @@ def surface_intersection(one: Surface, two: Surface, *, tracing: Tracing = DEFAU
     return double_curves(first, second, found, contacts(first, second), tracing, same=False)
 
 
+@dataclass(frozen=True, eq=False)
+class Joined:
+    """courses and all their points, refined; unsure: how many chords could not be; nodes, isolated, touching: contacts
+    that curves cross in, that are alone, that lie on lines or in areas of contact; dots (i,3): courses that were a
+    single point."""
+
+    courses: list[Course]
+    points: Courses
+    unsure: int
+    nodes: Contacts
+    isolated: Contacts
+    touching: Contacts
+    dots: Floats
+
+
 def double_curves(
     one: SurfaceSheet, two: SurfaceSheet, found: Piercings, touching: Contacts, tracing: Tracing, *, same: bool
 ) -> DoubleCurves:
     """The curves of two surfaces, or of one with itself, from the piercings of their triangles and their contacts."""
+    all_ = joined(one, two, found, touching, tracing, same=same)
+    alone = _each_once(np.concatenate([all_.isolated.points, all_.dots]), one.size[0])
+    kept, offsets, closed = repeats_dropped(all_)
+    a, b = all_.points.one[kept], all_.points.two[kept]
+    return DoubleCurves(
+        one.points(a), a, b, offsets, closed, all_.nodes.points, alone, all_.touching.points, doubts_about(all_)
+    )
+
+
+def joined(one: Sheet, two: Sheet, found: Piercings, touching: Contacts, tracing: Tracing, *, same: bool) -> Joined:
+    """The piercings as curves on the true sheets: joined, led through nodes and into pinch points, refined."""
     zero, height = zero_between(one, two), zero_height(one, two)
-    courses = traced(one, two, found, zero, same=same).courses
-    saddle, hill, flat = _kinds(touching)
+    courses = _of_segments(traced(one, two, found, zero, same=same))
+    product = touching.bends[:, 0] * touching.bends[:, 1]
     touch = np.abs(touching.heights) <= height
-    courses, through = through_nodes(one, two, courses, touching.of(saddle), zero, height, same=same)
-    loops, _ = missed_loops(one, two, courses, touching.of(hill), zero, height)
-    courses = courses + loops
+    saddles = touching.of(product < 0.0)
+    courses, through = through_nodes(one, two, courses, saddles, zero, height, same=same)
+    hills = touching.of(product > 0.0)
+    courses = courses + missed_loops(one, two, courses, hills, zero, height)
     size, large = min(one.size[0], two.size[0]), max(one.size[1], two.size[1])
-    if same:
+    if same and isinstance(one, SurfaceSheet):
         courses = into_pinch_points(one, courses)
     courses, dots = _without_dots(one, stitched(one, courses, size, large), size)
+    points = put_together(courses, (found.one.shape[1], found.two.shape[1]))
     tolerance = 1e-3 * size if tracing.tolerance is None else tracing.tolerance
-    together = put_together(courses, (2, 2))
     unsure = 0
     if tolerance > 0.0:
-        together, unsure = refined(one, two, together, zero=zero, tolerance=tolerance, picture=tracing.picture)
-    nodes = touching.points[saddle & touch][through[touch[saddle]]]
-    alone = [touching.points[hill & touch], touching.points[saddle & touch][~through[touch[saddle]]], dots]
-    along = touching.points[flat & touch]
-    doubts = _doubts(touching.of(flat & touch), unsure)
-    return _result(one, together, courses, nodes, _each_once(np.concatenate(alone), size), along, doubts)
+        points, unsure = refined(one, two, points, zero=zero, tolerance=tolerance, picture=tracing.picture)
+    crossed = (product < 0.0) & touch
+    crossed[np.flatnonzero(product < 0.0)] &= through
+    alone = touch & (product != 0.0) & ~crossed
+    return Joined(
+        courses, points, unsure, touching.of(crossed), touching.of(alone), touching.of(touch & (product == 0.0)), dots
+    )
+
+
+def _of_segments(found: Traced) -> list[Course]:
+    """The courses; places on a mesh name the triangle of the segment that starts there."""
+    result = []
+    for course, triangles in zip(found.courses, found.triangles, strict=True):
+        if course.two.shape[1] > 3:
+            places = np.concatenate([course.two[:, :3], triangles[:, 1:]], axis=1)
+            course = Course(course.one, places, course.closed)
+        result.append(course)
+    return result
 
 
 def _each_once(points: Floats, size: float) -> Floats:
     """The points (k,3) without those that are the same but for rounding; Newton comes slowly to where sheets shrink to
     a point."""
     return points[np.unique(close_points(points, 1e-6 * size), return_index=True)[1]]
-
-
-def _kinds(found: Contacts) -> tuple[Bools, Bools, Bools]:
-    """(k,) contacts that are saddles of the height, hills or hollows, and flat in some direction."""
-    product = found.bends[:, 0] * found.bends[:, 1]
-    return product < 0.0, product > 0.0, product == 0.0
 
 
 def _without_dots(one: Sheet, courses: list[Course], size: float) -> tuple[list[Course], Floats]:
@@ -88,34 +123,27 @@ def _without_dots(one: Sheet, courses: list[Course], size: float) -> tuple[list[
     return lines, np.concatenate([np.zeros((0, 3)), *dots])
 
 
-def _doubts(flat: Contacts, unsure: int) -> tuple[str, ...]:
+def doubts_about(all_: Joined) -> tuple[str, ...]:
     """What could not be decided, a sentence each."""
-    areas = int((flat.bends == 0.0).all(axis=1).sum())
-    lines = len(flat) - areas
+    areas = int((all_.touching.bends == 0.0).all(axis=1).sum())
+    lines = len(all_.touching) - areas
     texts = [
-        (areas > MOST_ALONE, f"the surfaces coincide in an area: {areas} places of it were found, no curve is drawn there"),
-        (0 < areas <= MOST_ALONE, f"the surfaces touch with equal curvatures at {areas} places: curves there may be missing"),
+        (
+            areas > MOST_ALONE,
+            f"the surfaces coincide in an area: {areas} places of it are given, no curve is drawn there",
+        ),
+        (0 < areas <= MOST_ALONE, f"the surfaces touch with equal curvatures at {areas} places: curves may be missing"),
         (lines > 0, f"the surfaces touch along a line: {lines} places of it are given"),
-        (unsure > 0, f"{unsure} segments could not be refined: the curve was not found beside their chords"),
+        (all_.unsure > 0, f"{all_.unsure} segments could not be refined: the curve was not found beside their chords"),
     ]
     return tuple(text for said, text in texts if said)
 
 
-def _result(
-    one: SurfaceSheet,
-    together: Courses,
-    courses: list[Course],
-    nodes: Floats,
-    isolated: Floats,
-    touching: Floats,
-    doubts: tuple[str, ...],
-) -> DoubleCurves:
-    """The curves; of closed ones the repeated point is dropped."""
-    closed = np.array([c.closed for c in courses], dtype=np.bool_)
-    last: Ints = np.flatnonzero(together.last)
-    kept = np.ones(len(together.last), dtype=np.bool_)
+def repeats_dropped(all_: Joined) -> tuple[Bools, Ints, Bools]:
+    """Which points to keep, since closed curves repeat their first; offsets (m+1,) then, and closed (m,)."""
+    closed = np.array([c.closed for c in all_.courses], dtype=np.bool_)
+    last: Ints = np.flatnonzero(all_.points.last)
+    kept = np.ones(len(all_.points.last), dtype=np.bool_)
     kept[last[closed]] = False
     sizes = np.diff(last, prepend=-1) - closed
-    offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.intp)
-    a, b = together.one[kept], together.two[kept]
-    return DoubleCurves(one.points(a), a, b, offsets, closed, nodes, isolated, touching, doubts)
+    return kept, np.concatenate([[0], np.cumsum(sizes)]).astype(np.intp), closed

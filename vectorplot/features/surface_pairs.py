@@ -9,7 +9,6 @@ import numpy as np
 from vectorplot.features.double_curves import Course
 from vectorplot.features.meeting_points import Bound, meetings, sines
 from vectorplot.features.sheets import Sheet
-from vectorplot.features.tessellation import FREE
 from vectorplot.features.triangle_pairs import Piercings
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.outline import concat
@@ -103,7 +102,9 @@ def _segments_of(points: Ints, offsets: Ints, closed: Bools, pairs: Ints) -> Int
 
 def _running_on(sheet: Sheet, places: Floats) -> Floats:
     """Places of a course (k,d) without jumps over seams."""
-    return np.asarray(places + np.cumsum(np.concatenate([np.zeros_like(places[:1]), sheet_jumps(sheet, places)]), axis=0))
+    return np.asarray(
+        places + np.cumsum(np.concatenate([np.zeros_like(places[:1]), sheet_jumps(sheet, places)]), axis=0)
+    )
 
 
 def sheet_jumps(sheet: Sheet, places: Floats) -> Floats:

@@ -15,7 +15,7 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.surfaces.surface import Domain, Surface
 
 UNEVEN = 0.17
-"""Part of a cell by which grid points are moved at most: symmetric surfaces then meet in no corner and along no edge."""
+"""Part of a cell by which grid points are moved at most: symmetric surfaces then meet in no corner, along no edge."""
 
 MOST_CELLS = 1 << 20
 """Cells a tessellation may have."""
@@ -99,7 +99,9 @@ def surface_tessellation(surface: Surface, columns: int, rows: int) -> Tessellat
 
 def _check(columns: int, rows: int) -> None:
     if min(columns, rows) < 3 or columns * rows > MOST_CELLS:
-        raise InputError(f"a tessellation of {columns} columns and {rows} rows: expected 3 or more, at most {MOST_CELLS} cells")
+        raise InputError(
+            f"a tessellation of {columns} columns and {rows} rows: expected 3 or more, at most {MOST_CELLS} cells"
+        )
 
 
 def _uneven_grid(domain: Domain, columns: int, rows: int) -> Floats:

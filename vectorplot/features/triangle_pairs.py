@@ -18,8 +18,8 @@ class Piercings:
     """Where edges of one tessellation pierce triangles of the other.
 
     one, two (n,d): the places on both; rail_one, rail_two (n,): what the points must stay on, FREE where nothing;
-    size (n,): of the larger triangle there; twin (n,): a number that a point and the same point with both sides exchanged have in common.
-    pairs (s,2) of points and triangles (s,2): the segments in which two triangles meet.
+    size (n,): of the larger triangle there; twin (n,): a number that a point and the same point with both sides
+    exchanged have in common. pairs (s,2) of points and triangles (s,2): the segments in which two triangles meet.
     """
 
     one: Floats
@@ -58,8 +58,8 @@ def piercings(one: Tessellation, two: Tessellation, pairs: Pair) -> Piercings:
     """
     origin = one.points[one.triangles[:1, 0]].reshape(-1, 3)[:1] if len(one.triangles) else np.zeros((1, 3))
     tables = [_empty(one, two)]
-    for first in range(0, len(pairs[0]), PAIRS_AT_ONCE):
-        i, j = (p[first : first + PAIRS_AT_ONCE] for p in pairs)
+    for start in range(0, len(pairs[0]), PAIRS_AT_ONCE):
+        i, j = (p[start : start + PAIRS_AT_ONCE] for p in pairs)
         tables.append(_meet(one, two, origin, i, j))
     key, place_one, place_two, triangles = (np.concatenate(column) for column in zip(*tables, strict=True))
     _, first, index = np.unique(key.ravel(), return_index=True, return_inverse=True)
