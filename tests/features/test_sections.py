@@ -113,6 +113,7 @@ def test_level_lines_of_the_saddle_are_hyperbolas_and_at_zero_two_lines():
     level = np.repeat(curves.levels, np.diff(curves.offsets))
     assert np.abs(curves.points[:, 2] - level).max() < 1e-11
     assert [int((curves.levels == h).sum()) for h in heights] == [2, 2, 2]
+    assert len(curves.nodes) == 1 and np.abs(curves.nodes).max() < 1e-9
 
 
 def test_coinciding_surfaces_say_so():

@@ -15,6 +15,13 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints
 ALIGNED = 0.25
 """Cosine down to which the gradients in a cell count as pointing the same way: then the curve is one arc there."""
 
+STEADY = 0.1
+"""Part of the largest gradient in a cell that the smallest must have: in a cell beside a node that lies on its corner
+all gradients but the vanishing one point the same way."""
+
+INSIDE = ((0.382, 0.236), (0.618, 0.854))
+"""Where in a cell f is looked at when it is zero at all corners: on no lattice point and no line of symmetry."""
+
 MOST_CELLS = 1 << 15
 """Cells of one size that are subdivided at most."""
 
@@ -106,10 +113,42 @@ def near_cells(w: Floats, closed: tuple[bool, bool]) -> tuple[Bools, Bools]:
     i, j = np.nonzero(near)
     g = np.stack([_corner_values(by_u, i, j), _corner_values(by_v, i, j)], axis=-1)
     odd = np.zeros_like(near)
-    # Where f is zero all over there is no curve to look for.
     turning = _turning_at_border(g[[[0, 3], [1, 2]]], i, j, near.shape, closed)
-    odd[i, j] = (~_aligned(g) | turning) & (_corner_values(w, i, j) != 0.0).any(axis=0)
+    odd[i, j] = ~_aligned(np.concatenate([g, _own_slopes(_corner_values(w, i, j), g)])) | turning
     return near, odd
+
+
+def _own_slopes(w: Floats, otherwise: Floats) -> Floats:
+    """(4,k,2) differences along the sides that meet at each corner of cells, from their values (4,k): they tell what
+    slopes that look beyond the cell blur. Next to holes what otherwise (4,k,2) says."""
+    below, above, left, right = w[1] - w[0], w[2] - w[3], w[3] - w[0], w[2] - w[1]
+    own = np.stack(
+        [np.stack([below, below, above, above]), np.stack([left, right, right, left])],
+        axis=-1,
+    )
+    return np.where(np.isnan(own), otherwise, own)
+
+
+def flat_cells(lattice: Lattice, w: Floats, noise: float) -> Bools:
+    """(columns,rows) cells of the grid of values w in which f is zero all over: at the corners, and within."""
+    flat = _over_corners(w == 0.0, np.logical_and)
+    i, j = np.nonzero(flat)
+    for place in INSIDE:
+        points = lattice.field.start + (np.stack([i, j], axis=1) + place) / flat.shape * lattice.field.size
+        flat[i, j] &= np.abs(lattice.field.values(points)) <= noise
+    return flat
+
+
+def beside(cells: Bools, closed: tuple[bool, bool]) -> Bools:
+    """(columns,rows) the cells and those that have a corner in common with one of them."""
+    if not cells.any():
+        return cells
+    corners = np.pad(cells, 1)
+    for axis in (0, 1):
+        if closed[axis]:
+            ends = np.moveaxis(corners, axis, 0)
+            ends[0], ends[-1] = ends[-2].copy(), ends[1].copy()
+    return _over_corners(_over_corners(corners, np.logical_or), np.logical_or)
 
 
 def _slopes(w: Floats, axis: int, closed: bool) -> Floats:
@@ -144,11 +183,14 @@ def _one_sign(w: Floats) -> Bools:
 
 
 def _aligned(g: Floats) -> Bools:
-    """(k,) whether gradients (c,k,2) in c places of each cell all point roughly the way of their mean."""
+    """(k,) whether gradients (c,k,2) in c places of each cell all point roughly the way of their mean, and none of them
+    is next to nothing beside the others."""
     mean = g.mean(axis=0)
     product = (g * mean).sum(axis=2)
-    sizes = np.sqrt((g * g).sum(axis=2) * (mean * mean).sum(axis=1))
-    return np.asarray((product > ALIGNED * sizes).all(axis=0), dtype=np.bool_)
+    squares = (g * g).sum(axis=2)
+    sizes = np.sqrt(squares * (mean * mean).sum(axis=1))
+    steady = squares.min(axis=0) > STEADY * STEADY * squares.max(axis=0)
+    return np.asarray((product > ALIGNED * sizes).all(axis=0) & steady, dtype=np.bool_)
 
 
 def _turning_at_border(g: Floats, i: Ints, j: Ints, ends: tuple[int, int], closed: tuple[bool, bool]) -> Bools:

@@ -10,7 +10,16 @@ import numpy as np
 from vectorplot.errors import InputError
 from vectorplot.features.grid_triangulation import triangulate_surface
 from vectorplot.features.scalar_field import Function, Gradient, ScalarField, grid_points, grid_values, scalar_field
-from vectorplot.features.zero_cells import MOST_CELLS, Lattice, Subdivision, near_cells, subdivided, triangles_near
+from vectorplot.features.zero_cells import (
+    MOST_CELLS,
+    Lattice,
+    Subdivision,
+    beside,
+    flat_cells,
+    near_cells,
+    subdivided,
+    triangles_near,
+)
 from vectorplot.features.zero_nodes import MOST_ALONE, double_points, joined_at_nodes
 from vectorplot.features.zero_refinement import (
     Polylines,
@@ -27,6 +36,9 @@ from vectorplot.surfaces.surface import Domain
 
 DOUBLE = 1e-10
 """Part of the scale of f below which a critical value counts as zero."""
+
+PLACES = 40
+"""Places beside the grid at which the size of f is looked at too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,12 +109,14 @@ def zero_manifold_of_f_uv(
     """
     _check(domain, columns, rows, resolution)
     field, w = grid_values(scalar_field(f, domain, gradient), columns, rows)
-    scale = _scale(w)
+    scale = _scale(field, w)
     zero = _zero(field, scale)
     w[np.abs(w) <= NOISE * scale] = 0.0
     near, odd = near_cells(w, field.closed)
     lattice = Lattice(field, columns, rows, _levels(columns, rows, resolution))
-    subdivision = subdivided(lattice, odd, NOISE * scale)
+    flat = flat_cells(lattice, w, NOISE * scale)
+    # Along the border of an area where f is zero slopes say nothing.
+    subdivision = subdivided(lattice, odd & ~beside(flat, field.closed), NOISE * scale)
     found = _found(subdivision, crossing_segments(lattice, triangles_near(subdivision, w, near), scale, zero), scale)
     lines, unsure = found.lines, 0
     if np.isnan(w).any():
@@ -110,7 +124,7 @@ def zero_manifold_of_f_uv(
     if tolerance is not None:
         measure = positions or (lambda u, v: np.stack([u, v], axis=-1))
         lines, unsure = refined(field, lines, measure, tolerance, zero)
-    doubts = _doubts(w, found, subdivision.complete, unsure)
+    doubts = _doubts(int(flat.sum()), found, subdivision.complete, unsure)
     return _result(
         field, lines, found, doubts, np.concatenate([grid_points(field, columns, rows), w[..., None]], axis=2)
     )
@@ -136,8 +150,8 @@ def _found(subdivision: Subdivision, traced: Segments, scale: float) -> _Found:
     middles = field.start + (np.stack([odd.i, odd.j], axis=1) + 0.5) * cell
     doubles = double_points(field, middles, cell, max(DOUBLE * scale, _zero(field, scale)), NOISE * scale)
     line = doubles.flat & (doubles.flat.sum() > MOST_ALONE)
-    single = doubles.points[~line]
-    joined = joined_at_nodes(field, traced.points, traced.pairs, single, cell)
+    single, reach = doubles.points[~line], doubles.radii[~line, None] * cell
+    joined = joined_at_nodes(field, traced.points, traced.pairs, single, reach)
     lines, dots = without_repeats(_polylines(field, joined.points, joined.segments), field.size)
     return _Found(
         lines,
@@ -162,16 +176,21 @@ def _check(domain: Domain, columns: int, rows: int, resolution: float) -> None:
         raise InputError(f"resolution {resolution:g}: expected a positive part of the domain")
 
 
-def _scale(w: Floats) -> float:
-    """The size that nineteen in twenty of the values do not exceed, or if that is zero the largest.
+def _scale(field: ScalarField, w: Floats) -> float:
+    """The size that nineteen in twenty of the values do not exceed, or if that is zero the largest; and no less than
+    half of some values beside the grid, all of whose points may be zeros of f.
 
     Poles hardly raise it, and large areas where f is zero do not make it the size of their rounding.
     """
+    places = np.stack([np.arange(1, PLACES + 1) * share % 1.0 for share in (0.7548776662, 0.5698402910)], axis=1)
+    other = np.abs(field.values(field.start + places * field.size))
+    other = other[np.isfinite(other)]
+    least = float(np.median(other)) if len(other) else 0.0
     size = np.abs(w[np.isfinite(w)])
     if not len(size):
-        return 0.0
+        return least
     place = int(0.95 * (len(size) - 1))
-    return float(np.partition(size, place)[place]) or float(size.max())
+    return max(float(np.partition(size, place)[place]), least) or float(size.max())
 
 
 def _zero(field: ScalarField, scale: float) -> float:
@@ -267,12 +286,11 @@ def _result(field: ScalarField, lines: Polylines, found: _Found, doubts: tuple[s
     )
 
 
-def _doubts(w: Floats, found: _Found, complete: bool, unsure: int) -> tuple[str, ...]:
+def _doubts(flat: int, found: _Found, complete: bool, unsure: int) -> tuple[str, ...]:
     """What could not be decided, a sentence each."""
-    flat = (w[:-1, :-1] == 0.0) & (w[1:, :-1] == 0.0) & (w[1:, 1:] == 0.0) & (w[:-1, 1:] == 0.0)
     poles, line = found.poles, len(found.touching)
     texts = [
-        (flat.any(), f"f is zero all over {flat.sum()} cells: only the border towards negative values is a curve"),
+        (flat > 0, f"f is zero all over {flat} cells: only the border towards negative values is a curve"),
         (poles > 0, f"f changes its sign without being zero at {poles} places: poles or jumps, not part of the curve"),
         (not complete, f"more than {MOST_CELLS} small cells: branches smaller than a cell of the grid may be missing"),
         (unsure > 0, f"{unsure} segments could not be refined: the curve was not found beside their chords"),

@@ -16,6 +16,13 @@ FLAT = 1e-4
 NODE_RADIUS = 2.0
 """Smallest cells around a node in which its branches are replaced by straight pieces to the node."""
 
+WIDEST = 12.0
+"""Smallest cells that the radius of a node grows to where its branches enclose a small angle: between them, nearer to
+the node, there are too few lattice points to tell them apart."""
+
+BENT = 0.1
+"""Part of the curvature at the start of a search below which that at its end shows a node of more than two branches."""
+
 MOST_ALONE = 16
 """More flat double points than this are a line of them."""
 
@@ -23,10 +30,12 @@ MOST_ALONE = 16
 @dataclass(frozen=True, eq=False)
 class DoublePoints:
     """points (k,2) where f and its gradient vanish; flat (k,): f has no curvature in some direction there, as along a
-    line where f touches zero, or in a cusp. ovals (o,2): middles of closed branches smaller than a cell."""
+    line where f touches zero, or in a cusp. radii (k,): smallest cells within which branches are not told apart.
+    ovals (o,2): middles of closed branches smaller than a cell."""
 
     points: Floats
     flat: Bools
+    radii: Floats
     ovals: Floats
 
 
@@ -36,9 +45,7 @@ def double_points(field: ScalarField, starts: Floats, cell: Floats, zero: float,
     cell (2,) is the size of the cells that the starts are the middles of; values up to zero count as zero; points
     around which values up to noise fill a whole sector lie in or at an area where f is zero, and are none.
     """
-    if not len(starts):
-        return DoublePoints(starts, np.zeros(0, dtype=np.bool_), starts)
-    points, curvature = _critical(field, starts, cell)
+    points, curvature, bent = _critical(field, starts, cell)
     away = np.abs((points - starts) / cell).max(axis=1, initial=0.0)
     with np.errstate(invalid="ignore"):
         w, least = field.values(points), np.abs(curvature).min(axis=1)
@@ -46,20 +53,35 @@ def double_points(field: ScalarField, starts: Floats, cell: Floats, zero: float,
         # A hollow that dips below zero, or a hill that rises above it, within less than a cell.
         dips = (curvature * w[:, None] < 0.0).all(axis=1) & (2.0 * np.abs(w) < least)
     ovals = points[(away <= 3.0) & (np.abs(w) > zero) & dips]
-    points, curvature = points[good], curvature[good]
-    good = ~_in_area(field, points, cell, noise)
-    points, curvature = points[good], curvature[good]
-    if not len(points):
-        return DoublePoints(points, np.zeros(0, dtype=np.bool_), ovals)
-    first = _apart(field, points, cell, 0.05)
-    points, size = points[first], np.sort(np.abs(curvature[first]), axis=1)
+    good &= ~_in_area(field, points, cell, noise)
+    points, curvature, bent = points[good], curvature[good], bent[good]
+    size = np.sort(np.abs(curvature), axis=1)
     flat = size[:, 0] <= FLAT * size[:, 1]
-    if flat.sum() <= MOST_ALONE:
-        # Newton comes to a flat point slowly and from several sides.
-        kept = np.flatnonzero(flat)[_apart(field, points[flat], cell, 1.0)]
-        order = np.sort(np.concatenate([np.flatnonzero(~flat), kept]))
-        points, flat = points[order], flat[order]
-    return DoublePoints(points, np.asarray(flat, dtype=np.bool_), ovals)
+    many = (size[:, 1] <= BENT * bent) & ~flat
+    kept = _singled(field, points, cell, flat | many, flat.sum() > MOST_ALONE)
+    return DoublePoints(points[kept], np.asarray(flat[kept], dtype=np.bool_), _radii(curvature[kept]), ovals)
+
+
+def _singled(field: ScalarField, points: Floats, cell: Floats, slow: Bools, line: bool) -> Ints:
+    """Positions of points (k,2), one of each; along a line of flat ones many."""
+    first = _apart(field, points, cell, 0.05)
+    if line:
+        return first
+    # Newton comes to a flat point, and to one of many branches, slowly and from several sides.
+    slow = slow[first]
+    kept = first[slow][_apart(field, points[first[slow]], cell, 1.0)]
+    return np.sort(np.concatenate([first[~slow], kept]))
+
+
+def _radii(curvature: Floats) -> Floats:
+    """(k,) cells around nodes of principal curvatures (k,2) within which two branches are not told apart."""
+    size = np.sort(np.abs(curvature), axis=1)
+    crossing = (curvature[:, 0] * curvature[:, 1] < 0.0) & (size[:, 0] > FLAT * size[:, 1])
+    # Half the angle between the branches has the tangent sqrt(size0 / size1) or its inverse.
+    with np.errstate(invalid="ignore", divide="ignore"):
+        sine = np.sqrt(size[:, 0] / (size[:, 0] + size[:, 1]))
+        radii = np.clip(1.0 / sine, NODE_RADIUS, WIDEST)
+    return np.where(crossing, radii, NODE_RADIUS)
 
 
 def _apart(field: ScalarField, points: Floats, cell: Floats, cells: float) -> Ints:
@@ -85,9 +107,11 @@ def _around(field: ScalarField, points: Floats) -> Floats:
     return at
 
 
-def _critical(field: ScalarField, starts: Floats, cell: Floats) -> tuple[Floats, Floats]:
-    """Points where the gradient vanishes, and the two principal curvatures of f there, all in units of cells."""
+def _critical(field: ScalarField, starts: Floats, cell: Floats) -> tuple[Floats, Floats, Floats]:
+    """Points where the gradient vanishes, the two principal curvatures of f there, and the larger one at the starts,
+    all in units of cells."""
     points, curvature = starts.copy(), np.full((len(starts), 2), np.nan)
+    bent = np.full(len(starts), np.nan)
     active = np.arange(len(starts))
     for _ in range(60):
         if not len(active):
@@ -98,6 +122,7 @@ def _critical(field: ScalarField, starts: Floats, cell: Floats) -> tuple[Floats,
         active, g, h = active[sound], g[sound], h[sound]
         bend, axes = np.linalg.eigh(h)
         curvature[active] = bend
+        bent[active] = np.where(np.isnan(bent[active]), np.abs(bend).max(axis=1, initial=0.0), bent[active])
         # Along a flat direction there is nothing to solve for, and the difference quotients are noise.
         steep = np.abs(bend) > 1e-6 * np.abs(bend).max(axis=1, initial=0.0)[:, None]
         along = np.einsum("kji,kj->ki", axes, g)
@@ -111,7 +136,7 @@ def _critical(field: ScalarField, starts: Floats, cell: Floats) -> tuple[Floats,
         )
         strayed = np.abs((points[active] - starts[active]) / cell).max(axis=1, initial=0.0) > 4.0
         active = active[(length > 1e-9) & ~strayed]
-    return points, curvature
+    return points, curvature, bent
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,21 +149,21 @@ class Joined:
     meets: Ints
 
 
-def joined_at_nodes(field: ScalarField, points: Floats, segments: Ints, nodes: Floats, cell: Floats) -> Joined:
-    """The curve with its branches led through nodes (k,2): what lies within NODE_RADIUS of one is dropped, and the
+def joined_at_nodes(field: ScalarField, points: Floats, segments: Ints, nodes: Floats, reach: Floats) -> Joined:
+    """The curve with its branches led through nodes (k,2): what lies within reach (k,2) of one is dropped, and the
     ends left over are joined to the node.
 
     Ends that are opposite in the cyclic order around a node are joined to each other, so that branches go straight on.
     """
     if not len(nodes):
         return Joined(points, segments, np.zeros(0, dtype=np.intp))
-    inside = _node_around(field, points, nodes, cell)
+    inside = _node_around(field, points, nodes, reach)
     at_node = inside[segments]
     broken = (at_node[:, 0] < 0) != (at_node[:, 1] < 0)
     outer = np.where(at_node[broken, 0] < 0, 0, 1)
     row = np.arange(len(outer))
     end, node = segments[broken][row, outer], at_node[broken][row, 1 - outer]
-    d = _difference(field, points[end], nodes[node]) / cell
+    d = _difference(field, points[end], nodes[node]) / reach[node]
     order = np.lexsort((np.arctan2(d[:, 1], d[:, 0]), node))
     end, node, outer = end[order], node[order], outer[order]
     meets = np.bincount(node, minlength=len(nodes))
@@ -153,13 +178,13 @@ def joined_at_nodes(field: ScalarField, points: Floats, segments: Ints, nodes: F
     )
 
 
-def _node_around(field: ScalarField, points: Floats, nodes: Floats, cell: Floats) -> Ints:
-    """(p,) the node within whose radius a point lies, or -1."""
+def _node_around(field: ScalarField, points: Floats, nodes: Floats, reach: Floats) -> Ints:
+    """(p,) the node within whose reach a point lies, or -1."""
     inside = np.full(len(points), -1)
     # Nodes are few; each pass compares one of them with all points.
     for k, node in enumerate(nodes):
-        d = _difference(field, points, node) / cell
-        inside[(d * d).sum(axis=1) <= NODE_RADIUS**2] = k
+        d = _difference(field, points, node) / reach[k]
+        inside[(d * d).sum(axis=1) <= 1.0] = k
     return inside
 
 
