@@ -10,6 +10,7 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
+from vectorplot.visibility.smooth.cubics import cubics
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.events import Events, hopped, on_chord, once
 from vectorplot.visibility.smooth.sheet import Sheet, dot
@@ -26,6 +27,12 @@ GAP = 1e-6
 RESIDUAL_OF_GAP = 1e-3
 """Part of the cube of the gap that the residual of a crossing may be: two curves that touch come as close as they
 like, but not at a distance."""
+
+ROUGHLY = 1e-6
+"""How far the images may be apart while the curves are replaced by cubic arcs."""
+
+ROUGHLY_OF_CHORDS = 0.05
+"""The same, as a part of how far chords are off the curves."""
 
 NEAR_MISSES = 2.0
 """Chords that pass at so many of their tolerances are tried too."""
@@ -51,7 +58,7 @@ def crossings(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curv
     tolerance: how far chords are off their curves, in the image. Behind a fold there are two sheets more or less, by
     the side of the fold to which the sheet turns; behind a border one.
     """
-    pairs = _close_pairs(view, curves, edges, tolerance)
+    pairs = _roughly_met(view, curves, edges, _close_pairs(view, curves, edges, tolerance), tolerance)
     for _ in range(HOPS):
         pairs = _met(view, curves, edges, pairs)
         chord, part = hopped(curves, pairs.chord, pairs.part)
@@ -127,6 +134,34 @@ def _approach(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Float
     return s, t, np.sqrt(dot(away, away))
 
 
+def _roughly_met(view: View, curves: Curves, edges: Curves, pairs: Pairs, tolerance: float) -> Pairs:
+    """The pairs at parts where cubic arcs close to the curves meet; those that do not, or only touch, are left out."""
+    chord, of_curve = np.unique(pairs.chord, return_inverse=True)
+    edge, of_edge = np.unique(pairs.edge, return_inverse=True)
+    one, two = cubics(view, curves, chord), cubics(view, edges, edge)
+    part, edge_part = pairs.part.copy(), pairs.edge_part.copy()
+    off = np.full(len(part), np.inf)
+    for _ in range(ROUNDS):
+        (p, a), (q, b) = one.at(of_curve, part), two.at(of_edge, edge_part)
+        off = np.sqrt(dot(q - p, q - p))
+        s, t = _step(q - p, a, b)
+        part, edge_part = np.clip(part + s, -0.5, 1.5), np.clip(edge_part + t, -0.5, 1.5)
+    gap = one.depth(of_curve, part) - two.depth(of_edge, edge_part)
+    rough = max(ROUGHLY, ROUGHLY_OF_CHORDS * tolerance)
+    met = (off <= rough) & (gap > 0.5 * GAP) & (off <= np.maximum(gap, rough))
+    return Pairs(pairs.chord, part, pairs.edge, edge_part).some(met)
+
+
+def _step(gap: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    """One step of Newton for points that move with velocities a and b (k,2) and are a gap (k,2) apart."""
+    area = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        s = (gap[:, 0] * b[:, 1] - gap[:, 1] * b[:, 0]) / area
+        t = (gap[:, 0] * a[:, 1] - gap[:, 1] * a[:, 0]) / area
+    s, t = (np.clip(np.where(np.isfinite(x), x, 0.0), -0.7, 0.7) for x in (s, t))
+    return s, t
+
+
 def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
     """The pairs at parts where the images meet; those that find no meeting are left out."""
     part, edge_part = pairs.part.copy(), pairs.edge_part.copy()
@@ -139,11 +174,7 @@ def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
         gap = projection.image(view, two.points) - projection.image(view, one.points)
         off[active] = np.sqrt(dot(gap, gap))
         a, b = (projection.image_slopes(view, x.points, x.slopes) for x in (one, two))
-        area = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            s = (gap[:, 0] * b[:, 1] - gap[:, 1] * b[:, 0]) / area
-            t = (gap[:, 0] * a[:, 1] - gap[:, 1] * a[:, 0]) / area
-        s, t = (np.clip(np.where(np.isfinite(x), x, 0.0), -0.7, 0.7) for x in (s, t))
+        s, t = _step(gap, a, b)
         part[active] = np.clip(part[active] + s, -1.5, 2.5)
         edge_part[active] = np.clip(edge_part[active] + t, -1.5, 2.5)
         active = active[(np.abs(s) > 1e-14) | (np.abs(t) > 1e-14)]

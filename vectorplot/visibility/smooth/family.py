@@ -11,8 +11,11 @@ from vectorplot.features.conditions import Condition
 from vectorplot.geometry.mesh import Floats
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
 
-ROUNDS = 6
-"""Steps of Newton from a chord to its curve."""
+ROUNDS, RENEWED = 8, 4
+"""Steps of Newton from a chord to its curve; the one at which slopes are computed anew."""
+
+SETTLED = 1e-12
+"""Steps below this part of a chord are rounding."""
 
 FARTHEST = 0.5
 """So many lengths of its chord a curve may be away from it."""
@@ -100,18 +103,18 @@ class ConditionCurves:
         base = places[0][:, :2] / size + part[:, None] * way
         across = np.stack([-way[:, 1], way[:, 0]], axis=1)
         off = np.zeros(len(part))
-        for _ in range(ROUNDS):
+        for again in range(ROUNDS):
             u, v = self.surface.parameters((base + off[:, None] * across) * size)
-            slopes = np.stack(self.condition.slopes(u, v), axis=1) * size
+            # The chord is close to the curve: the slopes on it do, unless that does not lead there.
+            if again in (0, RENEWED):
+                slopes = np.stack(self.condition.slopes(u, v), axis=1) * size
             with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
                 step = (self.condition.values(u, v) - level) / (slopes * across).sum(axis=1)
             step = np.clip(np.where(np.isfinite(step), step, 0.0), -FARTHEST, FARTHEST)
             off = np.clip(off - step, -FARTHEST, FARTHEST)
-            if not (np.abs(step) > 1e-13).any():
+            if not (np.abs(step) > SETTLED).any():
                 break
         at = base + off[:, None] * across
-        u, v = self.surface.parameters(at * size)
-        slopes = np.stack(self.condition.slopes(u, v), axis=1) * size
         tangent = np.stack([-slopes[:, 1], slopes[:, 0]], axis=1)
         forward = (tangent * way).sum(axis=1)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.tolerance import ROUNDING
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.family import Along
 
@@ -64,6 +65,7 @@ def _bracketed(curves: Curves, function: OnCurve, chord: Ints, a: Floats, b: Flo
     """(k,) roots between a and b by false position, with the weights halved (Illinois), and by halving in between."""
     a, b, fa, fb = a.copy(), b.copy(), fa.copy(), fb.copy()
     root = np.where(np.abs(fa) < np.abs(fb), a, b)
+    zero = ROUNDING * (np.abs(fa) + np.abs(fb))
     active = np.flatnonzero((fa != 0.0) & (fb != 0.0) & (b - a > 0.0))
     for step in range(BISECTIONS):
         if not len(active):
@@ -81,7 +83,7 @@ def _bracketed(curves: Curves, function: OnCurve, chord: Ints, a: Floats, b: Flo
         other = i[~same]
         a[other], fa[other] = b[other], fb[other]
         b[i], fb[i] = x, fx
-        active = i[(np.abs(b[i] - a[i]) > 1e-15) & (fx != 0.0) & np.isfinite(fx)]
+        active = i[(np.abs(b[i] - a[i]) > ROUNDING) & (np.abs(fx) > zero[i]) & np.isfinite(fx)]
     return root
 
 
