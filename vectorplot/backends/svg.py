@@ -30,6 +30,9 @@ _POINTS_AT_ONCE = 1 << 16
 _WIDEST_ARC = np.pi / 2.0
 """The centre of a wider arc would depend too much on the decimals of its ends and radii."""
 
+_DECIMAL = 1e-5
+"""Unit of the numbers of arcs: their radii and centres are kept better than their ends."""
+
 
 def svg_text(drawing: Drawing) -> str:
     """The drawing as the text of an SVG file.
@@ -91,26 +94,29 @@ def _separators(ink: Ink) -> tuple[Ints, NDArray[np.uint8], NDArray[np.uint8]]:
 def _arc_data(ink: Ink, height: int) -> list[bytes]:
     """For each arc the rest of its path element: parts of equal parameter length."""
     arcs = ink.arcs
-    radii = np.sqrt(np.stack(((arcs.first**2).sum(axis=1), (arcs.second**2).sum(axis=1))))
-    # In the file y goes down: angles and senses of turning are mirrored.
-    tilt = np.degrees(np.arctan2(-arcs.first[:, 1], arcs.first[:, 0]))
+    size = np.stack((np.hypot(*arcs.first.T), np.hypot(*arcs.second.T)))
+    # In the file y goes down: angles and senses of turning are mirrored. The axes of a circle have no direction.
+    tilt = np.degrees(np.arctan2(-arcs.first[:, 1], arcs.first[:, 0])) % 180.0
+    tilt = np.where(np.abs(size[0] - size[1]) < _DECIMAL, 0.0, tilt)
     handed = arcs.first[:, 0] * arcs.second[:, 1] > arcs.first[:, 1] * arcs.second[:, 0]
-    sweep = handed != (arcs.end > arcs.start)
+    clockwise = handed != (arcs.end > arcs.start)
     count = np.maximum(np.ceil(np.abs(arcs.end - arcs.start) / _WIDEST_ARC - 1e-9), 1.0).astype(np.intp)
     owner = np.repeat(np.arange(len(arcs)), count)
-    number = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count) + 1
-    part = arcs.some(owner)
-    end = part.points(arcs.start[owner] + (arcs.end - arcs.start)[owner] * (number / count[owner]))
-    data = np.stack((*radii[:, owner], tilt[owner], sweep[owner], end[:, 0], height / 1000.0 - end[:, 1]), axis=1) + 0.0
-    texts = [
-        f"A{rx:.5f} {ry:.5f} {turn:.5f} 0 {sense:.0f} {x:.5f},{y:.5f}" for rx, ry, turn, sense, x, y in data.tolist()
-    ]
-    closed = ink.closed[arcs.stroke].tolist()
-    ends = np.cumsum(count).tolist()
-    return [
-        (" ".join(texts[end - many : end]) + ('Z"/>\n' if ring else '"/>\n')).encode("ascii")
-        for end, many, ring in zip(ends, count.tolist(), closed, strict=True)
-    ]
+    last = np.cumsum(count) - 1
+    number = np.arange(len(owner)) - np.repeat(last + 1 - count, count) + 1
+    end = arcs.some(owner).points(arcs.start[owner] + (arcs.end - arcs.start)[owner] * (number / count[owner]))
+    # The last end is that of the stroke, so that strokes that touch do so in the file too.
+    end[last] = ink.microns[ink.offsets[arcs.stroke + 1] - 1] / 1000.0
+    end[:, 1] = height / 1000.0 - end[:, 1]
+    rows = np.column_stack((size.T[owner], tilt[owner], clockwise[owner], end)).tolist()
+    parts = [f"A{_short(a)} {_short(b)} {_short(c)} 0 {d:.0f} {_short(x)},{_short(y)}" for a, b, c, d, x, y in rows]
+    ends = zip((last + 1).tolist(), count.tolist(), ink.closed[arcs.stroke].tolist(), strict=True)
+    return [(" ".join(parts[k - n : k]) + ('Z"/>\n' if ring else '"/>\n')).encode("ascii") for k, n, ring in ends]
+
+
+def _short(number: float) -> str:
+    """The number with the decimals of arcs, without needless zeros."""
+    return f"{round(number / _DECIMAL) * _DECIMAL:.5f}".rstrip("0").rstrip(".")
 
 
 def _formatted(first: NDArray[np.uint8], x: Ints, y: Ints, last: NDArray[np.uint8]) -> bytes:
