@@ -23,7 +23,7 @@ VERBS = {"draw", "paint", "render", "save", "plan"}
 # A Drawing shows itself in a notebook; the import happens when the notebook asks.
 ALLOWED = {("drawing/drawing.py", "backends")}
 
-HEAVY = {"cairo", "scipy", "shapely", "svgwrite", "trimesh", "click", "tqdm", "HersheyFonts", "embreex"}
+HEAVY = {"cairo", "scipy", "shapely", "svgwrite", "trimesh", "click", "tqdm", "HersheyFonts", "embreex", "skimage"}
 
 FILES = sorted(path.relative_to(PACKAGE).as_posix() for path in PACKAGE.rglob("*.py"))
 
