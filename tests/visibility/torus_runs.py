@@ -103,7 +103,8 @@ def gauss_circle(name: str, kind: LineKind, direction: np.ndarray, cosine: float
 
 
 def central_contour(torus: Torus, eye: np.ndarray) -> list[TorusCurve]:
-    """The contour from an eye outside: the normal is perpendicular to the ray where R cos(v - phi) = b."""
+    """The contour from an eye outside the slab of the torus, |z| > b: the normal is perpendicular to the ray where
+    R cos(v - phi) = b."""
     e = eye - np.asarray(torus.centre)
 
     def swing(u):

@@ -43,25 +43,29 @@ class StrokePoints(NamedTuple):
 def stroke_points(drawing: Drawing, scene: Scene, camera: Camera, samples: int, seed: int) -> StrokePoints:
     """Random points on the strokes, half of them by length, half with one chance for each segment.
 
-    Of straight strokes they lie anywhere. Of smooth strokes, whose chords are beside the curve, they are vertices, or
-    points of chords moved to the surface, those of a contour to the contour.
+    Of straight strokes they lie anywhere. Of smooth strokes, whose chords are beside the curve, they are inner vertices
+    (at the ends visibility changes), or points of chords moved to the surface, those of a contour to the contour.
     """
     parts = [_segments(paths) for layer in drawing.layers for paths in layer.strokes if len(paths)]
     if not parts:
         return _none()
-    lines, owner, smooth, sag = (np.concatenate(columns) for columns in zip(*parts, strict=True))
+    lines, owner, smooth, sag, at_end = (np.concatenate(columns) for columns in zip(*parts, strict=True))
     random = np.random.default_rng(seed)
     index, share = some_of(lines, samples, random)
     if not len(index):
         return _none()
-    vertex = smooth[index] & ((random.random(samples) < 0.5) | ~_on_one_sheet(scene, owner[index]))
+    one_sheet = _on_one_sheet(scene, owner[index])
+    vertex = smooth[index] & ((random.random(samples) < 0.5) | ~one_sheet)
+    ends = vertex & at_end[index, np.round(share).astype(np.intp)]
+    vertex &= ~(ends & one_sheet)
+    useful = ~ends | one_sheet
     share = np.where(vertex, np.round(share), share)[:, None]
     points = lines[index, 0] * (1.0 - share) + lines[index, 1] * share
     aside = np.where(smooth[index] & ~vertex, ASIDE * sag[index], 0.0)
     kind, item, hidden_by = owner[index].T
     found = StrokePoints(points, kind, item, hidden_by, aside)
-    beside = aside > 0.0
-    return _moved(found, np.flatnonzero(beside), lines[index, 1] - lines[index, 0], scene, camera)
+    moving = np.flatnonzero(smooth[index] & ~vertex)
+    return _moved(found, moving, useful, lines[index, 1] - lines[index, 0], scene, camera)
 
 
 def some_of(lines: Floats, samples: int, random: np.random.Generator) -> tuple[Ints, Floats]:
@@ -79,9 +83,10 @@ def _none() -> StrokePoints:
     return StrokePoints(np.zeros((0, 3)), none, none, none, np.zeros(0))
 
 
-def _segments(paths: Paths) -> tuple[Floats, Ints, Bools, Floats]:
+def _segments(paths: Paths) -> tuple[Floats, Ints, Bools, Floats, Bools]:
     """Segments (n,2,3) of strokes in the world; kind, item and hidden_by (n,3); smooth (n,); and how far from the curve
-    that smooth strokes sample each can be (n,), by the angle it makes with its neighbours."""
+    that smooth strokes sample each can be (n,), by the angle it makes with its neighbours; and whether a stroke begins
+    or ends at the segment's ends (n,2)."""
     from vectorplot.testing.compare import path_segments
 
     start, end, path = path_segments(paths.offsets, paths.closed)
@@ -102,7 +107,8 @@ def _segments(paths: Paths) -> tuple[Floats, Ints, Bools, Floats]:
     smooth = paths.smooth[path]
     largest = float(sag[smooth & (turn < 0.5)].max(initial=0.0))
     sag = np.where(has | (turn > 0.0), sag, largest)
-    return lines, np.stack([paths.kind, paths.item, paths.hidden_by], axis=1)[path], smooth, sag
+    at_end = np.stack([~np.isin(start, end), ~has], axis=1)
+    return lines, np.stack([paths.kind, paths.item, paths.hidden_by], axis=1)[path], smooth, sag, at_end
 
 
 def _on_one_sheet(scene: Scene, owner: Ints) -> Bools:
@@ -111,9 +117,9 @@ def _on_one_sheet(scene: Scene, owner: Ints) -> Bools:
     return np.asarray(np.isin(owner[:, 0], ONE_SHEET) & curved[owner[:, 1]])
 
 
-def _moved(found: StrokePoints, which: Ints, way: Floats, scene: Scene, camera: Camera) -> StrokePoints:
-    """The points with some of them moved from the chord to its curve; without those that cannot be."""
-    points, good = found.points.copy(), np.ones(len(found.points), dtype=np.bool_)
+def _moved(found: StrokePoints, which: Ints, useful: Bools, way: Floats, scene: Scene, camera: Camera) -> StrokePoints:
+    """The useful points, some of them moved from the chord to its curve; without those that cannot be."""
+    points, good = found.points.copy(), useful.copy()
     for index, item in enumerate(scene.items):
         shape = item.shape
         for contour in (False, True):
@@ -126,7 +132,7 @@ def _moved(found: StrokePoints, which: Ints, way: Floats, scene: Scene, camera: 
                 points[some] = _to_implicit(shape, points[some], way[some], camera if contour else None)
             # A point that went far did not find its curve.
             went = np.linalg.norm(points[some] - found.points[some], axis=1)
-            good[some] = went <= found.aside[some]
+            good[some] &= went <= found.aside[some]
     return found._replace(points=points).rows(good)
 
 

@@ -178,14 +178,16 @@ def _hits(net: Net, rays: Rays, feet: Feet) -> tuple[Bools, Floats]:
     hidden, clearance = np.zeros(len(rays.length), dtype=np.bool_), np.full(len(rays.length), REACH)
     corners = net.triangles
     solids = near_together(net.points[corners], np.arange(len(corners)))
-    own = np.where(feet.on_surface, OWN, CONTACT)
+    # A ray that touches the surface meets the net, which is a little beside it, well away from its point.
+    own = np.where(feet.on_contour, AROUND, np.where(feet.on_surface, OWN, CONTACT))
     for ray, index in near_pairs(rays, solids):
         a, b, c = (solids.corners[index, k] for k in range(3))
         along = meeting(rays.origin[ray], rays.direction[ray], a, b, c)
         met = np.isfinite(along)
         ray, along, triangle = ray[met], along[met], corners[solids.item[index[met]]]
         start = net.parameters[triangle].mean(axis=1)
-        along, there = _refined(net, rays, ray, along, start)
+        along, there, lost = _refined(net, rays, ray, along, start)
+        clearance[ray[lost & (np.abs(along) > own[ray])]] = 0.0
         ray, along = ray[there], along[there]
         free = np.abs(along) > own[ray]
         np.minimum.at(clearance, ray[free], np.abs(along[free]))
@@ -195,11 +197,9 @@ def _hits(net: Net, rays: Rays, feet: Feet) -> tuple[Bools, Floats]:
     return hidden, clearance
 
 
-def _refined(net: Net, rays: Rays, ray: Ints, along: Floats, start: Floats) -> tuple[Floats, Bools]:
-    """Where rays meet the surface near places where they meet the net, and whether that is within the domain.
-
-    Hits that Newton's method cannot refine, next to the contour, stay where the net has them.
-    """
+def _refined(net: Net, rays: Rays, ray: Ints, along: Floats, start: Floats) -> tuple[Floats, Bools, Bools]:
+    """Where rays meet the surface near places where they meet the net, whether that is within the domain, and whether
+    Newton's method found no such place, as next to the contour: then it is left where the net has it."""
     origin, direction = rays.origin[ray], rays.direction[ray]
     at, t = start.copy(), along.copy()
     for _ in range(NEWTON_STEPS):
@@ -222,7 +222,7 @@ def _refined(net: Net, rays: Rays, ray: Ints, along: Floats, start: Floats) -> t
     for axis, (low, high, closed) in enumerate(limits):
         rounding = 1e-12 * (high - low)
         within &= closed | ((at[:, axis] >= low - rounding) & (at[:, axis] <= high + rounding))
-    return np.where(good, t, along), within | ~good
+    return np.where(good, t, along), within | ~good, ~good
 
 
 def feet_on(net: Net, rays: Rays) -> Feet:
