@@ -20,8 +20,9 @@ from vectorplot.features.implicit_conditions import (
     SpatialCondition,
     sight_line_bending,
 )
-from vectorplot.features.implicit_refinement import CurveInSpace, refined_chords
+from vectorplot.features.implicit_refinement import curve_in_space, refined_chords
 from vectorplot.features.implicit_tracing import (
+    FLAT,
     ImplicitCurves,
     ImplicitTracing,
     all_curves,
@@ -31,6 +32,7 @@ from vectorplot.features.implicit_tracing import (
     mesh_of,
     no_curves,
 )
+from vectorplot.features.zero_crossings import bracketed_zeros
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.geometry.outline import concat
@@ -50,10 +52,9 @@ def implicit_contour(surface: ImplicitSurface, eye: ArrayLike, *, tracing: Impli
     singular points of the surface (the apex of a cone). What lies behind the eye is traced too.
     Source: Glaeser, section 8.4, equations 25 to 27.
     """
-    low, high = np.asarray(surface.box)
-    far = np.maximum(np.abs(low - vector("contour: eye", eye)), np.abs(high - np.asarray(eye)))
-    condition = ImplicitCentralContour(surface, eye)
-    return curves_in_space(surface, condition, size=float(np.linalg.norm(far)), tracing=tracing)
+    place = vector("contour: eye", eye)
+    condition = ImplicitCentralContour(surface, place)
+    return curves_in_space(surface, condition, size=_farthest(surface, place), tracing=tracing)
 
 
 def implicit_parallel_contour(
@@ -175,7 +176,8 @@ def implicit_contour_cusps(surface: ImplicitSurface, eye: ArrayLike, curves: Imp
     Degenerate: where the line of sight is asymptotic all along the contour (on cones and cylinders), there is no cusp.
     """
     place = vector("contour: eye", eye)
-    return _cusps(surface, ImplicitCentralContour(surface, place), lambda x: place - x, curves)
+    far = _farthest(surface, place)
+    return _cusps(surface, ImplicitCentralContour(surface, place), far, lambda x: place - x, curves)
 
 
 def implicit_parallel_contour_cusps(
@@ -183,7 +185,7 @@ def implicit_parallel_contour_cusps(
 ) -> tuple[Floats, Ints]:
     """As `implicit_contour_cusps`, for an eye at infinity in a direction (3,)."""
     d = normalize(vector("contour: direction", direction))
-    return _cusps(surface, ImplicitParallelContour(surface, d), lambda x: np.broadcast_to(d, x.shape), curves)
+    return _cusps(surface, ImplicitParallelContour(surface, d), 1.0, lambda x: np.broadcast_to(d, x.shape), curves)
 
 
 def with_points(curves: ImplicitCurves, points: Floats, after: Ints) -> ImplicitCurves:
@@ -214,6 +216,12 @@ def _family(
     return all_curves([no_curves(doubts), *families])
 
 
+def _farthest(surface: ImplicitSurface, place: Floats) -> float:
+    """The largest distance of a place from points of the box."""
+    low, high = np.asarray(surface.box, dtype=np.float64)
+    return float(np.linalg.norm(np.maximum(np.abs(low - place), np.abs(high - place))))
+
+
 def _cosines(cosines: ArrayLike) -> Floats:
     levels = np.atleast_1d(np.asarray(cosines, dtype=np.float64))
     if levels.ndim != 1 or not (np.abs(levels) <= 1.0).all():
@@ -240,7 +248,7 @@ def _border(
         last = np.zeros(len(points), dtype=np.bool_)
         last[np.cumsum([len(part) for part in parts]) - 1] = True
         plane = MeetsPlane(np.eye(3)[axis], float(box[side, axis]))
-        curve = CurveInSpace(surface, plane, extent, extent, 4.0 * float(np.spacing(np.abs(box).max())))
+        curve = curve_in_space(surface, plane, extent)
         tolerance = 1e-3 * extent if tracing.tolerance is None else tracing.tolerance
         points, last, unsure = refined_chords(curve, points, last, tolerance, tracing.picture)
         points[:, axis] = box[side, axis]
@@ -259,28 +267,33 @@ def _rims(vertices: Floats, a: Ints, b: Ints) -> ImplicitCurves:
 
 
 def _cusps(
-    surface: ImplicitSurface, condition: SpatialCondition, way: Callable[[Floats], Floats], curves: ImplicitCurves
+    surface: ImplicitSurface,
+    condition: SpatialCondition,
+    scale: float,
+    way: Callable[[Floats], Floats],
+    curves: ImplicitCurves,
 ) -> tuple[Floats, Ints]:
     """Cusps from the changes of sign of the bending along the line of sight, between two points of a contour."""
     after = np.arange(1, len(curves.points) + 1)
     after[curves.offsets[1:] - 1] = np.where(curves.closed, curves.offsets[:-1], curves.offsets[1:] - 1)
-    with np.errstate(all="ignore"):
-        bending = sight_line_bending(surface, curves.points, way(curves.points))
-    size = np.nan_to_num(np.abs(bending)).max(initial=0.0)
-    changes = (bending < 0.0) != (bending[after] < 0.0)
-    changes &= np.maximum(np.abs(bending), np.abs(bending[after])) > 1e-9 * size
-    before = np.flatnonzero(changes & np.isfinite(bending) & np.isfinite(bending[after]))
+
+    def bending(x: Floats) -> Floats:
+        with np.errstate(all="ignore"):
+            return sight_line_bending(surface, x, way(x))
+
+    at = bending(curves.points)
+    known = np.isfinite(at)
+    size = np.abs(at[known]).max(initial=0.0)
+    changes = known & known[after] & ((at < 0.0) != (at[after] < 0.0))
+    before = np.flatnonzero(changes & (np.maximum(np.abs(at), np.abs(at[after])) > FLAT * size))
     a, b = curves.points[before], curves.points[after[before]]
-    extent = float(np.ptp(np.asarray(surface.box), axis=0).max())
-    noise = 4.0 * float(np.spacing(np.abs(np.asarray(surface.box)).max()))
-    curve = CurveInSpace(surface, condition, 1.0, extent, noise)
-    low, high = np.zeros(len(a)), np.ones(len(a))
-    sign = bending[before] < 0.0
+    curve = curve_in_space(surface, condition, scale)
     reach = np.linalg.norm(b - a, axis=1)
-    x = a.copy()
-    for _ in range(52):
-        middle = (low + high) / 2.0
-        x = curve.onto(a + middle[:, None] * (b - a), reach)[0]
-        same = (sight_line_bending(surface, x, way(x)) < 0.0) == sign
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return x, before
+
+    def place(t: Floats, which: Ints) -> Floats:
+        return curve.onto(a[which] + t[:, None] * (b - a)[which], reach[which])[0]
+
+    w0, w1 = at[before], at[after[before]]
+    small = np.full(len(before), 1e-15 * size)
+    t, _ = bracketed_zeros(lambda t, which: bending(place(t, which)), w0, w1, w0 / (w0 - w1), small)
+    return place(t, np.arange(len(before))), before

@@ -120,6 +120,13 @@ class CurveInSpace:
         return place(t, np.arange(len(a))), np.asarray(exact | falls, dtype=np.bool_)
 
 
+def curve_in_space(surface: ImplicitSurface, condition: SpatialCondition, size: float) -> CurveInSpace:
+    """The curve on which a condition of this size holds."""
+    box = np.asarray(surface.box, dtype=np.float64)
+    noise = 4.0 * float(np.spacing(np.abs(box).max()))
+    return CurveInSpace(surface, condition, size, float(np.ptp(box, axis=0).max()), noise)
+
+
 def refined_chords(
     curve: CurveInSpace, points: Floats, last: Bools, tolerance: float, picture: Picture | None
 ) -> tuple[Floats, Bools, int]:

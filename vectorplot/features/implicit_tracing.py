@@ -11,7 +11,7 @@ from vectorplot.errors import InputError
 from vectorplot.features.curve_band import Band, Nodes, curve_band
 from vectorplot.features.implicit_conditions import SpatialCondition
 from vectorplot.features.implicit_nodes import joined_at_nodes, special_points
-from vectorplot.features.implicit_refinement import CurveInSpace, Picture, refined_chords
+from vectorplot.features.implicit_refinement import CurveInSpace, Picture, curve_in_space, refined_chords
 from vectorplot.features.level_segments import level_segments
 from vectorplot.features.polygonize import onto_surface, settled_mesh
 from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
@@ -119,9 +119,8 @@ def curves_in_space(
     mesh, doubts = mesh_of(surface, tracing)
     if not mesh.face_count:
         return no_curves(doubts)
-    extent = float(np.ptp(np.asarray(surface.box), axis=0).max())
-    noise = 4.0 * float(np.spacing(np.abs(mesh.vertices).max()))
-    curve = CurveInSpace(surface, condition, size, extent, noise)
+    curve = curve_in_space(surface, condition, size)
+    extent = curve.extent
     nodes, area = _nodes(curve, mesh)
     if area:
         doubts += ("the condition holds all over a part of the surface: no lines there",)

@@ -123,6 +123,16 @@ class ImplicitTorusByDistance:
         factor = np.where(across > 0.0, 1.0 - self.major / np.where(across > 0.0, across, 1.0), 0.0)
         return np.asarray(2.0 * p * np.stack([factor, factor, np.ones_like(factor)], axis=-1))
 
+    def hessians(self, points: Floats) -> Floats:
+        """(..., 3, 3) second derivatives; on the axis, where there are none, those of z^2."""
+        p = points - np.asarray(self.centre)
+        level = p * _LEVEL
+        square = (level * level).sum(axis=-1)[..., None, None]
+        safe = np.where(square > 0.0, square, 1.0)
+        bent = level[..., :, None] * level[..., None, :] / safe - np.diag(_LEVEL)
+        same = np.where(square > 0.0, np.eye(3) + self.major / np.sqrt(safe) * bent, np.diag(1.0 - _LEVEL))
+        return np.asarray(2.0 * same)
+
 
 _LEVEL = np.array([1.0, 1.0, 0.0])
 
