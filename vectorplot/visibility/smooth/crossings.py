@@ -55,8 +55,8 @@ class Pairs:
 def crossings(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, tolerance: float) -> Events:
     """The events where curves pass behind edges: the folds (kind contour) and borders (boundary) of the sheets.
 
-    tolerance: how far chords are off their curves, in the image. Behind a fold there are two sheets more or less, by
-    the side of the fold to which the sheet turns; behind a border one.
+    tolerance: how far chords are off their curves, in the image. Behind a fold or cuspidal edge (crease) there are two
+    sheets more or less, by the side to which the sheet turns; behind a border one.
     """
     pairs = _roughly_met(view, curves, edges, _close_pairs(view, curves, edges, tolerance), tolerance)
     for _ in range(HOPS):
@@ -196,15 +196,19 @@ def _events(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves
     direction = projection.image_slopes(view, one.points[real], one.slopes[real])
     edge = edges.owner[pairs.edge]
     covered = np.zeros_like(points)
-    step = np.where(edges.kind[edge] == LineKind.CONTOUR, 2, 1)
+    kind = edges.kind[edge]
+    step = np.where(kind == LineKind.BOUNDARY, 1, 2)
     way = projection.sight(view, points)
     for number in np.unique(edges.sheet[edge]).tolist():
         sheet = sheets[number]
-        fold = np.flatnonzero((edges.sheet[edge] == number) & (step == 2))
+        own = edges.sheet[edge] == number
+        fold = np.flatnonzero(own & (kind == LineKind.CONTOUR))
         bend = sheet.bends(places[fold], way[fold])
         covered[fold] = np.sign(bend)[:, None] * sheet.normals(places[fold])
-        border = np.flatnonzero((edges.sheet[edge] == number) & (step == 1))
+        border = np.flatnonzero(own & (kind == LineKind.BOUNDARY))
         covered[border] = sheet.inwards(places[border])
+        cuspidal = np.flatnonzero(own & (kind == LineKind.CREASE))
+        covered[cuspidal] = sheet.turnings(places[cuspidal])
     side = dot(direction, projection.image_slopes(view, points, covered))
     change = np.where(np.isfinite(side), np.sign(side), 0.0).astype(np.intp) * step
     return Events(pairs.chord, pairs.part, edges.item[edge], change)

@@ -14,8 +14,9 @@ from vectorplot.visibility.smooth.events import all_events
 from vectorplot.visibility.smooth.own_events import edge_on_curves, own_events
 from vectorplot.visibility.smooth.pieces import Pieces, counted, cut
 from vectorplot.visibility.smooth.piercings import piercings
-from vectorplot.visibility.smooth.sheet import Sheet
+from vectorplot.visibility.smooth.runs import without_short_runs
 from vectorplot.visibility.smooth.targets import target
+from vectorplot.visibility.smooth.traced import TracedScene
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,30 +27,31 @@ class HiddenCurves:
     hidden_by: Ints
 
 
-def hidden_curves(
-    view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, items: int, tolerance: float
-) -> HiddenCurves:
+def hidden_curves(view: View, traced: TracedScene, curves: Curves, items: int, tolerance: float) -> HiddenCurves:
     """By how many items with smooth surfaces each piece of the curves is hidden.
 
-    items: how many the scene has; edges: the folds and borders of the sheets that hide what is behind them;
+    traced: the sheets, and the edges of those that hide; items: how many the scene has;
     tolerance: how far chords are off their curves, in the image.
     The number of sheets in front of a curve changes only where its image crosses that of a fold or border in front, at
     a cusp of a contour, and where it pierces a sheet or passes the contour of its own: there the curves are cut. Then
-    each piece is decided once, by the sight line of its safest point, or by the changes from a neighbour.
+    each piece is decided once, by the sight line of its safest point, or by the changes from a neighbour. Runs shorter
+    than two tolerances are none.
     Source: Glaeser, section 8.4 and figure 13 for what is drawn; the decisions are this package's own.
     """
+    sheets, edges = traced.sheets, traced.edges
     targets = tuple(target(view, sheet) for sheet in sheets)
     edge_on = edge_on_curves(view, sheets, curves)
     events = all_events(
         [
             own_events(view, sheets, curves, edge_on),
             crossings(view, sheets, curves, edges, tolerance),
-            piercings(view, targets, curves),
+            piercings(view, targets, curves, traced.meets_itself),
         ]
     )
     pieces = cut(curves, events, items)
     counts = counted(view, targets, curves, edges, edge_on, pieces, items)
-    return HiddenCurves(pieces, np.asarray((counts > 0).sum(axis=1)))
+    hidden_by = np.asarray((counts > 0).sum(axis=1))
+    return HiddenCurves(pieces, without_short_runs(view, curves, pieces, hidden_by, 2.0 * tolerance))
 
 
 def cut_curves(curves: Curves, found: HiddenCurves) -> tuple[Floats, Floats, Ints, Ints]:

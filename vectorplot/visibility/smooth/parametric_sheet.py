@@ -84,6 +84,21 @@ class ParametricSheet:
                 inner += (part <= BEYOND)[:, None] * along - (part >= 1.0 - BEYOND)[:, None] * along
         return inner
 
+    def turnings(self, places: Floats) -> Floats:
+        """(k,3) second derivatives along the direction in which the point stands still."""
+        u, v = self.parameters(places)
+        along_u, along_v = self.surface.partials(u, v)
+        uu, uv, vv = self.surface.second_partials(u, v)
+        # Both partials have one direction: that of a x_u + b x_v = 0, in proportion to the domain.
+        width, height = self.surface.domain.size
+        along_u, along_v = along_u * width, along_v * height
+        long = dot(along_u, along_u) >= dot(along_v, along_v)
+        product = dot(along_u, along_v)
+        a = np.where(long, -product, dot(along_v, along_v))
+        b = np.where(long, dot(along_u, along_u), -product)
+        a, b = (a * width)[:, None], (b * height)[:, None]
+        return np.asarray(uu * a * a + 2.0 * uv * a * b + vv * b * b)
+
     def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats]:
         """(k,) and (k,3) one Newton step for where lines meet the sheet."""
         u, v = self.parameters(places)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
 from vectorplot.visibility.smooth.curves import Curves
@@ -18,22 +18,42 @@ ROUNDS, HOPS = 10, 3
 MET = 1e-10
 """A curve meets a sheet where they come closer than this; the scene is about 1 large."""
 
+APART_AT_FIRST, APART = 0.04, 1e-3
+"""Where a sheet meets itself, parts of its domain that the two places are apart at least: at the start of the search,
+and at its end."""
+
 ALONG = 1e-7
 """A curve that makes a smaller angle with the sheet touches it."""
 
 
-def piercings(view: View, targets: tuple[Target, ...], curves: Curves) -> Events:
-    """The events where curves pierce sheets: behind the sheet there is one more in front."""
+def piercings(view: View, targets: tuple[Target, ...], curves: Curves, meets_itself: Bools) -> Events:
+    """The events where curves pierce sheets: behind the sheet there is one more in front.
+
+    meets_itself (s,): sheets that may be pierced by curves that lie on them.
+    """
     depth, image = projection.depth(view, curves.points), projection.image(view, curves.points)
     parts = []
     for number, target in enumerate(targets):
-        stranger = (curves.sheet != number) & (curves.second_sheet != number)
+        stranger = (curves.second_sheet != number) & ((curves.sheet != number) | meets_itself[number])
         chord = curves.chords[stranger[curves.owner[curves.chords]]]
         chord = chord[(depth[chord] > view.near) & (depth[chord + 1] > view.near)]
         if len(chord) and len(target.corners):
             chord, part, places = _close(target, curves, chord, image, depth)
-            parts.append(_pierced(view, target.sheet, curves, *_met(target.sheet, curves, chord, part, places)))
+            elsewhere = _elsewhere(target.sheet, number, curves, chord, part, places, APART_AT_FIRST)
+            chord, part, places = chord[elsewhere], part[elsewhere], places[elsewhere]
+            chord, part, places = _met(target.sheet, curves, chord, part, places)
+            elsewhere = _elsewhere(target.sheet, number, curves, chord, part, places, APART)
+            chord, part, places = chord[elsewhere], part[elsewhere], places[elsewhere]
+            parts.append(_pierced(view, target.sheet, curves, chord, part, places))
     return all_events(parts)
+
+
+def _elsewhere(
+    sheet: Sheet, number: int, curves: Curves, chord: Ints, part: Floats, places: Floats, apart: float
+) -> Bools:
+    """(k,) which places on a sheet are not those of the curves themselves, which lie on it."""
+    own = curves.places[chord] + part[:, None] * (curves.places[chord + 1] - curves.places[chord])
+    return np.asarray((curves.sheet[curves.owner[chord]] != number) | (sheet.apart(places, own) > apart))
 
 
 def _close(target: Target, curves: Curves, chord: Ints, image: Floats, depth: Floats) -> tuple[Ints, Floats, Floats]:

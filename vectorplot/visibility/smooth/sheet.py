@@ -67,6 +67,10 @@ class Sheet(Protocol):
         """(k,3) tangents into the sheet at places on its border; 0 elsewhere."""
         ...
 
+    def turnings(self, places: Floats) -> Floats:
+        """(k,3) the direction to which both wings of a cuspidal edge turn, at places on it."""
+        ...
+
     def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats]:
         """(k,) and (k,3): one Newton step for where lines points + t ways meet the sheet: t, and the places there."""
         ...

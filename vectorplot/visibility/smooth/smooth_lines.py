@@ -18,7 +18,7 @@ def with_curves(view: View, traced: TracedScene, lines: Lines, items: int, toler
     items: how many the scene has; tolerance: how far chords are off their curves, in the image.
     """
     curves = together([traced.curves, _straight(lines)])
-    found = hidden_curves(view, traced.sheets, curves, traced.edges, items, tolerance)
+    found = hidden_curves(view, traced, curves, items, tolerance)
     start, end, curve, behind = cut_curves(curves, found)
     long = (start != end).any(axis=1)
     start, end, curve, behind = start[long], end[long], curve[long], behind[long]

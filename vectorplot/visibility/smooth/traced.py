@@ -19,8 +19,9 @@ from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.isophotes import isophotes, point_light_isophotes
 from vectorplot.features.parameter_lines import borders, parameter_lines
 from vectorplot.features.sections import plane_sections
+from vectorplot.features.singular_lines import singular_lines
 from vectorplot.features.surface_curves import SurfaceCurves
-from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.view import View
@@ -30,10 +31,15 @@ from vectorplot.visibility.lines import kinds_of
 from vectorplot.visibility.smooth import projection
 from vectorplot.visibility.smooth.curves import Curves, together
 from vectorplot.visibility.smooth.family import ConditionCurves, ParameterCurves
+from vectorplot.visibility.smooth.meetings import meetings
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet, parametric_sheet
+from vectorplot.visibility.smooth.surface_curves import as_curves
 
 WIDEST_IMAGE = 4.0
 """Images further than so many focal lengths from the principal point are not looked at closely."""
+
+HIDING = (LineKind.CONTOUR, LineKind.BOUNDARY, LineKind.CREASE)
+"""Kinds of curves behind which sheets begin."""
 
 UPPER_LEFT = (-1.0, 1.0, 1.0)
 """The light of a scene without one: from the eye's upper left, in the axes of the view."""
@@ -41,10 +47,12 @@ UPPER_LEFT = (-1.0, 1.0, 1.0)
 
 @dataclass(frozen=True, eq=False)
 class TracedScene:
-    """The sheets of all smooth items; the curves that are drawn; edges: the folds and borders of the sheets that hide;
-    doubts: what could not be decided, with the name of the item."""
+    """The sheets of all smooth items, and for each (s,) whether it meets itself; the curves that are drawn; edges: the
+    folds, borders and cuspidal edges of the sheets that hide; doubts: what could not be decided, with the name of the
+    item."""
 
     sheets: tuple[ParametricSheet, ...]
+    meets_itself: Bools
     curves: Curves
     edges: Curves
     doubts: tuple[str, ...]
@@ -73,10 +81,14 @@ def traced_scene(
         wanted = kinds_of(item, kinds)
         found = _traced_item(scene, view, sheet, number, wanted, tracing)
         doubts += [f"{item.name}: {text}" for _, _, curves in found for text in curves.doubts]
-        parts = [(kind, _as_curves(curves, kind, sheet.item, family)) for kind, family, curves in found]
+        parts = [(kind, as_curves(curves, kind, sheet.item, family)) for kind, family, curves in found]
         drawn += [part for kind, part in parts if kind in wanted]
-        edges += [part for kind, part in parts if kind in (LineKind.CONTOUR, LineKind.BOUNDARY) and item.occludes]
-    return TracedScene(sheets, together(drawn), together(edges), tuple(dict.fromkeys(doubts)))
+        edges += [part for kind, part in parts if kind in HIDING and item.occludes]
+    wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
+    met = meetings(scene, view, sheets, wants, tracing)
+    doubts += met.doubts
+    curves = together([*drawn, met.curves])
+    return TracedScene(sheets, met.meets_itself, curves, together(edges), tuple(dict.fromkeys(doubts)))
 
 
 def _picture(view: View, points: Floats) -> Floats:
@@ -114,6 +126,7 @@ def _traced_item(
     result: list[Found] = [
         (LineKind.CONTOUR, ConditionCurves(sheet, number, turn), found),
         (LineKind.BOUNDARY, straight, borders(surface, tracing=tracing)),
+        (LineKind.CREASE, straight, singular_lines(surface, tracing=tracing)),
     ]
     if LineKind.PARAMETER in wanted and lines.columns + lines.rows > 0:
         found = parameter_lines(surface, max(lines.columns, 1), max(lines.rows, 1), tracing=tracing)
@@ -145,29 +158,3 @@ def _light(scene: Scene, item: Item) -> Light | None:
     if not scene.lights:
         return None
     return scene.lights[item.curves.light or 0]
-
-
-def _as_curves(found: SurfaceCurves, kind: LineKind, item: int, family: ConditionCurves | ParameterCurves) -> Curves:
-    """Curves of a surface with closed ones led back to their first point."""
-    counts = np.diff(found.offsets) + found.closed
-    offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.intp)
-    index = np.arange(offsets[-1]) - np.repeat(offsets[:-1] - found.offsets[:-1], counts)
-    back = offsets[1:][found.closed] - 1
-    index[back] = found.offsets[:-1][found.closed]
-    places = np.stack([found.u, found.v, np.zeros_like(found.u)], axis=1)[index]
-    surface = family.surface.surface
-    places[back, :2] += found.turns[found.closed] * np.array(surface.domain.size)
-    many = len(found)
-    whole = np.full(many, item, dtype=np.intp)
-    return Curves(
-        found.points[index],
-        places,
-        np.full_like(places, np.nan),
-        offsets,
-        found.closed,
-        np.full(many, int(kind)),
-        whole,
-        np.zeros(many, dtype=np.intp),
-        found.levels if kind in (LineKind.ISOPHOTE, LineKind.SECTION) else np.zeros(many),
-        (family,),
-    )

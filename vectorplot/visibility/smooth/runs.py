@@ -1,0 +1,52 @@
+"""Runs of equally hidden pieces; those too short to be drawn go to their neighbours."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.scene.view import View
+from vectorplot.visibility.smooth import projection
+from vectorplot.visibility.smooth.curves import Curves
+from vectorplot.visibility.smooth.pieces import Pieces
+
+
+def without_short_runs(view: View, curves: Curves, pieces: Pieces, hidden_by: Ints, shortest: float) -> Ints:
+    """(p,) the same numbers; runs shorter than this in the image have that of the nearest longer one on their curve.
+
+    Degenerate: a curve that has only short runs stays as it is.
+    """
+    if not len(pieces):
+        return hidden_by
+    new = np.ones(len(pieces), dtype=np.bool_)
+    new[1:] = (pieces.curve[1:] != pieces.curve[:-1]) | (hidden_by[1:] != hidden_by[:-1])
+    run = np.cumsum(new) - 1
+    curve, value = pieces.curve[new], hidden_by[new]
+    length = np.bincount(run, weights=_lengths(view, curves, pieces))
+    first, last = np.searchsorted(curve, curve), np.searchsorted(curve, curve, side="right") - 1
+    # The first and the last run of a closed curve are one if they are equal.
+    number = np.arange(len(curve))
+    round_ = curves.closed[curve] & (value[first] == value[last]) & (first != last)
+    around = length[first] + length[last]
+    length = np.where(round_ & ((number == first) | (number == last)), around, length)
+    long = length >= shortest
+    before = np.maximum.accumulate(np.where(long, number, -1))
+    after = np.minimum.accumulate(np.where(long, number, len(curve))[::-1])[::-1]
+    has_before = (before >= first) & (before >= 0)
+    has_after = after <= last
+    nearer = has_before & (~has_after | (number - before <= after - number))
+    source = np.where(nearer, before, np.where(has_after, after, number))
+    return np.asarray(value[source][run])
+
+
+def _lengths(view: View, curves: Curves, pieces: Pieces) -> Floats:
+    """(p,) lengths of pieces in the image, along chords."""
+    image = projection.image(view, curves.points)
+    step = np.zeros(len(image))
+    step[1:] = np.linalg.norm(np.diff(image, axis=0), axis=1)
+    reach = np.append(np.cumsum(step), 0.0)
+
+    def along(chord: Ints, part: Floats) -> Floats:
+        return np.asarray(reach[chord] + part * (reach[chord + 1] - reach[chord]))
+
+    return along(pieces.end_chord, pieces.end_part) - along(pieces.begin_chord, pieces.begin_part)

@@ -1,0 +1,36 @@
+"""Curves traced on parametrised surfaces as the engine takes them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.features.surface_curves import SurfaceCurves
+from vectorplot.geometry.strokes import LineKind
+from vectorplot.visibility.smooth.curves import Curves
+from vectorplot.visibility.smooth.family import ConditionCurves, ParameterCurves
+
+
+def as_curves(found: SurfaceCurves, kind: LineKind, item: int, family: ConditionCurves | ParameterCurves) -> Curves:
+    """Curves of a surface with closed ones led back to their first point."""
+    counts = np.diff(found.offsets) + found.closed
+    offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.intp)
+    index = np.arange(offsets[-1]) - np.repeat(offsets[:-1] - found.offsets[:-1], counts)
+    back = offsets[1:][found.closed] - 1
+    index[back] = found.offsets[:-1][found.closed]
+    places = np.stack([found.u, found.v, np.zeros_like(found.u)], axis=1)[index]
+    surface = family.surface.surface
+    places[back, :2] += found.turns[found.closed] * np.array(surface.domain.size)
+    many = len(found)
+    whole = np.full(many, item, dtype=np.intp)
+    return Curves(
+        found.points[index],
+        places,
+        np.full_like(places, np.nan),
+        offsets,
+        found.closed,
+        np.full(many, int(kind)),
+        whole,
+        np.zeros(many, dtype=np.intp),
+        found.levels if kind in (LineKind.ISOPHOTE, LineKind.SECTION) else np.zeros(many),
+        (family,),
+    )
