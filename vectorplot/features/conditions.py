@@ -59,6 +59,10 @@ class CentralContour:
         _, by_u, by_v = normal_partials(self.surface, u, v)
         return dot(way, by_u), dot(way, by_v)
 
+    def sights(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) vectors from the surface to the eye."""
+        return np.asarray(np.asarray(self.eye) - self.surface.points(u, v))
+
 
 @dataclass(frozen=True, eq=False)
 class ParallelContour:
@@ -82,6 +86,13 @@ class ParallelContour:
     def slopes(self, u: Floats, v: Floats) -> Slopes:
         """(...,) derivatives by u and by v."""
         return _turning_towards(self.surface, np.asarray(self.direction), u, v)
+
+    def sights(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) unit vectors to the eye, the same everywhere."""
+        return np.broadcast_to(np.asarray(self.direction), (*np.broadcast_shapes(np.shape(u), np.shape(v)), 3))
+
+
+Contour = CentralContour | ParallelContour
 
 
 @dataclass(frozen=True, eq=False)
