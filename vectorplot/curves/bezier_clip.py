@@ -15,7 +15,7 @@ def clipped_paths(paths: BezierPaths, low: Floats, high: Floats) -> tuple[Bezier
     """The parts of plane paths inside the box from low (2,) to high (2,), its border included, and the path that each
     comes from.
 
-    Segments are divided where they cross the border, which is exact but for rounding; their ends there lie on it.
+    Segments are divided where they cross the border, which is exact but for rounding.
     Paths keep their order; a closed path that is cut becomes open ones.
     Degenerate: what only touches the border leaves nothing; a path without segments is left out.
     Source: de Casteljau's scheme at the roots of the coordinates' polynomials.
