@@ -34,3 +34,21 @@ def test_info_counts_the_faces_that_were_taken_away(tmp_path, capsys):
     first, last = capsys.readouterr().out.splitlines()
     assert "6 faces (1 of them removed), closed" in first
     assert last.startswith("1 item, 6 faces, 1 light, ")
+
+
+def test_info_tells_which_surfaces_there_are_and_what_is_drawn_on_them(tmp_path, capsys):
+    scene = tmp_path / "smooth.scene"
+    scene.write_text(
+        "RING surface torus 3 1 parameter_lines 24 12 isophotes 9 sections x 3\n"
+        'BLOB surface implicit "x^2 + y^2 + z^2 - 1" box -2 2 -2 2 -2 2\nSHEET surface quadric 1 0 0 0 0 0 0 0 1 0\n'
+        "box -1 1 -1 1 -1 1 CUBE box 1 1 1\n",
+        encoding="utf-8",
+    )
+    assert run(["info", str(scene)]) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        "RING: surface (torus), closed in u and v, 24 + 12 parameter lines, 9 isophotes, 3 sections, size 8 x 8 x 2",
+        "BLOB: implicit surface, box of size 4 x 4 x 4",
+        "SHEET: implicit surface (quadric), box of size 2 x 2 x 2",
+        "CUBE: 8 vertices, 12 edges, 6 faces, closed, convex, size 1 x 1 x 1",
+        "4 items, 3 surfaces, 6 faces, 0 lights, size 8 x 8 x 4",
+    ]

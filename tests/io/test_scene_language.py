@@ -344,7 +344,7 @@ def test_every_scene_of_the_gallery_loads_without_a_warning(path):
         scene = read_scene(path)
     assert scene.items and scene.title and scene.camera is not None
     for item in scene.items:
-        assert is_closed_oriented(item.shape) or item.name == "PYRAMID"
+        assert item.mesh is not item.shape or is_closed_oriented(item.shape) or item.name == "PYRAMID"
 
 
 def test_empty_text_is_an_empty_scene():
@@ -496,10 +496,17 @@ def test_unreadable_files(tmp_path):
     assert [item.name for item in read_scene(marked).items] == ["A", "B"]
 
 
+SURFACES = """RING surface torus 3 1 parameter_lines 4 4 isophotes at 0 , 0.5 rotation x 30 scale 1 2 1
+HILL surface graph "sin(x)*y" x -1 1 y -1 1 level_lines 3 SPRING surface helical 0.4 circle 0.5 centre 3 0 0 angle 0 90
+BLOB surface implicit "x^2 + y^2 + z^2 - 1" box -2 2 -2 2 -2 2 sections normal 1 1 0 2 lines contour , section"""
+
+
 @pytest.mark.filterwarnings("ignore::vectorplot.errors.InputWarning")
 @given(st.data())
 def test_torn_texts_raise_input_errors_only(data):
-    words = data.draw(st.sampled_from([PYRAMID, CONE, "camera eye 1 2 3 light L position 1 2 3 page A4"])).split(" ")
+    words = data.draw(
+        st.sampled_from([PYRAMID, CONE, SURFACES, "camera eye 1 2 3 light L position 1 2 3 page A4"])
+    ).split(" ")
     place = data.draw(st.integers(0, len(words)))
     wild = data.draw(
         st.sampled_from([*words, ",", '"', "#", "-1", "1e400", "x", "general", "patterns", "\\", "99", ""])
@@ -517,7 +524,8 @@ DOCUMENTED = (Path(__file__).parents[2] / "docs" / "scene-language.md").read_tex
 def test_the_examples_of_the_documentation_are_scenes():
     examples = [text for text in DOCUMENTED if " = " not in text and "expected" not in text]
     names = [[item.name for item in parse_scene(text).items] for text in examples]
-    assert names == [["TOP", "MUG"], ["CUBE"], ["PENCIL"], ["HOUSE"]]
+    surfaces = [["RING"], ["SPRING", "VASE", "WAVES", "HEART"], ["EGG"]]
+    assert names == [["TOP", "MUG"], ["CUBE"], *surfaces, ["PENCIL"], ["HOUSE"]]
 
 
 @pytest.mark.capability("G3.0-language")

@@ -14,6 +14,7 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import box
 from vectorplot.io.scene_language import parse_scene, read_scene
+from vectorplot.io.scene_surface_writer import surface_text
 from vectorplot.io.scene_words import COLOURS, MATERIALS
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
@@ -26,8 +27,9 @@ def plain(scene):
     items = [
         (
             item.name, item.colour, item.material, item.lines, item.occludes,
-            item.shape.vertices.tolist(), item.shape.polygons(),
-            None if item.shape.present is None else item.shape.present.tolist(),
+            item.mesh.vertices.tolist(), item.mesh.polygons(),
+            None if item.mesh.present is None else item.mesh.present.tolist(),
+            "" if isinstance(item.shape, Mesh) else surface_text(item.shape), item.curves,
             [(p.name, p.colour, p.face, p.points.tolist()) for p in item.patterns],
         )
         for item in scene.items

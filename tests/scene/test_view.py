@@ -7,7 +7,9 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.projection import CoordinateSystem
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View, look
+from vectorplot.surfaces.torus import ImplicitTorus, Torus
 from vectorplot.testing.shapes import box, rotated_boxes
+from vectorplot.visibility.occluders import solid_items
 from vectorplot.visibility.projected_faces import project_faces
 
 CAMERAS = [
@@ -119,3 +121,21 @@ def test_a_face_seen_edge_on_shows_neither_side() -> None:
 def test_an_empty_scene_has_an_empty_view() -> None:
     view = look(Scene(()), Camera((1.0, 0.0, 0.0)))
     assert view.face_count == 0 and view.points.shape == (3, 0)
+
+
+@pytest.mark.parametrize("camera", CAMERAS)
+def test_smooth_items_have_no_points_and_no_faces_but_keep_their_numbers(camera: Camera) -> None:
+    boxes = rotated_boxes(3).items
+    mixed = Scene((Item("S1", Torus()), boxes[0], Item("S2", ImplicitTorus()), *boxes[1:], Item("S3", Torus())))
+    view = look(mixed, camera)
+    assert np.diff(view.item_vertices).tolist() == [0, 8, 0, 8, 8, 0]
+    assert np.unique(view.face_item).tolist() == [1, 3, 4]
+    assert len(view.occludes) == 6
+    assert np.array_equal(view.world_of(view.points).round(9), mixed.vertices.round(9))
+    assert not solid_items(view, project_faces(view))[[0, 2, 5]].any()
+
+
+def test_a_scene_of_surfaces_alone_is_in_the_unit_box() -> None:
+    view = look(Scene((Item("RING", Torus(3.0, 1.0)),)), CAMERAS[0])
+    assert len(view) == 0 and view.points.shape == (3, 0)
+    assert view.scale == pytest.approx(4.0)

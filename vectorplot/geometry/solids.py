@@ -27,7 +27,7 @@ def box(lengths: Sequence[float], *, caps: Collection[str] = BOTH_CAPS, placemen
     """The box with one corner in the origin and edges of three lengths along the axes, then placed.
 
     caps: which of ``bottom`` and ``top`` are present; a hollow box has none. Faces: the four sides, beginning at y = 0,
-    then bottom and top. A negative length points the other way.
+    then bottom and top. A negative length points the other way; a placement that mirrors turns the faces round.
     Errors: InputError for a length that is zero or not finite. Source: Glaeser, section 3.5.
     """
     x, y, z = lengths
@@ -43,7 +43,8 @@ def box(lengths: Sequence[float], *, caps: Collection[str] = BOTH_CAPS, placemen
     low = [t, u, v, ax, dx, gx, axy, dxy, gxy, ty, uy, vy]
     high = [t + cz, u + fz, v + iz, ax + cz, dx + fz, gx + iz, axy + cz, dxy + fz, gxy + iz, ty + cz, uy + fz, vy + iz]
     vertices = np.array(low + high).reshape(8, 3)
-    turned = (x < 0.0) ^ (y < 0.0) ^ (z < 0.0)
+    mirrored = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0.0
+    turned = (x < 0.0) ^ (y < 0.0) ^ (z < 0.0) ^ mirrored
     corners, offsets, present = _box_faces(turned, BOTTOM in caps, TOP in caps)
     return Mesh._trusted(vertices, corners, offsets, present)
 

@@ -2,26 +2,65 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
+from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair import mesh_report
+from vectorplot.io.scene_surface_writer import surface_text
+from vectorplot.scene.extent import surface_bounds
 from vectorplot.scene.scene import Scene
+from vectorplot.scene.surface_lines import SurfaceLines
+from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
 
 
 def describe(scene: Scene) -> list[str]:
-    """The lines that say what is in a scene: of every item counts, closedness, convexity and size; then the whole."""
+    """The lines that say what is in a scene: of every item counts, closedness, convexity and size, or which surface it
+    is and which lines there are on it; then the whole."""
     lines = []
     for item in scene.items:
-        lines.append(f"{item.name}: {_counts(item.mesh)}")
+        shape = item.shape
+        told = _counts(shape) if isinstance(shape, Mesh) else _surface(shape, item.curves)
+        lines.append(f"{item.name}: {told}")
     low, high = scene.bounds
-    size = " x ".join(f"{extent:.6g}" for extent in high - low)
     faces = sum(item.mesh.face_count for item in scene.items)
-    counts = (_number(len(scene.items), "item"), _number(faces, "face"), _number(len(scene.lights), "light"))
-    lines.append(f"{', '.join(counts)}, size {size}")
+    surfaces = sum(not isinstance(item.shape, Mesh) for item in scene.items)
+    counts = [_number(len(scene.items), "item"), _number(faces, "face"), _number(len(scene.lights), "light")]
+    if surfaces:
+        counts.insert(1, _number(surfaces, "surface"))
+    lines.append(f"{', '.join(counts)}, {_size(high - low)}")
     return lines
 
 
 def _number(count: int, word: str) -> str:
     return f"{count} {word}{'' if count == 1 else 's'}"
+
+
+def _size(extents: Iterable[float]) -> str:
+    return "size " + " x ".join(f"{extent:.6g}" for extent in extents)
+
+
+def _surface(shape: Surface | ImplicitSurface, curves: SurfaceLines) -> str:
+    """One line about a surface: its family, where it is closed, its lines, its size or the box of its equation."""
+    try:
+        family = surface_text(shape).split()[0]
+    except InputError:
+        family = type(shape).__name__
+    words = [f"surface ({family})"]
+    if is_parametrised(shape):
+        domain = shape.domain
+        names = [name for name, closed in (("u", domain.closed_u), ("v", domain.closed_v)) if closed]
+        words.append(f"closed in {' and '.join(names)}" if names else "not closed")
+    else:
+        words[0] = "implicit surface" if family == "implicit" else f"implicit {words[0]}"
+    if curves.columns or curves.rows:
+        words.append(f"{curves.columns} + {_number(curves.rows, 'parameter line')}")
+    if curves.isophotes:
+        words.append(_number(len(curves.isophotes), "isophote"))
+    if curves.sections:
+        words.append(_number(sum(len(section.offsets) for section in curves.sections), "section"))
+    low, high = surface_bounds(shape)
+    return ", ".join(words) + ", " + ("" if is_parametrised(shape) else "box of ") + _size(high - low)
 
 
 def _counts(mesh: Mesh) -> str:
@@ -39,4 +78,4 @@ def _counts(mesh: Mesh) -> str:
     if not report.oriented:
         words.append("faces disagree about the outside")
     words.append("convex" if report.convex else "not convex")
-    return ", ".join(words) + ", size " + " x ".join(f"{extent:.6g}" for extent in report.size)
+    return ", ".join(words) + ", " + _size(report.size)

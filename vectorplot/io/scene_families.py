@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import pi
+from math import degrees, pi
 from typing import Any
 
 from vectorplot.curves.circle import Circle
@@ -77,9 +77,24 @@ def _trimmed(build: Callable[..., Surface]) -> Callable[..., Surface]:
 
     def part(*, u: Pair | None = None, v: Pair | None = None, **values: Any) -> Surface:
         surface = build(**values)
-        return surface if u is None and v is None else TrimmedSurface(surface, u, v)
+        if u is None and v is None:
+            return surface
+        try:
+            return TrimmedSurface(surface, u, v)
+        except InputError:
+            raise InputError(_no_part(surface.domain, u, v)) from None
 
     return part
+
+
+def _no_part(domain: Domain, u: Pair | None, v: Pair | None) -> str:
+    """What is wrong with parts that are no parts, in degrees as in the file."""
+    wanted = [f"{name} {degrees(p[0]):g} {degrees(p[1]):g}" for name, p in (("u", u), ("v", v)) if p is not None]
+    ranges = [
+        f"u {degrees(domain.u_start):g} to {degrees(domain.u_end):g}" if u is not None else "",
+        f"v {degrees(domain.v_start):g} to {degrees(domain.v_end):g}" if v is not None else "",
+    ]
+    return f"'{' '.join(wanted)}' is no part of {', '.join(filter(None, ranges))} degrees"
 
 
 def _cone(

@@ -74,7 +74,7 @@ def read_scale(words: Words, at: int, owner: str, placement: Placement) -> tuple
     if not all(factors):
         words.fail(at, f"{owner}scale: a factor of 0")
     x, y, z = factors * (3 // count)
-    return scaled(placement, x, y, z), end
+    return _finite(words, at, owner, scaled(placement, x, y, z)), end
 
 
 def read_matrix(words: Words, at: int, owner: str, placement: Placement) -> tuple[Placement, int]:
@@ -82,4 +82,10 @@ def read_matrix(words: Words, at: int, owner: str, placement: Placement) -> tupl
     rows, end = words.numbers(at + 1, 12, owner, "matrix")
     if not np.linalg.det(np.array(rows).reshape(3, 4)[:, :3]):
         words.fail(at, f"{owner}matrix: its determinant is 0")
-    return mapped(placement, tuple(rows)), end
+    return _finite(words, at, owner, mapped(placement, tuple(rows))), end
+
+
+def _finite(words: Words, at: int, owner: str, placement: Placement) -> Placement:
+    if not all(map(math.isfinite, placement)):
+        words.fail(at, f"{owner}'{words.words[at]}' goes beyond the range of numbers")
+    return placement

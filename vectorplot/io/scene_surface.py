@@ -29,6 +29,8 @@ def read_surface(words: Words, at: int, owner: str) -> tuple[Surface | ImplicitS
     """The surface whose name stands at a word, and the word behind its slots."""
     name = words.words[at]
     if name not in SURFACES:
+        if not name:
+            words.fail(at, f"{owner}expected the name of a surface ({', '.join(SURFACES)}), got {words.shown(at)}")
         near = close_to(name, list(SURFACES))
         expected = f"'{near}'" if near else f"one of {', '.join(SURFACES)}"
         words.fail(at, f"{owner}unknown surface {words.shown(at)}, expected {expected}")

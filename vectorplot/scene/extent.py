@@ -20,13 +20,17 @@ ROUNDS = 4
 LARGEST_GROWTH = 0.1
 """Where refining moves a bound by more than this part of the extent, the surface runs off to infinity there."""
 
+LARGEST_SPREAD = 1e9
+"""A surface that reaches so many times farther than half of its points do runs off to infinity."""
+
 
 def surface_bounds(shape: Surface | ImplicitSurface) -> Floats:
     """(2,3) smallest and largest coordinates of a smooth surface; of an implicit one those of its box.
 
     Error: less than a thousandth of the extent, as long as bumps are wider than a GRIDth of the domain.
-    Errors: InputError for a surface without a finite point, and for what is no surface.
-    Degenerate: where a surface runs off to infinity, it ends with the points of the first grid.
+    Errors: InputError for a surface without a finite point, for one that passes infinity on the grid, and for what is
+    no surface.
+    Degenerate: where a surface runs off to infinity between the points of the first grid, it ends with them.
     """
     if is_parametrised(shape):
         return _parametrised_bounds(shape)
@@ -41,6 +45,9 @@ def _parametrised_bounds(surface: Surface) -> Floats:
     points = _finite_points(surface, u, v)
     if not np.isfinite(points).any():
         raise InputError("the surface has no finite point")
+    spread = np.abs(points - np.nanmedian(points, axis=0)).max(axis=1)
+    if np.nanmax(spread) > LARGEST_SPREAD * np.nanmedian(spread) > 0.0:
+        raise InputError("the surface runs off to infinity: take a part of it that does not")
     first = np.stack([np.nanmin(points, axis=0), np.nanmax(points, axis=0)])
     # Towards the six sides: the lowest points along -x, -y, -z, x, y, z are the best.
     heights = np.concatenate([points, -points], axis=1)

@@ -1,0 +1,122 @@
+"""Surfaces as a scene file names them, and as they are made in Python."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.curves.circle import Circle
+from vectorplot.curves.function import curve_of_function
+from vectorplot.curves.line import Line
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.surfaces.cyclide import ImplicitCyclide, dupin_cyclide
+from vectorplot.surfaces.cylinder import Cone, Cylinder
+from vectorplot.surfaces.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.function import surface_of_function
+from vectorplot.surfaces.graph import graph, graph_over_disc
+from vectorplot.surfaces.helical import helical_surface
+from vectorplot.surfaces.hyperbolic_paraboloid import HyperbolicParaboloid
+from vectorplot.surfaces.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
+from vectorplot.surfaces.implicit_function import hessians
+from vectorplot.surfaces.minimal import helicoid_to_catenoid, minimal_spiral_surface
+from vectorplot.surfaces.quadric import Quadric
+from vectorplot.surfaces.regions import Disc
+from vectorplot.surfaces.revolution import revolution_surface
+from vectorplot.surfaces.rotoidal import rotoidal_surface
+from vectorplot.surfaces.spiral import spiral_surface
+from vectorplot.surfaces.surface import Domain, is_parametrised
+from vectorplot.surfaces.torus import ImplicitTorus, Torus
+from vectorplot.surfaces.translation import translation_surface
+from vectorplot.surfaces.trimmed import TrimmedSurface
+
+
+def one(text):
+    (item,) = parse_scene(text).items
+    return item
+
+
+TURN = 2.0 * np.pi
+BOX = np.array([[-2.0, -2.0, -2.0], [2.0, 3.0, 2.0]])
+RING = Circle((3.0, 0.0, 0.0), 0.5, (0.0, 1.0, 0.0))
+
+
+def parabola(sign):
+    return curve_of_function(lambda t: (t, 0 * t, t * t) if sign > 0 else (0 * t, t, -t * t), -1.0, 1.0)
+
+
+FAMILIES = [
+    ("torus", Torus(3.0, 1.0)),
+    ("torus 2.5 0.5", Torus(2.5, 0.5)),
+    ("torus minor 0.5 major 2.5 centre 1 2 3", Torus(2.5, 0.5, (1, 2, 3))),
+    ("torus 3 1 u 0 180 v -90 90", TrimmedSurface(Torus(), (0.0, np.pi), (-np.pi / 2, np.pi / 2))),
+    ("sphere 2 centre 1, 0, 0", Sphere(2.0, (1, 0, 0))),
+    ("sphere v 0 90", TrimmedSurface(Sphere(), v=(0.0, np.pi / 2))),
+    ("ellipsoid 3 2 1", Ellipsoid((3, 2, 1))),
+    ("cylinder 2 -1 4 depth 3", Cylinder(2.0, -1.0, 4.0, depth=3.0)),
+    ("cone 2 3 centre 0 0 1", Cone.standing(2.0, 3.0, (0, 0, 1))),
+    ("cone slope 0.5 bottom -2 top 2 depth_slope 1", Cone(0.5, -2.0, 2.0, depth_slope=1.0)),
+    ("hyperboloid 1 2 3 -1.5 2", Hyperboloid((1, 2, 3), -1.5, 2.0)),
+    ("hyperboloid_sheet 1 2 0.5 top 3", HyperboloidSheet((1, 2, 0.5), 3.0)),
+    ("paraboloid 1 2 3", Paraboloid(1.0, 2.0, 3.0)),
+    ("hyperbolic_paraboloid 1 2 width 3 depth 4", HyperbolicParaboloid(1.0, 2.0, 3.0, 4.0)),
+    ("cyclide 3 1 centre 6 0 0 radius 5", dupin_cyclide(3.0, 1.0, (6, 0, 0), 5.0)),
+    ("helicoid 2 angle -90 90", helicoid_to_catenoid(0.0, width=2.0, start=-np.pi / 2, end=np.pi / 2)),
+    ("helicoid bending 45", helicoid_to_catenoid(np.pi / 4)),
+    ("catenoid", helicoid_to_catenoid(np.pi / 2)),
+    ("minimal_spiral 0.2 width 1", minimal_spiral_surface(0.2, width=1.0)),
+    (
+        'translation curve "t" 0 "t^2" t -1 1 path curve 0 "t" "-t^2" t -1 1',
+        translation_surface(parabola(1), parabola(-1)),
+    ),
+    ("revolution line 1 -1 -1, 1 1 1", revolution_surface(Line.through((1, -1, -1), (1, 1, 1)))),
+    ("helical 0.4 circle 0.5 centre 3 0 0 axis 0 1 0 angle 0 720", helical_surface(RING, 0.4, end=2 * TURN)),
+    (
+        "rotoidal 0.5 3 circle 0.5 centre 3 0 0 axis 0 1 0 angle 0 720",
+        rotoidal_surface(RING, 0.5, 3.0, end=2 * TURN),
+    ),
+    (
+        "spiral circle 0.5 centre 3 0 0 axis 0 1 0 arc 0 90 growth 0.1",
+        spiral_surface(Circle((3, 0, 0), 0.5, (0, 1, 0), 0.0, np.pi / 2), 0.1),
+    ),
+    (
+        'function "cos(u)*cosh(v)" "sin(u)*cosh(v)" "v" u 0 "2*pi" v -1 1 closed_u',
+        surface_of_function(
+            lambda u, v: (np.cos(u) * np.cosh(v), np.sin(u) * np.cosh(v), v), Domain(0, TURN, -1, 1, closed_u=True)
+        ),
+    ),
+    ('graph "sin(x)*y" x -1 2 y 0 1', graph(lambda x, y: np.sin(x) * y, Domain(-1, 2, 0, 1))),
+    (
+        'graph "x^2 - y" disc 2 centre 1 1 hole 0.5',
+        graph_over_disc(lambda x, y: x * x - y, Disc(2.0, (1.0, 1.0)), hole=0.5),
+    ),
+    ('implicit "x^2 + y^2 - z - 1" box -2 2 -2 3 -2 2', Quadric([1, 1, 0, 0, 0, 0, 0, 0, -1, -1], BOX)),
+    ("quadric 1 2 3 4 5 6 7 8 9 10 box -2 2 -2 3 -2 2", Quadric(np.arange(1.0, 11.0), BOX)),
+    ("quadric 1 1 1 0 0 0 0 0 0 -1 centre 1 1 1 box -2 2 -2 3 -2 2", Quadric([1, 1, 1, *[0] * 6, -1], BOX, (1, 1, 1))),
+    ("implicit_torus 2 1 centre 0 0 1", ImplicitTorus(2.0, 1.0, (0, 0, 1))),
+    ("implicit_cyclide 3 1 centre 6 0 0 radius 5", ImplicitCyclide(3.0, 1.0, (6, 0, 0), 5.0)),
+    (
+        "implicit_cyclide 3 1 centre 6 0 0 radius 5 box -2 2 -2 3 -2 2",
+        ImplicitCyclide(3.0, 1.0, (6, 0, 0), 5.0, BOX),
+    ),
+]
+
+
+def same_surface(found, wanted):
+    """Whether surfaces agree in everything a drawing asks of them, the kind of object aside."""
+    if not is_parametrised(wanted):
+        p = np.random.default_rng(1).uniform(wanted.box[0], wanted.box[1], (50, 3))
+        pairs = [
+            (found.box, wanted.box),
+            (found.values(p), wanted.values(p)),
+            (found.gradients(p), wanted.gradients(p)),
+            (hessians(found, p), hessians(wanted, p)),
+        ]
+    else:
+        d, e = found.domain, wanted.domain
+        assert (d.closed_u, d.closed_v) == (e.closed_u, e.closed_v)
+        ranges = [np.array([x.u_start, x.u_end, x.v_start, x.v_end]) for x in (d, e)]
+        share = np.random.default_rng(1).random((2, 50))
+        u, v = e.u_start + e.size[0] * share[0], e.v_start + e.size[1] * share[1]
+        pairs = [(ranges[0], ranges[1]), (found.points(u, v), wanted.points(u, v))]
+        pairs += zip(found.partials(u, v), wanted.partials(u, v), strict=True)
+        pairs += zip(found.second_partials(u, v), wanted.second_partials(u, v), strict=True)
+    return all(np.allclose(a, b, rtol=1e-8, atol=1e-8 * max(1.0, np.abs(b).max())) for a, b in pairs)
