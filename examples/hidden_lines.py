@@ -18,7 +18,7 @@ DATA = Path(__file__).resolve().parent.parent / "data"
 def edge_length(drawing: vp.Drawing) -> float:
     """Length in space of all strokes that are edges."""
     total = 0.0
-    for paths in (paths for layer in drawing.layers for paths in layer.marks):
+    for paths in (paths for layer in drawing.layers for paths in layer.strokes):
         for (first, last), closed in zip(pairwise(paths.offsets), paths.closed, strict=True):
             points = paths.points3d[first:last]
             along = np.diff(points, axis=0, append=points[:1] if closed else points[-1:])
@@ -33,7 +33,7 @@ def main(folder: Path) -> None:
     whole = vp.draw(bars, hidden="solid")
     behind = next(layer for layer in whole.layers if layer.name == "hidden")
     assert not behind.plotted
-    assert np.concatenate([paths.hidden_by for paths in behind.marks]).min() >= 1
+    assert np.concatenate([paths.hidden_by for paths in behind.strokes]).min() >= 1
     assert np.isclose(edge_length(whole), 3 * 4 * (8.4 + 1.0 + 0.5))
 
 

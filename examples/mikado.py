@@ -26,7 +26,7 @@ def stick(random: np.random.Generator, level: float) -> vp.Mesh:
 
 def pen_length(drawing: vp.Drawing) -> float:
     """Length of all open strokes on the paper in mm."""
-    parts = [np.split(paths.points, paths.offsets[1:-1]) for layer in drawing.layers for paths in layer.marks]
+    parts = [np.split(paths.points, paths.offsets[1:-1]) for layer in drawing.layers for paths in layer.strokes]
     return sum(float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum()) for part in parts for points in part)
 
 

@@ -32,7 +32,7 @@ def moved(drawing: vp.Drawing, x_mm: float, y_mm: float) -> dict[str, vp.Layer]:
     """The layers of a drawing at another place of the sheet."""
     return {
         layer.name: replace(
-            layer, marks=tuple(replace(paths, points=translated(paths.points, (x_mm, y_mm))) for paths in layer.marks)
+            layer, marks=tuple(replace(paths, points=translated(paths.points, (x_mm, y_mm))) for paths in layer.strokes)
         )
         for layer in drawing.layers
     }
@@ -48,7 +48,7 @@ def main(folder: Path) -> None:
         for word, layer in moved(drawing, column * CELL, row * CELL).items():
             before = layers[word].marks if word in layers else ()
             layers[word] = replace(layer, marks=before + layer.marks)
-        seen[name] = np.concatenate([paths.points for layer in drawing.layers for paths in layer.marks])
+        seen[name] = np.concatenate([paths.points for layer in drawing.layers for paths in layer.strokes])
     ordered = tuple(layers[word] for word in ("visible", "contour", "intersection", "hidden") if word in layers)
     names = tuple(item.name for item in scene.items)
     vp.save(vp.Drawing(4 * CELL, 3 * CELL, ordered, names, scene.title), folder / "six_views.svg")

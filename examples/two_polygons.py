@@ -35,7 +35,7 @@ def main(folder: Path) -> None:
     drawn = [
         paths.points3d[np.repeat(paths.kind == vp.LineKind.INTERSECTION, np.diff(paths.offsets))]
         for layer in whole.layers
-        for paths in layer.marks
+        for paths in layer.strokes
     ]
     gap = np.linalg.norm(np.concatenate(drawn)[:, None] - ends, axis=2)
     assert exists and np.allclose(gap.min(axis=0), 0, atol=1e-9), "the drawn line ends where the polygons' borders do"

@@ -42,7 +42,7 @@ def main(folder: Path) -> None:
     vp.save(vp.draw(scene, camera, page=vp.Page(190, 80, 6), hidden="dashed"), folder / "zones.svg")
 
     drawing = vp.draw(scene, camera, hidden="solid")
-    counts = np.concatenate([paths.hidden_by[paths.item == 0] for layer in drawing.layers for paths in layer.marks])
+    counts = np.concatenate([paths.hidden_by[paths.item == 0] for layer in drawing.layers for paths in layer.strokes])
     assert counts.min() == 0 and counts.max() == 3, "by itself, the ball and the cone"
 
 

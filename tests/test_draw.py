@@ -31,7 +31,7 @@ CAMERAS = [
 
 
 def paths_of(drawing: Drawing) -> list[Paths]:
-    return [paths for layer in drawing.layers for paths in layer.marks]
+    return [paths for layer in drawing.layers for paths in layer.strokes]
 
 
 def points_of(drawing: Drawing) -> tuple[np.ndarray, np.ndarray]:

@@ -146,7 +146,7 @@ def test_an_object_that_is_wholly_hidden_is_in_the_hidden_layer() -> None:
     scene = scene_of(WALL=box((-3, 0, -3), (3, 0.1, 3)), CUBE=box((-1, 1, -1), (1, 3, 1)))
     camera = vp.Camera((0.5, -8, 0.25), (0, 0, 0))
     drawing = vp.draw(scene, camera, hidden="solid")
-    layers = [layer for layer in drawing.layers if any((marks.item == 1).any() for marks in layer.marks)]
+    layers = [layer for layer in drawing.layers if any((marks.item == 1).any() for marks in layer.strokes)]
     assert [(layer.name, layer.plotted) for layer in layers] == [("hidden", False)]
     assert drawn(drawing).of(1).hidden.length == pytest.approx(24.0), "all its edges"
     plain = vp.draw(scene, camera)

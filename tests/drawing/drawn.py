@@ -59,7 +59,7 @@ def drawn(drawing: Drawing) -> Drawn:
     """All strokes of a drawing, which must be finite, as straight pieces."""
     pieces = [Drawn(np.zeros((0, 2, 2)), np.zeros((0, 2, 3)), *(np.zeros(0, dtype=np.intp) for _ in range(3)))]
     for layer in drawing.layers:
-        for marks in layer.marks:
+        for marks in layer.strokes:
             assert np.isfinite(marks.points).all() and np.isfinite(marks.points3d).all()
             start, end, path = path_segments(marks.offsets, marks.closed)
             page = np.stack([marks.points[start], marks.points[end]], axis=1)
@@ -70,7 +70,7 @@ def drawn(drawing: Drawing) -> Drawn:
 
 
 def stroke_count(drawing: Drawing) -> int:
-    return sum(len(marks) for layer in drawing.layers for marks in layer.marks)
+    return sum(len(marks) for layer in drawing.layers for marks in layer.strokes)
 
 
 def on_page(drawing: Drawing, world: np.ndarray) -> np.ndarray:

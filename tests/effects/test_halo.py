@@ -24,7 +24,7 @@ def gaps(halo_mm: float) -> tuple[float, float]:
     scale = 180.0 / 18.0
     sides = []
     for layer in drawing.layers:
-        for paths in layer.marks:
+        for paths in layer.strokes:
             for k in np.flatnonzero(paths.item == 1):
                 sides.append(paths.points[paths.offsets[k] : paths.offsets[k + 1]] - 100.0)
     ends = np.concatenate(sides)
@@ -43,7 +43,7 @@ def test_the_outline_itself_stays_whole() -> None:
     drawing = draw(cross(), TOP, page=PAGE, halo_mm=2.0)
     upper = 0.0
     for layer in drawing.layers:
-        for paths in layer.marks:
+        for paths in layer.strokes:
             for k in np.flatnonzero(paths.item == 0):
                 points = paths.points[paths.offsets[k] : paths.offsets[k + 1]]
                 closed = np.concatenate([points, points[:1]]) if paths.closed[k] else points
@@ -54,7 +54,7 @@ def test_the_outline_itself_stays_whole() -> None:
 @pytest.mark.parametrize("halo_mm", [90.0, 1e6, 1e300])
 def test_a_halo_wider_than_a_stroke_takes_all_of_it(halo_mm: float) -> None:
     drawing = draw(cross(), TOP, page=PAGE, halo_mm=halo_mm)
-    assert all((paths.item == 0).all() for layer in drawing.layers for paths in layer.marks)
+    assert all((paths.item == 0).all() for layer in drawing.layers for paths in layer.strokes)
 
 
 POINT = st.tuples(st.floats(-3, 3), st.floats(-3, 3))
