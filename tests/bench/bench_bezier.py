@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from vectorplot.curves.bezier_fit import fitted_paths
+from vectorplot.drawing.curves import with_curves
+from vectorplot.drawing.drawing import Curves, Paths
 
 pytestmark = pytest.mark.bench
 
@@ -46,3 +48,26 @@ def test_time_grows_with_the_number_of_points():
         times.append(min(spent))
     print(f"\n20 and 200 strokes: {times[0]:.3f} s, {times[1]:.3f} s")
     assert times[1] < 20 * times[0]
+
+
+def test_curves_of_a_hundred_thousand_points():
+    """What the pen stage adds for smooth strokes: arcs recognised, the others fitted."""
+    angle = np.linspace(0, 2 * np.pi, 101)[:-1]
+    wavy, offsets, closed = strokes(500, 100)
+    radius = np.random.default_rng(2).uniform(5, 90, 500)
+    rings = (radius[:, None, None] * np.stack((np.cos(angle), 0.6 * np.sin(angle)), axis=1)).reshape(-1, 2)
+    points = np.concatenate((wavy, rings)) + 150.0
+    number = np.zeros(1000, dtype=np.intp)
+    offsets, closed = np.arange(1001) * 100, np.tile(closed, 2)
+    space = np.column_stack((points, np.zeros(len(points))))
+    paths = Paths(points, offsets, closed, number, number, number, space, np.ones(1000, dtype=np.bool_))
+    times = []
+    for _ in range(5):
+        start = time.process_time()
+        curves = with_curves(paths, 0.02)
+        times.append(time.process_time() - start)
+    assert isinstance(curves, Curves)
+    segments = len(curves.beziers.control)
+    print(f"\n1000 x 100 points: {len(curves.arcs)} arcs, {segments} segments, {min(times):.3f} s")
+    assert len(curves.arcs) == 500
+    assert min(times) < 0.5  # 0.2 s on a quiet machine
