@@ -121,10 +121,8 @@ class _Boxes:
 def _approach(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Floats, Floats]:
     """Parts (k,) of segments a b and c d (k,2) at which they cross or come closest, and their distance there."""
     ab, cd, ac = b - a, d - c, c - a
-    area = ab[:, 0] * cd[:, 1] - ab[:, 1] * cd[:, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
-        s = (ac[:, 0] * cd[:, 1] - ac[:, 1] * cd[:, 0]) / area
-        t = (ac[:, 0] * ab[:, 1] - ac[:, 1] * ab[:, 0]) / area
+        s, t = _turn(ac, cd) / _turn(ab, cd), _turn(ac, ab) / _turn(ab, cd)
     s = np.clip(np.where(np.isfinite(s), s, 0.5), 0.0, 1.0)
     t = np.clip(np.where(np.isfinite(t), t, 0.5), 0.0, 1.0)
     for _ in range(2):
@@ -154,12 +152,15 @@ def _roughly_met(view: View, curves: Curves, edges: Curves, pairs: Pairs, tolera
 
 def _step(gap: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     """One step of Newton for points that move with velocities a and b (k,2) and are a gap (k,2) apart."""
-    area = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        s = (gap[:, 0] * b[:, 1] - gap[:, 1] * b[:, 0]) / area
-        t = (gap[:, 0] * a[:, 1] - gap[:, 1] * a[:, 0]) / area
+        s, t = _turn(gap, b) / _turn(a, b), _turn(gap, a) / _turn(a, b)
     s, t = (np.clip(np.where(np.isfinite(x), x, 0.0), -0.7, 0.7) for x in (s, t))
     return s, t
+
+
+def _turn(a: Floats, b: Floats) -> Floats:
+    """(k,) the areas that vectors a and b (k,2) span, positive for a turn to the left."""
+    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
 def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
@@ -194,6 +195,7 @@ def _events(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves
     pairs = pairs.some(real)
     points, places = two.points[real], two.places[real]
     direction = projection.image_slopes(view, one.points[real], one.slopes[real])
+    along = projection.image_slopes(view, points, two.slopes[real])
     edge = edges.owner[pairs.edge]
     covered = np.zeros_like(points)
     kind = edges.kind[edge]
@@ -209,6 +211,6 @@ def _events(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves
         covered[border] = sheet.inwards(places[border])
         cuspidal = np.flatnonzero(own & (kind == LineKind.CREASE))
         covered[cuspidal] = sheet.turnings(places[cuspidal])
-    side = dot(direction, projection.image_slopes(view, points, covered))
-    change = np.where(np.isfinite(side), np.sign(side), 0.0).astype(np.intp) * step
+    side = np.sign(_turn(along, direction)) * np.sign(_turn(along, projection.image_slopes(view, points, covered)))
+    change = np.where(np.isfinite(side), side, 0.0).astype(np.intp) * step
     return Events(pairs.chord, pairs.part, edges.item[edge], change)

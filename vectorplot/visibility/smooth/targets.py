@@ -65,11 +65,12 @@ def weights(triangle: Floats, points: Floats) -> Floats:
     with np.errstate(divide="ignore", invalid="ignore"):
         two = (ap[:, 0] * ac[:, 1] - ap[:, 1] * ac[:, 0]) / area
         three = (ab[:, 0] * ap[:, 1] - ab[:, 1] * ap[:, 0]) / area
-    return np.stack([1.0 - two - three, two, three], axis=1)
+        return np.stack([1.0 - two - three, two, three], axis=1)
 
 
 def inside(weight: Floats) -> Floats:
     """(k,3) the nearest barycentric coordinates within the triangle, about."""
+    # Triangles seen edge-on have no such coordinates: their middle is as good.
     clipped = np.clip(np.where(np.isfinite(weight), weight, 1.0 / 3.0), 0.0, 1.0)
     return np.asarray(clipped / clipped.sum(axis=1, keepdims=True))
 
