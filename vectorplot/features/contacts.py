@@ -6,8 +6,8 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from vectorplot.features.intersections import overlapping_boxes
 from vectorplot.features.sheets import Sheet
+from vectorplot.features.triangle_pairs import overlapping_in_cells
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
 from vectorplot.geometry.weld import close_points
@@ -105,11 +105,14 @@ def _near_pairs(one: Sheet, two: Sheet, same: bool) -> tuple[Ints, Ints]:
     """Pairs of triangles between which there may be a contact."""
     a = _middles(one)
     b = a if same else _middles(two)
-    i, j = overlapping_boxes(a.low, a.high, b.low, b.high)
+    cells = one.tessellation.cells, two.tessellation.cells
+    i, j = overlapping_in_cells((a.low, a.high, cells[0]), (b.low, b.high, cells[1]))
+    if same:
+        i, j = i[i < j], j[i < j]
+        apart = one.cells_apart(a.places[i], a.places[j]) > DRIFT
+        i, j = i[apart], j[apart]
     cosine = np.abs((a.normals[i] * b.normals[j]).sum(axis=1))
     near = cosine >= np.cos(np.minimum(a.spread[i] + b.spread[j] + 0.05, 0.5 * np.pi))
-    if same:
-        near &= (i < j) & (one.cells_apart(a.places[i], a.places[j]) > DRIFT)
     i, j = i[near], j[near]
     if not len(i):
         return i, j

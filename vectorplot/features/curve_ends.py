@@ -27,6 +27,13 @@ ON_BORDER = 1e-4
 """Cells from a border within which a place is on it."""
 
 
+SHORT = 48
+"""Points of a course up to which it may be a copy of part of another one."""
+
+BESIDE = 0.2
+"""Part of a chord from which a point may lie off it and still be beside it."""
+
+
 @dataclass(frozen=True, eq=False)
 class _Pairs:
     """Places middle +- half (cos, sin)(angle) on one surface, in cells."""
@@ -121,6 +128,42 @@ def at_border(sheet: SurfaceSheet, *places: Floats) -> Bools:
         for place in () if closed else places:
             found |= (np.abs(place[:, axis, None] - ends[axis]) <= ON_BORDER * sheet.cell[axis]).any(axis=1)
     return found
+
+
+def without_copies(one: Sheet, two: Sheet, courses: list[Course], *, same: bool) -> list[Course]:
+    """The courses without those short ones that run where a longer one does: next to a pinch point, or where sheets
+    are nearly tangent, the triangles meet more than once where the surfaces do once."""
+    points = [one.points(c.one) for c in courses]
+    low, high = (np.array([f(p, axis=0) for p in points]).reshape(-1, 3) for f in (np.min, np.max))
+    kept: list[int] = []
+    for k in np.argsort([-len(c) for c in courses], kind="stable").tolist():
+        course = courses[k]
+        # What a copy runs beside is wider than itself by part of a chord.
+        gap = high[k] - low[k]
+        near = [j for j in kept if (low[k] <= high[j] + gap).all() and (high[k] >= low[j] - gap).all()]
+        if len(course) > SHORT or not any(
+            _runs_along(one, two, course, courses[j])
+            or (same and _runs_along(one, two, course.exchanged(), courses[j]))
+            for j in near
+        ):
+            kept.append(k)
+    return [courses[k] for k in kept]
+
+
+def _runs_along(one: Sheet, two: Sheet, course: Course, other: Course) -> bool:
+    """Whether all points of a course lie beside chords of another, on both sheets in the same cells."""
+    points, ends = one.points(course.one), one.points(other.one)
+    chord = np.diff(ends, axis=0)
+    square = (chord * chord).sum(axis=1)
+    arm = points[:, None] - ends[None, :-1]
+    with np.errstate(all="ignore"):
+        t = np.clip((arm * chord).sum(axis=2) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+    away = arm - t[..., None] * chord
+    near = (away * away).sum(axis=2) <= BESIDE**2 * square
+    k, m = np.nonzero(near)
+    there = one.cells_apart(course.one[k], other.one[m]) <= 2.0
+    there &= two.cells_apart(course.two[k], other.two[m]) <= 2.0
+    return bool(len(np.unique(k[there])) == len(course))
 
 
 def stitched(one: Sheet, courses: list[Course], size: float, large: float) -> list[Course]:

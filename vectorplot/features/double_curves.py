@@ -106,6 +106,12 @@ def followed(one: Sheet, two: Sheet, first: Course, second: Course) -> Course:
     return Course(parts[0], parts[1])
 
 
+def starting_at(one: Sheet, two: Sheet, course: Course, first: int) -> Course:
+    """A closed course that comes back in the roles it began with, beginning at another of its points."""
+    whole = followed(one, two, course.part(first, len(course)), course.part(1, first + 1))
+    return Course(whole.one, whole.two, True)
+
+
 @dataclass(frozen=True, eq=False)
 class Courses:
     """All courses one after the other: places on both sheets; last (n,): the point is the last of its course."""

@@ -74,7 +74,7 @@ def meetings(one: Sheet, two: Sheet, at_one: Floats, at_two: Floats, bound: Boun
     Source: Glaeser, section 8.4; Barnhill and Kersey, A marching method for parametric surface/surface intersection
     (1990).
     """
-    a, b = at_one.copy(), at_two.copy()
+    a, b = one.on_rails(at_one, bound.rail_one), two.on_rails(at_two, bound.rail_two)
     met = np.zeros(len(a), dtype=np.bool_)
     gap = np.full(len(a), np.inf)
     active = np.arange(len(a))
@@ -93,8 +93,8 @@ def meetings(one: Sheet, two: Sheet, at_one: Floats, at_two: Floats, bound: Boun
         gap[active] = d
         moving = np.flatnonzero(good & ~done)
         active = active[moving]
-        a[active] = one.moved(a[active], steps[0, moving])
-        b[active] = two.moved(b[active], steps[1, moving])
+        a[active] = one.on_rails(one.moved(a[active], steps[0, moving]), bound.rail_one[active])
+        b[active] = two.on_rails(two.moved(b[active], steps[1, moving]), bound.rail_two[active])
     p, q = one.points(a), two.points(b)
     d = np.sqrt(((p - q) ** 2).sum(axis=1))
     return Meetings(a, b, np.asarray(np.isfinite(d) & (d <= 4.0 * zero), dtype=np.bool_))

@@ -6,14 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.features.contacts import Contacts, contacts
+from vectorplot.features.contacts import contacts
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.sheets import MeshSheet, SurfaceSheet
 from vectorplot.features.surface_curves import SurfaceCurves, no_curves
 from vectorplot.features.surface_intersection import Joined, doubts_about, joined, repeats_dropped
 from vectorplot.features.triangle_pairs import overlapping_triangles, piercings
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+from vectorplot.geometry.mesh import Floats, Ints, Mesh
 from vectorplot.surfaces.surface import Surface
 
 DEFAULT = Tracing()
@@ -48,29 +47,10 @@ def mesh_section(surface: Surface, mesh: Mesh, *, tracing: Tracing = DEFAULT) ->
         return MeshSection(no_curves(), np.zeros(0, dtype=np.intp))
     pairs = overlapping_triangles(one.tessellation, two.tessellation)
     found = piercings(one.tessellation, two.tessellation, pairs)
+    # What happens where a plane goes on beside its face has nothing to do with the face.
     touching = contacts(one, two)
-    all_ = joined(one, two, found, touching.of(_in_faces(two, touching)), tracing, same=False)
+    all_ = joined(one, two, found, touching.of(two.holds(touching.two)), tracing, same=False)
     return _section(one, two, all_)
-
-
-def _in_faces(sheet: MeshSheet, found: Contacts) -> Bools:
-    """(k,) contacts within the face whose plane they touch, not beside it; a contact near a border of the face has
-    nothing to do with what happens across that border."""
-    triangle = np.rint(found.two[:, 3]).astype(np.intp)
-    own = sheet.tessellation
-    inside = np.zeros(len(found), dtype=np.bool_)
-    # A face has few triangles: each pass looks at one more of every face.
-    by_face = np.argsort(sheet.faces, kind="stable")
-    first = np.searchsorted(sheet.faces[by_face], sheet.faces[triangle])
-    count = np.searchsorted(sheet.faces[by_face], sheet.faces[triangle], side="right") - first
-    for step in range(int(count.max(initial=0))):
-        corners = own.points[own.triangles[by_face[first + np.minimum(step, count - 1)]]]
-        sides = np.roll(corners, -1, axis=1) - corners
-        turns = np.cross(sides, found.points[:, None] - corners)
-        heights = (turns * found.frames[:, None, 2]).sum(axis=2)
-        zero = ZERO_OF_EXTENT * sheet.size[0] * np.linalg.norm(sides, axis=2)
-        inside |= (heights >= -zero).all(axis=1) | (heights <= zero).all(axis=1)
-    return inside
 
 
 def _section(one: SurfaceSheet, two: MeshSheet, all_: Joined) -> MeshSection:

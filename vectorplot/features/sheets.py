@@ -49,6 +49,10 @@ class Sheet(Protocol):
         """(k,3) directions of the lines that rails (k,) name, at places on them."""
         ...
 
+    def on_rails(self, places: Floats, rails: Ints) -> Floats:
+        """(k,d) places put on their rails, FREE ones left alone, where rounding took them off."""
+        ...
+
     def bends(self, places: Floats, frames: Floats) -> Floats:
         """(k,2,2) second derivatives of the height above the first two axes of frames (k,3,3), along the third."""
         ...
@@ -111,6 +115,15 @@ class SurfaceSheet:
         """(k,3) derivatives by the other parameter than the one that rails (k,), 0 or 1, keep."""
         along_u, along_v = self.surface.partials(*self.home(places))
         return np.where((rails == 0)[:, None], along_v, along_u)
+
+    def on_rails(self, places: Floats, rails: Ints) -> Floats:
+        """(k,2) places whose parameter that does not change on its rail is an end of the domain exactly."""
+        domain, result = self.surface.domain, places.copy()
+        ends = ((domain.u_start, domain.u_end), (domain.v_start, domain.v_end))
+        for axis in (0, 1):
+            x, (low, high) = places[:, axis], ends[axis]
+            result[:, axis] = np.where(rails == axis, np.where(x - low < high - x, low, high), x)
+        return result
 
     def bends(self, places: Floats, frames: Floats) -> Floats:
         """(k,2,2) second derivatives of the height above the first two axes of frames (k,3,3), along the third."""
@@ -208,6 +221,27 @@ class MeshSheet:
         """(k,3) directions of edges."""
         ends = self.mesh.vertices[self.tessellation.edges[rails]]
         return np.asarray(ends[:, 1] - ends[:, 0])
+
+    def on_rails(self, places: Floats, rails: Ints) -> Floats:
+        """The places: edges are met to rounding."""
+        return places
+
+    def holds(self, places: Floats) -> Bools:
+        """(k,) places within their face, its border included, not beside it in its plane."""
+        triangle, own = _triangle(places), self.tessellation
+        normal = self._planes[0][triangle]
+        by_face = np.argsort(self.faces, kind="stable")
+        first = np.searchsorted(self.faces[by_face], self.faces[triangle])
+        count = np.searchsorted(self.faces[by_face], self.faces[triangle], side="right") - first
+        inside = np.zeros(len(places), dtype=np.bool_)
+        # A face has few triangles: each pass looks at one more of every face.
+        for step in range(int(count.max(initial=0))):
+            corners = own.points[own.triangles[by_face[first + np.minimum(step, count - 1)]]]
+            sides = np.roll(corners, -1, axis=1) - corners
+            heights = (np.cross(sides, places[:, None, :3] - corners) * normal[:, None]).sum(axis=2)
+            zero = ZERO_OF_EXTENT * self.size[0] * np.linalg.norm(sides, axis=2)
+            inside |= (heights >= -zero).all(axis=1) | (heights <= zero).all(axis=1)
+        return inside
 
     def bends(self, places: Floats, frames: Floats) -> Floats:
         """(k,2,2) zeros: faces are flat."""

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.features.contacts import Contacts, contacts, zero_height
-from vectorplot.features.curve_ends import into_pinch_points, stitched
+from vectorplot.features.curve_ends import into_pinch_points, stitched, without_copies
 from vectorplot.features.curve_tracing import Tracing
-from vectorplot.features.double_curves import Course, Courses, DoubleCurves, put_together, refined
+from vectorplot.features.double_curves import Course, Courses, DoubleCurves, put_together, refined, starting_at
 from vectorplot.features.double_nodes import missed_loops, through_nodes
 from vectorplot.features.meeting_points import zero_between
-from vectorplot.features.sheets import Sheet, SurfaceSheet
-from vectorplot.features.surface_pairs import Traced, traced
+from vectorplot.features.sheets import MeshSheet, Sheet, SurfaceSheet
+from vectorplot.features.surface_pairs import Traced, traced, without_zigzags
 from vectorplot.features.triangle_pairs import Piercings, overlapping_triangles, piercings
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.weld import close_points
@@ -43,11 +43,15 @@ def surface_intersection(one: Surface, two: Surface, *, tracing: Tracing = DEFAU
     return double_curves(first, second, found, contacts(first, second), tracing, same=False)
 
 
+RESOLVED = 0.15
+"""Part of a triangle that two curves beside a line of near contact must be apart to be told from one another."""
+
+
 @dataclass(frozen=True, eq=False)
 class Joined:
     """courses and all their points, refined; unsure: how many chords could not be; nodes, isolated, touching: contacts
-    that curves cross in, that are alone, that lie on lines or in areas of contact; dots (i,3): courses that were a
-    single point."""
+    that curves cross in, that are alone, that lie on lines or in areas of contact; close: how many lie on lines along
+    which curves are nearer than RESOLVED; dots (i,3): courses that were a single point."""
 
     courses: list[Course]
     points: Courses
@@ -55,6 +59,7 @@ class Joined:
     nodes: Contacts
     isolated: Contacts
     touching: Contacts
+    close: int
     dots: Floats
 
 
@@ -74,7 +79,7 @@ def double_curves(
 def joined(one: Sheet, two: Sheet, found: Piercings, touching: Contacts, tracing: Tracing, *, same: bool) -> Joined:
     """The piercings as curves on the true sheets: joined, led through nodes and into pinch points, refined."""
     zero, height = zero_between(one, two), zero_height(one, two)
-    courses = _of_segments(traced(one, two, found, zero, same=same))
+    courses = _of_segments(one, two, traced(one, two, found, zero, same=same))
     product = touching.bends[:, 0] * touching.bends[:, 1]
     touch = np.abs(touching.heights) <= height
     saddles = touching.of(product < 0.0)
@@ -84,7 +89,8 @@ def joined(one: Sheet, two: Sheet, found: Piercings, touching: Contacts, tracing
     size, large = min(one.size[0], two.size[0]), max(one.size[1], two.size[1])
     if same and isinstance(one, SurfaceSheet):
         courses = into_pinch_points(one, courses)
-    courses, dots = _without_dots(one, stitched(one, courses, size, large), size)
+    courses = stitched(one, without_copies(one, two, courses, same=same), size, large)
+    courses, dots = _without_dots(one, courses, size)
     points = put_together(courses, (found.one.shape[1], found.two.shape[1]))
     tolerance = 1e-3 * size if tracing.tolerance is None else tracing.tolerance
     unsure = 0
@@ -93,18 +99,35 @@ def joined(one: Sheet, two: Sheet, found: Piercings, touching: Contacts, tracing
     crossed = (product < 0.0) & touch
     crossed[np.flatnonzero(product < 0.0)] &= through
     alone = touch & (product != 0.0) & ~crossed
-    return Joined(
-        courses, points, unsure, touching.of(crossed), touching.of(alone), touching.of(touch & (product == 0.0)), dots
-    )
+    flat = product == 0.0
+    crossings, single, lines = (touching.of(which) for which in (crossed, alone, flat & touch))
+    return Joined(courses, points, unsure, crossings, single, lines, _close(touching.of(flat & ~touch)), dots)
 
 
-def _of_segments(found: Traced) -> list[Course]:
-    """The courses; places on a mesh name the triangle of the segment that starts there."""
+def _close(found: Contacts) -> int:
+    """How many contacts have zeros of the height on both sides nearer than the triangles are large."""
+    bend = np.abs(found.bends).argmax(axis=1)
+    most = found.bends[np.arange(len(found)), bend]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        gap = np.sqrt(-2.0 * found.heights / most)
+    return int((gap < RESOLVED * found.cells).sum())
+
+
+def _of_segments(one: Sheet, two: Sheet, found: Traced) -> list[Course]:
+    """The courses without zigzags; on a mesh, places name the triangle of the segment that starts there."""
     result = []
     for course, triangles in zip(found.courses, found.triangles, strict=True):
-        if course.two.shape[1] > 3:
+        if isinstance(two, MeshSheet):
             places = np.concatenate([course.two[:, :3], triangles[:, 1:]], axis=1)
+            # Near an edge the true point may lie beyond it, in the plane of the face but not in the face.
+            held = two.holds(places)
             course = Course(course.one, places, course.closed)
+            if course.closed and held.any() and not held[0]:
+                course = starting_at(one, two, course, int(held.argmax()))
+                held = two.holds(course.two)
+            course = Course(course.one[held], course.two[held], course.closed)
+        else:
+            course = without_zigzags(one, two, course)
         result.append(course)
     return result
 
@@ -134,6 +157,10 @@ def doubts_about(all_: Joined) -> tuple[str, ...]:
         ),
         (0 < areas <= MOST_ALONE, f"the surfaces touch with equal curvatures at {areas} places: curves may be missing"),
         (lines > 0, f"the surfaces touch along a line: {lines} places of it are given"),
+        (
+            all_.close > 0,
+            f"two curves run too close for the triangles at {all_.close} places: ask for more columns and rows",
+        ),
         (all_.unsure > 0, f"{all_.unsure} segments could not be refined: the curve was not found beside their chords"),
     ]
     return tuple(text for said, text in texts if said)

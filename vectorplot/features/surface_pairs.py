@@ -23,6 +23,12 @@ GRAZING = 1e-6
 """Sine below which two sheets touch rather than cross: a course of such points is noise."""
 
 
+SHALLOW = 0.25
+"""Sine below which sheets are nearly tangent: cusps of double curves have larger ones."""
+
+TURNED_BACK = -0.7
+"""Cosine of the directions of two chords below which a course turns back."""
+
 ONE_PLACE = 0.5
 """Cells between two places of a surface up to which they are one."""
 
@@ -63,11 +69,15 @@ def traced(one: Sheet, two: Sheet, found: Piercings, zero: float, *, same: bool 
             closed = closed and not turns_over
         else:
             turns_over = False
+        own = which[first : first + len(points)]
+        if closed:
+            begin = int(good[points].argmax())
+            points, own = np.roll(points, -begin), np.roll(own, -begin)
         path = np.append(points, points[0]) if closed else points
-        segment = np.append(which[first : first + len(path) - 1], -1)
+        segment = np.append(own[: len(path) - 1], -1)
         segment[-1] = segment[-2]
         whole = Course(_running_on(one, at_one[path]), _running_on(two, at_two[path]), closed or turns_over)
-        pieces = _kept(one, whole, good[path])
+        pieces = _kept(whole, good[path])
         lost += int((~good[points]).sum())
         courses += [p for p, _ in pieces]
         triangles += [found.triangles[segment[i]] for _, i in pieces]
@@ -112,7 +122,25 @@ def sheet_jumps(sheet: Sheet, places: Floats) -> Floats:
     return np.asarray(sheet.aligned(places[1:], places[:-1]) - places[1:])
 
 
-def _kept(one: Sheet, course: Course, good: Bools) -> list[tuple[Course, Ints]]:
+def without_zigzags(one: Sheet, two: Sheet, course: Course) -> Course:
+    """The course without points from which it turns back where the sheets are nearly tangent: there the triangles meet
+    in another order than the true points lie."""
+    shallow = sines(one, two, course.one, course.two) < SHALLOW
+    points, kept = one.points(course.one), np.arange(len(course))
+    while len(kept) > 3:
+        chord = np.diff(points[kept], axis=0)
+        length = np.sqrt((chord * chord).sum(axis=1))
+        cosine = (chord[1:] * chord[:-1]).sum(axis=1)
+        back = (cosine < TURNED_BACK * length[1:] * length[:-1]) & shallow[kept[1:-1]]
+        # Of neighbours that both turn, the first goes.
+        back[1:] &= ~back[:-1]
+        if not back.any():
+            break
+        kept = np.delete(kept, np.flatnonzero(back) + 1)
+    return course if len(kept) == len(course) else Course(course.one[kept], course.two[kept], course.closed)
+
+
+def _kept(course: Course, good: Bools) -> list[tuple[Course, Ints]]:
     """The course without its bad points, cut where too many of them follow one another, and the places of its points
     in it; a closed course that is cut is one that begins elsewhere."""
     if good.all():

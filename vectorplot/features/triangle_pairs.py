@@ -34,18 +34,41 @@ class Piercings:
 
 def overlapping_triangles(one: Tessellation, two: Tessellation) -> Pair:
     """Pairs of triangles whose boxes overlap."""
-    return overlapping_boxes(*one.boxes, *two.boxes)
+    return overlapping_in_cells((*one.boxes, one.cells), (*two.boxes, two.cells))
 
 
 def overlapping_within(own: Tessellation) -> Pair:
     """Pairs of triangles of one tessellation, in both orders, whose boxes overlap and that share no corner."""
-    i, j = overlapping_boxes(*own.boxes, *own.boxes)
+    i, j = overlapping_triangles(own, own)
     apart = np.ones(len(i), dtype=np.bool_)
     a, b = own.triangles[i], own.triangles[j]
     for k in range(3):
         for m in range(3):
             apart &= a[:, k] != b[:, m]
     return i[apart], j[apart]
+
+
+def overlapping_in_cells(one: tuple[Floats, Floats, Ints], two: tuple[Floats, Floats, Ints]) -> Pair:
+    """Pairs of boxes of two kinds that overlap; a kind is smallest and largest coordinates (3,t) and ascending cells
+    (t,): boxes of a cell lie together, so that cells are compared first."""
+    starts = [np.flatnonzero(np.diff(cells, prepend=-1)) for _, _, cells in (one, two)]
+    if not len(starts[0]) or not len(starts[1]):
+        none = np.zeros(0, dtype=np.intp)
+        return none, none
+    low, high = (
+        [reduced.reduceat(kind[k], first, axis=1) for kind, first in zip((one, two), starts, strict=True)]
+        for k, reduced in ((0, np.minimum), (1, np.maximum))
+    )
+    i, j = overlapping_boxes(low[0], high[0], low[1], high[1])
+    sizes = [np.diff(first, append=len(kind[2])) for kind, first in zip((one, two), starts, strict=True)]
+    found = [(i[:0], j[:0])]
+    for k in range(int(sizes[0].max())):
+        for m in range(int(sizes[1].max())):
+            there = (k < sizes[0][i]) & (m < sizes[1][j])
+            a, b = starts[0][i[there]] + k, starts[1][j[there]] + m
+            near = ((one[0][:, a] <= two[1][:, b]) & (one[1][:, a] >= two[0][:, b])).all(axis=0)
+            found.append((a[near], b[near]))
+    return np.concatenate([f[0] for f in found]), np.concatenate([f[1] for f in found])
 
 
 def piercings(one: Tessellation, two: Tessellation, pairs: Pair) -> Piercings:
