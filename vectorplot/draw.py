@@ -50,6 +50,7 @@ def draw(
     hidden: Literal["none", "dashed", "solid"] = "none",
     halo_mm: float = 0.0,
     layers: Literal["kind", "object", "colour"] = "kind",
+    curves: Literal["bezier", "polyline"] = "bezier",
     tolerance_mm: float = 0.02,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
@@ -60,7 +61,8 @@ def draw(
     for its margin; otherwise the page centre is the target and the page height the camera's picture height. lines:
     words of LineKind; an item's own come first. crease_angle_deg: sharper edges are creases. hidden: hidden lines are
     left out, dashed, or solid on a layer of their own. halo_mm: lines end so far beside what is in front of them.
-    layers: what shares a layer. tolerance_mm: for approximations; straight lines,
+    layers: what shares a layer. curves: strokes of smooth curves are fitted with cubic Béziers and elliptic arcs, or
+    stay polylines. tolerance_mm: for approximations; straight lines,
     all there are so far, are exact whatever it is. progress(stage, fraction)
     and explain(report) are called while it works.
     Errors: InputError for unknown words, impossible cameras, and widths and angles out of range.
@@ -68,7 +70,7 @@ def draw(
     off the principal ray, a fitted picture shows the camera's field of vision.
     Source: Glaeser, sections 2.1 and 7.2.
     """
-    _check_options(hidden, halo_mm, crease_angle_deg, tolerance_mm)
+    _check_options(hidden, curves, halo_mm, crease_angle_deg, tolerance_mm)
     kinds = frozenset(map(LineKind.from_word, lines))
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
@@ -94,14 +96,16 @@ def draw(
     world = page_from_world(view, placed)
     strokes = walk.run("strokes", strokes_on_page, view, framed, seen, placed)
     sorted_layers = walk.run("layers", _layers, scene, strokes, layers)
-    pens = walk.run("pen", inked, sorted_layers, hidden, world)
+    pens = walk.run("pen", inked, sorted_layers, hidden, world, tolerance_mm if curves == "bezier" else None)
     names = tuple(item.name for item in scene.items)
     return Drawing(page.width_mm, page.height_mm, pens, names, scene.title, world)
 
 
-def _check_options(hidden: str, halo_mm: float, crease_angle_deg: float, tolerance_mm: float) -> None:
+def _check_options(hidden: str, curves: str, halo_mm: float, crease_angle_deg: float, tolerance_mm: float) -> None:
     if hidden not in ("none", "dashed", "solid"):
         raise InputError(f"hidden {hidden!r}: expected none, dashed or solid")
+    if curves not in ("bezier", "polyline"):
+        raise InputError(f"curves {curves!r}: expected bezier or polyline")
     if not 0.0 <= halo_mm < np.inf:
         raise InputError(f"a halo of {halo_mm:g} mm: expected a width that is finite and not negative")
     if not 0.0 <= crease_angle_deg <= 180.0:

@@ -51,6 +51,7 @@ VIEW_WORDS = ("front", "back", "left", "right", "top", "bottom", "iso")
 @click.option("--hidden", type=click.Choice(["none", "dashed", "solid"]), default="none", help="How hidden lines look.")
 @click.option("--halo", type=at_least(0.0), default=0.0, metavar="MM", help="Gap beside lines that lie in front.")
 @click.option("--layers", type=click.Choice(["kind", "object", "colour"]), default="kind", help="What shares a layer.")
+@click.option("--curves", type=click.Choice(["bezier", "polyline"]), default="bezier", help="How smooth curves leave.")
 @click.option("--tolerance", type=between(0.0, math.inf), default=0.02, metavar="MM", help="For approximations.")
 @click.option("--explain", is_flag=True, help="Print stages, times, counts and memory on stderr.")
 @click.option("-q", "--quiet", is_flag=True, help="No warnings, no progress bar.")
@@ -102,11 +103,12 @@ def draw_file(
             hidden=options["hidden"],
             halo_mm=options["halo"],
             layers=options["layers"],
+            curves=options["curves"],
             tolerance_mm=options["tolerance"],
             progress=progress,
             explain=reports.append,
         )
-        if not any(len(paths) for layer in drawing.layers for paths in layer.marks):
+        if not any(len(paths) for layer in drawing.layers for paths in layer.strokes):
             warnings.warn(f"{scene_file}: nothing to draw: the picture is empty", InputWarning, stacklevel=2)
         content = walk.run("write", write, drawing, format_)
         write_out(out, content)
