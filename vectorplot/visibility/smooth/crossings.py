@@ -18,6 +18,9 @@ from vectorplot.visibility.smooth.sheet import Sheet, dot
 ROUNDS, HOPS = 8, 3
 """Steps of Newton on one pair of chords; how often the pair may go over to neighbouring chords."""
 
+SETTLED = 1e-10
+"""Newton's next step after one of this part of a chord is rounding."""
+
 RESIDUAL = 1e-11
 """How far the images of a crossing may be apart; the scene is about 1 large."""
 
@@ -178,7 +181,7 @@ def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
         s, t = _step(gap, a, b)
         part[active] = np.clip(part[active] + s, -1.5, 2.5)
         edge_part[active] = np.clip(edge_part[active] + t, -1.5, 2.5)
-        active = active[(np.abs(s) > 1e-14) | (np.abs(t) > 1e-14)]
+        active = active[(np.abs(s) > SETTLED) | (np.abs(t) > SETTLED)]
     # Beyond the chords' ends the search goes on with the neighbours, whatever the residual.
     beyond = (part < 0.0) | (part > 1.0) | (edge_part < 0.0) | (edge_part > 1.0)
     kept = (off <= RESIDUAL * 100.0) | (beyond & (off < np.inf))

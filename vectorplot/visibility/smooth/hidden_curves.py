@@ -11,8 +11,9 @@ from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.crossings import crossings
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.events import all_events
+from vectorplot.visibility.smooth.missed_events import missed_events
 from vectorplot.visibility.smooth.own_events import edge_on_curves, own_events
-from vectorplot.visibility.smooth.pieces import Pieces, counted, cut
+from vectorplot.visibility.smooth.pieces import Pieces, carried, counted, cut
 from vectorplot.visibility.smooth.piercings import piercings
 from vectorplot.visibility.smooth.runs import without_short_runs
 from vectorplot.visibility.smooth.targets import target
@@ -50,7 +51,11 @@ def hidden_curves(view: View, traced: TracedScene, curves: Curves, items: int, t
     )
     pieces = cut(curves, events, items)
     counts = counted(view, targets, curves, edges, edge_on, pieces, items)
-    hidden_by = np.asarray((counts > 0).sum(axis=1))
+    more = missed_events(view, targets, curves, edge_on, pieces, counts, items)
+    if len(more):
+        pieces = cut(curves, all_events([events, more]), items)
+        counts = counted(view, targets, curves, edges, edge_on, pieces, items)
+    hidden_by = np.asarray((carried(pieces, counts) > 0).sum(axis=1))
     return HiddenCurves(pieces, without_short_runs(view, curves, pieces, hidden_by, 2.0 * tolerance))
 
 

@@ -68,28 +68,38 @@ def cut(curves: Curves, events: Events, items: int) -> Pieces:
     return Pieces(curve, chord, part, end_chord, end_part, change)
 
 
+@dataclass(frozen=True, eq=False)
+class Counts:
+    """Sight lines of pieces: in_front (p, items), the number of sheets of each item that they meet; safe (p,), whether
+    they pass all edges at a distance."""
+
+    in_front: Ints
+    safe: Bools
+
+
 def counted(
     view: View, targets: tuple[Target, ...], curves: Curves, edges: Curves, edge_on: Bools, pieces: Pieces, items: int
-) -> Ints:
-    """(p, items) the number of sheets of each item in front of every piece.
+) -> Counts:
+    """The sight line of the safest point of every piece.
 
     edges: folds and borders, near whose images sight lines are not trusted; edge_on (m,): curves that are contours.
-    A piece that has no safe point takes the count of the nearest one on its curve that has, and the changes between.
     """
     samples, clearance = _safest(view, curves, edges, edge_on, pieces)
-    counts = counts_in_front(view, targets, samples, items)
-    safe = clearance > SAFE
-    total = np.cumsum(pieces.change, axis=0)
-    # Along a curve, count less the changes so far is the same for all pieces.
-    number = np.arange(len(pieces))
-    curve = pieces.curve
+    return Counts(counts_in_front(view, targets, samples, items), np.asarray(clearance > SAFE))
+
+
+def carried(pieces: Pieces, counts: Counts) -> Ints:
+    """(p, items) the number of sheets of each item in front of every piece: what its sight line says; if that is not
+    safe, what the nearest safe one on its curve says, and the changes between."""
+    number, safe, curve = np.arange(len(pieces)), counts.safe, pieces.curve
     before = np.maximum.accumulate(np.where(safe, number, -1))
     after = np.minimum.accumulate(np.where(safe, number, len(pieces))[::-1])[::-1]
     has_before = (before >= 0) & (curve[np.maximum(before, 0)] == curve)
     has_after = (after < len(pieces)) & (curve[np.minimum(after, len(pieces) - 1)] == curve)
     nearer = has_before & (~has_after | (number - before <= after - number))
     source = np.where(nearer, before, np.where(has_after, after, number))
-    return np.asarray(np.maximum(counts[source] + total - total[source], 0))
+    total = np.cumsum(pieces.change, axis=0)
+    return np.asarray(np.maximum(counts.in_front[source] + total - total[source], 0))
 
 
 def _safest(view: View, curves: Curves, edges: Curves, edge_on: Bools, pieces: Pieces) -> tuple[Samples, Floats]:
@@ -99,8 +109,7 @@ def _safest(view: View, curves: Curves, edges: Curves, edge_on: Bools, pieces: P
     at = np.concatenate([begin + share * (end - begin) for share in CANDIDATES])
     chord = np.minimum(at.astype(np.intp), np.tile(pieces.end_chord, len(CANDIDATES)))
     part = at - chord
-    points = curves.points[chord] + part[:, None] * (curves.points[chord + 1] - curves.points[chord])
-    image = projection.image(view, points)
+    image = projection.image(view, _on_chords(curves, chord, part))
     contour = np.tile(edge_on[pieces.curve], len(CANDIDATES))
     clear = np.empty(len(at))
     clear[~contour] = _clearance(view, edges, image[~contour])
@@ -109,14 +118,15 @@ def _safest(view: View, curves: Curves, edges: Curves, edge_on: Bools, pieces: P
     away = [np.linalg.norm(image - np.tile(e, (len(CANDIDATES), 1)), axis=1) for e in ends]
     clear[contour] = np.minimum(*away)[contour]
     best = np.argmax(clear.reshape(len(CANDIDATES), count), axis=0) * count + np.arange(count)
-    found = curves.at(chord[best], part[best])
-    curve = pieces.curve
-    a, b = curves.second_places[chord[best]], curves.second_places[chord[best] + 1]
-    second = a + part[best, None] * (b - a)
-    samples = Samples(
-        found.points, curves.sheet[curve], found.places, curves.second_sheet[curve], second, edge_on[curve]
-    )
-    return samples, clear[best]
+    return samples_at(curves, edge_on, chord[best], part[best]), clear[best]
+
+
+def samples_at(curves: Curves, edge_on: Bools, chord: Ints, part: Floats) -> Samples:
+    """Points of curves, to look from."""
+    found, curve = curves.at(chord, part), curves.owner[chord]
+    a, b = curves.second_places[chord], curves.second_places[chord + 1]
+    second = a + part[:, None] * (b - a)
+    return Samples(found.points, curves.sheet[curve], found.places, curves.second_sheet[curve], second, edge_on[curve])
 
 
 def _ends(pieces: Pieces) -> list[tuple[Ints, Floats]]:
