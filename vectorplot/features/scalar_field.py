@@ -132,6 +132,18 @@ def scalar_field(f: Function, domain: Domain, gradient: Gradient | None = None) 
     return ScalarField(f, domain, gradient, (domain.u_start, domain.v_start), (domain.u_end, domain.v_end))
 
 
+def in_units(field: ScalarField, unit: float) -> ScalarField:
+    """The field of f / unit."""
+    if unit == 1.0:
+        return field
+
+    def gradient(u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        by_u, by_v = field.gradient(u, v) if field.gradient is not None else (u, v)
+        return by_u / unit, by_v / unit
+
+    return replace(field, f=lambda u, v: field.f(u, v) / unit, gradient=None if field.gradient is None else gradient)
+
+
 def grid_values(field: ScalarField, columns: int, rows: int) -> tuple[ScalarField, Floats]:
     """The values (columns+1, rows+1) of f on a grid over the domain, and the field without its poles.
 

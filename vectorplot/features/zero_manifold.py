@@ -9,7 +9,15 @@ import numpy as np
 
 from vectorplot.errors import InputError
 from vectorplot.features.grid_triangulation import triangulate_surface
-from vectorplot.features.scalar_field import Function, Gradient, ScalarField, grid_points, grid_values, scalar_field
+from vectorplot.features.scalar_field import (
+    Function,
+    Gradient,
+    ScalarField,
+    grid_points,
+    grid_values,
+    in_units,
+    scalar_field,
+)
 from vectorplot.features.zero_cells import (
     MOST_CELLS,
     Lattice,
@@ -18,9 +26,8 @@ from vectorplot.features.zero_cells import (
     flat_cells,
     near_cells,
     subdivided,
-    triangles_near,
 )
-from vectorplot.features.zero_nodes import MOST_ALONE, double_points, joined_at_nodes
+from vectorplot.features.zero_nodes import MOST_ALONE, double_points, joined_at_nodes, within, without_points_near
 from vectorplot.features.zero_refinement import (
     Polylines,
     Positions,
@@ -30,12 +37,16 @@ from vectorplot.features.zero_refinement import (
     without_repeats,
 )
 from vectorplot.features.zero_segments import NOISE, RESIDUAL, Segments, crossing_segments
+from vectorplot.features.zero_triangles import triangles_near
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.outline import concat
 from vectorplot.surfaces.surface import Domain
 
 DOUBLE = 1e-10
 """Part of the scale of f below which a critical value counts as zero."""
+
+FAR_APART = 32.0
+"""Smallest cells beyond which what looks like a part of one line belongs to another."""
 
 PLACES = 40
 """Places beside the grid at which the size of f is looked at too."""
@@ -50,7 +61,8 @@ class ZeroManifold:
     Along a branch parameters run on over seams, beyond the domain: turns (b,2) are the periods that a closed branch
     has run through when it is back at its start.
     nodes (n,2): where branches meet; a branch goes straight on through each. isolated (i,2): single points where f is
-    zero but does not change its sign. touching (t,2): places of a line along which f is zero without changing sign.
+    zero but does not change its sign. touching (t,2): places of a line along which f is zero without changing sign,
+    or between two branches nearer to each other than the resolution.
     doubts: a sentence for each thing that could not be decided. grid (columns+1, rows+1, 3): u, v and f.
     """
 
@@ -110,6 +122,8 @@ def zero_manifold_of_f_uv(
     _check(domain, columns, rows, resolution)
     field, w = grid_values(scalar_field(f, domain, gradient), columns, rows)
     scale = _scale(field, w)
+    unit = _unit(scale)
+    field, w, scale = in_units(field, unit), w / unit, scale / unit
     zero = _zero(field, scale)
     w[np.abs(w) <= NOISE * scale] = 0.0
     near, odd = near_cells(w, field.closed)
@@ -126,14 +140,15 @@ def zero_manifold_of_f_uv(
         lines, unsure = refined(field, lines, measure, tolerance, zero)
     doubts = _doubts(int(flat.sum()), found, subdivision.complete, unsure)
     return _result(
-        field, lines, found, doubts, np.concatenate([grid_points(field, columns, rows), w[..., None]], axis=2)
+        field, lines, found, doubts, np.concatenate([grid_points(field, columns, rows), unit * w[..., None]], axis=2)
     )
 
 
 @dataclass(frozen=True, eq=False)
 class _Found:
     """The curve before its chords are looked at: polylines, the double points of ZeroManifold, and how many changes of
-    sign are no zeros and how many closed branches are smaller than a cell."""
+    sign are no zeros, how many closed branches are smaller than a cell, and at how many of the places that touch two
+    branches cannot be told apart."""
 
     lines: Polylines
     nodes: Floats
@@ -141,6 +156,7 @@ class _Found:
     touching: Floats
     poles: int
     missed: int
+    beads: int
 
 
 def _found(subdivision: Subdivision, traced: Segments, scale: float) -> _Found:
@@ -153,14 +169,51 @@ def _found(subdivision: Subdivision, traced: Segments, scale: float) -> _Found:
     single, reach = doubles.points[~line], doubles.radii[~line, None] * cell
     joined = joined_at_nodes(field, traced.points, traced.pairs, single, reach)
     lines, dots = without_repeats(_polylines(field, joined.points, joined.segments), field.size)
+    lines, beads = _without_beads(field, lines, cell)
+    # A point beside a curve, or one of a line that goes over into a curve, is not alone.
+    alone = np.where(doubles.flat[~line], FAR_APART, 3.0)[:, None] * cell
+    alone = (joined.meets == 0) & without_points_near(field, single, traced.points, alone)
+    touching = doubles.points[line]
+    touching = touching[without_points_near(field, touching, traced.points, 1.5 * cell)]
     return _Found(
         lines,
         single[joined.meets > 0],
-        np.concatenate([single[joined.meets == 0], field.wrapped(_far(field, dots, single, cell))]),
-        doubles.points[line],
+        np.concatenate([single[alone], field.wrapped(dots[without_points_near(field, dots, single, 2.0 * cell)])]),
+        np.concatenate([touching, beads]),
         traced.poles,
-        len(_far(field, doubles.ovals, traced.points, cell)),
+        int(without_points_near(field, doubles.ovals, traced.points, 2.0 * cell).sum()),
+        len(beads),
     )
+
+
+def _without_beads(field: ScalarField, lines: Polylines, cell: Floats) -> tuple[Polylines, Floats]:
+    """The polylines without the closed ones that are thinner than a cell and stand in a row, and the middles (k,2) of
+    these: they are what lattice points between two branches that cannot be told apart make of them."""
+    first, last = starts_of(lines.last), np.flatnonzero(lines.last)
+    p = lines.points
+    if len(first) <= MOST_ALONE:
+        return lines, p[:0]
+    path = np.repeat(np.arange(len(first)), last - first + 1)
+    q = (p - p[first[path]]) / cell
+    step = np.diff(q, axis=0)
+    inner = ~lines.last[:-1]
+    turn = q[:-1, 0] * q[1:, 1] - q[1:, 0] * q[:-1, 1]
+    area, length = (
+        np.bincount(path[:-1][inner], weights=x[inner], minlength=len(first))
+        for x in (0.5 * turn, np.sqrt((step * step).sum(axis=1)))
+    )
+    back = np.abs(p[last] - p[first]) / field.size
+    thin = np.flatnonzero((back <= 1e-12).all(axis=1) & (2.0 * np.abs(area) < length) & (last - first > 1))
+    sums = [np.bincount(path, weights=x, minlength=len(first))[thin] for x in p.T]
+    middles = field.wrapped(np.stack(sums, axis=1) / (last - first + 1)[thin, None])
+    reach = np.broadcast_to(FAR_APART * cell, middles.shape)
+    crowded = np.bincount(within(field, middles, middles, reach)[0], minlength=len(thin)) > 1
+    if crowded.sum() <= MOST_ALONE:
+        return lines, middles[:0]
+    gone = np.zeros(len(first), dtype=np.bool_)
+    gone[thin[crowded]] = True
+    kept = ~gone[path]
+    return Polylines(p[kept], lines.last[kept]), middles[crowded]
 
 
 def _smallest_cell(lattice: Lattice) -> Floats:
@@ -191,6 +244,11 @@ def _scale(field: ScalarField, w: Floats) -> float:
         return least
     place = int(0.95 * (len(size) - 1))
     return max(float(np.partition(size, place)[place]), least) or float(size.max())
+
+
+def _unit(scale: float) -> float:
+    """The power of two to measure f in, so that squares of values neither overflow nor vanish; mostly one."""
+    return 1.0 if scale == 0.0 or 1e-60 < scale < 1e60 else float(2.0 ** np.clip(np.round(np.log2(scale)), -1000, 1000))
 
 
 def _zero(field: ScalarField, scale: float) -> float:
@@ -256,13 +314,6 @@ def _is_closed(field: ScalarField, first: Floats, last: Floats) -> Bools:
     return np.asarray((np.abs(turned - np.where(field.closed, np.round(turned), 0.0)) <= 1e-12).all(axis=1))
 
 
-def _far(field: ScalarField, points: Floats, known: Floats, cell: Floats) -> Floats:
-    """The points that are not within two cells of a known one."""
-    d = points[:, None] - known[None]
-    d = (d - np.where(field.closed, np.round(d / field.size), 0.0) * field.size) / cell
-    return np.asarray(points[~((d * d).sum(axis=2) <= 4.0).any(axis=1)])
-
-
 def _result(field: ScalarField, lines: Polylines, found: _Found, doubts: tuple[str, ...], grid: Floats) -> ZeroManifold:
     """The manifold of these polylines; of closed ones the repeated point is dropped."""
     first, last = starts_of(lines.last), np.flatnonzero(lines.last)
@@ -288,13 +339,17 @@ def _result(field: ScalarField, lines: Polylines, found: _Found, doubts: tuple[s
 
 def _doubts(flat: int, found: _Found, complete: bool, unsure: int) -> tuple[str, ...]:
     """What could not be decided, a sentence each."""
-    poles, line = found.poles, len(found.touching)
+    poles, line = found.poles, len(found.touching) - found.beads
     texts = [
         (flat > 0, f"f is zero all over {flat} cells: only the border towards negative values is a curve"),
         (poles > 0, f"f changes its sign without being zero at {poles} places: poles or jumps, not part of the curve"),
         (not complete, f"more than {MOST_CELLS} small cells: branches smaller than a cell of the grid may be missing"),
         (unsure > 0, f"{unsure} segments could not be refined: the curve was not found beside their chords"),
         (found.missed > 0, "closed branches smaller than the resolution are missing: ask for a finer one"),
+        (
+            found.beads > 0,
+            f"branches nearer to each other than the resolution: {found.beads} places are given; ask for a finer one",
+        ),
         (line > 0, f"f touches zero along a line without changing its sign: {line} places of it are given"),
     ]
     return tuple(text for said, text in texts if said)

@@ -45,6 +45,9 @@ def double_points(field: ScalarField, starts: Floats, cell: Floats, zero: float,
     cell (2,) is the size of the cells that the starts are the middles of; values up to zero count as zero; points
     around which values up to noise fill a whole sector lie in or at an area where f is zero, and are none.
     """
+    if not len(starts):
+        none = np.zeros(0)
+        return DoublePoints(starts, none > 0.0, none, starts)
     points, curvature, bent = _critical(field, starts, cell)
     away = np.abs((points - starts) / cell).max(axis=1, initial=0.0)
     with np.errstate(invalid="ignore"):
@@ -179,13 +182,40 @@ def joined_at_nodes(field: ScalarField, points: Floats, segments: Ints, nodes: F
 
 
 def _node_around(field: ScalarField, points: Floats, nodes: Floats, reach: Floats) -> Ints:
-    """(p,) the node within whose reach a point lies, or -1."""
+    """(p,) the node within whose reach a point lies, the last of several, or -1."""
     inside = np.full(len(points), -1)
-    # Nodes are few; each pass compares one of them with all points.
-    for k, node in enumerate(nodes):
-        d = _difference(field, points, node) / reach[k]
-        inside[(d * d).sum(axis=1) <= 1.0] = k
+    node, point = within(field, points, nodes, reach)
+    np.maximum.at(inside, point, node)
     return inside
+
+
+def within(field: ScalarField, points: Floats, centres: Floats, reach: Floats) -> tuple[Ints, Ints]:
+    """Pairs of a centre and a point (p,2) in the ellipse about it with the half axes reach (k,2), seams or not."""
+    if not len(centres) or not len(points):
+        return np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp)
+    at = field.wrapped(points)
+    order = np.argsort(at[:, 0], kind="stable")
+    low, high = (field.wrapped(centres)[:, 0] + sign * reach[:, 0] for sign in (-1.0, 1.0))
+    pairs = []
+    for turn in (-1.0, 0.0, 1.0) if field.closed[0] else (0.0,):
+        first, last = (np.searchsorted(at[order, 0], x + turn * field.size[0]) for x in (low, high))
+        # One place more: the bounds are rounded.
+        last = np.minimum(last + 1, len(order))
+        count = np.maximum(last - first, 0)
+        centre = np.repeat(np.arange(len(centres)), count)
+        place = np.arange(len(centre)) - np.repeat(np.cumsum(count) - count, count) + first[centre]
+        pairs.append((centre, order[place]))
+    centre, point = (np.concatenate([pair[k] for pair in pairs]) for k in (0, 1))
+    d = _difference(field, points[point], centres[centre]) / reach[centre]
+    near = (d * d).sum(axis=1) <= 1.0
+    return centre[near], point[near]
+
+
+def without_points_near(field: ScalarField, centres: Floats, points: Floats, reach: Floats) -> Bools:
+    """(k,) centres (k,2) with none of the points (p,2) in the ellipse with the half axes reach (2,) or (k,2)."""
+    free = np.ones(len(centres), dtype=np.bool_)
+    free[within(field, points, centres, np.broadcast_to(reach, centres.shape))[0]] = False
+    return free
 
 
 def _difference(field: ScalarField, points: Floats, origin: Floats) -> Floats:
