@@ -17,6 +17,9 @@ DEFAULT = Tracing()
 SINGULAR = 1e-9
 """Part of the size of the cross product of the partials below which it vanishes."""
 
+HALVINGS = 50
+"""How often the way between two points is halved until a cusp is found."""
+
 INSIDE = 0.271
 """Where in a cell of the grid the normals are taken: away from corners, where symmetric surfaces are singular."""
 
@@ -40,7 +43,7 @@ def singular_lines(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCu
         return no_curves()
     area = _signed_area(surface, tracing)
     found = curves_where_zero(_Cut(surface, area.domain), area, size=size, rounding=0.0, tracing=tracing)
-    return _singular_only(surface, found, size)
+    return _with_cusps(area, _singular_only(surface, found, size))
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,3 +180,62 @@ def _singular_only(surface: Surface, found: SurfaceCurves, size: float) -> Surfa
         found.touching[:0],
         (),
     )
+
+
+def _with_cusps(area: _SignedArea, curves: SurfaceCurves) -> SurfaceCurves:
+    """The curves with the points at which they run, in u and v, in the direction in which the surface stands still:
+    there they have cusps in space (swallowtails)."""
+    at = np.stack([curves.u, curves.v], axis=1)
+    if not len(at):
+        return curves
+    still = _still(area.surface, at)
+    turned = np.where((still[1:] * still[:-1]).sum(axis=1) < 0.0, -1.0, 1.0)
+    across = _across(area, at, still)
+    first = np.flatnonzero(across[:-1] * across[1:] * turned < 0.0)
+    first = first[~np.isin(first + 1, curves.offsets)]
+    low, high = np.zeros(len(first)), np.ones(len(first))
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        new = _onto(area, at[first] + middle[:, None] * (at[first + 1] - at[first]))
+        way = _still(area.surface, new)
+        way = np.where((way * still[first]).sum(axis=1, keepdims=True) < 0.0, -way, way)
+        before = _across(area, new, way) * across[first] > 0.0
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    new = _onto(area, at[first] + high[:, None] * (at[first + 1] - at[first]))
+    at = np.insert(at, first + 1, new, axis=0)
+    points = area.surface.points(*wrapped(area.surface.domain, *new.T))
+    more = np.searchsorted(first + 1, curves.offsets, side="left")
+    return replace(
+        curves,
+        u=at[:, 0],
+        v=at[:, 1],
+        points=np.insert(curves.points, first + 1, points, axis=0),
+        offsets=(curves.offsets + more).astype(np.intp),
+    )
+
+
+def _still(surface: Surface, at: Floats) -> Floats:
+    """(k,2) unit directions, as parts of the domain, in which singular points (k,2) of a surface do not move."""
+    size = np.array(surface.domain.size)
+    by_u, by_v = (x * s for x, s in zip(surface.partials(*wrapped(surface.domain, *at.T)), size, strict=True))
+    cosine = dot(by_u, by_v)
+    flat = dot(by_u, by_u) > dot(by_v, by_v)
+    way = np.where(flat[:, None], np.stack([-cosine, dot(by_u, by_u)], 1), np.stack([dot(by_v, by_v), -cosine], 1))
+    return np.asarray(way / np.linalg.norm(way, axis=1, keepdims=True))
+
+
+def _across(area: _SignedArea, at: Floats, way: Floats) -> Floats:
+    """(k,) the derivative of f along ways (k,2), which are parts of the domain."""
+    return dot(np.stack(area.slopes(*wrapped(area.domain, *at.T)), axis=1) * area.surface.domain.size, way)
+
+
+def _onto(area: _SignedArea, at: Floats) -> Floats:
+    """(k,2) the points of the line f = 0 nearest to points beside it."""
+    size = np.array(area.surface.domain.size)
+    for _ in range(4):
+        home = wrapped(area.domain, *at.T)
+        slopes = np.stack(area.slopes(*home), axis=1) * size
+        with np.errstate(divide="ignore", invalid="ignore"):
+            step = (area.values(*home) / dot(slopes, slopes))[:, None] * slopes * size
+        at = at - np.where(np.isfinite(step), step, 0.0)
+    return at

@@ -13,7 +13,7 @@ from vectorplot.features.double_curves import Course, Courses, DoubleCurves, put
 from vectorplot.features.double_nodes import missed_loops, through_nodes
 from vectorplot.features.meeting_points import zero_between
 from vectorplot.features.sheets import MeshSheet, Sheet, SurfaceSheet
-from vectorplot.features.surface_pairs import Traced, traced, without_zigzags
+from vectorplot.features.surface_pairs import Traced, traced, without_crowds, without_zigzags
 from vectorplot.features.triangle_pairs import Piercings, overlapping_triangles, piercings
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.weld import close_points
@@ -127,7 +127,7 @@ def _of_segments(one: Sheet, two: Sheet, found: Traced) -> list[Course]:
                 held = two.holds(course.two)
             course = Course(course.one[held], course.two[held], course.closed)
         else:
-            course = without_zigzags(one, two, course)
+            course = without_crowds(one, without_zigzags(one, two, course))
         result.append(course)
     return result
 

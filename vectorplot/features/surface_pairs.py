@@ -29,6 +29,9 @@ SHALLOW = 0.25
 TURNED_BACK = -0.7
 """Cosine of the directions of two chords below which a course turns back."""
 
+CROWDED = 0.1
+"""Part of the chord on one side of a point below which that on the other is too short."""
+
 ONE_PLACE = 0.5
 """Cells between two places of a surface up to which they are one."""
 
@@ -138,6 +141,21 @@ def without_zigzags(one: Sheet, two: Sheet, course: Course) -> Course:
             break
         kept = np.delete(kept, np.flatnonzero(back) + 1)
     return course if len(kept) == len(course) else Course(course.one[kept], course.two[kept], course.closed)
+
+
+def without_crowds(one: Sheet, course: Course) -> Course:
+    """The course without inner points that are much nearer to one neighbour than to the other: where an edge of one
+    tessellation passes close to an edge of the other."""
+    chord = np.diff(one.points(course.one), axis=0)
+    length = np.sqrt((chord * chord).sum(axis=1))
+    if len(length) < 4:
+        return course
+    crowded = np.minimum(length[1:], length[:-1]) < CROWDED * np.maximum(length[1:], length[:-1])
+    # Of two that are near to each other one stays.
+    crowded[1:] &= ~crowded[:-1]
+    kept = np.ones(len(course), dtype=np.bool_)
+    kept[1:-1] = ~crowded
+    return Course(course.one[kept], course.two[kept], course.closed)
 
 
 def _kept(course: Course, good: Bools) -> list[tuple[Course, Ints]]:
