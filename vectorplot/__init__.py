@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from vectorplot.io.read import read
     from vectorplot.save import save
     from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
+    from vectorplot.scene.surface_lines import Section, SurfaceLines
 
 __version__ = "0.1.0"
 
@@ -39,7 +40,9 @@ __all__ = [
     "Pattern",
     "Pen",
     "Scene",
+    "Section",
     "Strokes",
+    "SurfaceLines",
     "draw",
     "read",
     "save",
@@ -61,7 +64,9 @@ _HOME = {
     "Pattern": "scene.scene",
     "Pen": "drawing.drawing",
     "Scene": "scene.scene",
+    "Section": "scene.surface_lines",
     "Strokes": "geometry.strokes",
+    "SurfaceLines": "scene.surface_lines",
     "draw": "draw",
     "read": "io.read",
     "save": "save",

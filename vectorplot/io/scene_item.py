@@ -126,13 +126,12 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
 
 
 def _surface(draft: Draft, surface: Surface | ImplicitSurface) -> tuple[Surface | ImplicitSurface, SurfaceLines]:
-    from vectorplot.io.scene_surface import check_defined, curves_of, placed_surface
+    from vectorplot.io.scene_surface import checked_bounds, curves_of, placed_surface
 
     if draft.removed is not None or draft.patterns:
         raise InputError("a surface has no faces for 'removed_faces' and 'patterns'")
     shape = placed_surface(surface, draft.placement)
-    check_defined(shape)
-    return shape, curves_of(draft.curves, shape)
+    return shape, curves_of(draft.curves, shape, checked_bounds(shape))
 
 
 def _polyhedron(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:

@@ -11,8 +11,8 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.geometry.solids import IDENTITY
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
-from vectorplot.io.scene_curves import CurveDraft
+from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
+from vectorplot.io.scene_curves import AXES, CurveDraft
 from vectorplot.io.scene_families import SURFACES
 from vectorplot.io.scene_slots import read_family
 from vectorplot.io.scene_words import Words, close_to
@@ -48,38 +48,42 @@ def placed_surface(shape: Surface | ImplicitSurface, placement: Sequence[float])
     return PlacedImplicit(shape, rows[:, :3].T, rows[:, 3])
 
 
-def check_defined(shape: Surface | ImplicitSurface) -> None:
-    """Errors: InputError for a surface without a finite point, and for an equation that has no value in its box."""
-    low, high = surface_bounds(shape)
+def checked_bounds(shape: Surface | ImplicitSurface) -> Floats:
+    """(2,3) the bounds of a surface.
+
+    Errors: InputError for a surface without a finite point, and for an equation that has no value in its box.
+    """
+    bounds = surface_bounds(shape)
     if is_implicit(shape):
-        x, y, z = (low + (high - low) * (np.arange(HOLE_GRID + 1) / HOLE_GRID)[:, None]).T
+        x, y, z = np.linspace(bounds[0], bounds[1], HOLE_GRID + 1).T
         points = np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1)
         if not np.isfinite(shape.values(points)).any():
             raise InputError("the equation has no value anywhere in its box")
+    return bounds
 
 
-def curves_of(draft: CurveDraft, shape: Surface | ImplicitSurface) -> SurfaceLines:
-    """The lines that a draft asks for on a surface that stands in its place."""
+def curves_of(draft: CurveDraft, shape: Surface | ImplicitSurface, bounds: Floats) -> SurfaceLines:
+    """The lines that a draft asks for on a surface that stands in its place, within bounds (2,3)."""
     sections = tuple(
-        Section(planes.normal, planes.offsets or even_offsets(shape, planes.normal, planes.count))
+        Section(planes.normal, planes.offsets or even_offsets(shape, bounds, planes.normal, planes.count))
         for planes in draft.planes
     )
     return replace(draft.lines, sections=sections)
 
 
-def even_offsets(shape: Surface | ImplicitSurface, normal: Vector, count: int) -> tuple[float, ...]:
+def even_offsets(shape: Surface | ImplicitSurface, bounds: Floats, normal: Vector, count: int) -> tuple[float, ...]:
     """Heights along a normal that divide the extent of a surface, of an implicit one that of its box, evenly.
 
     Errors: InputError for a surface that lies in one such plane.
     """
-    frame = axis_frame(normal)
-    if is_parametrised(shape):
-        heights: Floats = surface_bounds(PlacedSurface(shape, frame.T))[:, 2]
+    if normal in AXES.values():
+        heights = bounds @ normal
+    elif is_parametrised(shape):
+        heights = surface_bounds(PlacedSurface(shape, axis_frame(normal).T))[:, 2]
     else:
-        box = surface_bounds(shape)
-        corners = np.stack(np.meshgrid(*box.T, indexing="ij"), axis=-1).reshape(-1, 3)
-        heights = corners @ frame[2]
+        heights = np.stack(np.meshgrid(*bounds.T, indexing="ij"), axis=-1) @ normal
     low, high = float(heights.min()), float(heights.max())
-    if not high - low > ZERO_OF_EXTENT * max(float(np.ptp(surface_bounds(shape), axis=0).max()), abs(low), abs(high)):
+    zero = max(ZERO_OF_EXTENT * float(np.ptp(bounds, axis=0).max()), ROUNDING * max(abs(low), abs(high)))
+    if not high - low > zero:
         raise InputError("sections: the surface has no extent along their normal")
     return tuple(low + (high - low) * k / (count + 1) for k in range(1, count + 1))

@@ -43,15 +43,17 @@ def _parametrised_bounds(surface: Surface) -> Floats:
     domain = surface.domain
     u, v = (grid.ravel() for grid in np.meshgrid(*domain.grid(GRID, GRID), indexing="ij"))
     points = _finite_points(surface, u, v)
-    if not np.isfinite(points).any():
-        raise InputError("the surface has no finite point")
-    spread = np.abs(points - np.nanmedian(points, axis=0)).max(axis=1)
-    if np.nanmax(spread) > LARGEST_SPREAD * np.nanmedian(spread) > 0.0:
+    finite = points[:, 0] == points[:, 0]
+    if not finite.all():
+        u, v, points = u[finite], v[finite], points[finite]
+        if not len(points):
+            raise InputError("the surface has no finite point")
+    first = np.stack([points.min(axis=0), points.max(axis=0)])
+    spread = np.abs(points - np.median(points, axis=0)).max(axis=1)
+    if spread.max() > LARGEST_SPREAD * np.median(spread) > 0.0:
         raise InputError("the surface runs off to infinity: take a part of it that does not")
-    first = np.stack([np.nanmin(points, axis=0), np.nanmax(points, axis=0)])
-    # Towards the six sides: the lowest points along -x, -y, -z, x, y, z are the best.
-    heights = np.concatenate([points, -points], axis=1)
-    best = np.nanargmin(heights, axis=0)
+    # The outermost points towards the six sides: those with the smallest x, y, z, then those with the largest.
+    best = np.concatenate([points.argmin(axis=0), points.argmax(axis=0)])
     at_u, at_v = u[best], v[best]
     side, sign = np.arange(6) % 3, np.repeat([1.0, -1.0], 3)
     step = np.array(domain.size) / GRID
@@ -73,5 +75,9 @@ def _parametrised_bounds(surface: Surface) -> Floats:
 def _finite_points(surface: Surface, u: Floats, v: Floats) -> Floats:
     """Points, all three coordinates NaN where one of them is not finite."""
     points = np.array(surface.points(u, v), dtype=np.float64)
-    points[~np.isfinite(points).all(axis=-1)] = np.nan
+    with np.errstate(invalid="ignore", over="ignore"):
+        total = points[..., 0] + points[..., 1] + points[..., 2]
+    hole = ~np.isfinite(total)
+    if hole.any():
+        points[hole] = np.nan
     return points
