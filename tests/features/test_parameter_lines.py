@@ -31,6 +31,7 @@ def test_meridians_of_a_sphere_run_from_pole_to_pole_and_poles_are_no_lines():
     assert np.allclose(curves[0][[0, -1]], [(0, 0, -1), (0, 0, 1)], atol=1e-15)
     assert len(v_lines(Sphere(), [-np.pi / 2, np.pi / 2])) == 0
     assert len(parameter_lines(Sphere(), 12, 6)) == 12 + 5
+    assert [len(parameter_lines(Sphere(), *counts)) for counts in ((12, 0), (0, 6), (0, 0))] == [12, 5, 0]
 
 
 def test_borders_are_where_a_surface_ends():
@@ -69,6 +70,6 @@ def test_scaled_surfaces_have_the_same_lines(scale):
     )
 
 
-def test_no_columns_are_refused():
+def test_negative_columns_are_refused():
     with pytest.raises(InputError, match="columns"):
-        parameter_lines(Sphere(), 0, 3)
+        parameter_lines(Sphere(), -1, 3)

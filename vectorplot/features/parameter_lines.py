@@ -26,19 +26,20 @@ MISSED = 0.8
 def parameter_lines(surface: Surface, columns: int, rows: int, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The lines u = const. that divide the domain into columns, and v = const. into rows, evenly; without borders.
 
-    Of tracing, tolerance and picture count. A closed direction has as many lines as parts, an open one one less.
-    Errors: InputError for less than one column or row. Degenerate: as for `u_lines`. Source: Glaeser, section 8.2.
+    Of tracing, tolerance and picture count. A closed direction has as many lines as parts, an open one one less; for 0
+    columns or rows there are none.
+    Errors: InputError for less than that. Degenerate: as for `u_lines`. Source: Glaeser, section 8.2.
     """
-    if columns < 1 or rows < 1:
-        raise InputError(f"parameter lines: {columns} columns and {rows} rows: expected 1 or more")
+    if columns < 0 or rows < 0:
+        raise InputError(f"parameter lines: {columns} columns and {rows} rows: expected 0 or more")
     domain = surface.domain
-    u, v = domain.grid(columns, rows)
-    return together(
-        [
-            u_lines(surface, u[int(not domain.closed_u) : -1], tracing=tracing),
-            v_lines(surface, v[int(not domain.closed_v) : -1], tracing=tracing),
-        ]
-    )
+    u, v = domain.grid(max(columns, 1), max(rows, 1))
+    found = []
+    if columns:
+        found.append(u_lines(surface, u[int(not domain.closed_u) : -1], tracing=tracing))
+    if rows:
+        found.append(v_lines(surface, v[int(not domain.closed_v) : -1], tracing=tracing))
+    return together(found)
 
 
 def u_lines(surface: Surface, values: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:

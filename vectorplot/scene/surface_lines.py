@@ -56,7 +56,7 @@ class Section:
 class SurfaceLines:
     """The lines that a smooth item asks for.
 
-    columns, rows: how many parameter lines u = const. and v = const. there are, evenly spaced, 0 for none; isophotes:
+    columns, rows: into how many parts lines u = const. and v = const. divide the surface, 0 for no lines; isophotes:
     the cosines of the angle between normal and light along them; light: which light of the scene they are of, None for
     the first one, or, in a scene without, one from the upper left of the eye; sections: families of plane sections.
     Errors: InputError for counts below 0 or above MAX_LINES, cosines that are not between -1 and 1.
