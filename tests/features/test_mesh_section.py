@@ -7,6 +7,7 @@ from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.mesh_section import mesh_section
 from vectorplot.features.sections import plane_sections
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.rotations import rotation_about
 from vectorplot.surfaces.cylinder import Cylinder
 from vectorplot.surfaces.ellipsoid import Sphere
 from vectorplot.surfaces.function import surface_of_function
@@ -125,6 +126,26 @@ def test_a_patch_in_a_face_is_reported_without_noise():
     patch = surface_of_function(lambda u, v: (u, v, 0 * u + 1), Domain(-0.5, 0.5, -0.5, 0.5))
     section = mesh_section(patch, cube())
     assert len(section) == 0 and "coincide in an area" in section.curves.doubts[0]
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_boxes_in_any_place_cut_closed_curves_on_their_faces(seed):
+    random = np.random.default_rng(seed)
+    turn = rotation_about(random.normal(size=3), random.uniform(0, 3))
+    middle, half = random.uniform(-1.5, 1.5, 3), random.uniform(0.2, 1.5, 3)
+    mesh = block(-half, half)
+    mesh = Mesh(mesh.vertices @ turn + middle, mesh.corners, mesh.offsets)
+    section = mesh_section([Torus(1.5, 0.6), Sphere(1.3), Torus(2.0, 0.3)][seed % 3], mesh)
+    curves = section.curves
+    assert curves.closed.all() and not curves.doubts
+    beyond = np.abs((curves.points - middle) @ turn.T) - half
+    assert np.abs(beyond).min(axis=1).max(initial=0.0) < 1e-11 and beyond.max(initial=0.0) < 1e-9
+    origin = mesh.vertices[mesh.corners[mesh.offsets[section.faces]]]
+    normal = mesh.face_normals[section.faces]
+    for k in range(len(curves)):
+        own = slice(curves.offsets[k], curves.offsets[k + 1])
+        for points in (curves.points[own], np.roll(curves.points[own], -1, axis=0)):
+            assert np.abs(((points - origin[own]) * normal[own]).sum(axis=1)).max() < 1e-9
 
 
 def test_a_face_that_is_not_planar_is_two_triangles():

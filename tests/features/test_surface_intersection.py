@@ -173,8 +173,17 @@ def test_nearly_coincident_spheres_meet_in_one_circle_that_does_not_turn_back(di
     assert abs(length(curves) - 2 * np.pi * np.sqrt(1 - distance**2 / 4)) < 0.01
 
 
+@pytest.mark.parametrize("gap", [1e-2, 1e-3])
+def test_two_circles_close_to_one_another_are_two(gap):
+    curves = surface_intersection(Torus(3.0, 1.0), Torus(3.0, 1.0, (0.0, 0.0, 2.0 - gap)))
+    assert len(curves) == 2 and curves.closed.all() and not curves.doubts and sharpest_turn(curves) > 0.98
+    width = np.sqrt(1 - (1 - gap / 2) ** 2)
+    radii = sorted(np.hypot(*curves[k][:, :2].T).mean() for k in range(2))
+    assert np.abs(np.array(radii) - (3 - width, 3 + width)).max() < 1e-9
+
+
 def test_curves_too_close_for_the_triangles_are_doubted():
-    curves = surface_intersection(Torus(3.0, 1.0), Torus(3.0, 1.0, (0.0, 0.0, 1.999)))
+    curves = surface_intersection(Torus(3.0, 1.0), Torus(3.0, 1.0, (0.0, 0.0, 2.0 - 1e-6)))
     assert any("too close" in text for text in curves.doubts)
 
 

@@ -7,7 +7,7 @@ from vectorplot.features.curve_ends import at_border
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.double_curves import DoubleCurves
 from vectorplot.features.sheets import SurfaceSheet
-from vectorplot.features.surface_intersection import double_curves
+from vectorplot.features.surface_intersection import double_curves, joined
 from vectorplot.features.triangle_pairs import overlapping_within, piercings
 from vectorplot.surfaces.surface import Surface
 
@@ -30,4 +30,4 @@ def self_intersections(surface: Surface, *, tracing: Tracing = DEFAULT) -> Doubl
     touching = contacts(sheet, sheet, same=True)
     # Borders along which the surface goes on (a Moebius strip's ends) are no contacts.
     seam = at_border(sheet, touching.one) & at_border(sheet, touching.two)
-    return double_curves(sheet, sheet, found, touching.of(~seam), tracing, same=True)
+    return double_curves(sheet, joined(sheet, sheet, found, touching.of(~seam), tracing, same=True))

@@ -201,6 +201,11 @@ class MeshSheet:
         rails = np.where(inner, FREE, np.arange(len(edges)))
         return Tessellation(points, triangles, places, np.arange(len(faces)), edges, sides, rails, uses == 1)
 
+    @cached_property
+    def edge_uses(self) -> Ints:
+        """(e,) how many triangles every edge of the tessellation has."""
+        return edges_of(self._cut[0], len(self.mesh.vertices))[2]
+
     def points(self, places: Floats) -> Floats:
         """(k,3) points."""
         return places[..., :3]

@@ -14,6 +14,7 @@ from vectorplot.features.double_nodes import missed_loops, through_nodes
 from vectorplot.features.meeting_points import zero_between
 from vectorplot.features.sheets import MeshSheet, Sheet, SurfaceSheet
 from vectorplot.features.surface_pairs import Traced, traced, without_crowds, without_zigzags
+from vectorplot.features.tessellation import finer_grids
 from vectorplot.features.triangle_pairs import Piercings, overlapping_triangles, piercings
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.weld import close_points
@@ -30,17 +31,22 @@ def surface_intersection(one: Surface, two: Surface, *, tracing: Tracing = DEFAU
 
     tracing: columns and rows of the grids that both are polygonised by; tolerance (None: a thousandth of the smaller
     extent) and picture. Closed curves smaller than a cell are found by the place inside them where the tangent planes
-    are parallel: to any size, but one of them for each pair of triangles.
+    are parallel: to any size, but one of them for each pair of triangles. Where triangles cannot tell curves from one
+    another the grids are refined (up to 2^17 cells); what is left then is a doubt.
     Errors: InputError for a grid that is too coarse.
     Degenerate: where surfaces touch in a point it is isolated, or a node if curves cross there; where they touch along
     a line its points are touching, with a doubt; where they coincide in an area there is a doubt and no curve. Curves
     end at the last whole cell before a hole.
     Source: Glaeser, section 8.4 (face-face sections); Patrikalakis and Maekawa, Shape interrogation, chapter 5.
     """
-    first, second = (SurfaceSheet(s, tracing.columns, tracing.rows) for s in (one, two))
-    pairs = overlapping_triangles(first.tessellation, second.tessellation)
-    found = piercings(first.tessellation, second.tessellation, pairs)
-    return double_curves(first, second, found, contacts(first, second), tracing, same=False)
+    for columns, rows in finer_grids(tracing.columns, tracing.rows):
+        first, second = (SurfaceSheet(s, columns, rows) for s in (one, two))
+        pairs = overlapping_triangles(first.tessellation, second.tessellation)
+        found = piercings(first.tessellation, second.tessellation, pairs)
+        all_ = joined(first, second, found, contacts(first, second), tracing, same=False)
+        if not all_.unsure and not all_.close:
+            break
+    return double_curves(first, all_)
 
 
 RESOLVED = 0.15
@@ -63,11 +69,8 @@ class Joined:
     dots: Floats
 
 
-def double_curves(
-    one: SurfaceSheet, two: SurfaceSheet, found: Piercings, touching: Contacts, tracing: Tracing, *, same: bool
-) -> DoubleCurves:
-    """The curves of two surfaces, or of one with itself, from the piercings of their triangles and their contacts."""
-    all_ = joined(one, two, found, touching, tracing, same=same)
+def double_curves(one: SurfaceSheet, all_: Joined) -> DoubleCurves:
+    """The curves of two surfaces, the first of which is given, or of one with itself."""
     alone = _each_once(np.concatenate([all_.isolated.points, all_.dots]), one.size[0])
     kept, offsets, closed = repeats_dropped(all_)
     a, b = all_.points.one[kept], all_.points.two[kept]

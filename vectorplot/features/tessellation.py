@@ -20,6 +20,12 @@ UNEVEN = 0.17
 MOST_CELLS = 1 << 20
 """Cells a tessellation may have."""
 
+FINER = (2, 4)
+"""How many times as fine a grid is made when its triangles cannot tell what the surfaces do."""
+
+MOST_FINER = 1 << 17
+"""Cells up to which a grid is made finer unasked."""
+
 FREE = -1
 """The rail of an edge that is no border."""
 
@@ -48,6 +54,12 @@ class Tessellation:
         """Smallest and largest coordinates (3,t) of the triangles."""
         corners = self.points[self.triangles]
         return corners.min(axis=1).T, corners.max(axis=1).T
+
+
+def finer_grids(columns: int, rows: int) -> list[tuple[int, int]]:
+    """Columns and rows of grids to try one after the other: the one asked for, then finer ones."""
+    finer = [(n * columns, n * rows) for n in FINER if n * n * columns * rows <= MOST_FINER]
+    return [(columns, rows), *finer]
 
 
 def edges_of(triangles: Ints, count: int) -> tuple[Ints, Ints, Ints]:
