@@ -21,13 +21,14 @@ POINTS_AT_ONCE = 1 << 19
 
 def implicit_hides(surface: ImplicitSurface, rays: Rays, middle: Floats, size: float) -> Hiding:
     """Which points an implicit surface hides within its box."""
-    hidden, clearance = np.zeros(len(rays.length), dtype=np.bool_), np.full(len(rays.length), REACH)
+    hidden, touched = np.zeros((2, len(rays.length)), dtype=np.bool_)
+    clearance = np.full(len(rays.length), REACH)
     portion = max(1, POINTS_AT_ONCE // STEPS)
     for first in range(0, len(rays.length), portion):
         part = slice(first, first + portion)
         some = Rays(rays.origin[part], rays.direction[part], rays.length[part], rays.ends_in_eye)
-        hidden[part], clearance[part] = _walk(_Field(surface, middle, size), some)
-    return Hiding(hidden, clearance)
+        hidden[part], clearance[part], touched[part] = _walk(_Field(surface, middle, size), some)
+    return Hiding(hidden, clearance, touched)
 
 
 class _Field:
@@ -57,7 +58,7 @@ class _Field:
         return np.asarray(np.maximum(self.box[0] - points, points - self.box[1]).max(axis=-1))
 
 
-def _walk(field: _Field, rays: Rays) -> tuple[Bools, Floats]:
+def _walk(field: _Field, rays: Rays) -> Hiding:
     """Whether each ray meets the surface, and how near it comes to changing that."""
     # A little way behind the points too: a sheet there is one that nearly hides.
     t = np.linspace(-8.0 * AROUND, 2.0, STEPS + 1)
@@ -83,7 +84,7 @@ def _walk(field: _Field, rays: Rays) -> tuple[Bools, Floats]:
     near = _extremes(field, rays, t, slope, on_contour)
     broken = inside & np.isnan(value)
     lost = (broken[:, 1:] & np.isfinite(value[:, :-1])) | (broken[:, :-1] & np.isfinite(value[:, 1:]))
-    return hidden, np.where(unsure | lost.any(axis=1), 0.0, np.minimum(clearance, near))
+    return Hiding(hidden, np.where(unsure | lost.any(axis=1), 0.0, np.minimum(clearance, near)), on_contour)
 
 
 def _roots(field: _Field, rays: Rays, t: Floats, value: Floats) -> tuple[Ints, Floats]:

@@ -43,6 +43,7 @@ def assert_drawing_is_right(
         sight = visible_by_rays(scene, camera, found.points)
         size = float(np.ptp(scene.bounds, axis=0).max()) or 1.0
         sure = sight.clearance > np.maximum(clearance, found.aside / size)
+        sure &= ~sight.on_contour | (found.kind == LineKind.CONTOUR)
         wrong = np.flatnonzero(sure & (sight.hidden_by != found.hidden_by))
         compared = int(sure.sum())
         if len(wrong):

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.testing.implicit_rays import implicit_hides
@@ -18,10 +18,12 @@ from vectorplot.testing.surface_rays import surface_hides
 
 
 class Sight(NamedTuple):
-    """hidden_by (n,): how many items hide each point; clearance (n,): how sure that is, see visible_by_rays."""
+    """hidden_by (n,): how many items hide each point; clearance (n,): how sure that is, see visible_by_rays; on_contour
+    (n,): whether the point is one of the contour of a smooth surface, and judged as such."""
 
     hidden_by: Ints
     clearance: Floats
+    on_contour: Bools
 
 
 def visible_by_rays(scene: Scene, camera: Camera, points: ArrayLike, *, items: Sequence[int] | None = None) -> Sight:
@@ -35,7 +37,8 @@ def visible_by_rays(scene: Scene, camera: Camera, points: ArrayLike, *, items: S
     edge of a face that the point does not touch, or from the point to a face on its ray that it does not touch; for
     smooth surfaces contour and borders stand for the edges, less the error of looking, so that 0 means: not known.
     Compare only where it is larger than the accuracy asked for: nearer, the answer turns on rounding. A point of a
-    contour must lie on it to about a millionth of the extent.
+    contour must lie on it to about a millionth of the extent; another curve that passes a contour changes there, and
+    has no answer.
     """
     targets = np.asarray(points, dtype=np.float64).reshape(-1, 3)
     bounds = scene.bounds
@@ -44,6 +47,7 @@ def visible_by_rays(scene: Scene, camera: Camera, points: ArrayLike, *, items: S
     triangles, edges = occluders(scene, middle, size, items)
     hidden, clearance = hits(rays, triangles, len(scene.items))
     clearance = np.minimum(clearance, edge_distances(rays, edges))
+    on_contour = np.zeros(len(targets), dtype=np.bool_)
     eye = None if camera.parallel else (np.asarray(camera.eye) - middle) / size
     for index in range(len(scene.items)) if items is None else items:
         item = scene.items[index]
@@ -56,4 +60,5 @@ def visible_by_rays(scene: Scene, camera: Camera, points: ArrayLike, *, items: S
         else:
             continue
         hidden, clearance = hidden + found.hidden, np.minimum(clearance, found.clearance)
-    return Sight(hidden, clearance)
+        on_contour |= found.touched
+    return Sight(hidden, clearance, on_contour)

@@ -18,10 +18,10 @@ from vectorplot.surfaces.surface import Surface, is_hole
 from vectorplot.testing.nearest import inside, nearest_places
 from vectorplot.testing.rays import CONTACT, REACH, Rays, edge_distances, meeting, near_pairs, near_together
 
-NET_ERROR = 2e-6
+NET_ERROR = 5e-6
 """The net is made so fine that it is within this part of the scene's extent, as far as MOST_CELLS allow."""
 
-MOST_CELLS = 300_000
+MOST_CELLS = 120_000
 FIRST_CELLS = 64
 
 ON_SURFACE = 1e-7
@@ -40,10 +40,12 @@ NEWTON_STEPS = 8
 
 
 class Hiding(NamedTuple):
-    """hidden (n,): whether an item hides each point; clearance (n,): how sure that is, see visible_by_rays."""
+    """hidden (n,): whether an item hides each point; clearance (n,): how sure that is, see visible_by_rays; touched
+    (n,): whether the ray touches the surface in the point, which is one of its contour."""
 
     hidden: Bools
     clearance: Floats
+    touched: Bools
 
 
 class Feet(NamedTuple):
@@ -170,7 +172,7 @@ def surface_hides(surface: Surface, eye: Floats | None, rays: Rays, middle: Floa
         edges = near_together(segments, np.zeros(len(segments), dtype=np.intp))
         away = edge_distances(rays, edges, np.where(own, max(AROUND, 4.0 * net.longest), CONTACT))
         clearance = np.minimum(clearance, np.maximum(away - 2.0 * net.error, 0.0))
-    return Hiding(hidden, np.where(feet.unsure, 0.0, clearance))
+    return Hiding(hidden, np.where(feet.unsure, 0.0, clearance), feet.on_contour)
 
 
 def _hits(net: Net, rays: Rays, feet: Feet) -> tuple[Bools, Floats]:
