@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
 
 
 def average_normals(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = False) -> Floats:
@@ -38,8 +38,16 @@ def normals_among(points: Floats, around: Floats) -> Floats:
     arms = around - points
     total = np.zeros_like(points)
     for k in range(4):
-        total += _unit(np.cross(arms[k], arms[(k + 1) % 4]))
+        total += _unit(_product(arms[k], arms[(k + 1) % 4]))
     return _unit(total)
+
+
+def _product(a: Floats, b: Floats) -> Floats:
+    """(..., 3) vector products, without the overhead that numpy's own has on small arrays."""
+    result = np.empty_like(a)
+    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
+        result[..., k] = a[..., i] * b[..., j] - a[..., j] * b[..., i]
+    return result
 
 
 def _unit(vectors: Floats) -> Floats:
@@ -86,7 +94,7 @@ def other_diagonal(points: Floats, normals: Floats) -> Bools:
 def _deviation(points: Floats, normals: Floats, corners: tuple[int, int, int]) -> Floats:
     """(k,) sum of the angles between a triangle's normal and the normals at its corners."""
     a, b, c = (points[k] for k in corners)
-    face = _unit(np.cross(b - a, c - a))
+    face = _unit(_product(b - a, c - a))
     total = np.zeros(points.shape[1])
     for k in corners:
         total += np.arccos(np.clip(np.abs((face * normals[k]).sum(axis=-1)), 0.0, 1.0))
@@ -98,3 +106,24 @@ def _checked(grid: ArrayLike) -> Floats:
     if p.ndim != 3 or p.shape[2] != 3 or min(p.shape[:2]) < 2:
         raise InputError(f"a grid of points has the shape {p.shape}: expected (m, n, 3) with m, n >= 2")
     return p
+
+
+def mesh_of_grid(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = False) -> Mesh:
+    """The triangulation of triangulate_surface as a mesh: faces are counter-clockwise seen from the side of x_u x x_v.
+
+    Triangles with a corner that is not finite are left out, as those without extent are at poles; seams are closed.
+    Source: Glaeser, section 9.3.
+    """
+    p = _checked(grid)
+    triangles, _ = triangulate_surface(p, closed_u=closed_u, closed_v=closed_v)
+    m, n = p.shape[:2]
+    i, j = np.divmod(np.arange(m * n), n)
+    i, j = (i % (m - 1) if closed_u else i), (j % (n - 1) if closed_v else j)
+    triangles = (i * n + j)[triangles]
+    points = p.reshape(-1, 3)
+    finite = np.asarray(np.isfinite(points).all(axis=1))
+    whole = finite[triangles].all(axis=1)
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    whole &= (a != b).any(axis=1) & (b != c).any(axis=1) & (c != a).any(axis=1)
+    used, corners = np.unique(triangles[whole], return_inverse=True)
+    return Mesh.from_triangles(points[used], corners.reshape(-1, 3))

@@ -108,8 +108,8 @@ def bracketed_zeros(
     """Zeros t (k,) within 0 <= t <= 1 and the values there, from values w0, w1 (k,) of different signs at 0 and 1.
 
     f(t, which) are the values of the functions with the indices which at t. The first try is guess, then the zero of
-    the parabola t(w) through the last three points, the middle of the bracket where that leaves it or is slow, until
-    |f| <= small (k,) or the bracket is used up.
+    the parabola t(w) through the last three points, the middle of the bracket where that leaves it or where neither
+    the bracket nor f at its ends shrinks, until |f| <= small (k,) or the bracket is used up.
     Degenerate: zero counts as positive. At a pole or a jump the values stay large; it is for the caller to look.
     Where f is not defined inside a bracket the value is NaN.
     """
@@ -119,7 +119,7 @@ def bracketed_zeros(
     b: Floats = np.ones(len(t))
     fa, fb = w0.copy(), w1.copy()
     x = np.clip(t, 0.0, 1.0)
-    width = b.copy()
+    width, least = b.copy(), np.minimum(np.abs(w0), np.abs(w1))
     for round_ in range(ROUNDS):
         fx = f(x, which)
         t[which], w[which] = x, fx
@@ -133,11 +133,12 @@ def bracketed_zeros(
         if not goes_on.any():
             break
         which = which[goes_on]
-        a, b, fa, fb, old, f_old, width = (y[goes_on] for y in (a, b, fa, fb, old, f_old, width))
+        a, b, fa, fb, old, f_old, width, least = (y[goes_on] for y in (a, b, fa, fb, old, f_old, width, least))
         x = _next_try(a, b, fa, fb, old, f_old)
         if round_ % 3 == 2:
-            x = np.where(b - a > width / 4.0, (a + b) / 2.0, x)
-            width = b - a
+            slow = (b - a > width / 4.0) & (np.minimum(np.abs(fa), np.abs(fb)) > least / 64.0)
+            x = np.where(slow, (a + b) / 2.0, x)
+            width, least = b - a, np.minimum(np.abs(fa), np.abs(fb))
     return t, w
 
 

@@ -238,7 +238,7 @@ def _scale(field: ScalarField, w: Floats) -> float:
     places = np.stack([np.arange(1, PLACES + 1) * share % 1.0 for share in (0.7548776662, 0.5698402910)], axis=1)
     other = np.abs(field.values(field.start + places * field.size))
     other = other[np.isfinite(other)]
-    least = float(np.median(other)) if len(other) else 0.0
+    least = float(np.sort(other)[len(other) // 2]) if len(other) else 0.0
     size = np.abs(w[np.isfinite(w)])
     if not len(size):
         return least

@@ -17,6 +17,9 @@ RESIDUAL = 1e-12
 NOISE = 2.0**-46
 """Part of the scale of f below which a value at a grid point is rounding and counts as zero."""
 
+SETTLED = RESIDUAL / 16.0
+"""Part of the scale of f below which a point need not come nearer to zero, however small f is beside it."""
+
 FALLS = 1e-3
 """Part of the values beside a change of sign below which f must come there; at a pole or a jump it does not."""
 
@@ -90,7 +93,7 @@ def _zeros(lattice: Lattice, sides: Sides, scale: float, zero: float) -> tuple[F
     """The points (k,2) of the curve on the sides, and which of them are zeros of f indeed."""
     w0, w1 = sides.w.T
     size = np.maximum(np.abs(w0), np.abs(w1))
-    small = np.minimum(np.maximum(RESIDUAL / 8.0 * size, NOISE * scale), zero)
+    small = np.minimum(np.maximum(RESIDUAL / 8.0 * size, SETTLED * scale), zero)
 
     def at(t: Floats, which: Ints) -> Floats:
         i, j = (sides.start[which] + t[:, None] * sides.along[which]).T
