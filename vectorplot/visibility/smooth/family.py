@@ -8,14 +8,17 @@ from typing import Protocol
 import numpy as np
 
 from vectorplot.features.conditions import Condition
+from vectorplot.features.implicit_conditions import SpatialCondition
 from vectorplot.geometry.mesh import Floats
+from vectorplot.visibility.smooth.implicit_sheet import ImplicitSheet
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
+from vectorplot.visibility.smooth.sheet import dot
 
 ROUNDS, RENEWED = 8, 4
 """Steps of Newton from a chord to its curve; the one at which slopes are computed anew."""
 
-SETTLED = 1e-12
-"""Steps below this part of a chord are rounding."""
+SETTLED = 1e-9
+"""The step of Newton after one of this part of a chord is rounding."""
 
 FARTHEST = 0.5
 """So many lengths of its chord a curve may be away from it."""
@@ -124,3 +127,68 @@ class ConditionCurves:
         along_u, along_v = self.surface.partials(places_at)
         moved = tangent * size
         return Along(places_at, self.surface.points(places_at), moved[:, :1] * along_u + moved[:, 1:] * along_v)
+
+
+@dataclass(frozen=True, eq=False)
+class SpatialCurves:
+    """Curves of an implicit surface along which a condition in space has the value of their level."""
+
+    surface: ImplicitSheet
+    sheet: int
+    condition: SpatialCondition
+    second: int = -1
+
+    def between(
+        self, places: tuple[Floats, Floats], points: tuple[Floats, Floats], part: Floats, level: Floats
+    ) -> Along:
+        """The curves at a part of their chords: in the plane across the chord to where surface and condition meet."""
+        way = points[1] - points[0]
+        base = points[0] + part[:, None] * way
+        farthest = FARTHEST * np.sqrt(dot(way, way))
+        off = np.zeros_like(base)
+        placed = self.surface.surface
+        with np.errstate(all="ignore"):
+            for again in range(ROUNDS):
+                at = base + off
+                if again in (0, RENEWED):
+                    one, two = placed.gradients(at), self.condition.gradients(at)
+                    across_one, across_two = np.cross(two, way), np.cross(way, one)
+                    volume = dot(one, across_one)
+                f, g = placed.values(at), self.condition.values(at) - level
+                step = -(f[:, None] * across_one + g[:, None] * across_two) / volume[:, None]
+                step = _no_longer(step, farthest)
+                off = _no_longer(off + step, farthest)
+                if not (np.sqrt(dot(step, step)) > SETTLED * farthest).any():
+                    break
+            tangent = np.cross(one, two)
+            tangent = tangent * (dot(way, way) / dot(tangent, way))[:, None]
+        at = base + off
+        return Along(at, at, np.where(np.isfinite(tangent.sum(axis=1, keepdims=True)), tangent, way))
+
+
+@dataclass(frozen=True, eq=False)
+class NearChords:
+    """Curves of an implicit surface known by points only: between these, what lies on the surface above the chord."""
+
+    surface: ImplicitSheet
+    sheet: int
+    second: int = -1
+
+    def between(
+        self, places: tuple[Floats, Floats], points: tuple[Floats, Floats], part: Floats, level: Floats
+    ) -> Along:
+        """The curves at a part of their chords."""
+        way = points[1] - points[0]
+        at = points[0] + part[:, None] * way
+        for _ in range(ROUNDS):
+            at = self.surface.points(at)
+        normal = self.surface.normals(at)
+        slopes = way - dot(way, normal)[:, None] * normal
+        return Along(at, at, np.where(np.isfinite(slopes), slopes, way))
+
+
+def _no_longer(steps: Floats, longest: Floats) -> Floats:
+    """(k,3) the steps, those longer than this (k,) shortened; none where they are not finite."""
+    steps = np.where(np.isfinite(steps.sum(axis=1, keepdims=True)), steps, 0.0)
+    long = np.sqrt(dot(steps, steps))
+    return np.asarray(steps * np.minimum(1.0, longest / np.maximum(long, 1e-300))[:, None])

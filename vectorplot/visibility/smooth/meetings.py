@@ -19,8 +19,16 @@ from vectorplot.scene.view import View
 from vectorplot.surfaces.surface import Domain
 from vectorplot.visibility.smooth.curves import Curves, together
 from vectorplot.visibility.smooth.family import ParameterCurves
+from vectorplot.visibility.smooth.implicit_meetings import (
+    implicit_with_implicit,
+    implicit_with_mesh,
+    parametrised_with_implicit,
+)
+from vectorplot.visibility.smooth.implicit_sheet import ImplicitSheet
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.surface_curves import as_curves
+
+SmoothSheet = ParametricSheet | ImplicitSheet
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +40,7 @@ class Meetings:
     doubts: tuple[str, ...]
 
 
-def meetings(scene: Scene, view: View, sheets: tuple[ParametricSheet, ...], wants: Bools, tracing: Tracing) -> Meetings:
+def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: Bools, tracing: Tracing) -> Meetings:
     """All meetings of sheets of which one belongs to an item that wants intersections; wants (i,).
 
     A curve belongs to the item, of those that want it, that comes first in the scene.
@@ -41,7 +49,8 @@ def meetings(scene: Scene, view: View, sheets: tuple[ParametricSheet, ...], want
     itself = np.zeros(len(sheets), dtype=np.bool_)
     boxes = [_box(sheet.vertices) for sheet in sheets]
     for number, sheet in enumerate(sheets):
-        if wants[sheet.item]:
+        # Where an implicit surface meets itself its gradient vanishes; these lines are not looked for.
+        if wants[sheet.item] and isinstance(sheet, ParametricSheet):
             found = self_intersections(sheet.surface, tracing=tracing)
             itself[number] = len(found) > 0
             doubts += [f"{scene.items[sheet.item].name}: {text}" for text in found.doubts]
@@ -49,10 +58,10 @@ def meetings(scene: Scene, view: View, sheets: tuple[ParametricSheet, ...], want
     for one, two in combinations(range(len(sheets)), 2):
         items = [i for i in sorted((sheets[one].item, sheets[two].item)) if wants[i]]
         if items and _overlap(boxes[one], boxes[two]):
-            found = surface_intersection(sheets[one].surface, sheets[two].surface, tracing=tracing)
+            part, unsure = _pair(sheets, one, two, items[0], tracing)
             names = " and ".join(scene.items[sheets[k].item].name for k in (one, two))
-            doubts += [f"{names}: {text}" for text in found.doubts]
-            parts.append(_double(found, sheets[one], one, sheets[two], two, items[0]))
+            doubts += [f"{names}: {text}" for text in unsure]
+            parts.append(part)
     for other, item in enumerate(scene.items):
         if not isinstance(item.shape, Mesh) or not item.shape.face_count:
             continue
@@ -60,12 +69,36 @@ def meetings(scene: Scene, view: View, sheets: tuple[ParametricSheet, ...], want
         for number, sheet in enumerate(sheets):
             items = [i for i in sorted((sheet.item, other)) if wants[i]]
             if items and _overlap(boxes[number], _box(mesh.vertices)):
-                section = mesh_section(sheet.surface, mesh, tracing=tracing)
-                names = f"{scene.items[sheet.item].name} and {item.name}"
-                doubts += [f"{names}: {text}" for text in section.curves.doubts]
-                family = ParameterCurves(sheet, number)
-                parts.append(as_curves(section.curves, LineKind.INTERSECTION, items[0], family))
+                part, unsure = _with_mesh(sheet, number, mesh, items[0], tracing)
+                doubts += [f"{scene.items[sheet.item].name} and {item.name}: {text}" for text in unsure]
+                parts.append(part)
     return Meetings(together(parts), itself, tuple(doubts))
+
+
+def _pair(
+    sheets: tuple[SmoothSheet, ...], one: int, two: int, item: int, tracing: Tracing
+) -> tuple[Curves, tuple[str, ...]]:
+    """The curves of two sheets, given by their numbers."""
+    first, second = sheets[one], sheets[two]
+    if isinstance(first, ParametricSheet) and isinstance(second, ParametricSheet):
+        found = surface_intersection(first.surface, second.surface, tracing=tracing)
+        return _double(found, first, one, second, two, item), found.doubts
+    if isinstance(first, ParametricSheet) and isinstance(second, ImplicitSheet):
+        return parametrised_with_implicit(first, one, second, two, item, tracing)
+    if isinstance(first, ImplicitSheet) and isinstance(second, ParametricSheet):
+        return parametrised_with_implicit(second, two, first, one, item, tracing)
+    assert isinstance(first, ImplicitSheet) and isinstance(second, ImplicitSheet)
+    return implicit_with_implicit(first, one, second, two, item, tracing)
+
+
+def _with_mesh(
+    sheet: SmoothSheet, number: int, mesh: Mesh, item: int, tracing: Tracing
+) -> tuple[Curves, tuple[str, ...]]:
+    """The curves of a sheet and a mesh in the view's coordinates."""
+    if isinstance(sheet, ImplicitSheet):
+        return implicit_with_mesh(sheet, number, mesh, item, tracing)
+    found = mesh_section(sheet.surface, mesh, tracing=tracing).curves
+    return as_curves(found, LineKind.INTERSECTION, item, ParameterCurves(sheet, number)), found.doubts
 
 
 def _box(points: Floats) -> Floats:
