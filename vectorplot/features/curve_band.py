@@ -16,6 +16,9 @@ REACH = 2.0
 ALIGNED = 0.2
 """Cosine between the slopes at the corners of a triangle and their sum above which the curve is a single arc there."""
 
+LEVELS = 16
+"""How often triangles are cut at most."""
+
 MOST_TRIANGLES = 1 << 20
 """Triangles to which a band is cut at most."""
 
@@ -58,7 +61,7 @@ class Band:
 def curve_band(
     nodes: Nodes,
     triangles: Ints,
-    middles: Callable[[Floats, Bools], Nodes],
+    middles: Callable[[Floats, Floats, Bools], Nodes],
     tangential: Callable[[Floats, Ints], Floats],
     *,
     finest: float,
@@ -66,25 +69,27 @@ def curve_band(
     """The band of triangles (t,3) that the curve on which values vanish can reach.
 
     Where slopes at the corners of a triangle point different ways, and values are small enough that they could vanish
-    inside, it is cut until its sides are shorter than finest. middles(points, fixed) makes nodes from middles of sides;
-    tangential(slopes (k,3,3) at corners, source (k,)) are the parts of slopes in the surface.
+    inside, it is cut until its sides are shorter than finest. middles(starts, ends, fixed) makes nodes between the ends
+    of sides; tangential(slopes (k,3,3) at corners, source (k,)) are the parts of slopes in the surface.
     """
     source = np.arange(len(triangles))
     reached = _reached(nodes, triangles, tangential(nodes.slopes[triangles], source), REACH)
     triangles, source = triangles[reached], source[reached]
     used, corners = np.unique(triangles, return_inverse=True)
     nodes, triangles = nodes.chosen(used), corners.reshape(-1, 3)
-    while True:
+    for level in range(LEVELS + 1):
         slopes = tangential(nodes.slopes[triangles], source)
-        odd = _reached(nodes, triangles, slopes, 1.0) & ~_aligned(slopes)
+        unclear = ~_aligned(slopes) | _grazes_border(nodes, triangles, slopes)
+        odd = _reached(nodes, triangles, slopes, 1.0) & unclear
         wide = _widths(nodes, triangles) > finest
-        if not (odd & wide).any() or len(triangles) > MOST_TRIANGLES:
-            return Band(nodes, triangles, source, np.flatnonzero(odd))
+        if not (odd & wide).any() or len(triangles) > MOST_TRIANGLES or level == LEVELS:
+            break
         split = split_at_middles(triangles, odd & wide, len(nodes.points))
         ends = nodes.points[split.low], nodes.points[split.high]
         fixed = nodes.fixed[split.low] & nodes.fixed[split.high]
-        nodes = nodes.joined(middles((ends[0] + ends[1]) / 2.0, fixed))
+        nodes = nodes.joined(middles(*ends, fixed))
         triangles, source = split.triangles, source[split.parent]
+    return Band(nodes, triangles, source, np.flatnonzero(odd))
 
 
 def _reached(nodes: Nodes, triangles: Ints, slopes: Floats, factor: float) -> Bools:
@@ -103,6 +108,22 @@ def _aligned(slopes: Floats) -> Bools:
     along = np.einsum("tij,tj->ti", slopes, total)
     sizes = np.sqrt((slopes * slopes).sum(axis=2) * (total * total).sum(axis=1)[:, None])
     return np.asarray(((along > ALIGNED * sizes) | np.isnan(along)).all(axis=1))
+
+
+def _grazes_border(nodes: Nodes, triangles: Ints, slopes: Floats) -> Bools:
+    """(t,) triangles with a side on the border along which the values first fall towards zero and then rise: between
+    corners of one sign the curve could cross it twice."""
+    result = np.zeros(len(triangles), dtype=np.bool_)
+    for a, b in ((0, 1), (1, 2), (2, 0)):
+        i, j = triangles[:, a], triangles[:, b]
+        w0, w1 = nodes.values[i], nodes.values[j]
+        along = nodes.points[j] - nodes.points[i]
+        from_a, from_b = (slopes[:, a] * along).sum(axis=1) * w0, -(slopes[:, b] * along).sum(axis=1) * w1
+        falls = (from_a < 0.0) & (from_b < 0.0) & (w0 * w1 > 0.0)
+        # Where both fall less than they are high, the curve through both line elements stays above zero.
+        low = (-from_a > w0 * w0) | (-from_b > w1 * w1)
+        result |= falls & low & (nodes.fixed[i] & nodes.fixed[j]).any(axis=1)
+    return result
 
 
 def _widths(nodes: Nodes, triangles: Ints) -> Floats:

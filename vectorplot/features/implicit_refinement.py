@@ -103,11 +103,11 @@ class CurveInSpace:
     def between(self, a: Floats, b: Floats, fixed: Bools) -> tuple[Floats, Bools]:
         """(k,3) points of the curve between points a and b (k,3) of the surface on different sides of g = 0, and which
         are zeros of g indeed; slow and sure: by brackets on the surface."""
-        reach = float(np.linalg.norm(b - a, axis=1).max(initial=0.0))
+        reach = np.linalg.norm(b - a, axis=1)
 
         def place(t: Floats, which: Ints) -> Floats:
             chord = a[which] + t[:, None] * (b - a)[which]
-            return onto_surface(self.surface, chord, reach=reach, fixed=fixed[which])[0]
+            return onto_surface(self.surface, chord, reach=reach[which], fixed=fixed[which])[0]
 
         w0, w1 = self.values(a), self.values(b)
         small = np.full(len(a), RESIDUAL * self.size)
@@ -146,7 +146,7 @@ def refined_chords(
         moved, on = curve.onto(probes, reach)
         moved, on = moved.reshape(len(PROBES), -1, 3), on.reshape(len(PROBES), -1)
         on = on[0] & on[1]
-        far, long = _deviation(picture, a, b, moved)
+        far, long = deviation(picture, a, b, moved)
         unsure += int((~on & (long > tolerance)).sum())
         bad = on & (far > tolerance * MISSED)
         split = first[bad]
@@ -158,7 +158,7 @@ def refined_chords(
     return points, last, unsure
 
 
-def _deviation(picture: Picture | None, a: Floats, b: Floats, probes: Floats) -> tuple[Floats, Floats]:
+def deviation(picture: Picture | None, a: Floats, b: Floats, probes: Floats) -> tuple[Floats, Floats]:
     """(k,) largest distances of probes from chords, and the lengths of the chords, in the picture."""
 
     def seen(p: Floats) -> Floats:

@@ -127,7 +127,7 @@ def curves_in_space(
     band = curve_band(
         nodes,
         mesh.corners.reshape(-1, 3),
-        lambda points, fixed: _middles(curve, points, fixed, area),
+        lambda starts, ends, fixed: _middles(curve, starts, ends, fixed, area),
         lambda slopes, source: slopes,
         finest=tracing.resolution * extent,
     )
@@ -186,10 +186,10 @@ def _slack(curve: CurveInSpace, area: bool) -> float:
     return FLAT * curve.size if area else 4.0 * float(np.finfo(np.float64).eps) * curve.size
 
 
-def _middles(curve: CurveInSpace, points: Floats, fixed: Bools, area: bool) -> Nodes:
+def _middles(curve: CurveInSpace, starts: Floats, ends: Floats, fixed: Bools, area: bool) -> Nodes:
     """New nodes between old ones, on the surface."""
-    reach = float(np.ptp(points, axis=0).max(initial=0.0)) or curve.extent
-    on = onto_surface(curve.surface, points, reach=reach, fixed=fixed)[0]
+    reach = np.linalg.norm(ends - starts, axis=1) / 2.0
+    on = onto_surface(curve.surface, (starts + ends) / 2.0, reach=reach, fixed=fixed)[0]
     w = curve.values(on)
     return Nodes(on, fixed, np.where(np.abs(w) <= _slack(curve, area), 0.0, w), curve.slopes(on)[1])
 

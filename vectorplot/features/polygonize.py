@@ -188,13 +188,14 @@ def _on_edges(
 
 
 def onto_surface(
-    surface: ImplicitSurface, points: Floats, *, reach: float, fixed: Bools | None = None
+    surface: ImplicitSurface, points: Floats, *, reach: float | Floats, fixed: Bools | None = None
 ) -> tuple[Floats, Bools]:
-    """Points (n,3) moved along the gradient onto F = 0, not further than reach, and which of them got there.
+    """Points (n,3) moved along the gradient onto F = 0, not further than reach (or (n,)), and which of them got there.
 
     fixed (n,3): coordinates that stay as they are.
     """
     x, arrived = points.copy(), np.zeros(len(points), dtype=np.bool_)
+    far = np.broadcast_to(np.asarray(reach, dtype=np.float64), len(points))
     active: Ints = np.arange(len(points))
     enough = RESIDUAL * float(np.ptp(np.asarray(surface.box), axis=0).max())
     for _ in range(ROUNDS):
@@ -209,11 +210,11 @@ def onto_surface(
             step = np.where(w == 0.0, 0.0, w / length)
             way = np.where(w[:, None] == 0.0, 0.0, slope / length[:, None])
         usable = np.isfinite(step)
-        x[active[usable]] -= (np.clip(step, -reach, reach)[:, None] * way)[usable]
+        x[active[usable]] -= (np.clip(step, -far[active], far[active])[:, None] * way)[usable]
         digits = 4.0 * np.spacing(np.abs(points[active]).max(axis=1))
         arrived[active] = usable & (np.abs(step) <= np.maximum(enough, digits))
         active = active[usable & ~arrived[active]]
-    arrived &= np.linalg.norm(x - points, axis=1) <= 2.0 * reach
+    arrived &= np.linalg.norm(x - points, axis=1) <= 2.0 * far
     return np.where(arrived[:, None], x, points), arrived
 
 

@@ -1,0 +1,75 @@
+"""Heights on regular grids: from scattered points, and with extra points by spline interpolation."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats
+
+MOST_POINTS = 1 << 24
+"""Points of a grid at most."""
+
+
+def grid_of_scattered(points: ArrayLike, columns: int, rows: int) -> Floats:
+    """(columns+1, rows+1, 3) points of a regular grid over the box of scattered points (n,3), their heights z
+    interpolated.
+
+    The surface passes through all points and is smooth: cubic pieces over a Delaunay triangulation. NaN outside the
+    convex hull.
+    Errors: InputError for fewer than three points, points not finite, all on one line, wild counts.
+    Degenerate: of points above one another the first counts.
+    Source: Glaeser, section 9.3; Clough and Tocher (1965), as scipy has it.
+    """
+    from scipy.interpolate import CloughTocher2DInterpolator
+    from scipy.spatial import QhullError
+
+    p = np.array(points, dtype=np.float64)
+    if p.ndim != 2 or p.shape[1] != 3 or len(p) < 3 or not np.isfinite(p).all():
+        raise InputError("scattered heights: at least three points of three finite coordinates")
+    _check_counts(columns, rows)
+    first = np.sort(np.unique(p[:, :2], axis=0, return_index=True)[1])
+    p = p[first]
+    low, size = p.min(axis=0), np.ptp(p, axis=0)
+    if not (size[:2] > 0.0).all():
+        raise InputError("scattered heights: the points lie on one line")
+    # In the unit box, so that neither place nor scale matters.
+    scaled = (p - low) / np.where(size > 0.0, size, 1.0)
+    u, v = np.meshgrid(np.linspace(0, 1, columns + 1), np.linspace(0, 1, rows + 1), indexing="ij")
+    try:
+        heights = CloughTocher2DInterpolator(scaled[:, :2], scaled[:, 2])(u, v)
+    except QhullError:
+        raise InputError("scattered heights: the points lie on one line") from None
+    return np.asarray(low + size * np.stack([u, v, heights], axis=-1), dtype=np.float64)
+
+
+def densified_grid(grid: ArrayLike, factor: int) -> Floats:
+    """((m-1) f + 1, (n-1) f + 1, 3) a grid of points (m,n,3) with factor f - 1 extra points between neighbours, on
+    Akima's splines along its lines.
+
+    The points of the grid stay. Errors: InputError for a grid of another shape, points not finite, wild factors.
+    Degenerate: with two points along a line the spline is straight.
+    Source: Glaeser, sections 9.1 and 9.3.
+    """
+    from scipy.interpolate import Akima1DInterpolator
+
+    p = np.array(grid, dtype=np.float64)
+    if p.ndim != 3 or p.shape[2] != 3 or min(p.shape[:2]) < 2 or not np.isfinite(p).all():
+        raise InputError("grid: (m,n,3) finite points, at least two each way")
+    if factor < 1:
+        raise InputError(f"grid: a factor of {factor}: at least 1")
+    _check_counts((p.shape[0] - 1) * factor, (p.shape[1] - 1) * factor)
+    for axis in (0, 1):
+        count = p.shape[axis] - 1
+        places = np.arange(count * factor + 1) / factor
+        denser = np.asarray(Akima1DInterpolator(np.arange(count + 1), p, axis=axis)(places))
+        # The given points to the last bit.
+        np.moveaxis(denser, axis, 0)[::factor] = np.moveaxis(p, axis, 0)
+        p = denser
+    return p
+
+
+def _check_counts(columns: int, rows: int) -> None:
+    if columns < 1 or rows < 1 or columns * rows > MOST_POINTS:
+        raise InputError(f"grid: {columns} by {rows} cells: from 1 to {MOST_POINTS} in all")
