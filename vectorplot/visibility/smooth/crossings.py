@@ -31,11 +31,15 @@ RESIDUAL_OF_GAP = 1e-3
 """Part of the cube of the gap that the residual of a crossing may be: two curves that touch come as close as they
 like, but not at a distance."""
 
-ROUGHLY = 1e-6
-"""How far the images may be apart while the curves are replaced by cubic arcs."""
+MODEL_RESIDUAL, MODEL_RESIDUAL_OF_GAP = 1e-6, 1e-3
+"""The same while the curves are replaced by cubic arcs, and as a part of the square of the gap: towards a place where
+two curves touch they come together like the square of what is left of the gap."""
 
-ROUGHLY_OF_CHORDS = 0.05
-"""The same, as a part of how far chords are off the curves."""
+NEAR_CUSPS = 0.1
+"""Part of the largest bending along an edge below which a cusp is near."""
+
+STARTS = ((0.2, 0.2), (0.2, 0.8), (0.8, 0.2), (0.8, 0.8))
+"""Parts of both chords at which the search for those begins."""
 
 NEAR_MISSES = 2.0
 """Chords that pass at so many of their tolerances are tried too."""
@@ -61,7 +65,7 @@ def crossings(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curv
     tolerance: how far chords are off their curves, in the image. Behind a fold or cuspidal edge (crease) there are two
     sheets more or less, by the side to which the sheet turns; behind a border one.
     """
-    pairs = _roughly_met(view, curves, edges, _close_pairs(view, curves, edges, tolerance), tolerance)
+    pairs = _roughly_met(view, curves, edges, _close_pairs(view, sheets, curves, edges, tolerance))
     for _ in range(HOPS):
         pairs = _met(view, curves, edges, pairs)
         chord, part = hopped(curves, pairs.chord, pairs.part)
@@ -77,16 +81,37 @@ def crossings(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curv
     return _events(view, sheets, curves, edges, pairs)
 
 
-def _close_pairs(view: View, curves: Curves, edges: Curves, tolerance: float) -> Pairs:
+def _close_pairs(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, tolerance: float) -> Pairs:
     """The pairs of chords that come close to each other in the image, the edge not behind, and where they do."""
     margin = NEAR_MISSES * tolerance
     one, two = _Boxes.of(view, curves), _Boxes.of(view, edges)
     near, far = one.overlapping(two, margin)
-    not_behind = two.nearest[far] <= one.farthest[near]
+    # A chord that runs away from the eye may be off its curve in depth by some part of its length.
+    not_behind = two.nearest[far] - (two.farthest - two.nearest)[far] <= (2.0 * one.farthest - one.nearest)[near]
     near, far = near[not_behind], far[not_behind]
     part, edge_part, apart = _approach(one.start[near], one.end[near], two.start[far], two.end[far])
-    close = apart <= margin
-    return Pairs(one.chord[near[close]], part[close], two.chord[far[close]], edge_part[close])
+    close = np.flatnonzero(apart <= margin)
+    near, far, part, edge_part = near[close], far[close], part[close], edge_part[close]
+    # Near a cusp of an edge a curve may cross it twice close together: the search begins at several places.
+    own = curves.sheet[curves.owner[one.chord[near]]] == edges.sheet[edges.owner[two.chord[far]]]
+    again = np.flatnonzero(own & _near_cusps(view, sheets, edges)[two.chord[far]])
+    starts = [(np.arange(len(near)), part, edge_part)]
+    starts += [(again, np.full(len(again), a), np.full(len(again), b)) for a, b in STARTS]
+    which, part, edge_part = (np.concatenate(column) for column in zip(*starts, strict=True))
+    return Pairs(one.chord[near[which]], part, two.chord[far[which]], edge_part)
+
+
+def _near_cusps(view: View, sheets: tuple[Sheet, ...], edges: Curves) -> Bools:
+    """(n,) the points of folds at which the sheet bends little along the sight line."""
+    bend = np.full(len(edges.points), np.inf)
+    fold = edges.kind[edges.owner] == LineKind.CONTOUR
+    for number, sheet in enumerate(sheets):
+        at = np.flatnonzero(fold & (edges.sheet[edges.owner] == number))
+        bend[at] = np.abs(sheet.bends(edges.places[at], projection.sight(view, edges.points[at])))
+        if len(at):
+            bend[at] /= max(float(bend[at].max()), np.finfo(np.float64).tiny)
+    little = bend < NEAR_CUSPS
+    return np.asarray(little | np.append(little[1:], False))
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,22 +160,22 @@ def _approach(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Float
     return s, t, np.sqrt(dot(away, away))
 
 
-def _roughly_met(view: View, curves: Curves, edges: Curves, pairs: Pairs, tolerance: float) -> Pairs:
+def _roughly_met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
     """The pairs at parts where cubic arcs close to the curves meet; those that do not, or only touch, are left out."""
     chord, of_curve = np.unique(pairs.chord, return_inverse=True)
     edge, of_edge = np.unique(pairs.edge, return_inverse=True)
     one, two = cubics(view, curves, chord), cubics(view, edges, edge)
     part, edge_part = pairs.part.copy(), pairs.edge_part.copy()
-    off = np.full(len(part), np.inf)
+    off = gap = np.full(len(part), np.inf)
     for _ in range(ROUNDS):
         (p, a), (q, b) = one.at(of_curve, part), two.at(of_edge, edge_part)
-        off = np.sqrt(dot(q - p, q - p))
-        s, t = _step(q - p, a, b)
+        away = (q - p)[:, :2]
+        off, gap = np.sqrt(dot(away, away)), (p - q)[:, 2]
+        s, t = _step(away, a, b)
         part, edge_part = np.clip(part + s, -0.5, 1.5), np.clip(edge_part + t, -0.5, 1.5)
-    gap = one.depth(of_curve, part) - two.depth(of_edge, edge_part)
-    rough = max(ROUGHLY, ROUGHLY_OF_CHORDS * tolerance)
-    met = (off <= rough) & (gap > 0.5 * GAP) & (off <= np.maximum(gap, rough))
-    return Pairs(pairs.chord, part, pairs.edge, edge_part).some(met)
+    met = np.flatnonzero((off <= np.minimum(MODEL_RESIDUAL, MODEL_RESIDUAL_OF_GAP * gap**2)) & (gap > 0.5 * GAP))
+    found = Pairs(pairs.chord, part, pairs.edge, edge_part).some(met)
+    return found.some(once(curves, found.chord, found.part, found.edge + found.edge_part))
 
 
 def _step(gap: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:
