@@ -32,16 +32,34 @@ def joined(paths: Paths, group: Ints, tolerance_mm: float) -> Paths:
     open_ = np.flatnonzero(~paths.closed & (sizes > 1))
     if not len(open_):
         return chosen(paths, paths.closed) if (~paths.closed).any() else paths
-    first, last = paths.offsets[open_], paths.offsets[open_ + 1] - 1
-    alike = 2 * group + paths.smooth
-    node = _nodes(paths.points[np.stack((first, last), axis=1).ravel()], np.repeat(alike[open_], 2), tolerance_mm)
+    node = _nodes_of(paths, open_, group, tolerance_mm)
     dot = (node[::2] == node[1::2]) & (sizes[open_] == 2)
     if dot.any():
         rest = np.sort(np.concatenate((open_[~dot], np.flatnonzero(paths.closed))))
         return joined(chosen(paths, rest), group[rest], tolerance_mm)
+    return _assembled(paths, open_, chains(_linked(paths, open_, node, tolerance_mm)))
+
+
+def linked_ends(paths: Paths, group: Ints, tolerance_mm: float) -> Ints:
+    """(2m,) the end that each end of open strokes, start (even) or end (odd), is joined to by joined, or NO_END."""
+    every = np.arange(len(paths))
+    return _linked(paths, every, _nodes_of(paths, every, group, tolerance_mm), tolerance_mm)
+
+
+def _ends_of(paths: Paths, open_: Ints) -> Ints:
+    """(2k,) the first and last points of some strokes."""
+    return np.stack((paths.offsets[open_], paths.offsets[open_ + 1] - 1), axis=1).ravel()
+
+
+def _nodes_of(paths: Paths, open_: Ints, group: Ints, tolerance_mm: float) -> Ints:
+    alike = 2 * group + paths.smooth
+    return _nodes(paths.points[_ends_of(paths, open_)], np.repeat(alike[open_], 2), tolerance_mm)
+
+
+def _linked(paths: Paths, open_: Ints, node: Ints, tolerance_mm: float) -> Ints:
+    ends = _ends_of(paths, open_)
     reach = SAME_PLACE * tolerance_mm * world_per_mm(paths)
-    node = _parted(node, paths.points3d[np.stack((first, last), axis=1).ravel()], reach)
-    return _assembled(paths, open_, chains(_mates(paths, first, last, node)))
+    return _mates(paths, ends[::2], ends[1::2], _parted(node, paths.points3d[ends], reach))
 
 
 def _parted(node: Ints, ends: Floats, reach: float) -> Ints:

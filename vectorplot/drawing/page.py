@@ -8,7 +8,9 @@ import numpy as np
 
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.duplicates import without_duplicates
+from vectorplot.drawing.smooth_duplicates import without_smooth_duplicates
 from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Page
 from vectorplot.scene.view import View
 from vectorplot.visibility.hidden_lines import Visibility
@@ -94,7 +96,9 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, page_from_image:
     rank[order] = np.arange(count)
     world = page_from_world(view, page_from_image)
     paths = Paths(points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends), lines.smooth[seen.segment])
-    return without_duplicates(paths, rank, COINCIDENT_MM, world)
+    once = without_duplicates(paths, rank, COINCIDENT_MM, world)
+    curve_rank = ((once.hidden_by > 0) * len(LineKind) + once.kind) * len(view.item_vertices) + once.item
+    return without_smooth_duplicates(once, curve_rank, COINCIDENT_MM)
 
 
 def page_from_world(view: View, page_from_image: Floats) -> Floats:
