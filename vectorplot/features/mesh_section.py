@@ -48,7 +48,7 @@ def mesh_section(surface: Surface, mesh: Mesh, *, tracing: Tracing = DEFAULT) ->
     Errors: InputError for a grid that is too coarse.
     Degenerate: a face that only touches the surface gives an isolated point; one that lies in it a doubt. Where more
     than two faces meet in an edge curves are joined in pairs. Where the triangles cross edges otherwise than the
-    surface (it passes a corner, or grazes an edge) the grid is refined (up to 2^17 cells); what is left then is a doubt.
+    surface (it passes a corner, or grazes an edge) the grid is refined, up to 2^17 cells; the rest is a doubt.
     Source: Glaeser, section 8.4 (face-face sections).
     """
     two = MeshSheet(mesh)
