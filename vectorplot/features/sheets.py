@@ -17,7 +17,10 @@ from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Surface
 
 LONGEST_STEP = 2.0
-"""Cells that a place is moved by at most in one step."""
+"""Cells that a parameter is moved by at most in one step."""
+
+LONGEST_PART = 0.125
+"""Part of the domain that a parameter may be moved by all the same: near a pole that is not far."""
 
 
 class Sheet(Protocol):
@@ -108,8 +111,9 @@ class SurfaceSheet:
             sine = np.maximum(1.0 - cosine * cosine, 1e-14)
             change = np.stack([(by_a - cosine * by_b) / sine / long_u, (by_b - cosine * by_a) / sine / long_v], axis=1)
         change = np.where(np.isfinite(change), change, 0.0)
-        longest = np.abs(change / self.cell).max(axis=1, initial=0.0)
-        return self._inside(places + change / np.maximum(longest / LONGEST_STEP, 1.0)[:, None])
+        # Each parameter by itself: near a pole one of them runs far while the other hardly moves.
+        longest = np.maximum(LONGEST_STEP * self.cell, LONGEST_PART * np.asarray(self.surface.domain.size))
+        return self._inside(places + np.clip(change, -longest, longest))
 
     def along_rails(self, places: Floats, rails: Ints) -> Floats:
         """(k,3) derivatives by the other parameter than the one that rails (k,), 0 or 1, keep."""
