@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -11,8 +13,8 @@ import numpy as np
 from vectorplot.drawing.drawing import Drawing, Layer, Paths
 from vectorplot.drawing.ink import inked
 from vectorplot.drawing.layers import layers_by_colour, layers_by_kind, layers_by_object
-from vectorplot.drawing.page import page_from_image, page_from_world, strokes_on_page
-from vectorplot.errors import InputError
+from vectorplot.drawing.page import mm_per_image, page_from_image, page_from_world, strokes_on_page
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Bools
 from vectorplot.geometry.strokes import LineKind
@@ -26,7 +28,7 @@ from vectorplot.visibility.occluders import solid_items
 from vectorplot.visibility.pairs import Segments
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 
-DRAWN = ("contour", "boundary", "crease", "intersection", "pattern", "parameter", "isophote", "section")
+DRAWN = ("contour", "boundary", "crease", "intersection", "pattern", "parameter", "isophote", "section", "curve")
 """The kinds of lines that are drawn where nothing else is said."""
 
 
@@ -62,8 +64,8 @@ def draw(
     words of LineKind; an item's own come first. crease_angle_deg: sharper edges are creases. hidden: hidden lines are
     left out, dashed, or solid on a layer of their own. halo_mm: lines end so far beside what is in front of them.
     layers: what shares a layer. curves: strokes of smooth curves are fitted with cubic Béziers and elliptic arcs, or
-    stay polylines. tolerance_mm: for approximations; straight lines,
-    all there are so far, are exact whatever it is. progress(stage, fraction)
+    stay polylines. tolerance_mm: how far strokes of smooth curves may be off the true curves; their
+    points are exact, straight lines are so whatever it is. progress(stage, fraction)
     and explain(report) are called while it works.
     Errors: InputError for unknown words, impossible cameras, and widths and angles out of range.
     Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees
@@ -86,7 +88,10 @@ def draw(
         found.append(walk.run("intersections", intersection_lines, scene, view, faces, kinds, solid))
     if walk.calls_for("patterns"):
         found.append(walk.run("patterns", pattern_lines, scene, view, kinds))
-    framed, whole = walk.run("frame", in_frame, view, joined_lines(found), page, fit)
+    all_lines = joined_lines(found)
+    if walk.calls_for("curves"):
+        all_lines = _with_surfaces(walk, scene, view, kinds, all_lines, page, fit, tolerance_mm)
+    framed, whole = walk.run("frame", in_frame, view, all_lines, page, fit)
     seen = _visibility(walk, view, faces, solid, framed)
     placed = page_from_image(view, framed, seen, page, fit, whole)
     if walk.calls_for("halo"):
@@ -114,11 +119,36 @@ def _check_options(hidden: str, curves: str, halo_mm: float, crease_angle_deg: f
         raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected a length that is finite and positive")
 
 
+def _with_surfaces(
+    walk: Walk,
+    scene: Scene,
+    view: View,
+    kinds: frozenset[LineKind],
+    lines: Lines,
+    page: Page,
+    fit: bool,
+    tolerance_mm: float,
+) -> Lines:
+    """The lines and the curves of smooth surfaces, cut where one of these begins to hide them or ends."""
+    from vectorplot.visibility.smooth.smooth_lines import with_curves
+    from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
+
+    sheets = scene_sheets(scene, view)
+    # Chords take one half of the tolerance, Béziers through their ends the other.
+    tolerance = 0.5 * tolerance_mm / mm_per_image(view, [sheet.vertices for sheet in sheets], page, fit)
+    traced = walk.run("curves", traced_scene, scene, view, sheets, kinds, tolerance)
+    for doubt in traced.doubts:
+        warnings.warn(doubt, InputWarning, stacklevel=3)
+    cut = walk.run("smooth surfaces", with_curves, view, traced, lines, len(scene.items), tolerance)
+    return cut if not walk.calls_for("visible lines") else cut.some(cut.behind == 0)
+
+
 def _visibility(walk: Walk, view: View, faces: ProjectedFaces, solid: Bools, lines: Lines) -> Visibility:
     segments = Segments(lines.start, lines.end)
     if walk.calls_for("visible lines"):
         return walk.run("visible lines", visible_parts, view, faces, solid, segments, walk.fraction("visible lines"))
-    return walk.run("counted lines", counted_parts, view, faces, solid, segments, walk.fraction("counted lines"))
+    seen = walk.run("counted lines", counted_parts, view, faces, solid, segments, walk.fraction("counted lines"))
+    return replace(seen, hidden_by=seen.hidden_by + lines.behind[seen.segment])
 
 
 def _layers(scene: Scene, strokes: Paths, layers: str) -> tuple[Layer, ...]:

@@ -3,7 +3,7 @@ import pytest
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_about
-from vectorplot.scene.extent import surface_bounds
+from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.surfaces.cyclide import dupin_cyclide
 from vectorplot.surfaces.cylinder import Cone
@@ -27,7 +27,7 @@ def off(found, low, high):
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
 def test_a_torus_reaches_as_far_as_its_radii_say(size):
     reach = np.array([4.0, 4.0, 1.0]) * size
-    assert off(surface_bounds(Torus(3.0 * size, size)), -reach, reach) < 1e-9
+    assert off(smooth_bounds(Torus(3.0 * size, size)), -reach, reach) < 1e-9
 
 
 @pytest.mark.parametrize("angle", [0.3, 1.1, 2.5])
@@ -36,23 +36,23 @@ def test_a_turned_ellipsoid_far_away_has_the_extent_of_its_quadratic_form(angle)
     matrix = np.asarray(turn)
     axes = np.array([3.0, 2.0, 0.5])
     reach = np.sqrt(((axes[:, None] * matrix) ** 2).sum(axis=0))
-    found = surface_bounds(PlacedSurface(Ellipsoid(axes), matrix, SHIFT))
+    found = smooth_bounds(PlacedSurface(Ellipsoid(axes), matrix, SHIFT))
     assert off(found, SHIFT - reach, SHIFT + reach) < 1e-6
 
 
 def test_a_wavy_graph_is_within_a_thousandth():
     waves = graph(lambda x, y: np.sin(7.3 * x) * np.cos(6.1 * y), Domain(-3.0, 3.0, -2.0, 2.0))
-    assert off(surface_bounds(waves), (-3, -2, -1), (3, 2, 1)) < 1e-3
+    assert off(smooth_bounds(waves), (-3, -2, -1), (3, 2, 1)) < 1e-3
 
 
 def test_the_apex_and_the_border_of_a_cone_bound_it():
-    assert off(surface_bounds(Cone.standing(2.0, 3.0)), (-2, -2, 0), (2, 2, 3)) < 1e-9
+    assert off(smooth_bounds(Cone.standing(2.0, 3.0)), (-2, -2, 0), (2, 2, 3)) < 1e-9
 
 
 @pytest.mark.hard(69)
 def test_holes_do_not_count():
     half = graph(lambda x, y: np.sqrt(x), Domain(-4.0, 4.0, 0.0, 1.0))
-    found = surface_bounds(half)
+    found = smooth_bounds(half)
     assert off(found, (0, 0, 0), (4, 1, 2)) < 1e-3
     with pytest.raises(InputError, match=r"^VOID: the surface has no finite point"):
         _ = Scene((Item("VOID", graph(lambda x, y: np.sqrt(-1.0 - x * x), Domain(0.0, 1.0, 0.0, 1.0))),)).bounds
@@ -60,14 +60,14 @@ def test_holes_do_not_count():
 
 def test_a_pole_ends_with_the_grid_and_infinity_on_the_grid_is_an_error():
     chimney = surface_of_function(lambda u, v: (u, v, 1.0 / (u - 0.0101)), Domain(-1.0, 1.0, -1.0, 1.0))
-    assert surface_bounds(chimney)[1, 2] == pytest.approx(1.0 / (1.0 / 32.0 - 0.0101))
+    assert smooth_bounds(chimney)[1, 2] == pytest.approx(1.0 / (1.0 / 32.0 - 0.0101))
     with pytest.raises(InputError, match="infinity"):
-        surface_bounds(dupin_cyclide(3.0, 1.0, (3.0, 0.0, 1.0), 1.0))
+        smooth_bounds(dupin_cyclide(3.0, 1.0, (3.0, 0.0, 1.0), 1.0))
 
 
 def test_what_is_no_surface_is_said_so():
     with pytest.raises(InputError, match="a str is no mesh and no surface"):
-        surface_bounds("torus")
+        smooth_bounds("torus")
 
 
 def test_bounds_of_a_scene_are_those_of_all_its_items():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, TypeGuard
 
 from vectorplot.geometry.mesh import Floats
 
@@ -35,3 +35,8 @@ class Curve(Protocol):
     def tangents(self, t: Floats) -> Floats:
         """(..., 3) derivatives by t."""
         ...
+
+
+def is_curve(shape: object) -> TypeGuard[Curve]:
+    """Whether a shape is a curve in space: it has tangents."""
+    return hasattr(shape, "tangents")

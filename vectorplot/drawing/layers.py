@@ -21,6 +21,7 @@ PENS = {
     "pattern": Pen(0.18, BLACK),
     "isophote": Pen(0.18, BLACK),
     "section": Pen(0.18, BLACK),
+    "curve": Pen(0.5, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -34,6 +35,7 @@ KIND_LAYER = {
     LineKind.PARAMETER: "visible",
     LineKind.ISOPHOTE: "isophote",
     LineKind.SECTION: "section",
+    LineKind.CURVE: "curve",
 }
 
 COLOURS = {
@@ -53,8 +55,8 @@ COLOURS = {
 
 
 def layers_by_kind(paths: Paths) -> tuple[Layer, ...]:
-    """Layers visible, contour, intersection, hidden (not plotted), pattern, isophote and section, without the empty
-    ones at the end: so each kind keeps its number from drawing to drawing."""
+    """Layers visible, contour, intersection, hidden (not plotted), pattern, isophote, section and curve, without the
+    empty ones at the end: so each kind keeps its number from drawing to drawing."""
     names = tuple(PENS)
     of_kind = np.array([names.index(KIND_LAYER[kind]) for kind in LineKind])
     which = np.where(paths.hidden_by > 0, names.index("hidden"), of_kind[paths.kind])

@@ -30,6 +30,8 @@ class LineKind(IntEnum):
     """A line of a smooth surface along which it takes the same light."""
     SECTION = 8
     """A line in which a plane meets a smooth surface."""
+    CURVE = 9
+    """A curve in space that is an item of its own."""
 
     @property
     def word(self) -> str:

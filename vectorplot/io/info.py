@@ -8,7 +8,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair import mesh_report
 from vectorplot.io.scene_surface_writer import surface_text
-from vectorplot.scene.extent import surface_bounds
+from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
@@ -59,7 +59,7 @@ def _surface(shape: Surface | ImplicitSurface, curves: SurfaceLines) -> str:
         words.append(_number(len(curves.isophotes), "isophote"))
     if curves.sections:
         words.append(_number(sum(len(section.offsets) for section in curves.sections), "section"))
-    low, high = surface_bounds(shape)
+    low, high = smooth_bounds(shape)
     return ", ".join(words) + ", " + ("" if is_parametrised(shape) else "box of ") + _size(high - low)
 
 

@@ -16,7 +16,7 @@ from vectorplot.io.scene_curves import AXES, CurveDraft
 from vectorplot.io.scene_families import SURFACES
 from vectorplot.io.scene_slots import read_family
 from vectorplot.io.scene_words import Words, close_to
-from vectorplot.scene.extent import surface_bounds
+from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.surface_lines import Section, SurfaceLines, Vector
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
@@ -53,7 +53,7 @@ def checked_bounds(shape: Surface | ImplicitSurface) -> Floats:
 
     Errors: InputError for a surface without a finite point, and for an equation that has no value in its box.
     """
-    bounds = surface_bounds(shape)
+    bounds = smooth_bounds(shape)
     if is_implicit(shape):
         x, y, z = np.linspace(bounds[0], bounds[1], HOLE_GRID + 1).T
         points = np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1)
@@ -79,7 +79,7 @@ def even_offsets(shape: Surface | ImplicitSurface, bounds: Floats, normal: Vecto
     if normal in AXES.values():
         heights = bounds @ normal
     elif is_parametrised(shape):
-        heights = surface_bounds(PlacedSurface(shape, axis_frame(normal).T))[:, 2]
+        heights = smooth_bounds(PlacedSurface(shape, axis_frame(normal).T))[:, 2]
     else:
         heights = np.stack(np.meshgrid(*bounds.T, indexing="ij"), axis=-1) @ normal
     low, high = float(heights.min()), float(heights.max())

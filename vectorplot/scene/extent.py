@@ -1,9 +1,10 @@
-"""How far smooth surfaces reach."""
+"""How far smooth surfaces and curves reach."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Floats
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
@@ -24,8 +25,8 @@ LARGEST_SPREAD = 1e9
 """A surface that reaches so many times farther than half of its points do runs off to infinity."""
 
 
-def surface_bounds(shape: Surface | ImplicitSurface) -> Floats:
-    """(2,3) smallest and largest coordinates of a smooth surface; of an implicit one those of its box.
+def smooth_bounds(shape: Surface | ImplicitSurface | Curve) -> Floats:
+    """(2,3) smallest and largest coordinates of a smooth surface or a curve; of an implicit surface those of its box.
 
     Error: less than a thousandth of the extent, as long as bumps are wider than a GRIDth of the domain.
     Errors: InputError for a surface without a finite point, for one that passes infinity on the grid, and for what is
@@ -36,7 +37,17 @@ def surface_bounds(shape: Surface | ImplicitSurface) -> Floats:
         return _parametrised_bounds(shape)
     if is_implicit(shape):
         return np.array(shape.box, dtype=np.float64)
-    raise InputError(f"a {type(shape).__name__} is no mesh and no surface")
+    if is_curve(shape):
+        return _curve_bounds(shape)
+    raise InputError(f"a {type(shape).__name__} is no mesh, no surface and no curve")
+
+
+def _curve_bounds(curve: Curve) -> Floats:
+    points = curve.points(np.linspace(curve.start, curve.end, GRID * GRID + 1))
+    points = points[np.isfinite(points).all(axis=1)]
+    if not len(points):
+        raise InputError("the curve has no finite point")
+    return np.stack([points.min(axis=0), points.max(axis=0)])
 
 
 def _parametrised_bounds(surface: Surface) -> Floats:

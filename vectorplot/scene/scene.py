@@ -7,10 +7,11 @@ from functools import cached_property
 
 import numpy as np
 
+from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats, Mesh
-from vectorplot.scene.extent import surface_bounds
+from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 
@@ -50,13 +51,13 @@ class Pattern:
 class Item:
     """A shape in the scene, and how it is drawn.
 
-    shape: a polyhedron, or a smooth surface; colour: the name of a palette; lines: the words of the kinds to draw
+    shape: a polyhedron, a smooth surface or a curve in space; colour: the name of a palette; lines: the words of the kinds to draw
     (None: what the drawing asks for); occludes: whether it hides what is behind it; curves: which lines there are on a
     smooth surface.
     """
 
     name: str
-    shape: Mesh | Surface | ImplicitSurface
+    shape: Mesh | Surface | ImplicitSurface | Curve
     colour: str = "gray"
     material: Material = field(default_factory=Material)
     patterns: tuple[Pattern, ...] = ()
@@ -66,7 +67,7 @@ class Item:
 
     @property
     def mesh(self) -> Mesh:
-        """The polyhedron; of a smooth surface a mesh without vertices and faces."""
+        """The polyhedron; of a smooth surface or a curve a mesh without vertices and faces."""
         return self.shape if isinstance(self.shape, Mesh) else _NO_MESH
 
 
@@ -132,8 +133,8 @@ class Scene:
         return np.array([corners.min(axis=0), corners.max(axis=0)])
 
 
-def _bounds(name: str, shape: Surface | ImplicitSurface) -> Floats:
+def _bounds(name: str, shape: Surface | ImplicitSurface | Curve) -> Floats:
     try:
-        return surface_bounds(shape)
+        return smooth_bounds(shape)
     except InputError as error:
         raise InputError(f"{name}: {error.cause}") from None

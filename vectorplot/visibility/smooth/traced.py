@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.curves.curve import is_curve
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.strokes import LineKind
@@ -20,6 +21,7 @@ from vectorplot.visibility.smooth.implicit_sheet import implicit_sheet
 from vectorplot.visibility.smooth.meetings import SmoothSheet, meetings
 from vectorplot.visibility.smooth.parametric_items import curves_of_parametrised, sheet_of_parametrised
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
+from vectorplot.visibility.smooth.space_items import space_curve
 
 WIDEST_IMAGE = 4.0
 """Images further than so many focal lengths from the principal point are not looked at closely."""
@@ -58,7 +60,7 @@ def scene_sheets(scene: Scene, view: View) -> tuple[SmoothSheet, ...]:
 def traced_scene(
     scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], kinds: frozenset[LineKind], tolerance: float
 ) -> TracedScene:
-    """All curves of smooth items, every point exact, chords within a tolerance in the image."""
+    """All curves of smooth items, and those that are items themselves, every point exact, chords within a tolerance in the image."""
     tracing = Tracing(tolerance=tolerance, picture=lambda points: _picture(view, points))
     drawn, edges, doubts = [], [], []
     for number, sheet in enumerate(sheets):
@@ -75,6 +77,9 @@ def traced_scene(
     wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
     met = meetings(scene, view, sheets, wants, tracing)
     doubts += met.doubts
+    for number, item in enumerate(scene.items):
+        if is_curve(item.shape) and LineKind.CURVE in kinds_of(item, kinds):
+            drawn.append(space_curve(view, item.shape, number, sheets, tracing))
     curves = together([*drawn, met.curves])
     return TracedScene(sheets, met.meets_itself, curves, together(edges), tuple(dict.fromkeys(doubts)))
 
