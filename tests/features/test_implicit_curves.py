@@ -284,6 +284,20 @@ def test_cusps_for_a_central_eye_are_those_of_both_equations_and_a_sphere_has_no
     assert len(implicit_contour_cusps(ball, eye, implicit_contour(ball, eye))[0]) == 0
 
 
+def test_on_a_mesh_as_coarse_as_to_be_folded_no_curve_runs_to_and_fro_and_no_arc_is_met_twice():
+    def waist(x, y, z):
+        return (x * x + y * y + z * z) ** 2 - 2 * (x * x - y * y) - 0.02 + 0.3 * z * z
+
+    surface = implicit_of_function(waist, BOX)
+    eye = np.array([8.2018916, -1.9960486, -8.5290537])
+    for cells in (32, 48, 80):
+        curves = implicit_contour(surface, eye, tracing=ImplicitTracing(cells=cells, tolerance=1e-3))
+        assert len(curves) == 3 and curves.closed.all()
+        for p in lines(curves):
+            chord = np.diff(p, axis=0)
+            assert ((chord[1:] * chord[:-1]).sum(axis=1) > 0).all()
+
+
 def test_a_user_function_without_derivatives():
     def blobs(x, y, z):
         return np.exp(-3 * ((x - 0.5) ** 2 + y * y + z * z)) + np.exp(-3 * ((x + 0.5) ** 2 + y * y + z * z)) - 0.6

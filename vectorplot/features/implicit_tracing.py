@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.errors import InputError
 from vectorplot.features.curve_band import Band, Nodes, curve_band
 from vectorplot.features.implicit_conditions import SpatialCondition
+from vectorplot.features.implicit_folds import without_folds
 from vectorplot.features.implicit_nodes import joined_at_nodes, special_points
 from vectorplot.features.implicit_refinement import CurveInSpace, Picture, curve_in_space, refined_chords
 from vectorplot.features.level_segments import level_segments
@@ -135,6 +136,7 @@ def curves_in_space(
     points, pairs, spans = _crossings(curve, band)
     tolerance = 1e-3 * extent if tracing.tolerance is None else tracing.tolerance
     lines, last, closed, dots = _polylines(points, pairs, spans, DOT * extent)
+    lines, last, closed = without_folds(lines, last, closed)
     lines, last, closed = joined_at_nodes(lines, last, closed, special)
     lines, last, unsure = refined_chords(curve, lines, last, tolerance, tracing.picture)
     if unsure:
