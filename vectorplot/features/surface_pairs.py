@@ -26,6 +26,9 @@ GRAZING = 1e-6
 SHALLOW = 0.25
 """Sine below which sheets are nearly tangent: cusps of double curves have larger ones."""
 
+TINY = 0.25
+"""Part of the usual chord that a course may turn back by in any case: cusps have longer chords on both sides."""
+
 TURNED_BACK = -0.7
 """Cosine of the directions of two chords below which a course turns back."""
 
@@ -126,15 +129,16 @@ def sheet_jumps(sheet: Sheet, places: Floats) -> Floats:
 
 
 def without_zigzags(one: Sheet, two: Sheet, course: Course) -> Course:
-    """The course without points from which it turns back where the sheets are nearly tangent: there the triangles meet
-    in another order than the true points lie."""
+    """The course without points from which it turns back where the sheets are nearly tangent, or by very little (near a
+    pole): there the triangles meet in another order than the true points lie."""
     shallow = sines(one, two, course.one, course.two) < SHALLOW
     points, kept = one.points(course.one), np.arange(len(course))
     while len(kept) > 3:
         chord = np.diff(points[kept], axis=0)
         length = np.sqrt((chord * chord).sum(axis=1))
         cosine = (chord[1:] * chord[:-1]).sum(axis=1)
-        back = (cosine < TURNED_BACK * length[1:] * length[:-1]) & shallow[kept[1:-1]]
+        tiny = np.minimum(length[1:], length[:-1]) < TINY * np.median(length)
+        back = (cosine < TURNED_BACK * length[1:] * length[:-1]) & (shallow[kept[1:-1]] | tiny)
         # Of neighbours that both turn, the first goes.
         back[1:] &= ~back[:-1]
         if not back.any():
