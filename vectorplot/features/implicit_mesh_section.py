@@ -22,7 +22,7 @@ from vectorplot.surfaces.surface import ImplicitSurface
 DEFAULT = ImplicitTracing()
 
 ROUNDS = 3
-"""Newton steps back to the surface after a step along it."""
+"""Newton steps onto the surface, from places that are off it by no more than triangles are."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,8 +59,8 @@ class ImplicitPatch:
         return float(np.median(np.linalg.norm(high - low, axis=0)))
 
     def points(self, places: Floats) -> Floats:
-        """(k,3) the places."""
-        return places
+        """(k,3) the places, those a little off the surface brought onto it."""
+        return self._onto(places)
 
     def normals(self, places: Floats) -> Floats:
         """(k,3) unit gradients; NaN at singular points."""
@@ -70,15 +70,7 @@ class ImplicitPatch:
 
     def moved(self, places: Floats, steps: Floats) -> Floats:
         """(k,3) places moved along the surface, not out of the box."""
-        low, high = np.asarray(self.surface.box, dtype=np.float64)
-        x = np.clip(places + steps, low, high)
-        held = (x == low) | (x == high)
-        with np.errstate(all="ignore"):
-            for _ in range(ROUNDS):
-                slopes = np.where(held, 0.0, self.surface.gradients(x))
-                back = (self.surface.values(x) / dot(slopes, slopes))[:, None] * slopes
-                x = np.clip(x - np.where(np.isfinite(back), back, 0.0), low, high)
-        return x
+        return self._onto(places + steps)
 
     def along_rails(self, places: Floats, rails: Ints) -> Floats:
         """(k,3) directions of the curves on the sides of the box."""
@@ -108,6 +100,18 @@ class ImplicitPatch:
         """(k,) distances, in sizes of triangles."""
         return np.asarray(np.linalg.norm(places - others, axis=-1) / self.cell)
 
+    def _onto(self, points: Floats) -> Floats:
+        """(k,3) points of the box on the surface; those beyond a side of the box stay in it."""
+        low, high = np.asarray(self.surface.box, dtype=np.float64)
+        x = np.clip(points, low, high)
+        held = (x == low) | (x == high)
+        with np.errstate(all="ignore"):
+            for _ in range(ROUNDS):
+                slopes = np.where(held, 0.0, self.surface.gradients(x))
+                back = (self.surface.values(x) / dot(slopes, slopes))[:, None] * slopes
+                x = np.clip(x - np.where(np.isfinite(back), back, 0.0), low, high)
+        return x
+
 
 def implicit_mesh_section(
     surface: ImplicitSurface, mesh: Mesh, *, tracing: ImplicitTracing = DEFAULT
@@ -132,7 +136,7 @@ def implicit_mesh_section(
     all_ = joined(one, two, found, touching.of(two.holds(touching.two)), plain, same=False)
     kept, offsets, closed = repeats_dropped(all_)
     return ImplicitCurves(
-        all_.points.one[kept],
+        one.points(all_.points.one[kept]),
         offsets,
         closed,
         np.zeros(len(closed)),

@@ -17,8 +17,11 @@ from vectorplot.visibility.smooth.sheet import dot
 FEWEST, MOST = 48, 192
 """Cells along the longest side of the box on which a surface is polygonised, at least and at most."""
 
-SAG = 2e-3
-"""Cells are made smaller until triangles are no further from the sheet than this part of half the scene."""
+SAG = 3e-3
+"""Cells are made smaller until most triangles are no further from the sheet than this part of half the scene."""
+
+MOST_OF_ALL = 0.99
+"""Which part of the triangles that is: those at singular points stay far off."""
 
 LONGEST_STEP = 0.05
 """Part of half the scene that one step of Newton may go: a longer one leads anywhere."""
@@ -144,8 +147,9 @@ def implicit_sheet(view: View, surface: ImplicitSurface, item: int, hides: bool)
         mesh, doubts = settled_mesh(surface, cells)
         vertices = np.ascontiguousarray(view.points_of(mesh.vertices).T)
         corners = mesh.corners.reshape(-1, 3)
-        sag = _sag(placed, vertices[corners])
-        if sag <= SAG or 2 * cells > MOST:
+        off = _sags(placed, vertices[corners])
+        if np.quantile(off, MOST_OF_ALL) <= SAG or doubts or 2 * cells > MOST:
+            sag = float(off.max())
             return ImplicitSheet(placed, surface, view, item, hides, vertices, corners, sag, mesh, doubts)
         cells *= 2
 
@@ -160,13 +164,13 @@ def placed_in_view(view: View, surface: ImplicitSurface) -> PlacedImplicit:
     return PlacedImplicit(surface, matrix, -centre @ matrix)
 
 
-def _sag(surface: PlacedImplicit, triangles: Floats) -> float:
-    """How far the middles of triangles (t,3,3) are off the surface, at most."""
+def _sags(surface: PlacedImplicit, triangles: Floats) -> Floats:
+    """(t + 1,) how far the middles of triangles (t,3,3) are off the surface, not more than they are large; and 0."""
     middles = triangles.mean(axis=1)
     size = np.linalg.norm(triangles - np.roll(triangles, 1, axis=1), axis=2).max(axis=1, initial=0.0)
     with np.errstate(all="ignore"):
         off = np.abs(surface.values(middles)) / np.linalg.norm(surface.gradients(middles), axis=1)
-    return float(np.fmin(off, size).max(initial=0.0))
+    return np.append(np.fmin(off, size), 0.0)
 
 
 def _tangential(vectors: Floats, normals: Floats) -> Floats:
