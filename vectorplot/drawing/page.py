@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.duplicates import without_duplicates
+from vectorplot.drawing.pieces import chosen, concatenated
 from vectorplot.drawing.smooth_duplicates import without_smooth_duplicates
 from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.strokes import LineKind
@@ -96,9 +97,12 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, page_from_image:
     rank[order] = np.arange(count)
     world = page_from_world(view, page_from_image)
     paths = Paths(points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends), lines.smooth[seen.segment])
-    once = without_duplicates(paths, rank, COINCIDENT_MM, world)
-    curve_rank = ((once.hidden_by > 0) * len(LineKind) + once.kind) * len(view.item_vertices) + once.item
-    return without_smooth_duplicates(once, curve_rank, COINCIDENT_MM)
+    straight, smooth = np.flatnonzero(~paths.smooth), chosen(paths, paths.smooth)
+    once = without_duplicates(chosen(paths, straight), rank[straight], COINCIDENT_MM, world)
+    if not len(smooth):
+        return once
+    curve_rank = ((smooth.hidden_by > 0) * len(LineKind) + smooth.kind) * len(view.item_vertices) + smooth.item
+    return concatenated((once, without_smooth_duplicates(smooth, curve_rank, COINCIDENT_MM)))
 
 
 def page_from_world(view: View, page_from_image: Floats) -> Floats:

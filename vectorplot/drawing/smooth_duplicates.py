@@ -13,8 +13,10 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints
 HEIGHT_SHARE = 0.05
 """Between two points a curve is known but for less than this part of its height above the chord."""
 
-FEWEST_CHORDS = 4
-"""Fewer chords in a row that lie on another curve only touch it, as lines of a surface touch its contour: they stay."""
+TOUCHING_MM, TOUCHING_AT_MM = 3.0, 1e-4
+"""A shorter part of a curve on another one only touches it, as lines of a surface touch its contour: it stays. Curves of
+a sheet of paper's size that touch in four points at once are so close over that length; where points are known less
+well, over more of it, by the fourth root."""
 
 _STEEPEST = 1.0
 
@@ -24,8 +26,8 @@ def without_smooth_duplicates(paths: Paths, rank: Ints, tolerance_mm: float) -> 
 
     paths: strokes of two points; those that are smooth are chords between points of a curve; rank (m,): equal for all
     chords of a curve, which gives way to curves of smaller rank only. A chord goes if its ends and the middle of its
-    own arc lie on arcs of smaller rank, within tolerance_mm and a little of the arcs' height, and so do FEWEST_CHORDS
-    in a row. Strokes keep their order.
+    own arc lie on arcs of smaller rank, within tolerance_mm and a little of the arcs' height, and so does all
+    of its curve, or TOUCHING_MM of it in a row. Strokes keep their order.
     Degenerate: curves that overlap in part may go on doing so over less than a chord at the ends of the common part.
     Source: cubic Hermite arcs over the chords, with the tangents of circles through three neighbouring points.
     """
@@ -35,7 +37,11 @@ def without_smooth_duplicates(paths: Paths, rank: Ints, tolerance_mm: float) -> 
     chords = chosen(paths, smooth)
     group = np.unique(rank[smooth], return_inverse=True)[1].astype(np.intp)
     ends, mate = chords.points.reshape(-1, 2, 2), linked_ends(chords, group, tolerance_mm)
-    covered = _in_rows(_covered(ends, _slopes(ends, mate), group, tolerance_mm), mate)
+    length = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    slopes = _slopes(ends, mate)
+    room = tolerance_mm + HEIGHT_SHARE * float((length * np.abs(slopes).max(axis=1)).max()) / 4.0
+    touching = TOUCHING_MM * (room / TOUCHING_AT_MM) ** 0.25
+    covered = _in_rows(_covered(ends, slopes, group, tolerance_mm), mate, length, touching)
     if not covered.any():
         return paths
     kept = np.ones(len(paths), dtype=np.bool_)
@@ -94,12 +100,21 @@ def _covered(ends: Floats, slopes: Floats, rank: Ints, tolerance: float) -> Bool
     return np.asarray(hit.reshape(3, -1).all(axis=0))
 
 
-def _in_rows(covered: Bools, mate: Ints) -> Bools:
-    """(m,) the chords of these that stand in rows long enough."""
+def _in_rows(covered: Bools, mate: Ints, length: Floats, touching: float) -> Bools:
+    """(m,) the chords of these, of some lengths, that stand in rows long enough, or are all of their curve."""
     both = np.repeat(covered, 2) & (mate != NO_END)
     both &= np.repeat(covered, 2)[mate]
-    rows = chains(np.where(both, mate, NO_END))
-    size = np.zeros(len(covered), dtype=np.intp)
-    count = np.diff(rows.offsets)
-    size[rows.entry >> 1] = np.repeat(count, count)
-    return covered & (size >= FEWEST_CHORDS)
+    row_length, row_size = _along_chains(np.where(both, mate, NO_END), length)
+    whole_size = _along_chains(mate, length)[1]
+    return np.asarray(covered & ((row_length >= touching) | (row_size == whole_size)))
+
+
+def _along_chains(mate: Ints, length: Floats) -> tuple[Floats, Ints]:
+    """(m,) for every chord the length and the number of chords of its chain."""
+    rows = chains(mate)
+    chord, count = rows.entry >> 1, np.diff(rows.offsets)
+    total, size = np.zeros(len(length)), np.zeros(len(length), dtype=np.intp)
+    if len(chord):
+        total[chord] = np.repeat(np.add.reduceat(length[chord], rows.offsets[:-1]), count)
+        size[chord] = np.repeat(count, count)
+    return total, size
