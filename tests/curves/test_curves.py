@@ -11,9 +11,11 @@ from vectorplot.curves.function import curve_of_function
 from vectorplot.curves.helix import Helix
 from vectorplot.curves.line import Line
 from vectorplot.curves.loxodrome import Loxodrome
+from vectorplot.curves.placed import PlacedCurve
 from vectorplot.curves.second_derivatives import second_derivatives
 from vectorplot.errors import InputError
 
+FORMS = np.array([[0.0, 2.0, 0.0], [-1.0, 0.0, 0.5], [0.0, 0.0, 3.0]])
 CURVES = {
     "line": Line((1, 2, 3), (0.5, -1, 2)),
     "circle": Circle((1, -2, 0.5), 2.5, (1, 2, 2)),
@@ -27,6 +29,7 @@ CURVES = {
     "other limit": cylinder_intersection(2, 3, 1)[0],
     "steinmetz": cylinder_intersection(2, 2, 0)[1],
     "function": curve_of_function(lambda t: (np.cos(t), np.sin(2 * t), t), 0, 3),
+    "placed": PlacedCurve(Helix(2, 0.3), FORMS, (1, 2, 3)),
 }
 every_curve = pytest.mark.parametrize("curve", CURVES.values(), ids=CURVES.keys())
 
@@ -156,3 +159,23 @@ def test_points_of_a_parametrised_curve_are_on_it():
 def test_what_makes_no_curve_is_an_input_error(make, words):
     with pytest.raises(InputError, match=words):
         make()
+
+
+# --- placed ---
+
+
+@every_curve
+def test_a_placed_curve_is_the_curve_after_the_map(curve):
+    placed = PlacedCurve(curve, FORMS, (7, 8, 9))
+    t = parameters(curve)
+    assert np.array_equal(placed.points(t), curve.points(t) @ FORMS + (7, 8, 9))
+    assert np.array_equal(placed.tangents(t), curve.tangents(t) @ FORMS)
+    assert (placed.start, placed.end, placed.closed) == (curve.start, curve.end, curve.closed)
+
+
+@pytest.mark.parametrize("matrix", [np.zeros((3, 3)), np.full((3, 3), np.nan), np.eye(2), np.diag([1, 1, 0])])
+def test_a_placement_that_cannot_be_undone_is_refused(matrix):
+    with pytest.raises(InputError, match="a placement needs a matrix"):
+        PlacedCurve(Circle(), matrix)
+    with pytest.raises(InputError, match="shift"):
+        PlacedCurve(Circle(), np.eye(3), (1, 2))

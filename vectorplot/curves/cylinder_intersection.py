@@ -41,7 +41,7 @@ def cylinder_intersection(r: float, s: float, a: float) -> tuple[Curve, ...]:
         return ()
     inner, outer = abs(s - (r - a)) <= gap, abs(s - (r + a)) <= gap
     if inner and outer:
-        return _Ellipse(r, 1.0), _Ellipse(r, -1.0)
+        return _Ellipse(r, s, a, 1.0), _Ellipse(r, s, a, -1.0)
     if inner or outer:
         return (_Crossing(r, s, a, inner),)
     if s < r - a:
@@ -52,8 +52,12 @@ def cylinder_intersection(r: float, s: float, a: float) -> tuple[Curve, ...]:
 
 
 @dataclass(frozen=True)
-class _Branch(ABC):
-    """What all branches share: the coordinates as functions with two derivatives."""
+class CylinderBranch(ABC):
+    """What all branches share: the coordinates as functions with two derivatives; r, s, a: which cylinders."""
+
+    r: float
+    s: float
+    a: float
 
     start: ClassVar[float] = 0.0
     end: ClassVar[float] = 2.0 * np.pi
@@ -80,12 +84,9 @@ class _Branch(ABC):
 
 
 @dataclass(frozen=True)
-class _Through(_Branch):
+class _Through(CylinderBranch):
     """The thin cylinder s pierces the thick one: y on one side."""
 
-    r: float
-    s: float
-    a: float
     side: float
 
     def _coordinates(self, t: Floats) -> tuple[_Jet, _Jet, _Jet]:
@@ -96,12 +97,9 @@ class _Through(_Branch):
 
 
 @dataclass(frozen=True)
-class _Around(_Branch):
+class _Around(CylinderBranch):
     """The thin cylinder r pierces the thick one: z on one side."""
 
-    r: float
-    s: float
-    a: float
     side: float
 
     def _coordinates(self, t: Floats) -> tuple[_Jet, _Jet, _Jet]:
@@ -113,16 +111,13 @@ class _Around(_Branch):
 
 
 @dataclass(frozen=True)
-class _Single(_Branch):
+class _Single(CylinderBranch):
     """One loop, over twice the angle: x runs from a - s to r and back, and that again.
 
     With q = r + s - a it is r - x = q sin^2(t/2) and x - (a - s) = q cos^2(t/2), so that the two roots of the source
     change their signs smoothly, where the source says so.
     """
 
-    r: float
-    s: float
-    a: float
     end: ClassVar[float] = 4.0 * np.pi
 
     def _coordinates(self, t: Floats) -> tuple[_Jet, _Jet, _Jet]:
@@ -136,12 +131,9 @@ class _Single(_Branch):
 
 
 @dataclass(frozen=True)
-class _Crossing(_Branch):
+class _Crossing(CylinderBranch):
     """The limiting cases: one of the roots of the single loop becomes a sine, and the loop crosses itself."""
 
-    r: float
-    s: float
-    a: float
     inner: bool
     end: ClassVar[float] = 4.0 * np.pi
 
@@ -157,10 +149,9 @@ class _Crossing(_Branch):
 
 
 @dataclass(frozen=True)
-class _Ellipse(_Branch):
+class _Ellipse(CylinderBranch):
     """One of Steinmetz's ellipses, in the plane y = z or y = -z."""
 
-    r: float
     side: float
 
     def _coordinates(self, t: Floats) -> tuple[_Jet, _Jet, _Jet]:

@@ -40,6 +40,16 @@ def vector(name: str, value: ArrayLike) -> Floats:
     return result
 
 
+def invertible(name: str, matrix: ArrayLike) -> Floats:
+    """A matrix (3,3) of finite numbers that can be inverted. Errors: InputError, naming what needs it."""
+    m = np.array(matrix, dtype=np.float64)
+    if m.shape != (3, 3) or not np.isfinite(m).all():
+        raise InputError(f"{name} needs a matrix of 3 times 3 finite numbers")
+    if abs(np.linalg.det(m)) <= 1e-12 * np.linalg.norm(m) ** 3:
+        raise InputError(f"{name} needs a matrix that can be inverted")
+    return m
+
+
 def parameter_range(name: str, start: float, end: float) -> tuple[float, float]:
     """Start and end of a range that is not empty. Errors: InputError."""
     first, last = number(f"{name}: start", start), number(f"{name}: end", end)

@@ -8,20 +8,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.curves.parameters import vector
-from vectorplot.errors import InputError
+from vectorplot.curves.parameters import invertible, vector
 from vectorplot.geometry.mesh import Floats
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
-
-
-def _checked_matrix(matrix: ArrayLike) -> Floats:
-    m = np.array(matrix, dtype=np.float64)
-    if m.shape != (3, 3) or not np.isfinite(m).all():
-        raise InputError("a placement needs a matrix of 3 times 3 finite numbers")
-    if abs(np.linalg.det(m)) <= 1e-12 * np.linalg.norm(m) ** 3:
-        raise InputError("a placement needs a matrix that can be inverted")
-    return m
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +26,7 @@ class PlacedSurface:
     shift: ArrayLike = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "matrix", _checked_matrix(self.matrix))
+        object.__setattr__(self, "matrix", invertible("a placement", self.matrix))
         object.__setattr__(self, "shift", vector("placement: shift", self.shift))
 
     @property
@@ -72,7 +62,7 @@ class PlacedImplicit:
     shift: ArrayLike = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "matrix", _checked_matrix(self.matrix))
+        object.__setattr__(self, "matrix", invertible("a placement", self.matrix))
         object.__setattr__(self, "shift", vector("placement: shift", self.shift))
 
     @property
