@@ -218,3 +218,52 @@ def _near_misses(function, s, value) -> np.ndarray:
             ends = np.array([a, b])
             found.append(_zeros(function, ends, function(ends)))
     return np.concatenate([np.zeros(0), *found])
+
+
+class Drawn(NamedTuple):
+    """What chords show of a curve: visible and hidden intervals of its parameter, joined; length of all of them."""
+
+    visible: list[tuple[float, float]]
+    hidden: list[tuple[float, float]]
+    whole: float
+
+
+def drawn_runs(torus: Torus, curves: list[TorusCurve], start, end, kind, hidden) -> tuple[list[Drawn], int]:
+    """The runs of each curve as chords (n,3) show them, and how many chords lie on none of the curves."""
+    nearest, which = np.full(len(start), np.inf), np.full(len(start), -1)
+    low, high = np.zeros(len(start)), np.zeros(len(start))
+    places = []
+    for points in (start, end):
+        p = points - np.asarray(torus.centre)
+        v = np.arctan2(p[:, 2], torus.major - np.hypot(p[:, 0], p[:, 1]))
+        places.append((np.arctan2(p[:, 1], p[:, 0]), v))
+    for c, curve in enumerate(curves):
+        k = np.flatnonzero(kind == curve.kind)
+        (s, off), (t, end_off) = (curve.place(u[k], v[k]) for u, v in places)
+        step = (t - s + 0.5) % 1.0 - 0.5
+        away = np.where(np.abs(step) > 0.3, 9.0, np.maximum(off, end_off))
+        won = away < nearest[k]
+        k, s, step = k[won], s[won], step[won]
+        nearest[k], which[k] = away[won], c
+        low[k], high[k] = np.minimum(s, s + step), np.maximum(s, s + step)
+    found, lost = [], nearest > 2e-6
+    for c in range(len(curves)):
+        own = (which == c) & ~lost
+        parts = [joined_intervals(low[own & there], high[own & there]) for there in (~hidden, hidden)]
+        found.append(Drawn(parts[0], parts[1], float((high - low)[own].sum())))
+    return found, int((lost & np.isin(kind, [int(curve.kind) for curve in curves])).sum())
+
+
+def joined_intervals(low: np.ndarray, high: np.ndarray, gap: float = 1e-9) -> list[tuple[float, float]]:
+    """Intervals on the circle of length 1 that touch each other, as one."""
+    found: list[list[float]] = []
+    order = np.argsort(low % 1.0)
+    for a, b in zip((low % 1.0)[order], (low % 1.0 + high - low)[order], strict=True):
+        if found and a <= found[-1][1] + gap:
+            found[-1][1] = max(found[-1][1], b)
+        else:
+            found.append([a, b])
+    while len(found) > 1 and found[-1][1] >= found[0][0] + 1.0 - gap:
+        last = found.pop()
+        found[0] = [last[0] - 1.0, max(found[0][1], last[1] - 1.0)]
+    return [(float(a), float(b)) for a, b in found]

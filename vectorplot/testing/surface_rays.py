@@ -170,7 +170,7 @@ def surface_hides(surface: Surface, eye: Floats | None, rays: Rays, middle: Floa
     direction = rays.direction[0] if len(rays.direction) else np.array([0.0, 0.0, 1.0])
     for segments, own in ((net.contour(eye, direction), feet.on_contour), (net.borders(), feet.on_border)):
         edges = near_together(segments, np.zeros(len(segments), dtype=np.intp))
-        away = edge_distances(rays, edges, np.where(own, max(AROUND, 4.0 * net.longest), CONTACT))
+        away = edge_distances(rays, edges, np.where(own, max(AROUND, 0.5 * net.longest), CONTACT))
         clearance = np.minimum(clearance, np.maximum(away - 2.0 * net.error, 0.0))
     return Hiding(hidden, np.where(feet.unsure, 0.0, clearance), feet.on_contour)
 
@@ -275,7 +275,7 @@ def _bends_alike(net: Net, u: Floats, v: Floats, direction: Floats, bend: Floats
     """Whether the surface bends to the same side along the sight ray all around a place: no cusp of the contour."""
     by_u, by_v = (by / net.size for by in net.surface.partials(u, v))
     e, f, g = ((p * q).sum(axis=1) for p, q in ((by_u, by_u), (by_u, by_v), (by_v, by_v)))
-    radius = 4.0 * max(AROUND, 4.0 * net.longest)
+    radius = 4.0 * max(AROUND, 0.5 * net.longest)
     alike = np.isfinite(bend)
     with np.errstate(divide="ignore", invalid="ignore"):
         height = np.sqrt(g - f * f / e)

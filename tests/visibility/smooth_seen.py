@@ -1,0 +1,63 @@
+"""What the engines find for scenes with smooth surfaces, before anything is joined or left out on the page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vectorplot.draw import DRAWN
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.strokes import LineKind
+from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.view import look
+from vectorplot.visibility.framing import in_frame
+from vectorplot.visibility.hidden_lines import counted_parts
+from vectorplot.visibility.lines import edge_lines, intersection_lines, joined_lines
+from vectorplot.visibility.occluders import solid_items
+from vectorplot.visibility.pairs import Segments
+from vectorplot.visibility.projected_faces import project_faces
+from vectorplot.visibility.smooth.smooth_lines import with_curves
+from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
+
+
+@dataclass(frozen=True)
+class Chords:
+    """Start and end (n,3) of chords in the world; kind, item and hidden_by (n,)."""
+
+    start: np.ndarray
+    end: np.ndarray
+    kind: np.ndarray
+    item: np.ndarray
+    hidden_by: np.ndarray
+
+    @property
+    def length(self) -> np.ndarray:
+        return np.linalg.norm(self.end - self.start, axis=1)
+
+    def lengths(self) -> np.ndarray:
+        """Length for each kind (rows) and number of items in front (columns)."""
+        key = np.minimum(self.hidden_by, 15) + 16 * self.kind
+        return np.bincount(key, weights=self.length, minlength=16 * len(LineKind)).reshape(-1, 16)
+
+
+def chords_seen(scene: Scene, camera: Camera, *, tolerance: float = 5e-5) -> Chords:
+    """All chords with their counts. tolerance: of chords, as a part of half the scene's extent."""
+    kinds = frozenset(map(LineKind.from_word, DRAWN))
+    view = look(scene, camera)
+    faces = project_faces(view)
+    solid = solid_items(view, faces)
+    edges = edge_lines(scene, view, faces, kinds, 25.0, np.ones(len(solid), dtype=np.bool_))
+    straight = joined_lines([edges, intersection_lines(scene, view, faces, kinds, solid)])
+    traced = traced_scene(scene, view, scene_sheets(scene, view), kinds, tolerance)
+    lines, _ = in_frame(view, with_curves(view, traced, straight, len(scene.items), tolerance), Page(), True)
+    seen = counted_parts(view, faces, solid, Segments(lines.start, lines.end), lambda part: None)
+    seen = replace(seen, hidden_by=seen.hidden_by + lines.behind[seen.segment])
+    start, way = lines.start[:, seen.segment], (lines.end - lines.start)[:, seen.segment]
+    return Chords(
+        view.world_of(start + seen.low * way),
+        view.world_of(np.where(seen.high < 1.0, start + seen.high * way, lines.end[:, seen.segment])),
+        lines.kind[seen.segment],
+        lines.item[seen.segment],
+        seen.hidden_by,
+    )
