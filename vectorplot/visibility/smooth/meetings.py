@@ -111,6 +111,8 @@ def _box(points: Floats) -> Floats:
 
 def _overlap(one: Floats, two: Floats) -> bool:
     """Whether boxes overlap, tessellations a little inside of them."""
+    if not (np.isfinite(one).all() and np.isfinite(two).all()):
+        return False
     slack = 0.01 * float(np.ptp(one, axis=0).max() + np.ptp(two, axis=0).max())
     return bool((one[0] <= two[1] + slack).all() and (two[0] <= one[1] + slack).all())
 

@@ -104,7 +104,7 @@ class ParametricSheet:
         u, v = self.parameters(places)
         along_u, along_v = self.surface.partials(u, v)
         step = solved(along_u, along_v, -ways, points - self.surface.points(u, v))
-        t = step[:, 2].copy()
+        t = np.where(np.isfinite(step[:, 2]), step[:, 2], np.nan)
         step[:, 2] = 0.0
         width, height = self.surface.domain.size
         with np.errstate(invalid="ignore"):
