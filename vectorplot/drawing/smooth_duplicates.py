@@ -14,8 +14,8 @@ HEIGHT_SHARE = 0.05
 """Between two points a curve is known but for less than this part of its height above the chord."""
 
 TOUCHING_MM, TOUCHING_AT_MM = 3.0, 1e-4
-"""A shorter part of a curve on another one only touches it, as lines of a surface touch its contour: it stays. Curves of
-a sheet of paper's size that touch in four points at once are so close over that length; where points are known less
+"""A shorter part of a curve on another one only touches it, as lines of a surface touch its contour: it stays. Curves
+of a sheet of paper's size that touch in four points at once are so close over that length; where points are known less
 well, over more of it, by the fourth root."""
 
 _STEEPEST = 1.0

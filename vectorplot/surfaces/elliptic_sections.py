@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from dataclasses import replace
+from typing import Any, Self
 
 import numpy as np
 
@@ -29,6 +31,16 @@ class EllipticSections(ABC):
     @abstractmethod
     def _profile(self, v: Floats) -> Profile:
         """(p, q), their first and their second derivatives by v."""
+
+    @property
+    def place(self) -> Floats:
+        """(3,) the centre."""
+        return self._middle()
+
+    def about_origin(self) -> Self:
+        """The same surface with its centre in the origin."""
+        changes: Any = {"centre": (0.0, 0.0, 0.0)}
+        return replace(self, **changes)  # type: ignore[type-var]
 
     def points(self, u: Floats, v: Floats) -> Floats:
         """(..., 3) points."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -36,6 +36,15 @@ class HyperbolicParaboloid:
     def domain(self) -> Domain:
         """The rectangle."""
         return Domain(-self.width, self.width, -self.depth, self.depth)
+
+    @property
+    def place(self) -> Floats:
+        """(3,) the centre."""
+        return np.asarray(self.centre)
+
+    def about_origin(self) -> HyperbolicParaboloid:
+        """The same surface with its centre in the origin."""
+        return replace(self, centre=(0.0, 0.0, 0.0))
 
     def points(self, u: Floats, v: Floats) -> Floats:
         """(..., 3) points."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -48,6 +49,41 @@ class PlacedSurface:
         uu, uv, vv = self.surface.second_partials(u, v)
         m = np.asarray(self.matrix)
         return uu @ m, uv @ m, vv @ m
+
+
+@runtime_checkable
+class Centred(Protocol):
+    """A surface that says itself where it stands."""
+
+    @property
+    def place(self) -> Floats:
+        """(3,) its centre."""
+        ...
+
+    def about_origin(self) -> Surface:
+        """The same surface with its centre in the origin."""
+        ...
+
+
+def placed_once(surface: Surface, matrix: ArrayLike, shift: ArrayLike, origin: ArrayLike) -> PlacedSurface:
+    """The surface with its points x at (x - origin) @ matrix + shift, in a single placement.
+
+    Placements in placements, and the centres of surfaces, are put together: so a surface far from the world's origin,
+    near which the place looked at lies, keeps all digits of its shape.
+    """
+    own, away = np.eye(3), np.zeros(3)
+    while True:
+        if isinstance(surface, PlacedSurface):
+            # The last placement of these stands outermost: points go through the inner ones first.
+            inner, inner_shift = np.asarray(surface.matrix), np.asarray(surface.shift)
+            away, own, surface = inner_shift @ own + away, inner @ own, surface.surface
+        elif isinstance(surface, Centred):
+            away, surface = surface.place @ own + away, surface.about_origin()
+            break
+        else:
+            break
+    m = np.asarray(matrix)
+    return PlacedSurface(surface, own @ m, (away - np.asarray(origin)) @ m + np.asarray(shift))
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,6 +24,9 @@ SETTLED = 1e-10
 RESIDUAL = 1e-11
 """How far the images of a crossing may be apart; the scene is about 1 large."""
 
+ULPS = 16.0
+"""So many times the rounding of points it may be too."""
+
 GAP = 1e-6
 """An edge less than this in front of a curve is one that the curve touches."""
 
@@ -31,7 +34,10 @@ RESIDUAL_OF_GAP = 1e-3
 """Part of the cube of the gap that the residual of a crossing may be: two curves that touch come as close as they
 like, but not at a distance."""
 
-MODEL_RESIDUAL, MODEL_RESIDUAL_OF_GAP = 1e-6, 1e-3
+MODEL_RESIDUAL, MODEL_RESIDUAL_OF_ULPS = 16.0
+"""So many times the rounding of points it may be too."""
+
+GAP = 1e-6, 1e-3
 """The same while the curves are replaced by cubic arcs, and as a part of the square of the gap: towards a place where
 two curves touch they come together like the square of what is left of the gap."""
 
@@ -209,7 +215,7 @@ def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
         active = active[(np.abs(s) > SETTLED) | (np.abs(t) > SETTLED)]
     # Beyond the chords' ends the search goes on with the neighbours, whatever the residual.
     beyond = (part < 0.0) | (part > 1.0) | (edge_part < 0.0) | (edge_part > 1.0)
-    kept = (off <= RESIDUAL * 100.0) | (beyond & (off < np.inf))
+    kept = (off <= 100.0 * max(RESIDUAL, ULPS * projection.rounding(view))) | (beyond & (off < np.inf))
     return Pairs(pairs.chord, part, pairs.edge, edge_part).some(kept)
 
 
@@ -219,7 +225,11 @@ def _events(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves
     away = projection.image(view, two.points) - projection.image(view, one.points)
     residual = np.sqrt(dot(away, away))
     gap = projection.depth(view, one.points) - projection.depth(view, two.points)
-    real = (gap > GAP) & (residual <= RESIDUAL) & (residual <= RESIDUAL_OF_GAP * gap**3)
+    real = (
+        (gap > GAP)
+        & (residual <= max(RESIDUAL, ULPS * projection.rounding(view)))
+        & (residual <= RESIDUAL_OF_GAP * gap**3)
+    )
     pairs = pairs.some(real)
     points, places = two.points[real], two.places[real]
     direction = projection.image_slopes(view, one.points[real], one.slopes[real])

@@ -24,7 +24,7 @@ from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
-from vectorplot.surfaces.placed import PlacedSurface
+from vectorplot.surfaces.placed import placed_once
 from vectorplot.surfaces.surface import Surface
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.family import ConditionCurves, ParameterCurves
@@ -36,8 +36,8 @@ Found = tuple[LineKind, ConditionCurves | ParameterCurves, SurfaceCurves]
 
 def sheet_of_parametrised(view: View, surface: Surface, item: int, hides: bool) -> ParametricSheet:
     """The sheet of a surface of the world."""
-    matrix = view.axes.T / view.scale
-    return parametric_sheet(PlacedSurface(surface, matrix, -(view.axes @ view.centre) / view.scale), item, hides)
+    placed = placed_once(surface, view.axes.T / view.scale, np.zeros(3), view.centre)
+    return parametric_sheet(placed, item, hides)
 
 
 def curves_of_parametrised(

@@ -15,8 +15,12 @@ from vectorplot.visibility.smooth.targets import Target, inside, weights
 ROUNDS, HOPS = 10, 3
 """Steps of Newton; how often a place may go over to a neighbouring chord."""
 
-MET = 1e-10
-"""A curve meets a sheet where they come closer than this; the scene is about 1 large."""
+MET, NEARLY_MET, SETTLED = 1e-10, 1e-7, 1e-13
+"""A curve meets a sheet where they come closer than the first; the scene is about 1 large. The search goes on from what
+is nearer than the second, until nothing is farther than the third."""
+
+ULPS = 16.0
+"""So many times the rounding of points may be between them too."""
 
 APART_AT_FIRST, APART = 0.04, 1e-3
 """Where a sheet meets itself, parts of its domain that the two places are apart at least: at the start of the search,
@@ -41,7 +45,7 @@ def piercings(view: View, targets: tuple[Target, ...], curves: Curves, meets_its
             chord, part, places = _close(target, curves, chord, image, depth)
             elsewhere = _elsewhere(target.sheet, number, curves, chord, part, places, APART_AT_FIRST)
             chord, part, places = chord[elsewhere], part[elsewhere], places[elsewhere]
-            chord, part, places = _met(target.sheet, curves, chord, part, places)
+            chord, part, places = _met(view, target.sheet, curves, chord, part, places)
             elsewhere = _elsewhere(target.sheet, number, curves, chord, part, places, APART)
             chord, part, places = chord[elsewhere], part[elsewhere], places[elsewhere]
             parts.append(_pierced(view, target.sheet, curves, chord, part, places))
@@ -99,7 +103,9 @@ def _in_space(corners: Floats, points: Floats) -> Floats:
     return weights(np.stack(flat[:3], axis=1), flat[3])
 
 
-def _met(sheet: Sheet, curves: Curves, chord: Ints, part: Floats, places: Floats) -> tuple[Ints, Floats, Floats]:
+def _met(
+    view: View, sheet: Sheet, curves: Curves, chord: Ints, part: Floats, places: Floats
+) -> tuple[Ints, Floats, Floats]:
     """Places where the curves meet the sheet: chords, parts, places on the sheet."""
     for _ in range(HOPS):
         off = np.full(len(chord), np.inf)
@@ -109,9 +115,9 @@ def _met(sheet: Sheet, curves: Curves, chord: Ints, part: Floats, places: Floats
             off = np.sqrt(dot(away, away))
             step, places = sheet.missed(at.points, at.slopes, places)
             part = np.clip(part + np.clip(np.where(np.isfinite(step), step, 0.0), -0.7, 0.7), -1.5, 2.5)
-            if not (off > MET * 1e-3).any():
+            if not (off > SETTLED).any():
                 break
-        kept = np.isfinite(places).all(axis=1) & ((off <= 1e3 * MET) | (part < 0.0) | (part > 1.0))
+        kept = np.isfinite(places).all(axis=1) & ((off <= NEARLY_MET) | (part < 0.0) | (part > 1.0))
         chord, part, places = chord[kept], part[kept], places[kept]
         now, part = hopped(curves, chord, part)
         moved = (now != chord).any()
@@ -119,7 +125,7 @@ def _met(sheet: Sheet, curves: Curves, chord: Ints, part: Floats, places: Floats
         if not moved:
             break
     away = curves.at(chord, part).points - sheet.points(places)
-    met = (np.sqrt(dot(away, away)) <= MET) & sheet.on_sheet(places)
+    met = (np.sqrt(dot(away, away)) <= max(MET, ULPS * projection.rounding(view))) & sheet.on_sheet(places)
     on, part = on_chord(part)
     kept = met & on
     return chord[kept], part[kept], places[kept]

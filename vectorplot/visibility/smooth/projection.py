@@ -15,6 +15,11 @@ def sight(view: View, points: Floats) -> Floats:
     return np.asarray(view.eye - points)
 
 
+def rounding(view: View) -> float:
+    """How large the rounding of points in the view's coordinates is: a scene far from the origin has few digits."""
+    return float(np.finfo(np.float64).eps * (1.0 + np.abs(view.centre).max() / view.scale))
+
+
 def image(view: View, points: Floats) -> Floats:
     """(k,2) images of points (k,3)."""
     return np.asarray(view.image_of(points.T).T)

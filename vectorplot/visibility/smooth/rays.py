@@ -17,6 +17,9 @@ ROUNDS = 12
 MET = 1e-10
 """A sight line meets a sheet where they come closer than this; the scene is about 1 large."""
 
+SETTLED, ULPS = 1e-13, 16.0
+"""Below the one there is nothing to gain; so many times the rounding of points is met too."""
+
 TOUCHING = 1e-7
 """A sheet less than this in front of a point is one that the point lies on, or touches."""
 
@@ -117,8 +120,8 @@ def _meetings(view: View, target: Target, samples: Samples, way: Floats, number:
         t[active], places[active] = target.sheet.missed(points[active], ways[active], places[active])
         away = points[active] + t[active, None] * ways[active] - target.sheet.points(places[active])
         off[active] = np.sqrt(dot(away, away))
-        active = active[(off[active] > 1e-13) & np.isfinite(off[active])]
-    met = (off <= MET) & target.sheet.on_sheet(places)
+        active = active[(off[active] > SETTLED) & np.isfinite(off[active])]
+    met = (off <= max(MET, ULPS * projection.rounding(view))) & target.sheet.on_sheet(places)
     sample, t, places = sample[met], t[met], places[met]
     return _different(target.sheet, sample, t * np.linalg.norm(ways[met], axis=1), t, places)
 

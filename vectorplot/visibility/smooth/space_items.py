@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.curves.curve import Curve
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.parameter_lines import MISSED, PROBES
-from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.curves import Curves
@@ -61,7 +61,7 @@ def space_curve(view: View, curve: Curve, item: int, sheets: tuple[SmoothSheet, 
     t = _sampled(view, curve, tracing)
     points = view.points_of(curve.points(t)).T
     places = np.stack([np.zeros_like(t), np.zeros_like(t), t], axis=1)
-    good = np.isfinite(points).all(axis=1)
+    good: Bools = np.asarray(np.isfinite(points).all(axis=1))
     number, surface = -1, None
     for other, sheet in enumerate(sheets):
         if isinstance(sheet, ParametricSheet) and good.all():

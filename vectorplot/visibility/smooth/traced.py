@@ -60,7 +60,8 @@ def scene_sheets(scene: Scene, view: View) -> tuple[SmoothSheet, ...]:
 def traced_scene(
     scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], kinds: frozenset[LineKind], tolerance: float
 ) -> TracedScene:
-    """All curves of smooth items, and those that are items themselves, every point exact, chords within a tolerance in the image."""
+    """All curves of smooth items, and those that are items themselves, every point exact, chords within a tolerance in
+    the image."""
     tracing = Tracing(tolerance=tolerance, picture=lambda points: _picture(view, points))
     drawn, edges, doubts = [], [], []
     for number, sheet in enumerate(sheets):
