@@ -34,10 +34,7 @@ RESIDUAL_OF_GAP = 1e-3
 """Part of the cube of the gap that the residual of a crossing may be: two curves that touch come as close as they
 like, but not at a distance."""
 
-MODEL_RESIDUAL, MODEL_RESIDUAL_OF_ULPS = 16.0
-"""So many times the rounding of points it may be too."""
-
-GAP = 1e-6, 1e-3
+MODEL_RESIDUAL, MODEL_RESIDUAL_OF_GAP = 1e-6, 1e-3
 """The same while the curves are replaced by cubic arcs, and as a part of the square of the gap: towards a place where
 two curves touch they come together like the square of what is left of the gap."""
 
