@@ -9,10 +9,13 @@ import numpy as np
 
 from vectorplot.features.edges import Faces, mesh_edges
 from vectorplot.features.intersections import face_intersections
+from vectorplot.features.mesh_curves import MeshCurves
+from vectorplot.features.mesh_lines import mesh_isophotes, mesh_plane_sections, mesh_point_light_isophotes
 from vectorplot.features.patterns import pattern_outline
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.geometry.winding import pieces_of_faces
+from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import ProjectedFaces
@@ -148,3 +151,40 @@ def pattern_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines
     start, end = (view.points_of(np.concatenate([np.zeros((0, 3)), *part])) for part in (starts, ends))
     owner = np.concatenate([np.zeros(0, dtype=np.intp), *items])
     return straight_lines(start, end, np.full(len(owner), int(LineKind.PATTERN)), owner, np.zeros_like(owner))
+
+
+def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines:
+    """The isophotes and plane sections that polyhedra ask for: they lie in the faces.
+
+    Errors: InputError, with the item's name, for a light that the scene does not have.
+    """
+    parts = []
+    for number, item in enumerate(scene.items):
+        wanted = kinds_of(item, kinds)
+        if isinstance(item.shape, Mesh) and item.shape.face_count:
+            if LineKind.ISOPHOTE in wanted and item.curves.isophotes:
+                found = _mesh_isophotes(scene, view, item)
+                parts.append(_lines_of_curves(view, found, LineKind.ISOPHOTE, number))
+            if LineKind.SECTION in wanted:
+                for section in item.curves.sections:
+                    found = mesh_plane_sections(item.shape, section.normal, section.offsets)
+                    parts.append(_lines_of_curves(view, found, LineKind.SECTION, number))
+    return joined_lines(parts)
+
+
+def _mesh_isophotes(scene: Scene, view: View, item: Item) -> MeshCurves:
+    light, cosines = curve_light(scene, view, item), item.curves.isophotes
+    across = mesh_isophotes if light.parallel else mesh_point_light_isophotes
+    return across(item.mesh, light.position, cosines)
+
+
+def _lines_of_curves(view: View, curves: MeshCurves, kind: LineKind, item: int) -> Lines:
+    """The segments of curves."""
+    points = view.points_of(curves.points)
+    after = np.arange(1, len(curves.points) + 1)
+    last = curves.offsets[1:] - 1
+    after[last] = np.where(curves.closed, curves.offsets[:-1], last)
+    begin = np.flatnonzero(after != np.arange(len(after)))
+    numbers = np.full(len(begin), item)
+    kinds = np.full(len(begin), int(kind))
+    return straight_lines(points[:, begin], points[:, after[begin]], kinds, numbers, np.zeros_like(numbers))

@@ -12,6 +12,7 @@ from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
 from vectorplot.visibility.smooth.cubics import cubics
 from vectorplot.visibility.smooth.curves import Curves
+from vectorplot.visibility.smooth.edge_sides import covered_sides, turn
 from vectorplot.visibility.smooth.events import Events, hopped, on_chord, once
 from vectorplot.visibility.smooth.sheet import Sheet, dot
 
@@ -153,7 +154,7 @@ def _approach(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Float
     """Parts (k,) of segments a b and c d (k,2) at which they cross or come closest, and their distance there."""
     ab, cd, ac = b - a, d - c, c - a
     with np.errstate(divide="ignore", invalid="ignore"):
-        s, t = _turn(ac, cd) / _turn(ab, cd), _turn(ac, ab) / _turn(ab, cd)
+        s, t = turn(ac, cd) / turn(ab, cd), turn(ac, ab) / turn(ab, cd)
     s = np.clip(np.where(np.isfinite(s), s, 0.5), 0.0, 1.0)
     t = np.clip(np.where(np.isfinite(t), t, 0.5), 0.0, 1.0)
     for _ in range(2):
@@ -184,14 +185,9 @@ def _roughly_met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pai
 def _step(gap: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     """One step of Newton for points that move with velocities a and b (k,2) and are a gap (k,2) apart."""
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        s, t = _turn(gap, b) / _turn(a, b), _turn(gap, a) / _turn(a, b)
+        s, t = turn(gap, b) / turn(a, b), turn(gap, a) / turn(a, b)
     s, t = (np.clip(np.where(np.isfinite(x), x, 0.0), -0.7, 0.7) for x in (s, t))
     return s, t
-
-
-def _turn(a: Floats, b: Floats) -> Floats:
-    """(k,) the areas that vectors a and b (k,2) span, positive for a turn to the left."""
-    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
 def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
@@ -232,20 +228,8 @@ def _events(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves
     direction = projection.image_slopes(view, one.points[real], one.slopes[real])
     along = projection.image_slopes(view, points, two.slopes[real])
     edge = edges.owner[pairs.edge]
-    covered = np.zeros_like(points)
     kind = edges.kind[edge]
+    covered = covered_sides(view, sheets, edges.sheet[edge], kind, points, places, two.slopes[real])
     step = np.where(kind == LineKind.BOUNDARY, 1, 2)
-    way = projection.sight(view, points)
-    for number in np.unique(edges.sheet[edge]).tolist():
-        sheet = sheets[number]
-        own = edges.sheet[edge] == number
-        fold = np.flatnonzero(own & (kind == LineKind.CONTOUR))
-        bend = sheet.bends(places[fold], way[fold])
-        covered[fold] = np.sign(bend)[:, None] * sheet.normals(places[fold])
-        border = np.flatnonzero(own & (kind == LineKind.BOUNDARY))
-        covered[border] = sheet.inwards(places[border])
-        cuspidal = np.flatnonzero(own & (kind == LineKind.CREASE))
-        covered[cuspidal] = sheet.turnings(places[cuspidal])
-    side = np.sign(_turn(along, direction)) * np.sign(_turn(along, projection.image_slopes(view, points, covered)))
-    change = np.where(np.isfinite(side), side, 0.0).astype(np.intp) * step
+    change = np.sign(turn(along, direction)).astype(np.intp) * covered * step
     return Events(pairs.chord, pairs.part, edges.item[edge], change)

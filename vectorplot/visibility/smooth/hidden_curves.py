@@ -60,7 +60,7 @@ def hidden_curves(view: View, traced: TracedScene, curves: Curves, items: int, t
 
 
 def cut_curves(curves: Curves, found: HiddenCurves) -> tuple[Floats, Floats, Ints, Ints]:
-    """The chords of all pieces, cut at events: start and end (c,3), curve (c,), hidden_by (c,)."""
+    """The chords of all pieces, cut at events: start and end (c,3), chord (c,), hidden_by (c,)."""
     pieces = found.pieces
     count = pieces.end_chord - pieces.begin_chord + 1
     first = np.cumsum(count) - count
@@ -72,4 +72,4 @@ def cut_curves(curves: Curves, found: HiddenCurves) -> tuple[Floats, Floats, Int
     start[first[inner]] = curves.at(pieces.begin_chord[inner], pieces.begin_part[inner]).points
     inner = np.flatnonzero(pieces.end_part < 1.0)
     end[(first + count - 1)[inner]] = curves.at(pieces.end_chord[inner], pieces.end_part[inner]).points
-    return start, end, pieces.curve[owner], found.hidden_by[owner]
+    return start, end, chord, found.hidden_by[owner]

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.geometry.mesh import Ints
+from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.view import View
 from vectorplot.visibility.lines import Lines
 from vectorplot.visibility.smooth.curves import Curves, together
+from vectorplot.visibility.smooth.edge_sides import covered_sides
 from vectorplot.visibility.smooth.family import StraightLines
 from vectorplot.visibility.smooth.hidden_curves import cut_curves, hidden_curves
 from vectorplot.visibility.smooth.traced import TracedScene
+
+OUTLINES = (LineKind.CONTOUR, LineKind.BOUNDARY)
+"""Kinds of curves to one side of which there is nothing of their sheet."""
 
 
 def with_curves(view: View, traced: TracedScene, lines: Lines, items: int, tolerance: float) -> Lines:
@@ -19,12 +25,22 @@ def with_curves(view: View, traced: TracedScene, lines: Lines, items: int, toler
     """
     curves = together([traced.curves, _straight(lines)])
     found = hidden_curves(view, traced, curves, items, tolerance)
-    start, end, curve, behind = cut_curves(curves, found)
+    start, end, chord, behind = cut_curves(curves, found)
     long = (start != end).any(axis=1)
-    start, end, curve, behind = start[long], end[long], curve[long], behind[long]
-    side = np.concatenate([np.zeros(len(traced.curves), dtype=np.intp), lines.side])
-    smooth = np.arange(len(curves)) < len(traced.curves)
-    return Lines(start.T, end.T, curves.kind[curve], curves.item[curve], side[curve], smooth[curve], behind)
+    start, end, chord, behind = start[long], end[long], chord[long], behind[long]
+    curve = curves.owner[chord]
+    smooth = curve < len(traced.curves)
+    side = np.zeros(len(chord), dtype=np.intp)
+    side[~smooth] = lines.side[curve[~smooth] - len(traced.curves)]
+    outline = np.flatnonzero(smooth & np.isin(curves.kind[curve], OUTLINES) & (curves.sheet[curve] >= 0))
+    side[outline] = _sides(view, traced, curves, chord[outline])
+    return Lines(start.T, end.T, curves.kind[curve], curves.item[curve], side, smooth, behind)
+
+
+def _sides(view: View, traced: TracedScene, curves: Curves, chord: Ints) -> Ints:
+    """(k,) the sides on which sheets lie of chords of their outlines, seen from the middle of the chord."""
+    at, curve = curves.at(chord, np.full(len(chord), 0.5)), curves.owner[chord]
+    return covered_sides(view, traced.sheets, curves.sheet[curve], curves.kind[curve], at.points, at.places, at.slopes)
 
 
 def _straight(lines: Lines) -> Curves:

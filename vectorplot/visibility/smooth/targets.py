@@ -41,8 +41,12 @@ class Target:
         import shapely
 
         low, high = low - self.margin, high + self.margin
+        # Most boxes are beside the whole sheet, where a scene has many.
+        least, most = self.image.min(axis=(0, 1), initial=np.inf), self.image.max(axis=(0, 1), initial=-np.inf)
+        close = np.flatnonzero(((low <= most) & (high >= least)).all(axis=1))
+        low, high = low[close], high[close]
         box, triangle = self.tree.query(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
-        return np.asarray(box), np.asarray(triangle)
+        return close[box], np.asarray(triangle)
 
 
 def target(view: View, sheet: Sheet) -> Target:
