@@ -149,7 +149,7 @@ def test_points_of_a_parametrised_curve_are_on_it():
         (lambda: Line((0, 0, 0), (1, 0, 0), 1, 1), "empty"),
         (lambda: Circle(radius=0), "radius must be positive"),
         (lambda: Circle(radius=np.nan), "finite"),
-        (lambda: Circle(axis=(0, 0, 0)), "direction"),
+        (lambda: Circle(axis=(0, 0, 0)), "axis without length"),
         (lambda: Helix(1, np.inf), "finite"),
         (lambda: Helix(1, "steep"), "must be a number"),
         (lambda: Loxodrome(1, 0), "meridian"),

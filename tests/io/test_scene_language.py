@@ -368,7 +368,10 @@ CONE = "CONE green revolution solid meridian 4 0 0 , 0 0 7 order 30"
         ("CONE revolution meridian 4 0 0, 0 x 7 order 3", "expected a number for a point of the meridian, got 'x'"),
         ("CONE revolution meridian 4 0 0, 0 0 7 order 3.5", "CONE: expected a whole number for order, got '3.5'"),
         ("CONE revolution meridian 4 0 0, 0 0 7 order 1000000000", "CONE: order 1000000000: expected"),
-        ("CONE", "CONE: expected one of vertices, revolution, translation, box, intersection, surface, got the end"),
+        (
+            "CONE",
+            "CONE: expected one of vertices, revolution, translation, box, intersection, surface, curve, got",
+        ),
         ("CONE 3 4", "CONE: expected one of .*, got '3'"),
         ("CONE green yellow box 1 1 1", "CONE: a second colour, 'yellow'"),
         ("B box 1 1", "<text>:1: B: expected a number for a length of the box, got the end of the file"),
@@ -525,7 +528,8 @@ def test_the_examples_of_the_documentation_are_scenes():
     examples = [text for text in DOCUMENTED if " = " not in text and "expected" not in text]
     names = [[item.name for item in parse_scene(text).items] for text in examples]
     surfaces = [["RING"], ["SPRING", "VASE", "WAVES", "HEART"], ["EGG"]]
-    assert names == [["TOP", "MUG"], ["CUBE"], *surfaces, ["PENCIL"], ["HOUSE"]]
+    curves = ["GLOBE", "COURSE", "SPRING", "KNOT"]
+    assert names == [["TOP", "MUG"], ["CUBE"], *surfaces, curves, ["PENCIL"], ["HOUSE"]]
 
 
 @pytest.mark.capability("G3.0-language")

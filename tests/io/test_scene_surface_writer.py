@@ -10,6 +10,7 @@ from sample_surfaces import FAMILIES, same_surface
 
 from vectorplot.curves.helix import Helix
 from vectorplot.curves.line import Line
+from vectorplot.curves.placed import PlacedCurve
 from vectorplot.errors import InputError
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.io.scene_surface_writer import surface_text
@@ -111,7 +112,7 @@ def test_lines_on_surfaces_are_written(cosines, sections, columns, rows):
         (graph(np.hypot, Disc(1.0)), "region"),
         (ImplicitTorusByDistance(), "no word for a ImplicitTorusByDistance"),
         (InvertedSurface(Sphere(), (3, 0, 0), 1.0), "inverted surface"),
-        (revolution_surface(Helix(1.0, 1.0)), "no word for the curve Helix"),
+        (revolution_surface(PlacedCurve(Helix(1.0, 1.0), FORMS)), "no word for the curve PlacedCurve"),
         (TrimmedSurface(Cylinder(), v=(0.0, 0.5)), "part in v of a Cylinder"),
     ],
 )

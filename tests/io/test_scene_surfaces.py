@@ -53,6 +53,10 @@ def test_words_may_come_in_any_order_and_the_item_goes_on_behind_them():
     assert same_surface(a.shape, Torus(3.0, 1.0, (0, 0, 1))) and same_surface(b.shape, Sphere())
 
 
+def test_formulas_may_follow_their_slots():
+    assert same_surface(shape('graph x -1 2 y 0 1 formula "x*y"'), shape('graph "x*y" x -1 2 y 0 1'))
+
+
 def test_names_in_quotes_are_no_slots():
     names = [item.name for item in parse_scene('A surface torus 3 1 "u" surface sphere "a b" box 1 1 1').items]
     assert names == ["A", "u", "a b"]
@@ -158,11 +162,11 @@ MISTAKES = [
     ("R surface cone slope 1 radius 2", "give 'radius' and 'height', or"),
     ("R surface cone depth_slope 1", "'depth_slope' needs 'slope'"),
     ("R surface catenoid width 0", "a width of 0"),
-    ("R surface helical 1", "helical: expected 'line' or 'circle' or 'curve'"),
+    ("R surface helical 1", "helical: expected 'line' or 'circle' or .* or 'curve'"),
     ("R surface helical circle", "helical: expected 'rise'"),
     ("R surface revolution line 0 0 0 0 0 0", "a direction without length"),
     ("R surface revolution line 1 0 0 1 0 1 circle", "a second generator, 'circle'"),
-    ("R surface translation circle path", "path: expected one of line, circle, curve"),
+    ("R surface translation circle path", "path: expected one of line, circle, helix, .*, curve"),
     ("R surface revolution line 1 0 0 1 0 1 angle 90 0", "empty"),
     ("R surface torus major nan", "'nan' is not a finite number"),
     ('R surface torus major "1/0"', '"1/0" is not a finite number'),

@@ -9,17 +9,22 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import box
 from vectorplot.io.scene_language import parse_scene, read_scene
-from vectorplot.io.scene_surface_writer import surface_text
+from vectorplot.io.scene_surface_writer import curve_text, surface_text
 from vectorplot.io.scene_words import COLOURS, MATERIALS
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
 
 DATA = Path(__file__).parents[2] / "data"
+
+
+def words(shape):
+    return curve_text(shape) if is_curve(shape) else surface_text(shape)
 
 
 def plain(scene):
@@ -29,7 +34,7 @@ def plain(scene):
             item.name, item.colour, item.material, item.lines, item.occludes,
             item.mesh.vertices.tolist(), item.mesh.polygons(),
             None if item.mesh.present is None else item.mesh.present.tolist(),
-            "" if isinstance(item.shape, Mesh) else surface_text(item.shape), item.curves,
+            "" if isinstance(item.shape, Mesh) else words(item.shape), item.curves,
             [(p.name, p.colour, p.face, p.points.tolist()) for p in item.patterns],
         )
         for item in scene.items

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from vectorplot.curves.function import curve_of_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_about
 from vectorplot.scene.extent import smooth_bounds
@@ -66,7 +67,7 @@ def test_a_pole_ends_with_the_grid_and_infinity_on_the_grid_is_an_error():
 
 
 def test_what_is_no_surface_is_said_so():
-    with pytest.raises(InputError, match="a str is no mesh and no surface"):
+    with pytest.raises(InputError, match="a str is no mesh, no surface and no curve"):
         smooth_bounds("torus")
 
 
@@ -80,3 +81,16 @@ def test_bounds_of_a_scene_are_those_of_all_its_items():
     assert np.allclose(found, [[-4.0, -4.1, -1.1], [13.1, 4.1, 1.1]], atol=1e-9)
     assert len(Scene(items).vertices) == 8
     assert items[1].mesh.face_count == 0 and items[0].mesh is items[0].shape
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_a_curve_that_runs_off_to_infinity_is_refused_one_with_a_hole_is_not(size):
+    hyperbola = curve_of_function(lambda t: (t, size / t**5, 0 * t), -1.0, 1.0005)
+    with pytest.raises(InputError, match="the curve runs off to infinity"):
+        smooth_bounds(hyperbola)
+    holed = curve_of_function(lambda t: (t * size, np.sqrt(t * t - 0.25) * size, 0 * t), -1.0, 1.0)
+    assert np.allclose(
+        smooth_bounds(holed), np.array([(-1, 0, 0), (1, np.sqrt(0.75), 0)]) * size, rtol=0, atol=0.05 * size
+    )
+    with pytest.raises(InputError, match="the curve has no finite point"):
+        smooth_bounds(curve_of_function(lambda t: (t, np.log(-1 - t * t), t), -1.0, 1.0))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.curves.parameters import is_whole_turns, parameter_range, positive, vector
+from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.rotations import axis_frame
 
@@ -34,7 +35,8 @@ class Circle:
         object.__setattr__(self, "axis", vector("circle: axis", self.axis))
         positive("circle: radius", self.radius)
         parameter_range("circle", self.start, self.end)
-        axis_frame(self.axis)
+        if not np.any(self.axis):
+            raise InputError("circle: an axis without length")
 
     @cached_property
     def frame(self) -> Floats:

@@ -4,28 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair import mesh_report
-from vectorplot.io.scene_surface_writer import surface_text
+from vectorplot.io.scene_surface_writer import curve_text, surface_text
 from vectorplot.scene.extent import smooth_bounds
-from vectorplot.scene.scene import Scene
+from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.surface_lines import SurfaceLines
-from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
+from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 
 
 def describe(scene: Scene) -> list[str]:
     """The lines that say what is in a scene: of every item counts, closedness, convexity and size, or which surface it
-    is and which lines there are on it; then the whole."""
-    lines = []
-    for item in scene.items:
-        shape = item.shape
-        told = _counts(shape) if isinstance(shape, Mesh) else _surface(shape, item.curves)
-        lines.append(f"{item.name}: {told}")
+    is and which lines there are on it, or which curve; then the whole."""
     low, high = scene.bounds
+    lines = [f"{item.name}: {_told(item)}" for item in scene.items]
     faces = sum(item.mesh.face_count for item in scene.items)
-    surfaces = sum(not isinstance(item.shape, Mesh) for item in scene.items)
+    curves = sum(is_curve(item.shape) for item in scene.items)
+    surfaces = sum(not isinstance(item.shape, Mesh) for item in scene.items) - curves
     counts = [_number(len(scene.items), "item"), _number(faces, "face"), _number(len(scene.lights), "light")]
+    if curves:
+        counts.insert(1, _number(curves, "curve"))
     if surfaces:
         counts.insert(1, _number(surfaces, "surface"))
     lines.append(f"{', '.join(counts)}, {_size(high - low)}")
@@ -38,6 +38,27 @@ def _number(count: int, word: str) -> str:
 
 def _size(extents: Iterable[float]) -> str:
     return "size " + " x ".join(f"{extent:.6g}" for extent in extents)
+
+
+def _told(item: Item) -> str:
+    shape = item.shape
+    if isinstance(shape, Mesh):
+        return _counts(shape)
+    if is_curve(shape):
+        return _curve(shape)
+    assert is_parametrised(shape) or is_implicit(shape)
+    return _surface(shape, item.curves)
+
+
+def _curve(curve: Curve) -> str:
+    """One line about a curve: which one, whether it is closed, its size."""
+    try:
+        name = curve_text(curve).split()[1]
+    except InputError:
+        name = type(curve).__name__
+    named = "" if name.startswith('"') else f" ({name})"
+    low, high = smooth_bounds(curve)
+    return f"curve{named}, {'closed' if curve.closed else 'open'}, {_size(high - low)}"
 
 
 def _surface(shape: Surface | ImplicitSurface, curves: SurfaceLines) -> str:

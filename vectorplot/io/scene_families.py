@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from math import degrees, pi
 from typing import Any
 
 from vectorplot.curves.circle import Circle
 from vectorplot.curves.curve import Curve
+from vectorplot.curves.cylinder_intersection import cylinder_intersection
+from vectorplot.curves.helix import Helix
 from vectorplot.curves.line import Line
-from vectorplot.errors import InputError
+from vectorplot.curves.loxodrome import Loxodrome
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.scene_formulas import (
     Formulas,
     formula_curve,
@@ -29,6 +33,7 @@ from vectorplot.io.scene_slots import (
     read_formulas,
     read_number,
     read_numbers,
+    read_whole,
 )
 from vectorplot.io.scene_words import Words
 from vectorplot.surfaces.cyclide import ImplicitCyclide, dupin_cyclide
@@ -154,6 +159,31 @@ def _arc(*, radius: float, centre: tuple[float, ...], axis: tuple[float, ...], a
     return Circle(centre, radius, axis, arc[0], arc[1])
 
 
+def _helix(*, arc: Pair, **values: Any) -> Helix:
+    return Helix(start=arc[0], end=arc[1], **values)
+
+
+def _loxodrome(*, radius: float, course: float, arc: Pair) -> Loxodrome:
+    return Loxodrome(radius, course, arc[0], arc[1])
+
+
+def _cylinders(*, r: float, s: float, a: float, branch: int) -> Curve:
+    """One branch of the curve common to two cylinders."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", InputWarning)
+        branches = cylinder_intersection(r, s, a)
+    if not branches:
+        cause = said[0].message if said else "the cylinders do not meet: no curve"
+        raise InputError(f"cylinder_intersection: {cause}")
+    if not 1 <= branch <= len(branches):
+        raise InputError(f"cylinder_intersection: there is no branch {branch}, there {_are(len(branches))}")
+    return branches[branch - 1]
+
+
+def _are(count: int) -> str:
+    return "is one" if count == 1 else f"are {count}"
+
+
 def _function_curve(*, formulas: Formulas, t: Pair, closed: bool) -> Curve:
     return formula_curve(formulas, t[0], t[1], closed=closed)
 
@@ -162,6 +192,36 @@ CURVES = {
     "line": Family({"points": Slot(read_numbers(6), needed=True)}, ("points",), lambda points: _line(points)),
     "circle": Family(
         {"radius": _number(1.0), "centre": _CENTRE, "axis": _numbers(0.0, 0.0, 1.0), "arc": _TURNED}, ("radius",), _arc
+    ),
+    "helix": Family(
+        {
+            "radius": _number(1.0),
+            "rise": _number(needed=True),
+            "centre": _CENTRE,
+            "axis": _numbers(0.0, 0.0, 1.0),
+            "arc": _TURNED,
+        },
+        ("radius", "rise"),
+        _helix,
+    ),
+    "loxodrome": Family(
+        {
+            "radius": _number(1.0),
+            "course": Slot(read_angle, needed=True),
+            "arc": Slot(read_angles, (-4.0 * pi, 4.0 * pi)),
+        },
+        ("radius", "course"),
+        _loxodrome,
+    ),
+    "cylinder_intersection": Family(
+        {
+            "r": _number(needed=True),
+            "s": _number(needed=True),
+            "a": _number(0.0),
+            "branch": Slot(read_whole, 1),
+        },
+        ("r", "s", "a"),
+        _cylinders,
     ),
     "curve": Family(
         {"formulas": _formulas(3, "t"), "t": _RANGE, "closed": Slot(read_flag, False)}, ("formulas",), _function_curve

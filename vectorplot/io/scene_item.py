@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.adjacency import mesh_edges
 from vectorplot.geometry.intersect_polyhedra import intersection
@@ -42,6 +43,7 @@ NEEDED = {
     "box": ("lengths",),
     "intersection": ("parts",),
     "surface": ("surface",),
+    "curve": ("curve",),
 }
 """What every kind of item cannot be without."""
 
@@ -77,6 +79,7 @@ class Draft:
     lines: tuple[str, ...] | None = None
     occludes: bool | None = None
     surface: Surface | ImplicitSurface | None = None
+    curve: Curve | None = None
     curves = CurveDraft()
 
     def __init__(self, name: str, index: int) -> None:
@@ -101,11 +104,13 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
 
     Errors: InputError with file, line and the item's name for anything that makes no shape.
     """
-    shape: Mesh | Surface | ImplicitSurface
+    shape: Mesh | Surface | ImplicitSurface | Curve
     curves = NO_LINES
     try:
         if draft.surface is not None:
             shape, curves = _surface(draft, draft.surface)
+        elif draft.curve is not None:
+            shape = _space_curve(draft, words, draft.curve)
         else:
             shape = _polyhedron(draft, words, parts)
     except InputError as error:
@@ -128,15 +133,31 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
 def _surface(draft: Draft, surface: Surface | ImplicitSurface) -> tuple[Surface | ImplicitSurface, SurfaceLines]:
     from vectorplot.io.scene_surface import checked_bounds, curves_of, placed_surface
 
-    if draft.removed is not None or draft.patterns:
-        raise InputError("a surface has no faces for 'removed_faces' and 'patterns'")
+    _check_faceless(draft, "surface")
     shape = placed_surface(surface, draft.placement)
     return shape, curves_of(draft.curves, shape, checked_bounds(shape))
 
 
-def _polyhedron(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+def _space_curve(draft: Draft, words: Words, curve: Curve) -> Curve:
+    from vectorplot.io.scene_space_curve import placed_curve
+
+    _check_faceless(draft, "curve")
+    _check_lineless(draft, words)
+    return placed_curve(curve, draft.placement)
+
+
+def _check_faceless(draft: Draft, what: str) -> None:
+    if draft.removed is not None or draft.patterns:
+        raise InputError(f"a {what} has no faces for 'removed_faces' and 'patterns'")
+
+
+def _check_lineless(draft: Draft, words: Words) -> None:
     if draft.curves:
         words.fail(draft.curves.index, f"{draft.owner}'{words.words[draft.curves.index]}' is for surfaces only")
+
+
+def _polyhedron(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    _check_lineless(draft, words)
     mesh = _SHAPES[draft.kind or ""](draft, words, parts)
     if draft.removed is not None:
         mesh = _without_faces(mesh, draft.removed)

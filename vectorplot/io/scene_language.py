@@ -6,6 +6,7 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
+from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.scene_item import Draft, finished
@@ -107,8 +108,8 @@ class _Reader(ItemReader):
             places = [self.places[part] for part in draft.parts]
             for place in places:
                 if not isinstance(self.items[place].shape, Mesh):
-                    name = self.items[place].name
-                    self.source.fail(draft.kind_index, f"{draft.owner}{name} is a surface: only solids are intersected")
+                    name, what = self.items[place].name, "curve" if is_curve(self.items[place].shape) else "surface"
+                    self.source.fail(draft.kind_index, f"{draft.owner}{name} is a {what}: only solids are intersected")
             parts = tuple(self.items[place].mesh for place in places)
             self.parts.update(places)
         if draft.curves.lit_index:

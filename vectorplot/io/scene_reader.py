@@ -209,6 +209,13 @@ class ItemReader:
         self._once(draft, "surface")
         draft.surface, self.at = read_surface(self.source, self.at, draft.owner)
 
+    def _read_curve(self, draft: Draft) -> None:
+        from vectorplot.io.scene_space_curve import read_space_curve
+
+        self._kind(draft, "curve")
+        self._once(draft, "curve")
+        draft.curve, self.at = read_space_curve(self.source, self.at, draft.owner)
+
     def _read_vertices(self, draft: Draft) -> None:
         self._kind(draft, "vertices")
         self._once(draft, "vertices")
@@ -375,6 +382,7 @@ HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
     "scale": _modifier(read_scale),
     "matrix": _modifier(read_matrix),
     "surface": ItemReader._read_surface,
+    "curve": ItemReader._read_curve,
     "parameter_lines": _curves(read_parameter_lines),
     "isophotes": _curves(read_isophotes),
     "sections": _curves(read_sections),

@@ -49,7 +49,7 @@ def read_family(words: Words, at: int, owner: str, name: str, families: Mapping[
     given: dict[str, Any] = {}
     for word in family.bare:
         slot = family.slots[word]
-        if words.words[at] == word or not (slot.quoted or words.is_number(at)):
+        if words.words[at] in family.slots or not (slot.quoted or words.is_number(at)):
             break
         given[slot.into or word], at = slot.read(words, at, owner, word)
     while (slot_found := family.slots.get(words.words[at])) is not None:
@@ -80,6 +80,11 @@ def read_number(words: Words, at: int, owner: str, what: str) -> tuple[float, in
     if not isfinite(value):
         words.fail(at, f"{owner}{what}: {words.shown(at)} is not a finite number")
     return value, at + 1
+
+
+def read_whole(words: Words, at: int, owner: str, what: str) -> tuple[int, int]:
+    """A whole number."""
+    return words.whole(at, owner, what), at + 1
 
 
 def read_numbers(count: int) -> Reader:

@@ -1,4 +1,4 @@
-"""Smooth surfaces as words of the scene language."""
+"""Smooth surfaces and curves as words of the scene language."""
 
 from __future__ import annotations
 
@@ -12,9 +12,13 @@ from numpy.typing import ArrayLike
 
 from vectorplot.curves.circle import Circle
 from vectorplot.curves.curve import Curve
+from vectorplot.curves.cylinder_intersection import CylinderBranch, cylinder_intersection
 from vectorplot.curves.derivatives import NumericFunction
 from vectorplot.curves.function import FunctionCurve
+from vectorplot.curves.helix import Helix
 from vectorplot.curves.line import Line
+from vectorplot.curves.loxodrome import Loxodrome
+from vectorplot.curves.placed import PlacedCurve
 from vectorplot.errors import InputError
 from vectorplot.io.scene_formulas import Formulas
 from vectorplot.scene.scene import Light
@@ -182,6 +186,17 @@ def _swept(surface: Swept) -> str:
     return f"{name} {generator}{_range(surface.domain)}"
 
 
+def curve_text(curve: Curve) -> str:
+    """The words of a curve in space as an item, from its kind on, its place included.
+
+    Error: as for surfaces. Errors: InputError for curves that the language cannot name.
+    """
+    if isinstance(curve, PlacedCurve):
+        return curve_text(curve.curve) + _placement(np.asarray(curve.matrix), np.asarray(curve.shift))
+    words = _curve(curve)
+    return words if words.startswith("curve ") else f"curve {words}"
+
+
 def _curve(curve: Curve) -> str:
     if isinstance(curve, Line):
         p, q = np.asarray(curve.point), np.asarray(curve.direction)
@@ -190,12 +205,24 @@ def _curve(curve: Curve) -> str:
         parts = " ".join(f'"{a!r} + ({b!r})*t"' for a, b in zip(p.tolist(), q.tolist(), strict=True))
         return f"curve {parts} t {_numbers((curve.start, curve.end))}"
     if isinstance(curve, Circle):
-        arc = "" if (curve.start, curve.end) == (0.0, 2.0 * pi) else f" arc {_degrees(curve.start, curve.end)}"
-        return f"circle {float(curve.radius)!r}{_named(centre=curve.centre, axis=curve.axis)}{arc}"
+        return f"circle {float(curve.radius)!r}{_named(centre=curve.centre, axis=curve.axis)}{_arc(curve)}"
+    if isinstance(curve, Helix):
+        words = f"helix {_numbers((curve.radius, curve.rise))}"
+        return f"{words}{_named(centre=curve.centre, axis=curve.axis)}{_arc(curve)}"
+    if isinstance(curve, Loxodrome):
+        arc = f" arc {_degrees(curve.start, curve.end)}"
+        return f"loxodrome {float(curve.radius)!r} course {_degrees(curve.alpha)}{arc}"
+    if isinstance(curve, CylinderBranch):
+        branch = cylinder_intersection(curve.r, curve.s, curve.a).index(curve) + 1
+        return f"cylinder_intersection {_numbers((curve.r, curve.s, curve.a))} branch {branch}"
     if isinstance(curve, FunctionCurve):
         closed = " closed" if curve.closed else ""
         return f"curve {_quoted(curve.function)} t {_numbers((curve.start, curve.end))}{closed}"
     raise InputError(f"the scene language has no word for the curve {type(curve).__name__}")
+
+
+def _arc(curve: Circle | Helix) -> str:
+    return "" if (curve.start, curve.end) == (0.0, 2.0 * pi) else f" arc {_degrees(curve.start, curve.end)}"
 
 
 def _function(surface: FunctionSurface) -> str:

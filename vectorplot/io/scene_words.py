@@ -35,7 +35,7 @@ MATERIALS = {
 
 SOLID_WORDS = ("solid", "voll")
 FORM_WORDS = ("convex", *SOLID_WORDS, "hollow", "general", "concave")
-KIND_WORDS = ("vertices", "revolution", "translation", "box", "intersection", "surface")
+KIND_WORDS = ("vertices", "revolution", "translation", "box", "intersection", "surface", "curve")
 SCENE_WORDS = ("camera", "light", "page", "background", "title")
 LINE_WORDS = tuple(kind.word for kind in LineKind)
 

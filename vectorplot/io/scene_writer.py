@@ -7,12 +7,14 @@ from json import dumps
 
 import numpy as np
 
+from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats, Mesh
 from vectorplot.io.scene_reserved import RESERVED
 from vectorplot.io.scene_words import COLOURS, LINE_WORDS, MATERIALS, bare_word
 from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
+from vectorplot.surfaces.surface import is_implicit, is_parametrised
 
 
 def write_scene(scene: Scene) -> str:
@@ -94,14 +96,19 @@ def _item(item: Item, lights: tuple[Light, ...]) -> str:
 
 
 def _shape(item: Item, lights: tuple[Light, ...]) -> str:
+    if item.curves and (isinstance(item.shape, Mesh) or is_curve(item.shape)):
+        raise InputError(f"{item.name}: the scene language has lines of its own for surfaces only")
     if isinstance(item.shape, Mesh):
-        if item.curves:
-            raise InputError(f"{item.name}: the scene language has lines of its own for surfaces only")
         return _mesh(item.shape)
-    from vectorplot.io.scene_surface_writer import lines_text, surface_text
+    from vectorplot.io.scene_surface_writer import curve_text, lines_text, surface_text
 
+    shape = item.shape
     try:
-        return f"\nsurface {surface_text(item.shape)}{lines_text(item.curves, lights)}"
+        if is_parametrised(shape) or is_implicit(shape):
+            return f"\nsurface {surface_text(shape)}{lines_text(item.curves, lights)}"
+        if is_curve(shape):
+            return f"\n{curve_text(shape)}"
+        raise InputError(f"the scene language has no word for a {type(shape).__name__}")
     except InputError as error:
         raise InputError(f"{item.name}: {error.cause}") from None
 

@@ -22,7 +22,7 @@ LARGEST_GROWTH = 0.1
 """Where refining moves a bound by more than this part of the extent, the surface runs off to infinity there."""
 
 LARGEST_SPREAD = 1e9
-"""A surface that reaches so many times farther than half of its points do runs off to infinity."""
+"""A surface or a curve that reaches so many times farther than half of its points do runs off to infinity."""
 
 
 def smooth_bounds(shape: Surface | ImplicitSurface | Curve) -> Floats:
@@ -47,7 +47,14 @@ def _curve_bounds(curve: Curve) -> Floats:
     points = points[np.isfinite(points).all(axis=1)]
     if not len(points):
         raise InputError("the curve has no finite point")
+    _check_spread(points, "curve")
     return np.stack([points.min(axis=0), points.max(axis=0)])
+
+
+def _check_spread(points: Floats, what: str) -> None:
+    spread = np.abs(points - np.median(points, axis=0)).max(axis=1)
+    if spread.max() > LARGEST_SPREAD * np.median(spread) > 0.0:
+        raise InputError(f"the {what} runs off to infinity: take a part of it that does not")
 
 
 def _parametrised_bounds(surface: Surface) -> Floats:
@@ -60,9 +67,7 @@ def _parametrised_bounds(surface: Surface) -> Floats:
         if not len(points):
             raise InputError("the surface has no finite point")
     first = np.stack([points.min(axis=0), points.max(axis=0)])
-    spread = np.abs(points - np.median(points, axis=0)).max(axis=1)
-    if spread.max() > LARGEST_SPREAD * np.median(spread) > 0.0:
-        raise InputError("the surface runs off to infinity: take a part of it that does not")
+    _check_spread(points, "surface")
     # The outermost points towards the six sides: those with the smallest x, y, z, then those with the largest.
     best = np.concatenate([points.argmin(axis=0), points.argmax(axis=0)])
     at_u, at_v = u[best], v[best]
