@@ -23,7 +23,14 @@ from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.visibility.framing import in_frame
 from vectorplot.visibility.hidden_lines import Visibility, counted_parts, visible_parts
-from vectorplot.visibility.lines import Lines, edge_lines, intersection_lines, joined_lines, pattern_lines
+from vectorplot.visibility.lines import (
+    Lines,
+    edge_lines,
+    intersection_lines,
+    joined_lines,
+    mesh_curve_lines,
+    pattern_lines,
+)
 from vectorplot.visibility.occluders import solid_items
 from vectorplot.visibility.pairs import Segments
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
@@ -88,6 +95,8 @@ def draw(
         found.append(walk.run("intersections", intersection_lines, scene, view, faces, kinds, solid))
     if walk.calls_for("patterns"):
         found.append(walk.run("patterns", pattern_lines, scene, view, kinds))
+    if walk.calls_for("lines on meshes"):
+        found.append(walk.run("lines on meshes", mesh_curve_lines, scene, view, kinds))
     all_lines = joined_lines(found)
     if walk.calls_for("curves"):
         all_lines = _with_surfaces(walk, scene, view, kinds, all_lines, page, fit, tolerance_mm)

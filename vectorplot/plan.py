@@ -9,7 +9,7 @@ from typing import Any, ParamSpec, TypeVar
 
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.strokes import LineKind
-from vectorplot.scene.scene import Scene
+from vectorplot.scene.scene import Item, Scene
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -49,6 +49,8 @@ def plan_draw(scene: Scene, kinds: frozenset[LineKind], hidden: str, halo_mm: fl
         stages.append(Stage("intersections", "items, or parts of an item, may pierce each other"))
     if LineKind.PATTERN in wanted and any(item.patterns for item in scene.items):
         stages.append(Stage("patterns", "faces carry patterns"))
+    if wanted & {LineKind.ISOPHOTE, LineKind.SECTION} and any(map(_has_mesh_lines, scene.items)):
+        stages.append(Stage("lines on meshes", "polyhedra carry isophotes or sections"))
     if any(not isinstance(item.shape, Mesh) for item in scene.items):
         stages.append(Stage("curves", "items are smooth surfaces"))
         stages.append(Stage("smooth surfaces", "they hide curves and lines"))
@@ -63,6 +65,11 @@ def plan_draw(scene: Scene, kinds: frozenset[LineKind], hidden: str, halo_mm: fl
     stages.append(Stage("layers", "what shares a pen"))
     stages.append(Stage("pen", "strokes joined, in an order that keeps the pen on the paper"))
     return tuple(stages)
+
+
+def _has_mesh_lines(item: Item) -> bool:
+    """Whether an item is a polyhedron with lines of a smooth one."""
+    return isinstance(item.shape, Mesh) and bool(item.curves.isophotes or item.curves.sections)
 
 
 class Walk:
