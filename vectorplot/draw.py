@@ -6,7 +6,7 @@ import math
 import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -34,6 +34,12 @@ from vectorplot.visibility.lines import (
 from vectorplot.visibility.occluders import solid_items
 from vectorplot.visibility.pairs import Segments
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
+
+if TYPE_CHECKING:
+    from vectorplot.visibility.smooth.meetings import SmoothSheet
+
+LARGER = 1.25
+"""Curves are traced anew where they come out so many times larger on the page than they were taken for."""
 
 DRAWN = ("contour", "boundary", "crease", "intersection", "pattern", "parameter", "isophote", "section", "curve")
 """The kinds of lines that are drawn where nothing else is said."""
@@ -97,12 +103,19 @@ def draw(
         found.append(walk.run("patterns", pattern_lines, scene, view, kinds))
     if walk.calls_for("lines on meshes"):
         found.append(walk.run("lines on meshes", mesh_curve_lines, scene, view, kinds))
-    all_lines = joined_lines(found)
-    if walk.calls_for("curves"):
-        all_lines = _with_surfaces(walk, scene, view, kinds, all_lines, page, fit, tolerance_mm)
-    framed, whole = walk.run("frame", in_frame, view, all_lines, page, fit)
-    seen = _visibility(walk, view, faces, solid, framed)
-    placed = page_from_image(view, framed, seen, page, fit, whole)
+    straight, sheets = joined_lines(found), _sheets(walk, scene, view)
+    scale = mm_per_image(view, [sheet.vertices for sheet in sheets], page, fit)
+    while True:
+        # Chords take one half of the tolerance, Béziers through their ends the other.
+        tolerance = 0.5 * tolerance_mm / scale
+        every = _with_curves(walk, scene, view, sheets, kinds, straight, tolerance)
+        framed, whole = walk.run("frame", in_frame, view, every, page, fit)
+        seen = _visibility(walk, view, faces, solid, framed)
+        placed = page_from_image(view, framed, seen, page, fit, whole)
+        if every is straight or not len(seen) or placed[0, 0] <= LARGER * scale:
+            break
+        # Little of the scene is drawn, and that larger than thought.
+        scale = float(placed[0, 0])
     if walk.calls_for("halo"):
         from vectorplot.effects.halo import halo
 
@@ -128,23 +141,30 @@ def _check_options(hidden: str, curves: str, halo_mm: float, crease_angle_deg: f
         raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected a length that is finite and positive")
 
 
-def _with_surfaces(
+def _sheets(walk: Walk, scene: Scene, view: View) -> tuple[SmoothSheet, ...]:
+    """The smooth surfaces of the scene, if it has any."""
+    if not walk.calls_for("curves"):
+        return ()
+    from vectorplot.visibility.smooth.traced import scene_sheets
+
+    return scene_sheets(scene, view)
+
+
+def _with_curves(
     walk: Walk,
     scene: Scene,
     view: View,
+    sheets: tuple[SmoothSheet, ...],
     kinds: frozenset[LineKind],
     lines: Lines,
-    page: Page,
-    fit: bool,
-    tolerance_mm: float,
+    tolerance: float,
 ) -> Lines:
     """The lines and the curves of smooth surfaces, cut where one of these begins to hide them or ends."""
+    if not walk.calls_for("curves"):
+        return lines
     from vectorplot.visibility.smooth.smooth_lines import with_curves
-    from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
+    from vectorplot.visibility.smooth.traced import traced_scene
 
-    sheets = scene_sheets(scene, view)
-    # Chords take one half of the tolerance, Béziers through their ends the other.
-    tolerance = 0.5 * tolerance_mm / mm_per_image(view, [sheet.vertices for sheet in sheets], page, fit)
     traced = walk.run("curves", traced_scene, scene, view, sheets, kinds, tolerance)
     for doubt in traced.doubts:
         warnings.warn(doubt, InputWarning, stacklevel=3)
