@@ -1,0 +1,1 @@
+"""Pixels: rasters, depth buffers and illumination."""

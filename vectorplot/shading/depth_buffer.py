@@ -1,0 +1,110 @@
+"""Depth buffers: for every pixel the triangle in front, found for all triangles at once.
+
+Source: Glaeser, section 7.3; errata G7-04 to G7-07.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.shading import coverage
+from vectorplot.shading.depth_code import DepthCode
+from vectorplot.shading.depth_keys import KEY_BITS, front_keys
+from vectorplot.shading.screen import ScreenTriangles, raster_size
+
+FINEST_BITS = 48
+"""More bits for the depth than this would be below the rounding of its interpolation."""
+
+
+@dataclass(frozen=True, eq=False)
+class DepthBuffer:
+    """What is in front in every pixel, and how far.
+
+    code (rows, columns) int64: codes of the depths, 0 where there is nothing; triangle (rows, columns) int32: number in
+    triangles, -1 where there is nothing; top: the row of the whole picture that is row 0 here.
+    """
+
+    code: NDArray[np.int64]
+    triangle: NDArray[np.int32]
+    depth_code: DepthCode
+    triangles: ScreenTriangles
+    top: int = 0
+
+    @property
+    def depth(self) -> Floats:
+        """(rows, columns) depths after T2, larger = closer; -inf where there is nothing."""
+        return np.asarray(np.where(self.code > 0, self.depth_code.depth(self.code), -np.inf))
+
+    @property
+    def source(self) -> Ints:
+        """(rows, columns) the triangles as they were before clipping, -1 where there is nothing."""
+        before = np.append(self.triangles.source, -1)
+        return np.asarray(before[self.triangle])
+
+
+def depth_range(triangles: ScreenTriangles) -> tuple[float, float]:
+    """The smallest and the largest depth of the corners; (0, 0) without triangles."""
+    depth = triangles.points[_used(triangles), 2]
+    return (float(depth.min()), float(depth.max())) if len(depth) else (0.0, 0.0)
+
+
+def _used(triangles: ScreenTriangles) -> Bools:
+    used = np.zeros(len(triangles.points), dtype=np.bool_)
+    used[triangles.corners] = True
+    return used
+
+
+def depth_buffer(
+    triangles: ScreenTriangles, columns: int, rows: int, *, depth_code: DepthCode | None = None
+) -> DepthBuffer:
+    """The depth buffer of a picture. depth_code: None for the finest there is room for.
+
+    Errors: InputError for a raster too large, for depths outside the code's range, for too many triangles.
+    Degenerate: no triangles leave it empty; triangles without area cover nothing.
+    Source: Glaeser, section 7.3.
+    """
+    return strip(triangles, columns, rows, 0, rows, depth_code=depth_code)
+
+
+def strips(
+    triangles: ScreenTriangles, columns: int, rows: int, count: int, *, depth_code: DepthCode | None = None
+) -> Iterator[DepthBuffer]:
+    """The picture in horizontal strips from the top, one after the other, to save memory: together they are the same as
+    one. Source: Glaeser, section 7.3."""
+    if not 1 <= count <= rows:
+        raise InputError(f"{rows} rows cannot be divided into {count} strips")
+    borders = [rows * k // count for k in range(count + 1)]
+    for top, bottom in pairwise(borders):
+        yield strip(triangles, columns, rows, top, bottom, depth_code=depth_code)
+
+
+def strip(
+    triangles: ScreenTriangles, columns: int, rows: int, top: int, bottom: int, *, depth_code: DepthCode | None = None
+) -> DepthBuffer:
+    """The depth buffer of the rows top to bottom (exclusive) of a picture."""
+    columns, rows = raster_size(columns, rows)
+    if not 0 <= top < bottom <= rows:
+        raise InputError(f"rows {top} to {bottom} are no strip of a picture of {rows} rows")
+    number_bits = len(triangles).bit_length()
+    if depth_code is None:
+        bits = min(KEY_BITS - number_bits, FINEST_BITS)
+        depth_code = DepthCode.fine(*depth_range(triangles), bits)
+    used = _used(triangles)
+    depths = np.zeros(len(used))
+    depths[used] = depth_code.scaled(triangles.points[used, 2])
+    grid = coverage.snap(triangles.points)
+    grid[1] -= top << coverage.SUBPIXEL_BITS
+    keys = front_keys(grid, depths, triangles.corners, number_bits, columns, bottom - top)
+    return DepthBuffer(keys >> number_bits, _numbers(keys, number_bits), depth_code, triangles, top)
+
+
+def _numbers(keys: NDArray[np.int64], bits: int) -> NDArray[np.int32]:
+    mask = (1 << bits) - 1
+    return np.asarray(np.where(keys > 0, mask - (keys & mask), -1), dtype=np.int32)

@@ -1,0 +1,62 @@
+"""Depths as whole numbers: the finest there is room for, and 16 bits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats
+
+
+@dataclass(frozen=True)
+class DepthCode:
+    """Depths as whole numbers: first + steps * (depth - minimum) / (maximum - minimum), cut off.
+
+    Errors: InputError for an empty range. Degenerate: where all depths are the same, so are the codes.
+    """
+
+    minimum: float
+    maximum: float
+    first: float
+    steps: float
+
+    def __post_init__(self) -> None:
+        if not (-np.inf < self.minimum <= self.maximum < np.inf):
+            raise InputError(f"depths from {self.minimum:g} to {self.maximum:g} are no range")
+
+    @classmethod
+    def ushort(cls, minimum: float, maximum: float) -> DepthCode:
+        """The 16-bit code, from 1000 to 65000; 0 is left for pixels without a depth. Source: Glaeser, section 7.3."""
+        return cls(minimum, maximum, 1000.0, 64000.0)
+
+    @classmethod
+    def fine(cls, minimum: float, maximum: float, bits: int) -> DepthCode:
+        """The finest code of so many bits."""
+        return cls(minimum, maximum, 2.0, float((1 << bits) - 5))
+
+    @property
+    def step(self) -> float:
+        """How much depth a step is."""
+        return (self.maximum - self.minimum) / self.steps
+
+    def scaled(self, depth: ArrayLike) -> Floats:
+        """The codes (...) of depths (...) before they are cut off.
+
+        Errors: InputError for depths outside the range: clip first.
+        """
+        d = np.asarray(depth, dtype=np.float64)
+        if d.size and not (d.min() >= self.minimum and d.max() <= self.maximum):
+            raise InputError(f"a depth lies outside the range from {self.minimum:g} to {self.maximum:g}: clip first")
+        size = self.maximum - self.minimum
+        return np.asarray(self.first + self.steps * ((d - self.minimum) / (size if size > 0.0 else 1.0)))
+
+    def code(self, depth: ArrayLike) -> NDArray[np.int64]:
+        """The codes (...) of depths (...)."""
+        return self.scaled(depth).astype(np.int64)
+
+    def depth(self, code: ArrayLike) -> Floats:
+        """The depths (...) of codes (...), right to one step."""
+        return np.asarray(self.minimum + (np.asarray(code, dtype=np.float64) - self.first) * self.step)

@@ -1,0 +1,155 @@
+"""The key in front in every pixel: a triangle's depth there above its number.
+
+Every covered pixel of every triangle offers its key, and the largest of a pixel stays. So the result does not depend on
+the order of the triangles, except that of equally deep ones the first is kept.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.shading import coverage
+from vectorplot.shading.coverage import Boxes, Fragments, Snapped
+
+Keys = NDArray[np.int64]
+
+KEY_BITS = 62
+
+SETUP_AT_ONCE = 1 << 16
+"""So many triangles are set up at a time."""
+
+TILES_AT_ONCE = 1 << 11
+"""So many pairs of a triangle and a tile are looked at before the tiles' depths are taken anew."""
+
+LARGE_SIDE = 128
+"""From this side on a triangle is large."""
+
+TILE, SMALL_TILE = 64, 16
+"""Sides of the tiles of large and of middling triangles, in pixels."""
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """Triangles to be covered: grid (2, n) subpixels, depths (n,) codes not yet cut off, corners (t, 3)."""
+
+    grid: NDArray[np.int32]
+    depths: Floats
+    corners: Ints
+    number_bits: int
+    columns: int
+    rows: int
+
+    @property
+    def stride(self) -> int:
+        """Columns, and some more so that the last tile is whole."""
+        return -(-self.columns // TILE) * TILE
+
+    @property
+    def padded_rows(self) -> int:
+        """Rows, and some more so that the last tile is whole."""
+        return -(-self.rows // TILE) * TILE
+
+
+@dataclass(frozen=True, eq=False)
+class Planes:
+    """Some triangles ready to be covered: number (k,) in the task; the code of the depth at a fragment is
+    base + second * rise + third * other_rise, each (k,)."""
+
+    triangles: Snapped
+    box: Boxes
+    number: Ints
+    base: Floats
+    rise: Floats
+    other_rise: Floats
+
+
+def front_keys(
+    grid: NDArray[np.int32], depths: Floats, corners: Ints, number_bits: int, columns: int, rows: int
+) -> Keys:
+    """(rows, columns) the largest keys, 0 where no triangle is.
+
+    A key is the code of the depth, shifted by number_bits, plus 2^number_bits - 1 - triangle.
+    """
+    task = Task(grid, depths, corners, number_bits, columns, rows)
+    keys = np.zeros(task.padded_rows * task.stride, dtype=np.int64)
+    others = [np.zeros(0, dtype=np.intp)]
+    for begin in range(0, len(corners), SETUP_AT_ONCE):
+        planes = _planes(task, np.arange(begin, min(begin + SETUP_AT_ONCE, len(corners))))
+        others.append(planes.number[~planes.box.small])
+        small = np.flatnonzero(planes.box.small)
+        for fragments in coverage.small_fragments(planes.triangles, planes.box, small, task.stride):
+            _offer(keys, task, planes, fragments)
+    _cover_by_tiles(keys, task, np.concatenate(others))
+    return keys.reshape(-1, task.stride)[:rows, :columns]
+
+
+def _planes(task: Task, number: Ints) -> Planes:
+    """The triangles of some numbers that can cover a pixel of the raster."""
+    x, y = coverage.corner_grid(task.grid, task.corners[number])
+    box = coverage.boxes(x, y, task.columns, task.rows)
+    kept = np.flatnonzero((box.left < box.right) & (box.top < box.bottom))
+    triangles = coverage.turned_right(x[:, kept], y[:, kept])
+    with_area = np.flatnonzero(triangles.area)
+    if len(with_area) < len(kept):
+        kept, triangles = kept[with_area], triangles[with_area]
+    first, second, third = (task.depths[task.corners[number[kept], k]] for k in range(3))
+    second, third = np.where(triangles.turned, third, second), np.where(triangles.turned, second, third)
+    rise, other = (second - first) / triangles.area, (third - first) / triangles.area
+    # What the ownership of edges took away from the edge functions comes back here.
+    base = first + coverage.lowered(triangles, 1) * rise + coverage.lowered(triangles, 2) * other
+    return Planes(triangles, box[kept], number[kept], base, rise, other)
+
+
+def _offer(keys: Keys, task: Task, planes: Planes, found: Fragments) -> None:
+    """Let fragments compete for their pixels: changes keys."""
+    t = found.triangle
+    depth = planes.base[t] + found.second * planes.rise[t] + found.third * planes.other_rise[t]
+    key = depth.astype(np.int64)
+    key <<= task.number_bits
+    key += ((1 << task.number_bits) - 1 - planes.number)[t]
+    np.maximum.at(keys, found.pixel, key)
+
+
+def _cover_by_tiles(keys: Keys, task: Task, number: Ints) -> None:
+    """Cover pixels by triangles that are not small, the nearest first: changes keys."""
+    nearest = task.depths[task.corners[number]].max(axis=1)
+    number = number[np.argsort(-nearest, kind="stable")]
+    for begin in range(0, len(number), SETUP_AT_ONCE):
+        planes = _planes(task, number[begin : begin + SETUP_AT_ONCE])
+        side = np.maximum(planes.box.right - planes.box.left, planes.box.bottom - planes.box.top)
+        _tiles(keys, task, planes, np.flatnonzero(side >= LARGE_SIDE), TILE)
+        _tiles(keys, task, planes, np.flatnonzero(side < LARGE_SIDE), SMALL_TILE)
+
+
+def _tiles(keys: Keys, task: Task, planes: Planes, chosen: Ints, side: int) -> None:
+    """Cover pixels by some triangles, tile by tile: changes keys."""
+    ends = np.cumsum(coverage.tile_counts(planes.box, chosen, side))
+    across = task.stride // side
+    farthest = keys.reshape(-1, side, across, side).min(axis=(1, 3)).reshape(-1)
+    corners = task.corners[planes.number]
+    nearest = task.depths[corners].max(axis=1)
+    begin = 0
+    while begin < len(chosen):
+        done = ends[begin - 1] if begin else 0
+        end = max(begin + 1, int(np.searchsorted(ends, done + TILES_AT_ONCE, side="right")))
+        index, column, row = coverage.tile_pairs(planes.box, chosen[begin:end], side)
+        begin = end
+        tile = row * across + column
+        open_ = np.flatnonzero(nearest[index] + 1.0 >= farthest[tile] >> task.number_bits)
+        index, left, top, tile = index[open_], column[open_] * side, row[open_] * side, tile[open_]
+        met = np.flatnonzero(coverage.may_cover(planes.triangles, index, left, top, side))
+        index, left, top, tile = index[met], left[met], top[met], tile[met]
+        step = max(1, coverage.CANDIDATES // side**2)
+        for first in range(0, len(index), step):
+            part = slice(first, first + step)
+            found = coverage.covered(
+                planes.triangles, index[part], left[part], top[part], (side, side), task.stride, np.int64
+            )
+            _offer(keys, task, planes, found)
+        touched = np.unique(tile)
+        blocks = keys.reshape(-1, side, across, side)[touched // across, :, touched % across]
+        farthest[touched] = blocks.min(axis=(1, 2))
