@@ -24,6 +24,9 @@ NEAR = 0.5
 """Part of a smallest curvature among points down to which the parabola through it and its neighbours must come, for
 two cusps to be looked for there."""
 
+BESIDE = 1e-9
+"""So many lengths of a piece beyond its end count as the end."""
+
 PARTS = 8
 """Parts of a piece of a curve among whose ends the least curvature is looked for."""
 
@@ -220,8 +223,7 @@ def _inside(domain: Domain, at: Floats) -> Floats:
 
 
 def _by_newton(contour: Contour, pieces: _Pieces) -> tuple[Floats, Bools]:
-    """(k,2) parameters where condition and curvature are both zero, and which of them were found, in or right beside
-    their piece."""
+    """(k,2) parameters where condition and curvature are both zero, and which of them were found in their piece."""
     domain = contour.surface.domain
     size = np.array(domain.size)
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -241,9 +243,13 @@ def _by_newton(contour: Contour, pieces: _Pieces) -> tuple[Floats, Bools]:
         at = _inside(domain, at - step * size)
         if (length <= 1e-15).all():
             break
-    reach = np.abs((pieces.end - pieces.start) / size).max(axis=1, initial=0.0)
-    strayed = np.abs((at - start) / size).max(axis=1, initial=0.0) > reach + 1e-12
-    return at, np.asarray((length <= 1e-7) & ~strayed, dtype=np.bool_)
+    # The root beside a piece is that of its neighbour.
+    way = (pieces.end - pieces.start) / size
+    square = (way * way).sum(axis=1)
+    along = ((at - pieces.start) / size * way).sum(axis=1)
+    own = (along >= -BESIDE * square) & (along <= (1.0 + BESIDE) * square)
+    near = np.abs((at - start) / size).max(axis=1, initial=0.0) <= np.abs(way).max(axis=1, initial=0.0) + 1e-12
+    return at, np.asarray((length <= 1e-7) & own & near, dtype=np.bool_)
 
 
 def _curvature_slopes(contour: Contour, at: Floats) -> tuple[Floats, Floats]:
