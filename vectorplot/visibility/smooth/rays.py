@@ -48,40 +48,59 @@ class Samples:
     def __len__(self) -> int:
         return len(self.points)
 
+    def some(self, which: Ints) -> Samples:
+        """Some of the points."""
+        return Samples(
+            self.points[which],
+            self.sheet[which],
+            self.places[which],
+            self.second[which],
+            self.second_places[which],
+            self.contour[which],
+        )
+
 
 def counts_in_front(view: View, targets: tuple[Target, ...], samples: Samples, items: int) -> Ints:
     """(k, items) the number of sheets of each item between the samples and the eye."""
     counts = np.zeros((len(samples), items), dtype=np.intp)
+    image = projection.image(view, samples.points)
+    for number, target in enumerate(targets):
+        own = (samples.sheet == number) | (samples.second == number)
+        which = np.flatnonzero(own | target.may_reach(image, image))
+        if len(which) and len(target.corners):
+            counts[which, target.sheet.item] += _in_front(view, target, number, samples.some(which))
+    return counts
+
+
+def _in_front(view: View, target: Target, number: int, samples: Samples) -> Ints:
+    """(k,) the number of times that the sheet of this number lies between the samples and the eye."""
     way = projection.sight(view, samples.points)
     long = np.linalg.norm(way, axis=1)
-    for number, target in enumerate(targets):
-        if not len(target.corners):
-            continue
-        sample, meeting, places = _meetings(view, target, samples, way, number)
-        distance = meeting * long[sample]
-        front = distance > TOUCHING
-        if view.eye is not None:
-            front &= meeting < 1.0
-        for own, own_places, contour in (
-            (samples.sheet, samples.places, samples.contour),
-            (samples.second, samples.second_places, np.zeros(len(samples), dtype=np.bool_)),
-        ):
-            mine = own[sample] == number
-            edge = mine & contour[sample]
-            apart = target.sheet.apart(places, own_places[sample])
-            front &= ~(edge & ((distance < CONTACT) | (apart < CONTACT_PLACES)))
-            local = mine & ~contour[sample]
-            # The sheet itself and its second meeting nearby: the one is no meeting, the other is told below.
-            here = np.flatnonzero((own == number) & ~contour)
-            again = np.full(len(samples), np.inf)
-            again[here] = _second_meeting(target.sheet, way[here], own_places[here]) * long[here]
-            nearby = np.abs(again) < LOCAL
-            reach = np.where(nearby, 2.0, 0.5) * LOCAL
-            front &= ~(local & (np.abs(distance) < reach[sample]) & (apart < 0.05))
-            into = dot(target.sheet.inwards(own_places[here]), way[here]) >= 0.0
-            counts[here, target.sheet.item] += (nearby[here] & (again[here] > 0.0) & into).astype(np.intp)
-        np.add.at(counts, (sample[front], target.sheet.item), 1)
-    return counts
+    sample, meeting, places = _meetings(view, target, samples, way, number)
+    distance = meeting * long[sample]
+    front = distance > TOUCHING
+    if view.eye is not None:
+        front &= meeting < 1.0
+    count = np.zeros(len(samples), dtype=np.intp)
+    for own, own_places, contour in (
+        (samples.sheet, samples.places, samples.contour),
+        (samples.second, samples.second_places, np.zeros(len(samples), dtype=np.bool_)),
+    ):
+        mine = own[sample] == number
+        edge = mine & contour[sample]
+        apart = target.sheet.apart(places, own_places[sample])
+        front &= ~(edge & ((distance < CONTACT) | (apart < CONTACT_PLACES)))
+        local = mine & ~contour[sample]
+        # The sheet itself and its second meeting nearby: the one is no meeting, the other is told below.
+        here = np.flatnonzero((own == number) & ~contour)
+        again = np.full(len(samples), np.inf)
+        again[here] = _second_meeting(target.sheet, way[here], own_places[here]) * long[here]
+        nearby = np.abs(again) < LOCAL
+        reach = np.where(nearby, 2.0, 0.5) * LOCAL
+        front &= ~(local & (np.abs(distance) < reach[sample]) & (apart < 0.05))
+        into = dot(target.sheet.inwards(own_places[here]), way[here]) >= 0.0
+        count[here] += nearby[here] & (again[here] > 0.0) & into
+    return np.asarray(count + np.bincount(sample[front], minlength=len(samples)))
 
 
 def _second_meeting(sheet: Sheet, way: Floats, places: Floats) -> Floats:
@@ -92,8 +111,6 @@ def _second_meeting(sheet: Sheet, way: Floats, places: Floats) -> Floats:
 
 def _meetings(view: View, target: Target, samples: Samples, way: Floats, number: int) -> tuple[Ints, Floats, Floats]:
     """All meetings of the sight lines with a sheet, each once: the sample, the part of the sight line, the place."""
-    if not len(target.corners) or not len(samples):
-        return np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros((0, 3))
     image = projection.image(view, samples.points)
     sample, triangle = target.near_boxes(image, image)
     weight = weights(target.image[triangle], image[sample])

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
 from vectorplot.visibility.smooth.sheet import Sheet, dot
@@ -36,15 +36,23 @@ class Target:
         low, high = self.image.min(axis=1), self.image.max(axis=1)
         return shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
 
+    @cached_property
+    def box(self) -> Floats:
+        """(2,2) the box around the image, enlarged by the margin; empty without triangles."""
+        least, most = self.image.min(axis=(0, 1), initial=np.inf), self.image.max(axis=(0, 1), initial=-np.inf)
+        return np.stack([least - self.margin, most + self.margin])
+
+    def may_reach(self, low: Floats, high: Floats) -> Bools:
+        """(k,) which boxes (k,2), from low to high, overlap the one around the whole sheet."""
+        return np.asarray(((low <= self.box[1]) & (high >= self.box[0])).all(axis=1))
+
     def near_boxes(self, low: Floats, high: Floats) -> tuple[Ints, Ints]:
         """Pairs of a box (k,2), from low to high, and a triangle whose box, enlarged by the margin, overlaps it."""
         import shapely
 
-        low, high = low - self.margin, high + self.margin
         # Most boxes are beside the whole sheet, where a scene has many.
-        least, most = self.image.min(axis=(0, 1), initial=np.inf), self.image.max(axis=(0, 1), initial=-np.inf)
-        close = np.flatnonzero(((low <= most) & (high >= least)).all(axis=1))
-        low, high = low[close], high[close]
+        close = np.flatnonzero(self.may_reach(low, high))
+        low, high = low[close] - self.margin, high[close] + self.margin
         box, triangle = self.tree.query(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
         return close[box], np.asarray(triangle)
 
