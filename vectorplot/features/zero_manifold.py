@@ -42,6 +42,9 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.outline import concat
 from vectorplot.surfaces.surface import Domain
 
+JUMPS = "f changes its sign without being zero"
+"""How the doubt about poles and jumps of f begins."""
+
 DOUBLE = 1e-10
 """Part of the scale of f below which a critical value counts as zero."""
 
@@ -342,7 +345,7 @@ def _doubts(flat: int, found: _Found, complete: bool, unsure: int) -> tuple[str,
     poles, line = found.poles, len(found.touching) - found.beads
     texts = [
         (flat > 0, f"f is zero all over {flat} cells: only the border towards negative values is a curve"),
-        (poles > 0, f"f changes its sign without being zero at {poles} places: poles or jumps, not part of the curve"),
+        (poles > 0, f"{JUMPS} at {poles} places: poles or jumps, not part of the curve"),
         (not complete, f"more than {MOST_CELLS} small cells: branches smaller than a cell of the grid may be missing"),
         (unsure > 0, f"{unsure} segments could not be refined: the curve was not found beside their chords"),
         (found.missed > 0, "closed branches smaller than the resolution are missing: ask for a finer one"),

@@ -31,6 +31,9 @@ ULPS = 16.0
 GAP = 1e-6
 """An edge less than this in front of a curve is one that the curve touches."""
 
+FOLDS_GAP = 1e-3
+"""The same for two parts of one contour: on both sides of a cusp they are as close as rounding long before that."""
+
 RESIDUAL_OF_GAP = 1e-3
 """Part of the cube of the gap that the residual of a crossing may be: two curves that touch come as close as they
 like, but not at a distance."""
@@ -63,11 +66,14 @@ class Pairs:
         return Pairs(self.chord[which], self.part[which], self.edge[which], self.edge_part[which])
 
 
-def crossings(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, tolerance: float) -> Events:
+def crossings(
+    view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, edge_on: Bools, tolerance: float
+) -> Events:
     """The events where curves pass behind edges: the folds (kind contour) and borders (boundary) of the sheets.
 
-    tolerance: how far chords are off their curves, in the image. Behind a fold or cuspidal edge (crease) there are two
-    sheets more or less, by the side to which the sheet turns; behind a border one.
+    edge_on (m,): curves that are contours; tolerance: how far chords are off their curves, in the image. Behind a fold
+    or cuspidal edge (crease) there are two sheets more or less, by the side to which the sheet turns; behind a border
+    one.
     """
     pairs = _roughly_met(view, curves, edges, _close_pairs(view, sheets, curves, edges, tolerance))
     for _ in range(HOPS):
@@ -82,7 +88,7 @@ def crossings(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curv
     edge_inside, edge_part = on_chord(pairs.edge_part)
     pairs = Pairs(pairs.chord, part, pairs.edge, edge_part).some(inside & edge_inside)
     pairs = pairs.some(once(curves, pairs.chord, pairs.part, pairs.edge + pairs.edge_part))
-    return _events(view, sheets, curves, edges, pairs)
+    return _events(view, sheets, curves, edges, edge_on, pairs)
 
 
 def _close_pairs(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, tolerance: float) -> Pairs:
@@ -212,22 +218,23 @@ def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
     return Pairs(pairs.chord, part, pairs.edge, edge_part).some(kept)
 
 
-def _events(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, pairs: Pairs) -> Events:
+def _events(
+    view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, edge_on: Bools, pairs: Pairs
+) -> Events:
     """The crossings of the pairs that really are behind an edge."""
     one, two = curves.at(pairs.chord, pairs.part), edges.at(pairs.edge, pairs.edge_part)
     away = projection.image(view, two.points) - projection.image(view, one.points)
     residual = np.sqrt(dot(away, away))
     gap = projection.depth(view, one.points) - projection.depth(view, two.points)
-    real = (
-        (gap > GAP)
-        & (residual <= max(RESIDUAL, ULPS * projection.rounding(view)))
-        & (residual <= RESIDUAL_OF_GAP * gap**3)
-    )
+    curve, edge = curves.owner[pairs.chord], edges.owner[pairs.edge]
+    alike = edge_on[curve] & (curves.sheet[curve] == edges.sheet[edge]) & (edges.kind[edge] == LineKind.CONTOUR)
+    exact = max(RESIDUAL, ULPS * projection.rounding(view))
+    real = (gap > np.where(alike, FOLDS_GAP, GAP)) & (residual <= exact) & (residual <= RESIDUAL_OF_GAP * gap**3)
     pairs = pairs.some(real)
     points, places = two.points[real], two.places[real]
     direction = projection.image_slopes(view, one.points[real], one.slopes[real])
     along = projection.image_slopes(view, points, two.slopes[real])
-    edge = edges.owner[pairs.edge]
+    edge = edge[real]
     kind = edges.kind[edge]
     covered = covered_sides(view, sheets, edges.sheet[edge], kind, points, places, two.slopes[real])
     step = np.where(kind == LineKind.BOUNDARY, 1, 2)

@@ -45,7 +45,7 @@ def hidden_curves(view: View, traced: TracedScene, curves: Curves, items: int, t
     events = all_events(
         [
             own_events(view, sheets, curves, edge_on),
-            crossings(view, sheets, curves, edges, tolerance),
+            crossings(view, sheets, curves, edges, edge_on, tolerance),
             piercings(view, targets, curves, traced.meets_itself),
         ]
     )

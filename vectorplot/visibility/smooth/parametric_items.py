@@ -20,6 +20,7 @@ from vectorplot.features.parameter_lines import borders, parameter_lines
 from vectorplot.features.sections import plane_sections
 from vectorplot.features.singular_lines import singular_lines
 from vectorplot.features.surface_curves import SurfaceCurves
+from vectorplot.features.zero_manifold import JUMPS
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
@@ -48,6 +49,9 @@ def curves_of_parametrised(
     item = scene.items[sheet.item]
     found = [*_edges(view, sheet, number, tracing), *_asked_for(scene, view, item, sheet, number, wanted, tracing)]
     doubts = tuple(text for _, _, curves in found for text in curves.doubts)
+    if any(kind == LineKind.CREASE and (len(curves) or len(curves.isolated)) for kind, _, curves in found):
+        # At an apex or a cuspidal edge the normal jumps: that is known, and no doubt.
+        doubts = tuple(text for text in doubts if not text.startswith(JUMPS))
     return [as_curves(curves, kind, sheet.item, family) for kind, family, curves in found], doubts
 
 
