@@ -1,0 +1,45 @@
+"""Pixels as a PNG file."""
+
+from __future__ import annotations
+
+import struct
+import zlib
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vectorplot.errors import InputError
+
+COMPRESSION = 6
+
+Bytes = NDArray[np.uint8]
+
+
+def png_bytes(pixels: ArrayLike, colours: ArrayLike | None = None) -> bytes:
+    """The picture as a PNG file: row 0 on top.
+
+    pixels uint8: (rows, columns, 3) red, green and blue; (rows, columns) gray, or with colours (n, 3) uint8 indices
+    into them. The same pixels give the same bytes.
+    Errors: InputError for other shapes or types, for an empty picture, for an index without a colour.
+    Source: W3C, Portable Network Graphics, sections 5 and 11.
+    """
+    p = np.ascontiguousarray(pixels)
+    if p.dtype != np.uint8 or p.ndim not in (2, 3) or not p.size or (p.ndim == 3 and p.shape[2] != 3):
+        raise InputError(f"a picture must be bytes of shape (rows, columns) or (rows, columns, 3), not {p.shape}")
+    table = b""
+    if colours is not None:
+        c = np.ascontiguousarray(colours, dtype=np.uint8)
+        if p.ndim != 2 or c.ndim != 2 or c.shape[1] != 3 or not 1 <= len(c) <= 256 or p.max() >= len(c):
+            raise InputError("a picture of colour numbers needs 1 to 256 colours, one for every number in it")
+        table = _chunk(b"PLTE", c.tobytes())
+    kind = 3 if table else 2 if p.ndim == 3 else 0
+    rows, columns = p.shape[:2]
+    # Every row starts with the number of its filter: none.
+    data = np.concatenate([np.zeros((rows, 1), dtype=np.uint8), p.reshape(rows, -1)], axis=1)
+    header = _chunk(b"IHDR", struct.pack(">IIBBBBB", columns, rows, 8, kind, 0, 0, 0))
+    body = _chunk(b"IDAT", zlib.compress(data.tobytes(), COMPRESSION))
+    return b"\x89PNG\r\n\x1a\n" + header + table + body + _chunk(b"IEND", b"")
+
+
+def _chunk(name: bytes, data: bytes) -> bytes:
+    return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
