@@ -117,3 +117,13 @@ def test_cells_are_refined_until_the_parts_of_the_surface_stay_the_same():
     mesh, doubts = settled_mesh(surface, 12)
     assert not doubts and euler(mesh) == 4
     assert not settled_mesh(implicit_cone(0.5, (0, 0, 0), (0, 0, 1), BOX), 16)[1]
+
+
+@pytest.mark.parametrize("shift", [0.0, 1e-17, 1e-11])
+def test_a_plane_through_points_of_the_lattice_ends_on_the_sides_of_its_box(shift: float) -> None:
+    plane = implicit_plane((0.0, 0.0, shift), (1.0, 0.5, 2.0), [(-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)])
+    mesh = polygonized(plane, 48)
+    uses = edge_uses(mesh)
+    corner = uses.corner[uses.first[uses.count == 1]]
+    ends = np.stack([mesh.vertices[mesh.corners[corner]], mesh.vertices[mesh.corners[mesh.next_corner[corner]]]])
+    assert len(corner) and (np.abs(ends) == 1.0).all(axis=0).any(axis=1).all()

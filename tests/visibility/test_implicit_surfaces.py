@@ -145,7 +145,9 @@ def test_size_and_place_change_nothing(scale: float, offset: float) -> None:
 
 
 def test_what_does_not_occlude_hides_nothing() -> None:
-    scene = Scene(tuple(Item(item.name, item.shape, curves=FEW, occludes=False) for item in SCENES["two spheres"].items))
+    scene = Scene(
+        tuple(Item(item.name, item.shape, curves=FEW, occludes=False) for item in SCENES["two spheres"].items)
+    )
     for camera in views(scene, 2, 8):
         assert (chords_seen(scene, camera).hidden_by == 0).all()
 

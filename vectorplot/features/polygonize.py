@@ -29,6 +29,9 @@ FALLS = 1e-3
 MERGED = 1e-6
 """Part of a cell below which vertices are one."""
 
+SIDE_ULPS = 8.0
+"""Rounding steps of the largest coordinate that a vertex on a side of the box may be off it."""
+
 ROUNDS = 12
 """Steps of Newton's method for the vertices inside cells."""
 
@@ -87,7 +90,7 @@ def polygonized(surface: ImplicitSurface, cells: int = 64) -> Mesh:
     triangles = triangles[_in_whole_cells(w, places, triangles)]
     vertices, on = _on_surface(surface, lattice, w, places)
     triangles = triangles[on[triangles].all(axis=1)]
-    return _compact(vertices, triangles, MERGED * float(lattice.cell.min()))
+    return _compact(lattice, vertices, triangles)
 
 
 def settled_mesh(surface: ImplicitSurface, cells: int = 64) -> tuple[Mesh, tuple[str, ...]]:
@@ -218,9 +221,16 @@ def onto_surface(
     return np.where(arrived[:, None], x, points), arrived
 
 
-def _compact(vertices: Floats, triangles: Ints, tolerance: float) -> Mesh:
-    """The mesh with vertices closer than the tolerance made one, without what that leaves of triangles."""
-    triangles = close_points(vertices, tolerance)[triangles]
+def _compact(lattice: _Lattice, vertices: Floats, triangles: Ints) -> Mesh:
+    """The mesh with vertices closer than MERGED made one, without what that leaves of triangles; of such vertices one
+    that lies on most sides of the box stays."""
+    digits = SIDE_ULPS * np.spacing(np.abs(np.stack([lattice.low, lattice.high])).max())
+    below, above = vertices - lattice.low <= digits, lattice.high - vertices <= digits
+    vertices = np.where(below, lattice.low, np.where(above, lattice.high, vertices))
+    order = np.argsort(-(below | above).sum(axis=1), kind="stable")
+    heads = np.empty_like(order)
+    heads[order] = order[close_points(vertices[order], MERGED * float(lattice.cell.min()))]
+    triangles = heads[triangles]
     a, b, c = triangles.T
     triangles = triangles[(a != b) & (b != c) & (c != a)]
     used, corners = np.unique(triangles, return_inverse=True)

@@ -29,6 +29,9 @@ LONGEST_STEP = 0.05
 BEYOND = 1e-9
 """Part of the box that a place may be outside of it."""
 
+FLAT_ON_SIDE = 1e-9
+"""Sine of the angle between the borders on two sides of the box below which they have one direction."""
+
 
 @dataclass(frozen=True, eq=False)
 class ImplicitSheet:
@@ -92,7 +95,12 @@ class ImplicitSheet:
         sides = (part <= self._beyond).astype(np.float64) - (part >= 1.0 - self._beyond)
         inner = np.zeros_like(places)
         at = np.flatnonzero(sides.any(axis=1))
-        inner[at] = _tangential(sides[at] @ self.view.axes.T, self.normals(places[at]))
+        # One row for each side: its normal into the box, as far as it is tangential. At edges of the box the way is
+        # into both of its sides.
+        normals = np.nan_to_num(self.normals(places[at]))
+        along = sides[at, :, None] * self.view.axes.T
+        along = along - np.einsum("kij,kj->ki", along, normals)[:, :, None] * normals[:, None]
+        inner[at] = np.einsum("kij,kj->ki", np.linalg.pinv(along, rcond=FLAT_ON_SIDE), np.abs(sides[at]))
         return inner
 
     def turnings(self, places: Floats) -> Floats:
