@@ -1,0 +1,1 @@
+"""The painter's algorithm: what lies behind is drawn first."""

@@ -1,0 +1,179 @@
+"""Faces that pierce each other or lie on one another in circles, cut until there is an order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.visibility.painter.face_pairs import (
+    APART,
+    STRADDLING,
+    Codes,
+    drawn_before,
+    face_relations,
+)
+from vectorplot.visibility.painter.image_faces import ImageFaces, joined
+from vectorplot.visibility.painter.mikado import component_ranks
+from vectorplot.visibility.painter.space_partition import partitioned
+from vectorplot.visibility.painter.splitting import dense, halves, height_span
+
+MOST_ROUNDS = 64
+"""After so many rounds of cutting what is still in circles is ordered by a tree of planes."""
+
+LARGE_CIRCLE = 400
+"""A circle of more faces than these is ordered by a tree of planes at once."""
+
+SHARE_CUT = 8
+"""Of a large circle one face in so many is cut in a round."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """Faces whose images overlap: first, second (p,), and the codes of face_relations."""
+
+    first: Ints
+    second: Ints
+    codes: Codes
+
+    def __len__(self) -> int:
+        return len(self.first)
+
+    def some(self, which: Ints | Bools) -> Pairs:
+        """Some of the pairs."""
+        return Pairs(self.first[which], self.second[which], self.codes[which])
+
+
+def cut_into_order(faces: ImageFaces, group: Ints, pairs: Pairs, tolerance: float) -> tuple[ImageFaces, Ints]:
+    """Faces cut as far as needed, and for each one its place in the order of drawing.
+
+    group (n,): faces of a lower group are known to go first; only within groups is anything compared. Faces that
+    pierce each other are cut first, the larger one along the other's plane; then circles, at faces that lie on many
+    and under many. Places may be equal: of such faces any order will do.
+    Source: Newell, Newell and Sancha (1972); Fuchs, Kedem and Naylor (1980) for the large circles.
+    """
+    place = group
+    circled = np.zeros(len(faces), dtype=np.bool_)
+    for number in range(MOST_ROUNDS):
+        pairs = pairs.some((place[pairs.first] == place[pairs.second]) & (pairs.codes != APART))
+        place = _sorted_out(faces, place, pairs)
+        pairs = pairs.some(place[pairs.first] == place[pairs.second])
+        if not len(pairs):
+            break
+        victim, knife = _cuts(faces, place, pairs, number, tolerance)
+        given_up = np.isin(place, place[pairs.first]) & ~np.isin(place, place[victim])
+        circled |= given_up
+        pairs = pairs.some(~given_up[pairs.first])
+        faces, parent, children = _cut(faces, victim, faces.planes[:, knife], faces.steepness[knife], tolerance)
+        place, circled = place[parent], circled[parent]
+        pairs = _inherited(faces, pairs, children, tolerance)
+    else:
+        circled |= np.isin(place, place[pairs.first[place[pairs.first] == place[pairs.second]]])
+    return _with_trees(faces, place, circled, tolerance)
+
+
+def _with_trees(faces: ImageFaces, place: Ints, circled: Bools, tolerance: float) -> tuple[ImageFaces, Ints]:
+    """The faces in circles that were given up, ordered by trees of planes among the others."""
+    if not circled.any():
+        return faces, place
+    done, left = np.flatnonzero(~circled), np.flatnonzero(circled)
+    pieces, parent, rank = partitioned(faces.some(left), place[left], tolerance)
+    places = np.concatenate([place[done], place[left][parent]])
+    return joined(faces.some(done), pieces), dense(places, np.concatenate([np.zeros(len(done), dtype=np.intp), rank]))
+
+
+def _sorted_out(faces: ImageFaces, place: Ints, pairs: Pairs) -> Ints:
+    """The places told apart as far as the pairs do."""
+    involved = np.unique(np.concatenate([pairs.first, pairs.second]))
+    # Numbered by rank, so that nothing depends on the order in which the faces came.
+    by_rank = np.lexsort((involved, faces.rank[involved]))
+    number = np.empty(len(involved), dtype=np.intp)
+    number[by_rank] = np.arange(len(involved))
+    before, after = drawn_before(faces, pairs.first, pairs.second, pairs.codes)
+    lookup = np.full(len(faces), -1, dtype=np.intp)
+    lookup[involved] = number
+    rank = np.full(len(faces), -1, dtype=np.intp)
+    rank[involved] = component_ranks(len(involved), lookup[before], lookup[after])[number]
+    return dense(place, rank)
+
+
+def _cuts(faces: ImageFaces, place: Ints, pairs: Pairs, number: int, tolerance: float) -> tuple[Ints, Ints]:
+    """Which faces to cut this round, each one once, and by whose planes. All pairs lie within circles."""
+    straddling = pairs.codes == STRADDLING
+    piercing = pairs.some(straddling)
+    smaller = faces.rank[piercing.first] > faces.rank[piercing.second]
+    victim = np.where(smaller, piercing.second, piercing.first)
+    knife = np.where(smaller, piercing.first, piercing.second)
+    pierced = np.zeros(int(place.max()) + 1, dtype=np.bool_)
+    pierced[place[piercing.first]] = True
+    size = np.bincount(place)
+    rest = pairs.some(~pierced[place[pairs.first]] & (size[place[pairs.first]] <= LARGE_CIRCLE))
+    chosen = _once(faces, victim, knife, np.zeros(len(victim)))
+    victim, knife = victim[chosen], knife[chosen]
+    if not len(rest):
+        return victim, knife
+    more, planes = _circle_cuts(faces, place, rest, tolerance)
+    return np.concatenate([victim, more]), np.concatenate([knife, planes])
+
+
+def _once(faces: ImageFaces, victim: Ints, knife: Ints, cost: Floats) -> Ints:
+    """For each victim the knife of least cost."""
+    order = np.lexsort((knife, faces.rank[knife], cost, victim))
+    first = np.ones(len(order), dtype=np.bool_)
+    first[1:] = victim[order][1:] != victim[order][:-1]
+    return np.asarray(order[first], dtype=np.intp)
+
+
+def _circle_cuts(faces: ImageFaces, place: Ints, pairs: Pairs, tolerance: float) -> tuple[Ints, Ints]:
+    """Faces to cut in circles without piercing: those that lie on many and under many, where a plane halves them
+    best."""
+    before, after = drawn_before(faces, pairs.first, pairs.second, pairs.codes)
+    under, on = (np.bincount(ends, minlength=len(faces)) for ends in (before, after))
+    victim = np.concatenate([pairs.first, pairs.second])
+    knife = np.concatenate([pairs.second, pairs.first])
+    low, high = height_span(faces, victim, faces.planes[:, knife])
+    limit = tolerance * np.maximum(faces.steepness[victim], faces.steepness[knife])
+    splits = np.flatnonzero((low < -limit) & (high > limit))
+    victim, knife, low, high = victim[splits], knife[splits], low[splits], high[splits]
+    chosen = _once(faces, victim, knife, -np.minimum(high, -low) / (high - low))
+    victim, knife = victim[chosen], knife[chosen]
+    load = under[victim] * on[victim]
+    order = np.lexsort((faces.rank[victim], -load, place[victim]))
+    victim, knife = victim[order], knife[order]
+    starts = np.flatnonzero(np.concatenate([[True], place[victim][1:] != place[victim][:-1]]))
+    nth = np.arange(len(victim)) - np.repeat(starts, np.diff(np.append(starts, len(victim))))
+    quota = np.maximum(np.bincount(place)[place[victim]] // SHARE_CUT, 1)
+    kept = nth < quota
+    return victim[kept], knife[kept]
+
+
+def _cut(
+    faces: ImageFaces, victim: Ints, planes: Floats, steepness: Floats, tolerance: float
+) -> tuple[ImageFaces, Ints, Ints]:
+    """The faces with some of them cut in two, the face each one comes from, and (n,2) what became of each face, -1 for
+    nothing."""
+    whole = np.ones(len(faces), dtype=np.bool_)
+    whole[victim] = False
+    kept = np.flatnonzero(whole)
+    below, above = halves(faces.some(victim), planes, steepness, tolerance)
+    children = np.full((len(faces), 2), -1, dtype=np.intp)
+    children[kept, 0] = np.arange(len(kept))
+    children[victim, 0] = len(kept) + np.arange(len(victim))
+    children[victim, 1] = len(kept) + len(victim) + np.arange(len(victim))
+    return joined(faces.some(kept), joined(below, above)), np.concatenate([kept, victim, victim]), children
+
+
+def _inherited(faces: ImageFaces, pairs: Pairs, children: Ints, tolerance: float) -> Pairs:
+    """The pairs of what became of the faces, compared anew where something was cut."""
+    cut = (children[pairs.first, 1] >= 0) | (children[pairs.second, 1] >= 0)
+    old, new = pairs.some(~cut), pairs.some(cut)
+    first = np.concatenate([children[new.first, a] for a in (0, 0, 1, 1)])
+    second = np.concatenate([children[new.second, b] for b in (0, 1, 0, 1)])
+    there = (first >= 0) & (second >= 0)
+    first, second = first[there], second[there]
+    return Pairs(
+        np.concatenate([children[old.first, 0], first]),
+        np.concatenate([children[old.second, 0], second]),
+        np.concatenate([old.codes, face_relations(faces, first, second, tolerance)]),
+    )

@@ -1,0 +1,172 @@
+"""Faces after the projective map that makes all sight lines parallel: planes stay planes, and every face is a convex
+polygon over its image."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.features.edges import unbalanced_vertices
+from vectorplot.geometry.clipping import Polygons, cut_polygons
+from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+from vectorplot.scene.view import View
+from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, newell
+
+
+@dataclass(frozen=True, eq=False)
+class ImageFaces:
+    """Convex polygons, counter-clockwise in the image.
+
+    points (3,c): x and y in the image plane, and the height above it, which grows towards the eye; offsets (n+1,);
+    planes (5,n): x, y and height of a point of each plane and its two slopes; source (n,): the face of the view each
+    polygon is (a part of); rank (n,): the order in which faces that lie in one plane are drawn.
+    """
+
+    points: Floats
+    offsets: Ints
+    planes: Floats
+    source: Ints
+    rank: Ints
+
+    def __len__(self) -> int:
+        return len(self.source)
+
+    @cached_property
+    def box(self) -> Floats:
+        """(6,n) smallest and largest x, y and height."""
+        rows = []
+        for row in self.points:
+            for extreme in (np.minimum, np.maximum):
+                rows.append(extreme.reduceat(row, self.offsets[:-1]) if len(self) else row[:0])
+        return np.stack(rows)
+
+    def some(self, which: Ints) -> ImageFaces:
+        """Some of the polygons, in the order asked for."""
+        position, offsets = corner_positions(self.offsets, which)
+        return ImageFaces(
+            self.points[:, position], offsets, self.planes[:, which], self.source[which], self.rank[which]
+        )
+
+    def heights(self, face: Ints, x: Floats, y: Floats) -> Floats:
+        """(..., p) heights of the planes of faces (p,) above the points x, y (..., p) of the image."""
+        x0, y0, h0, slope_x, slope_y = self.planes[:, face]
+        return np.asarray(h0 + slope_x * (x - x0) + slope_y * (y - y0), dtype=np.float64)
+
+    @cached_property
+    def steepness(self) -> Floats:
+        """(n,) how many tolerances in height one tolerance in the image makes, and one more."""
+        return 1.0 + np.abs(self.planes[3]) + np.abs(self.planes[4])
+
+
+def joined(one: ImageFaces, two: ImageFaces) -> ImageFaces:
+    """The polygons of both, one after the other."""
+    return ImageFaces(
+        np.concatenate([one.points, two.points], axis=1),
+        np.concatenate([one.offsets, two.offsets[1:] + one.offsets[-1]]),
+        np.concatenate([one.planes, two.planes], axis=1),
+        np.concatenate([one.source, two.source]),
+        np.concatenate([one.rank, two.rank]),
+    )
+
+
+def corner_positions(offsets: Ints, which: Ints) -> tuple[Ints, Ints]:
+    """Where the corners of some polygons stand, one polygon after the other, and the offsets of these polygons."""
+    sizes = offsets[which + 1] - offsets[which]
+    ends = np.concatenate([[0], np.cumsum(sizes)])
+    return np.repeat(offsets[which] - ends[:-1], sizes) + np.arange(int(ends[-1])), ends
+
+
+def drawn_faces(view: View, faces: ProjectedFaces) -> Ints:
+    """The faces that can be seen at all: not edge-on, not behind the near plane, and of closed bodies only those that
+    show their outside.
+
+    A body counts as closed where its faces are wound alike and the near plane does not cut it; an eye in a body sees
+    its inner walls.
+    Source: Glaeser, section 5.1; erratum G5-09.
+    """
+    through_near = ~np.isfinite(faces.nearest) | (faces.box[1] >= EVERYWHERE)
+    culled = closed_items(view)
+    culled[view.face_item[through_near]] = False
+    area, _, first = newell(view, np.arange(view.face_count))
+    sixfold = np.bincount(view.face_item, (area * view.points[:, first]).sum(axis=0), minlength=len(culled))
+    outside = np.where(sixfold[view.face_item] < 0.0, -faces.facing, faces.facing) > 0
+    kept = (faces.facing != 0) & np.isfinite(faces.nearest)
+    return np.flatnonzero(kept & (outside | ~culled[view.face_item]))
+
+
+def image_faces(view: View, which: Ints) -> ImageFaces:
+    """Some faces of the view in the image, cut off at the near plane; those seen edge-on are left out.
+
+    The height over the image plane is f (f - d) / d for the depth d and the image plane's depth f; in a parallel
+    projection it is f - d itself. Source: Glaeser, section 2.4 (the transformation T2).
+    """
+    position, offsets = corner_positions(view.offsets, which)
+    points, source = view.points[:, view.corners[position]], which
+    if view.eye is not None:
+        beyond = view.depth_of(points) - view.near
+        if beyond.min(initial=0.0) < 0.0:
+            cut, _ = cut_polygons(Polygons(points.T, offsets), beyond)
+            full = np.flatnonzero(np.diff(cut.offsets))
+            points, offsets, source = cut.points.T, np.append(cut.offsets[full], len(cut.points)), which[full]
+    return polygons_of(mapped(view, points), offsets, source, view.tolerance)
+
+
+def mapped(view: View, points: Floats) -> Floats:
+    """(3,n) points (3,n) of the view, beyond the near plane, after the projective map."""
+    if view.eye is None:
+        height = points[2]
+    else:
+        depth = view.depth_of(points)
+        height = view.focus * (view.focus - depth) / depth
+    return np.concatenate([view.image_of(points), height[None]])
+
+
+def polygons_of(points: Floats, offsets: Ints, source: Ints, tolerance: float) -> ImageFaces:
+    """Polygons of mapped corners (3,c), all turned counter-clockwise; those narrower than the tolerance left out.
+
+    Where faces lie in one plane the larger one is drawn first; of equal ones the lower, the left one, the one nearer
+    to the lower border of the image, and at last the one listed first.
+    """
+    if not len(source):
+        return ImageFaces(points[:, :0], np.zeros(1, dtype=np.intp), np.zeros((5, 0)), source, source)
+    normal, middle = _area_vectors(points, offsets)
+    sizes = np.diff(offsets)
+    spread = np.maximum(
+        *(np.maximum.reduceat(row, offsets[:-1]) - np.minimum.reduceat(row, offsets[:-1]) for row in points[:2])
+    )
+    wide = np.flatnonzero(np.abs(normal[2]) > tolerance * spread)
+    position, ends = corner_positions(offsets, wide)
+    backwards = np.repeat(normal[2, wide] < 0.0, sizes[wide])
+    mirrored = np.repeat(offsets[wide] + offsets[wide + 1] - 1, sizes[wide]) - position
+    corners = points[:, np.where(backwards, mirrored, position)]
+    normal, middle = normal[:, wide], middle[:, wide]
+    slopes = -normal[:2] / normal[2]
+    planes = np.concatenate([middle, slopes])
+    order = np.lexsort((middle[1], middle[0], middle[2], -np.abs(normal[2])))
+    rank = np.empty(len(wide), dtype=np.intp)
+    rank[order] = np.arange(len(wide))
+    return ImageFaces(corners, ends, planes, source[wide], rank)
+
+
+def _area_vectors(points: Floats, offsets: Ints) -> tuple[Floats, Floats]:
+    """(3,n) Newell's area vectors about the first corners, and the means of the corners."""
+    starts, sizes = offsets[:-1], np.diff(offsets)
+    arm = points - np.repeat(points[:, starts], sizes, axis=1)
+    after = arm[:, next_positions(offsets, np.arange(points.shape[1]))]
+    normal = np.stack(
+        [
+            np.add.reduceat(arm[(k + 1) % 3] * after[(k + 2) % 3] - arm[(k + 2) % 3] * after[(k + 1) % 3], starts)
+            for k in range(3)
+        ]
+    )
+    return normal, points[:, starts] + np.add.reduceat(arm, starts, axis=1) / sizes
+
+
+def closed_items(view: View) -> Bools:
+    """(i,) the items whose faces close, wound alike."""
+    closed = np.ones(len(view.item_vertices) - 1, dtype=np.bool_)
+    loose = np.flatnonzero(unbalanced_vertices(view.points.shape[1], view.corners, view.offsets))
+    closed[np.searchsorted(view.item_vertices, loose, side="right") - 1] = False
+    return closed

@@ -1,0 +1,211 @@
+"""The painter's order: all faces of a view, back to front."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.scene.view import View
+from vectorplot.visibility.occluders import solid_items
+from vectorplot.visibility.painter.bodies import Bodies, convex_bodies
+from vectorplot.visibility.painter.body_pairs import UNDECIDED, body_relations
+from vectorplot.visibility.painter.candidates import box_pairs
+from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
+from vectorplot.visibility.painter.face_pairs import (
+    APART,
+    BEHIND,
+    IN_FRONT,
+    drawn_before,
+    face_relations,
+)
+from vectorplot.visibility.painter.image_faces import (
+    ImageFaces,
+    corner_positions,
+    drawn_faces,
+    image_faces,
+    joined,
+)
+from vectorplot.visibility.painter.mikado import component_ranks
+from vectorplot.visibility.painter.splitting import dense
+from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, project_faces
+
+PAIRS_AT_ONCE = 1 << 20
+"""Pairs of faces of two bodies listed at once."""
+
+
+@dataclass(frozen=True, eq=False)
+class Painted:
+    """Polygons back to front: faces, whose points (3,c) are places in the image and heights above it, and whose source
+    is the face of the view that each one is or is a part of. uncut: how many there were before the cutting; knots (i,):
+    the items that pierce one another, or lie on one another in circles."""
+
+    faces: ImageFaces
+    uncut: int
+    knots: Ints
+
+    def __len__(self) -> int:
+        return len(self.faces)
+
+
+def painters_order(view: View, projected: ProjectedFaces | None = None) -> Painted:
+    """The faces that can be seen, in an order in which each may be painted over those before it.
+
+    Convex bodies are compared as wholes; only where they pierce one another, or lie on one another in circles, their
+    faces are, and cut where there is no other way. Faces whose images do not overlap may stand in any order; of faces
+    that overlap in one plane the larger one comes first. Nothing depends on the order of the items, except which of
+    two faces in the same place is seen.
+    Degenerate: faces seen edge-on are left out.
+    Source: Glaeser, sections 5.1, 5.5 and 5.6; Newell, Newell and Sancha (1972).
+    """
+    projected = project_faces(view) if projected is None else projected
+    faces = image_faces(view, drawn_faces(view, projected))
+    things = _things(view, projected, faces)
+    before, after = _demands(view, faces, things)
+    rank = _ranks(faces, things, before, after)
+    circled = np.bincount(rank, minlength=1)[rank] > 1
+    loose = np.flatnonzero(circled[things.of_face])
+    rest = np.flatnonzero(~circled[things.of_face])
+    pieces = faces.some(loose)
+    group = rank[things.of_face[loose]]
+    pairs = _pairs_within(pieces, group, things.of_face[loose], view.tolerance)
+    pieces, place = cut_into_order(pieces, group, pairs, view.tolerance)
+    # Pieces keep their group: it is what their source had.
+    group_of_source = np.full(view.face_count, -1, dtype=np.intp)
+    group_of_source[faces.source] = rank[things.of_face]
+    whole = joined(faces.some(rest), pieces)
+    places = np.concatenate([np.zeros(len(rest), dtype=np.intp), place])
+    order = np.lexsort((whole.rank, places, group_of_source[whole.source]))
+    return Painted(whole.some(order), len(faces), np.unique(view.face_item[pieces.source]))
+
+
+@dataclass(frozen=True, eq=False)
+class _Things:
+    """What is compared: bodies first, then single faces. of_face (n,): the thing each image face belongs to; single
+    (s,): the image faces that are things of their own; box (4,t)."""
+
+    bodies: Bodies
+    of_face: Ints
+    single: Ints
+    box: Floats
+
+    def faces_of(self, thing: Ints) -> tuple[Ints, Ints]:
+        """The image faces of some things, one thing after the other, and the offsets."""
+        first = np.concatenate([self.bodies.first, self.bodies.first[-1] + 1 + np.arange(len(self.single))])
+        position, offsets = corner_positions(first, thing)
+        return np.concatenate([self.bodies.shown, self.single])[position], offsets
+
+
+def _things(view: View, projected: ProjectedFaces, faces: ImageFaces) -> _Things:
+    solid = solid_items(view, projected)
+    # A body that reaches through the near plane has no outline.
+    solid[view.face_item[~np.isfinite(projected.nearest) | (projected.box[1] >= EVERYWHERE)]] = False
+    bodies = convex_bodies(view, faces, np.flatnonzero(solid))
+    of_face = np.full(len(faces), -1, dtype=np.intp)
+    of_face[bodies.shown] = np.repeat(np.arange(len(bodies)), np.diff(bodies.first))
+    single = np.flatnonzero(of_face < 0)
+    of_face[single] = len(bodies) + np.arange(len(single))
+    box = faces.box[:4, single]
+    if len(bodies):
+        rows = [
+            extreme.reduceat(row, bodies.offsets[:-1]) for row in bodies.corners for extreme in (np.minimum, np.maximum)
+        ]
+        box = np.concatenate([np.stack(rows), box], axis=1)
+    return _Things(bodies, of_face, single, box)
+
+
+def _demands(view: View, faces: ImageFaces, things: _Things) -> tuple[Ints, Ints]:
+    """The things that have to be drawn before others: (k,) and (k,)."""
+    count = len(things.bodies)
+    demands = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
+    for first, second in box_pairs(things.box, view.tolerance):
+        # A pair names the smaller number first, so a body stands before a face.
+        both = second < count
+        neither = first >= count
+        undecided = ~(both | neither)
+        if both.any():
+            codes = body_relations(view, faces, things.bodies, first[both], second[both])
+            demands.append(_decided(first[both], second[both], codes))
+            undecided[np.flatnonzero(both)[codes == UNDECIDED]] = True
+        if neither.any():
+            a, b = things.single[first[neither] - count], things.single[second[neither] - count]
+            before, after = drawn_before(faces, a, b, face_relations(faces, a, b, view.tolerance))
+            demands.append((things.of_face[before], things.of_face[after]))
+        if undecided.any():
+            demands.append(_face_demands(faces, things, first[undecided], second[undecided], view.tolerance))
+    return np.concatenate([d[0] for d in demands]), np.concatenate([d[1] for d in demands])
+
+
+def _decided(first: Ints, second: Ints, codes: Ints) -> tuple[Ints, Ints]:
+    front, behind = codes == IN_FRONT, codes == BEHIND
+    return np.concatenate([second[front], first[behind]]), np.concatenate([first[front], second[behind]])
+
+
+def _face_demands(faces: ImageFaces, things: _Things, first: Ints, second: Ints, tolerance: float) -> tuple[Ints, Ints]:
+    """The demands that the faces of things make on each other."""
+    sizes = np.diff(things.faces_of(first)[1]) * np.diff(things.faces_of(second)[1])
+    demands = []
+    for low, high in _runs(sizes):
+        a, b = _all_face_pairs(faces, things, first[low:high], second[low:high], tolerance)
+        before, after = drawn_before(faces, a, b, face_relations(faces, a, b, tolerance))
+        demands.append((things.of_face[before], things.of_face[after]))
+    return np.concatenate([d[0] for d in demands]), np.concatenate([d[1] for d in demands])
+
+
+def _runs(sizes: Ints) -> list[tuple[int, int]]:
+    """Consecutive runs of things whose sizes add up to about PAIRS_AT_ONCE."""
+    total = np.cumsum(sizes)
+    cuts = np.searchsorted(total, np.arange(PAIRS_AT_ONCE, int(total[-1]), PAIRS_AT_ONCE)) + 1
+    ends = np.unique(np.append(cuts, len(sizes))).tolist()
+    return list(zip([0, *ends[:-1]], ends, strict=True))
+
+
+def _all_face_pairs(
+    faces: ImageFaces, things: _Things, first: Ints, second: Ints, tolerance: float
+) -> tuple[Ints, Ints]:
+    """All pairs of faces of pairs of things whose boxes overlap."""
+    one, one_first = things.faces_of(first)
+    two, two_first = things.faces_of(second)
+    pair = np.repeat(np.arange(len(first)), np.diff(one_first))
+    counts = np.diff(two_first)[pair]
+    ends = np.cumsum(counts)
+    partner = np.repeat(two_first[:-1][pair] - (ends - counts), counts) + np.arange(int(ends[-1]))
+    a, b = np.repeat(one, counts), two[partner]
+    near = _boxes_overlap(faces.box, a, b, tolerance)
+    return a[near], b[near]
+
+
+def _boxes_overlap(box: Floats, a: Ints, b: Ints, tolerance: float) -> Bools:
+    wide = np.minimum(box[1, a], box[1, b]) - np.maximum(box[0, a], box[0, b]) > tolerance
+    tall = np.minimum(box[3, a], box[3, b]) - np.maximum(box[2, a], box[2, b]) > tolerance
+    return np.asarray(wide & tall, dtype=np.bool_)
+
+
+def _ranks(faces: ImageFaces, things: _Things, before: Ints, after: Ints) -> Ints:
+    """(t,) the rank of each thing, equal for those in one circle.
+
+    Things are numbered by the ranks of their first faces, so that nothing depends on the order in which they came.
+    """
+    count = len(things.bodies) + len(things.single)
+    leading = np.full(count, len(faces), dtype=np.intp)
+    np.minimum.at(leading, things.of_face, faces.rank)
+    number = np.empty(count, dtype=np.intp)
+    number[np.argsort(leading, kind="stable")] = np.arange(count)
+    return component_ranks(count, number[before], number[after])[number]
+
+
+def _pairs_within(faces: ImageFaces, group: Ints, thing: Ints, tolerance: float) -> Pairs:
+    """Pairs of faces of one group, but not of one thing, whose images overlap."""
+    found: list[Pairs] = []
+    for first, second in box_pairs(faces.box, tolerance):
+        mine = np.flatnonzero((group[first] == group[second]) & (thing[first] != thing[second]))
+        first, second = first[mine], second[mine]
+        pairs = Pairs(first, second, face_relations(faces, first, second, tolerance))
+        found.append(pairs.some(pairs.codes != APART))
+    none = np.zeros(0, dtype=np.intp)
+    return Pairs(
+        np.concatenate([none, *(p.first for p in found)]),
+        np.concatenate([none, *(p.second for p in found)]),
+        np.concatenate([none.astype(np.int8), *(p.codes for p in found)]),
+    )
