@@ -80,15 +80,14 @@ def _pair(
 ) -> tuple[Curves, tuple[str, ...]]:
     """The curves of two sheets, given by their numbers."""
     first, second = sheets[one], sheets[two]
-    if isinstance(first, ParametricSheet) and isinstance(second, ParametricSheet):
-        found = surface_intersection(first.surface, second.surface, tracing=tracing)
-        return _double(found, first, one, second, two, item), found.doubts
-    if isinstance(first, ParametricSheet) and isinstance(second, ImplicitSheet):
-        return parametrised_with_implicit(first, one, second, two, item, tracing)
-    if isinstance(first, ImplicitSheet) and isinstance(second, ParametricSheet):
+    if isinstance(first, ImplicitSheet):
+        if isinstance(second, ImplicitSheet):
+            return implicit_with_implicit(first, one, second, two, item, tracing)
         return parametrised_with_implicit(second, two, first, one, item, tracing)
-    assert isinstance(first, ImplicitSheet) and isinstance(second, ImplicitSheet)
-    return implicit_with_implicit(first, one, second, two, item, tracing)
+    if isinstance(second, ImplicitSheet):
+        return parametrised_with_implicit(first, one, second, two, item, tracing)
+    found = surface_intersection(first.surface, second.surface, tracing=tracing)
+    return _double(found, first, one, second, two, item), found.doubts
 
 
 def _with_mesh(
