@@ -1,0 +1,104 @@
+"""Polygons that lie on faces: shadows, patterns and what else is painted right after the face it lies on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Floats, Ints
+
+
+class DecalKind(IntEnum):
+    """What a decal is."""
+
+    SHADOW = 1
+    """Where an opaque item keeps light away."""
+    SHADOW_BORDER = 2
+    """The soft border of a shadow (aura)."""
+    CLEAR_SHADOW = 3
+    """Where a transparent item dims light."""
+    PATTERN = 4
+    """A coloured polygon of the face's own."""
+    REFLECTION = 5
+    """What a mirror shows."""
+
+
+@dataclass(frozen=True, eq=False)
+class Decals:
+    """Polygons on faces of a View, painted right after the face they lie on.
+
+    points (3,c) in the view's coordinates, on the planes of their faces; offsets (m+1,): decal k has the points
+    offsets[k] to offsets[k+1], simple, its turn that of the face; face (m,) the face of the view it lies on; kind (m,)
+    of DecalKind; grade (m,) how many lights it lacks (0 for decals that are no shadows); light (m,) which light of the
+    scene, -1 for several or none; colour (m,) index into colours, or -1: the face's own; level (m,) the order on one
+    face, smaller first, equal ones in any order; colours: names of palettes and colours.
+    """
+
+    points: Floats
+    offsets: Ints
+    face: Ints
+    kind: Ints
+    grade: Ints
+    light: Ints
+    colour: Ints
+    level: Ints
+    colours: tuple[str, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __repr__(self) -> str:
+        return f"<Decals: {len(self)} polygons on {len(np.unique(self.face))} faces>"
+
+    def of(self, decals: Ints) -> Decals:
+        """Some of the decals, given by their numbers, in that order."""
+        sizes = np.diff(self.offsets)[decals]
+        offsets = np.concatenate([[0], np.cumsum(sizes)])
+        corners = np.arange(offsets[-1]) + np.repeat(self.offsets[:-1][decals] - offsets[:-1], sizes)
+        return Decals(
+            self.points[:, corners],
+            offsets,
+            self.face[decals],
+            self.kind[decals],
+            self.grade[decals],
+            self.light[decals],
+            self.colour[decals],
+            self.level[decals],
+            self.colours,
+        )
+
+    @property
+    def painting_order(self) -> Ints:
+        """(m,) the decals by faces, and on each face by level, otherwise as they are."""
+        return np.lexsort((self.level, self.face))
+
+
+def no_decals() -> Decals:
+    """No decals at all."""
+    none = np.zeros(0, dtype=np.intp)
+    return Decals(np.zeros((3, 0)), np.zeros(1, dtype=np.intp), none, none, none, none, none, none)
+
+
+def joined_decals(*decals: Decals) -> Decals:
+    """All decals one after the other; colours of the same name become one."""
+    if not decals:
+        return no_decals()
+    colours = tuple(dict.fromkeys(name for d in decals for name in d.colours))
+    number = {name: k for k, name in enumerate(colours)}
+    renamed = [np.array([*(number[name] for name in d.colours), -1], dtype=np.intp)[d.colour] for d in decals]
+    counts = [d.offsets[-1] for d in decals]
+    starts = np.cumsum([0, *counts[:-1]])
+    offsets = [np.zeros(1, dtype=np.intp), *(d.offsets[1:] + s for d, s in zip(decals, starts, strict=True))]
+    return Decals(
+        np.concatenate([d.points for d in decals], axis=1),
+        np.concatenate(offsets),
+        np.concatenate([d.face for d in decals]),
+        np.concatenate([d.kind for d in decals]),
+        np.concatenate([d.grade for d in decals]),
+        np.concatenate([d.light for d in decals]),
+        np.concatenate(renamed),
+        np.concatenate([d.level for d in decals]),
+        colours,
+    )
