@@ -7,7 +7,7 @@ import numpy as np
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.bodies import Bodies, faces_between, spheres_apart
-from vectorplot.visibility.painter.face_pairs import APART, BEHIND, IN_FRONT, ON_OUTLINE, Codes
+from vectorplot.visibility.painter.face_pairs import BEHIND, IN_FRONT, ON_OUTLINE, Codes
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.outlines import Outlines, Table, common_points, overlapping
 

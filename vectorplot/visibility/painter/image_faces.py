@@ -57,7 +57,7 @@ class ImageFaces:
     @cached_property
     def steepness(self) -> Floats:
         """(n,) how many tolerances in height one tolerance in the image makes, and one more."""
-        return 1.0 + np.abs(self.planes[3]) + np.abs(self.planes[4])
+        return np.asarray(1.0 + np.abs(self.planes[3]) + np.abs(self.planes[4]), dtype=np.float64)
 
 
 def joined(one: ImageFaces, two: ImageFaces) -> ImageFaces:

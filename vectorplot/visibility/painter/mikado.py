@@ -90,9 +90,9 @@ def component_ranks(count: int, before: Ints, after: Ints) -> Ints:
     start, end = label[before], label[after]
     across = start != end
     if (start[across] < end[across]).all():
-        return label
+        return np.asarray(label, dtype=np.intp)
     if (start[across] > end[across]).all():
-        return components - 1 - label
+        return np.asarray(components - 1 - label, dtype=np.intp)
     order = mikado(components, start[across], end[across]).order
     rank = np.empty(components, dtype=np.intp)
     rank[order] = np.arange(components)

@@ -17,6 +17,7 @@ from vectorplot.visibility.painter.face_pairs import (
     APART,
     BEHIND,
     IN_FRONT,
+    Codes,
     drawn_before,
     face_relations,
 )
@@ -28,7 +29,6 @@ from vectorplot.visibility.painter.image_faces import (
     joined,
 )
 from vectorplot.visibility.painter.mikado import component_ranks
-from vectorplot.visibility.painter.splitting import dense
 from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, project_faces
 
 PAIRS_AT_ONCE = 1 << 20
@@ -137,7 +137,7 @@ def _demands(view: View, faces: ImageFaces, things: _Things) -> tuple[Ints, Ints
     return np.concatenate([d[0] for d in demands]), np.concatenate([d[1] for d in demands])
 
 
-def _decided(first: Ints, second: Ints, codes: Ints) -> tuple[Ints, Ints]:
+def _decided(first: Ints, second: Ints, codes: Codes) -> tuple[Ints, Ints]:
     front, behind = codes == IN_FRONT, codes == BEHIND
     return np.concatenate([second[front], first[behind]]), np.concatenate([first[front], second[behind]])
 

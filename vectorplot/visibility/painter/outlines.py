@@ -33,7 +33,7 @@ class Table:
         result = self.normal_x[side, row] * x
         result += self.normal_y[side, row] * y
         result += self.constant[side, row]
-        return result
+        return np.asarray(result)
 
     def __len__(self) -> int:
         return len(self.x)

@@ -27,6 +27,8 @@ def height_span(faces: ImageFaces, which: Ints, planes: Floats) -> tuple[Floats,
 
 def halves(faces: ImageFaces, planes: Floats, steepness: Floats, tolerance: float) -> tuple[ImageFaces, ImageFaces]:
     """The parts of faces below and above planes (5,n), one for each face; every face has both."""
+    if not len(faces):
+        return faces, faces
     limit = np.repeat(tolerance * np.maximum(faces.steepness, steepness), np.diff(faces.offsets))
     height = heights_above(faces, planes)
     height[np.abs(height) <= limit] = 0.0
