@@ -1,0 +1,131 @@
+"""Polygons clipped by convex polygons, many pairs at once."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+
+
+def clipped(
+    points: Floats, offsets: Ints, clip_points: Floats, clip_offsets: Ints, *, tolerance: float = 0.0
+) -> tuple[Floats, Ints, Ints]:
+    """The parts of polygons inside convex polygons, pair by pair: polygon i is clipped by convex polygon i.
+
+    points (2 or more, c) of polygons offsets (n+1,): rows beyond x and y, such as heights, are interpolated;
+    clip_points (2 or more, d), of which x and y count, clip_offsets (n+1,): convex, wound either way. Corners
+    within the tolerance of a side's line count as on it and stay where they are.
+    Returns the points and offsets of the parts, and the pair each belongs to, ascending; pairs without a part are
+    missing. Polygons wholly inside keep every digit.
+    Degenerate: nothing is left by a convex polygon without area, or where only points of a side are common; a polygon
+    that is not convex may get coincident edges along the sides, which enclose no area.
+    Source: Glaeser, section 6.2, figure 3 (Hodgman and Sutherland); erratum G6-04.
+    """
+    lines = _lines(clip_points, clip_offsets)
+    sides = np.diff(clip_offsets)
+    area = _doubled_areas(clip_points, clip_offsets)
+    pair = np.flatnonzero((area != 0.0) & (sides >= 3) & (np.diff(offsets) >= 3))
+    points, offsets = _some(points, offsets, pair)
+    for number in range(int(sides[pair].max(initial=0))):
+        side = np.where(number < sides[pair], clip_offsets[pair] + number, -1)
+        height = _heights(points, offsets, lines, side, tolerance)
+        points, offsets, left = _cut(points, offsets, height)
+        pair = pair[left]
+    return points, offsets, pair
+
+
+def contained(
+    points: Floats, offsets: Ints, clip_points: Floats, clip_offsets: Ints, *, tolerance: float = 0.0
+) -> Bools:
+    """(n,) whether all of polygon i lies inside convex polygon i or on its border, so that clipping leaves it whole.
+
+    Arguments as of clipped. Degenerate: nothing lies inside a polygon without area.
+    Source: Glaeser, section 6.2; erratum G6-04.
+    """
+    lines = _lines(clip_points, clip_offsets)
+    sides = np.diff(clip_offsets)
+    inside = (_doubled_areas(clip_points, clip_offsets) != 0.0) & (np.diff(offsets) > 0)
+    for number in range(int(sides.max(initial=0))):
+        which = np.flatnonzero(inside & (sides > number))
+        some, starts = _some(points, offsets, which)
+        height = _heights(some, starts, lines, clip_offsets[which] + number, tolerance)
+        if len(which):
+            inside[which] = np.minimum.reduceat(height, starts[:-1]) >= 0.0
+    return np.asarray(inside, dtype=np.bool_)
+
+
+def _lines(points: Floats, offsets: Ints) -> Floats:
+    """(4,d) the line through each corner and the next one: unit normal, inwards, and the corner; a side without length
+    is no line: normal zero."""
+    along = points[:2, _after(points, offsets)] - points[:2]
+    length = np.hypot(*along)
+    turn = np.repeat(np.where(_doubled_areas(points, offsets) < 0.0, -1.0, 1.0), np.diff(offsets))
+    along *= turn / np.where(length > 0.0, length, 1.0)
+    return np.stack([-along[1], along[0], *points[:2]])
+
+
+def _after(points: Floats, offsets: Ints) -> Ints:
+    """(c,) where the corner stands that follows each one in its polygon."""
+    after = np.arange(1, points.shape[1] + 1)
+    filled = offsets[1:] > offsets[:-1]
+    after[offsets[1:][filled] - 1] = offsets[:-1][filled]
+    return after
+
+
+def _doubled_areas(points: Floats, offsets: Ints) -> Floats:
+    """(n,) twice the signed areas of polygons, measured from their first corners."""
+    sizes = np.diff(offsets)
+    area = np.zeros(len(sizes))
+    if not points.shape[1]:
+        return area
+    arm = points[:2] - np.repeat(points[:2, np.minimum(offsets[:-1], points.shape[1] - 1)], sizes, axis=1)
+    after = arm[:, _after(points, offsets)]
+    filled = sizes > 0
+    area[filled] = np.add.reduceat(arm[0] * after[1] - arm[1] * after[0], offsets[:-1][filled])
+    return area
+
+
+def _some(points: Floats, offsets: Ints, which: Ints) -> tuple[Floats, Ints]:
+    """Some of the polygons, and their offsets."""
+    sizes = offsets[which + 1] - offsets[which]
+    ends = np.concatenate([[0], np.cumsum(sizes)])
+    position = np.repeat(offsets[which] - ends[:-1], sizes) + np.arange(int(ends[-1]))
+    return points[:, position], ends
+
+
+def _heights(points: Floats, offsets: Ints, lines: Floats, side: Ints, tolerance: float) -> Floats:
+    """(c,) heights of corners above one line for each polygon, those within the tolerance zero; where the
+    side is -1 all are zero."""
+    line = lines[:, side]
+    line[:2, side < 0] = 0.0
+    normal_x, normal_y, x, y = np.repeat(line, np.diff(offsets), axis=1)
+    height = normal_x * (points[0] - x)
+    height += normal_y * (points[1] - y)
+    height[np.abs(height) <= tolerance] = 0.0
+    return np.asarray(height)
+
+
+def _cut(points: Floats, offsets: Ints, height: Floats) -> tuple[Floats, Ints, Ints]:
+    """The parts of polygons where heights at their corners are not negative: points, offsets, and which are left."""
+    out = height < 0.0
+    if not out.any():
+        return points, offsets, np.arange(len(offsets) - 1)
+    touched = np.logical_or.reduceat(out, offsets[:-1])
+    after = _after(points, offsets)
+    beyond = height[after]
+    crossing = np.flatnonzero((out & (beyond > 0.0)) | ((height > 0.0) & (beyond < 0.0)))
+    # Every corner leaves itself if inside and, where its side crosses, a new corner after it.
+    counts = (~out).astype(np.intp)
+    counts[crossing] += 1
+    ends = np.concatenate([[0], np.cumsum(counts)])
+    made = np.empty((len(points), int(ends[-1])))
+    kept = np.flatnonzero(~out)
+    made[:, ends[kept]] = points[:, kept]
+    share = height[crossing] / (height[crossing] - beyond[crossing])
+    made[:, ends[crossing + 1] - 1] = points[:, crossing] + share * (points[:, after[crossing]] - points[:, crossing])
+    starts = ends[offsets]
+    enough = np.maximum.reduceat(height, offsets[:-1]) > 0.0
+    left = np.flatnonzero(~touched | (enough & (np.diff(starts) >= 3)))
+    if len(left) == len(offsets) - 1:
+        return made, starts, left
+    return *_some(made, starts, left), left
