@@ -1,0 +1,51 @@
+"""Rays of another make through the centres of pixels."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.geometry.camera import Camera
+from vectorplot.shading.screen import raster_system
+
+
+def intersector(vertices, triangles):
+    """What answers for rays which of the triangles (t, 3) they meet first."""
+    import embreex.mesh_construction
+    import embreex.rtcore_scene
+
+    scene = embreex.rtcore_scene.EmbreeScene()
+    soup = np.ascontiguousarray(np.asarray(vertices)[triangles], dtype=np.float32)
+    embreex.mesh_construction.TriangleMesh(scene, soup)
+    return scene
+
+
+def pixel_rays(camera: Camera, columns: int, rows: int):
+    """Origins and unit directions, each (rows * columns, 3), of the rays through the pixels' centres."""
+    system = raster_system(camera, columns, rows)
+    row, column = np.divmod(np.arange(rows * columns), columns)
+    there = system.to_world(np.stack([column, row, np.zeros(len(row))], axis=1).astype(np.float64))
+    if camera.parallel:
+        forward = np.broadcast_to(-camera.direction, there.shape)
+        return there - 3.0 * camera.distance * forward, forward
+    forward = there - np.asarray(camera.eye)
+    forward = forward / np.linalg.norm(forward, axis=1)[:, None]
+    return np.broadcast_to(camera.eye, there.shape), forward
+
+
+def first_triangles(vertices, triangles, origin, direction):
+    """(n,) the triangle each ray meets first, -1 for none."""
+    found = intersector(vertices, triangles).run(
+        np.ascontiguousarray(origin, dtype=np.float32), np.ascontiguousarray(direction, dtype=np.float32)
+    )
+    return np.asarray(found)
+
+
+def beside_edges(picture):
+    """(rows, columns) which pixels have a neighbour, also across a corner, with another number."""
+    padded = np.pad(picture, 1, mode="edge")
+    rows, columns = picture.shape
+    found = np.zeros(picture.shape, dtype=bool)
+    for down in range(3):
+        for along in range(3):
+            found |= padded[down : down + rows, along : along + columns] != picture
+    return found
