@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.curves.bezier import BezierPaths
 from vectorplot.curves.elliptic_arcs import EllipseArcs
+from vectorplot.drawing.fills import Fills
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 
@@ -68,18 +69,25 @@ class Curves:
 
 @dataclass(frozen=True, eq=False)
 class Layer:
-    """Marks drawn with one pen. name: what the layer holds, such as ``visible``; plotted: False for a layer that is
-    there to be looked at only (its label gets the prefix % that plotter drivers skip)."""
+    """Marks in drawing order: strokes drawn with one pen, and filled polygons. name: what the layer holds, such as
+    ``visible``; plotted: False for a layer that is there to be looked at only (its label gets the prefix % that plotter
+    drivers skip)."""
 
     name: str
     pen: Pen
-    marks: tuple[Paths | Curves, ...]
+    marks: tuple[Paths | Curves | Fills, ...]
     plotted: bool = True
 
     @property
     def strokes(self) -> tuple[Paths, ...]:
-        """The polylines of all marks."""
-        return tuple(mark.paths if isinstance(mark, Curves) else mark for mark in self.marks)
+        """The polylines of all marks that are strokes."""
+        strokes = (mark for mark in self.marks if not isinstance(mark, Fills))
+        return tuple(mark.paths if isinstance(mark, Curves) else mark for mark in strokes)
+
+    @property
+    def fills(self) -> tuple[Fills, ...]:
+        """All marks that are filled polygons."""
+        return tuple(mark for mark in self.marks if isinstance(mark, Fills))
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +104,7 @@ class Drawing:
 
     def __repr__(self) -> str:
         layers = ", ".join(f"{layer.name} {sum(map(len, layer.marks))}" for layer in self.layers)
-        return f"<Drawing {self.title!r}: {self.width_mm:g}x{self.height_mm:g} mm, strokes: {layers or 'none'}>"
+        return f"<Drawing {self.title!r}: {self.width_mm:g}x{self.height_mm:g} mm, marks: {layers or 'none'}>"
 
     def _repr_svg_(self) -> str:
         from vectorplot.backends.svg import svg_text

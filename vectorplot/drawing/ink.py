@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.drawing.curves import with_curves
 from vectorplot.drawing.dashes import dashed
 from vectorplot.drawing.drawing import Layer, Paths
+from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.join import joined
 from vectorplot.drawing.page import COINCIDENT_MM
 from vectorplot.drawing.pen_order import pen_ordered
@@ -29,14 +30,13 @@ def inked(
     layers: tuple[Layer, ...], hidden: str, world: Floats, curve_tolerance_mm: float | None = None
 ) -> tuple[Layer, ...]:
     """Each layer's strokes joined, without collinear points, hidden ones dashed if asked for, in the order of the
-    pen; smooth ones as curves within curve_tolerance_mm, or as polylines where it is None."""
+    pen; smooth ones as curves within curve_tolerance_mm, or as polylines where it is None. Filled polygons stay."""
     found = []
     for layer in layers:
         strokes = tuple(_pen_strokes(paths, hidden, world) for paths in layer.strokes)
-        if curve_tolerance_mm is None:
-            found.append(replace(layer, marks=strokes))
-        else:
-            found.append(replace(layer, marks=tuple(with_curves(paths, curve_tolerance_mm) for paths in strokes)))
+        drawn = iter(strokes if curve_tolerance_mm is None else (with_curves(s, curve_tolerance_mm) for s in strokes))
+        marks = tuple(mark if isinstance(mark, Fills) else next(drawn) for mark in layer.marks)
+        found.append(replace(layer, marks=marks))
     return tuple(found)
 
 

@@ -1,0 +1,150 @@
+"""Filled polygons on the page, painted one over the other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats, Ints
+
+Colours = NDArray[np.uint8]
+
+SEAM_MM = 0.15
+"""Opaque polygons are stroked in their own colour with a line of this width, so that the paper does not shine through
+between neighbours, both of which cover a pixel in part only. A line as wide as a pixel does that: this one does from 170
+dots per inch on. A polygon grows by half of it."""
+
+
+class FillKind(IntEnum):
+    """What a filled polygon is."""
+
+    FACE = 0
+    """A face, or a part of one."""
+    SHADOW = 1
+    """A part of a face that light does not reach."""
+    SHADOW_BORDER = 2
+    """The soft border of a shadow (aura)."""
+    CLEAR_SHADOW = 3
+    """A part of a face that light reaches through something transparent."""
+    PATTERN = 4
+    """A coloured polygon on a face."""
+    REFLECTION = 5
+    """What a mirror shows."""
+    GLASS = 6
+    """A face that one sees through."""
+    EDGE = 7
+    """A line between two points."""
+    BACKGROUND = 8
+    """The paper."""
+
+    @property
+    def word(self) -> str:
+        """The kind as the JSON file spells it."""
+        return self.name.lower()
+
+
+@dataclass(frozen=True, eq=False)
+class Fills:
+    """Filled polygons, each painted over those before it.
+
+    points (p,2) on the page in mm, y upwards; offsets (m+1,): polygon k has the corners offsets[k] to offsets[k+1]. A
+    polygon is simple, wound either way; one with holes is cut open to them first. One of two corners is a line, as wide
+    as the pen of its layer. colours (p,3): red, green and blue of every corner; a polygon whose corners have one colour
+    is flat, any other one is convex, and shaded linearly over each triangle of the fan from its first corner. opacity
+    (m,) 0 (clear) to 1; item (m,) indices into Drawing.items, -1 for none; points3d (p,3) the same points in the world;
+    kind (m,) FillKind values.
+    Errors: InputError where the arrays do not fit together.
+    Source: Glaeser, sections 4.5 and 5.1.
+    """
+
+    points: Floats
+    offsets: Ints
+    colours: Colours
+    opacity: Floats
+    item: Ints
+    points3d: Floats
+    kind: Ints
+
+    def __post_init__(self) -> None:
+        p, m = len(self.points), len(self.offsets) - 1
+        fits = self.points.shape == (p, 2) and self.points3d.shape == (p, 3) and self.colours.shape == (p, 3)
+        fits &= all(column.shape == (m,) for column in (self.opacity, self.item, self.kind))
+        if not (
+            fits and m >= 0 and self.offsets[0] == 0 and self.offsets[-1] == p and (np.diff(self.offsets) >= 0).all()
+        ):
+            raise InputError(f"fills: {p} points and {m} polygons do not fit the other columns")
+        if self.colours.dtype != np.uint8:
+            raise InputError(f"fills: colours are of type {self.colours.dtype}, not uint8")
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __repr__(self) -> str:
+        return f"<Fills: {len(self)} polygons, {len(self.points)} corners>"
+
+    @classmethod
+    def empty(cls) -> Fills:
+        """No polygons at all."""
+        none = np.zeros(0, dtype=np.intp)
+        colours = np.zeros((0, 3), dtype=np.uint8)
+        return cls(np.zeros((0, 2)), np.zeros(1, dtype=np.intp), colours, np.zeros(0), none, np.zeros((0, 3)), none)
+
+    @classmethod
+    def flat(
+        cls,
+        points: Floats,
+        offsets: Ints,
+        colours: Colours,
+        *,
+        points3d: Floats | None = None,
+        opacity: ArrayLike = 1.0,
+        item: ArrayLike = -1,
+        kind: ArrayLike = FillKind.FACE,
+    ) -> Fills:
+        """Polygons of one colour each, given as (m,3); opacity, item and kind for each (m,) or for all. Without points3d
+        the world is the page."""
+        count = len(offsets) - 1
+        solid = np.column_stack((points, np.zeros(len(points)))) if points3d is None else points3d
+        return cls(
+            points,
+            offsets,
+            np.repeat(colours, np.diff(offsets), axis=0),
+            np.array(np.broadcast_to(np.asarray(opacity, dtype=np.float64), count)),
+            np.array(np.broadcast_to(np.asarray(item, dtype=np.intp), count)),
+            solid,
+            np.array(np.broadcast_to(np.asarray(kind, dtype=np.intp), count)),
+        )
+
+    @classmethod
+    def joined(cls, *parts: Fills) -> Fills:
+        """The polygons of all parts, one part after the other."""
+        some = parts or (cls.empty(),)
+        sizes = np.concatenate([np.diff(part.offsets) for part in some])
+        return cls(
+            np.concatenate([part.points for part in some]),
+            np.concatenate([[0], np.cumsum(sizes)]).astype(np.intp),
+            np.concatenate([part.colours for part in some]),
+            np.concatenate([part.opacity for part in some]),
+            np.concatenate([part.item for part in some]),
+            np.concatenate([part.points3d for part in some]),
+            np.concatenate([part.kind for part in some]),
+        )
+
+    def some(self, which: Ints) -> Fills:
+        """The polygons with these numbers, in this order."""
+        sizes = np.diff(self.offsets)[which]
+        ends = np.concatenate([[0], np.cumsum(sizes)]).astype(np.intp)
+        corner = np.repeat(self.offsets[which] - ends[:-1], sizes) + np.arange(ends[-1])
+        return Fills(
+            self.points[corner],
+            ends,
+            self.colours[corner],
+            self.opacity[which],
+            self.item[which],
+            self.points3d[corner],
+            self.kind[which],
+        )
