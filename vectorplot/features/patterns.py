@@ -5,30 +5,39 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats, Mesh
+from vectorplot.geometry.mesh import Floats, Ints, Mesh
 
 
-def face_frame(mesh: Mesh, face: int) -> tuple[Floats, Floats, Floats]:
-    """A face's own coordinates in space: origin at its barycentre, unit vectors along its first edge and to the left
-    of it.
+def face_frames(mesh: Mesh, faces: Ints) -> tuple[Floats, Floats, Floats]:
+    """The own coordinates of faces (n,) in space, (n,3) each: origin at the barycentre of the corners, unit vectors
+    along the first edge and to the left of it.
 
     Errors: InputError for a face that is not there, or has no area.
     Source: Glaeser, section 6.5; the frame is ours, see docs/scene-language.md.
     """
-    if not 0 <= face < mesh.face_count:
-        raise InputError(f"pattern on face {face + 1}: there are {mesh.face_count} faces")
-    corners = mesh.vertices[mesh.corners[mesh.offsets[face] : mesh.offsets[face + 1]]]
-    normal = mesh.face_normals[face]
-    along = corners[1] - corners[0]
-    along = along - normal * (normal @ along)
-    length = np.linalg.norm(along)
-    if not length > 0.0 or not normal.any():
-        raise InputError(f"pattern on face {face + 1}: the face has no area")
-    along = along / length
-    return corners.mean(axis=0), along, np.cross(normal, along)
+    missing = (faces < 0) | (faces >= mesh.face_count)
+    if missing.any():
+        raise InputError(f"pattern on face {int(faces[missing][0]) + 1}: there are {mesh.face_count} faces")
+    if not len(faces):
+        return np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3))
+    sizes = mesh.face_sizes[faces]
+    starts = np.cumsum(sizes) - sizes
+    position = np.repeat(mesh.offsets[faces] - starts, sizes) + np.arange(int(sizes.sum()))
+    first = mesh.vertices[mesh.corners[mesh.offsets[faces]]]
+    arms = mesh.vertices[mesh.corners[position]] - np.repeat(first, sizes, axis=0)
+    origin = first + np.add.reduceat(arms, starts, axis=0) / sizes[:, None]
+    normal = mesh.face_normals[faces]
+    along = arms[starts + 1]
+    along = along - normal * (normal * along).sum(axis=1, keepdims=True)
+    length = np.sqrt((along * along).sum(axis=1))
+    flat = ~(length > 0.0) | ~normal.any(axis=1)
+    if flat.any():
+        raise InputError(f"pattern on face {int(faces[flat][0]) + 1}: the face has no area")
+    along = along / length[:, None]
+    return origin, along, np.cross(normal, along)
 
 
 def pattern_outline(mesh: Mesh, face: int, points: Floats) -> Floats:
-    """(k,3) the points (k,2) given in a face's own coordinates, in space."""
-    origin, along, left = face_frame(mesh, face)
+    """(k,3) the points (k,2) given in a face's own coordinates, in space. Errors: as of face_frames."""
+    origin, along, left = face_frames(mesh, np.array([face]))
     return np.asarray(origin + points[:, :1] * along + points[:, 1:] * left, dtype=np.float64)
