@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from svg_strokes import SVG, strokes_by_layer
 
 import vectorplot as vp
 from vectorplot.draw import DRAWN
@@ -16,7 +17,6 @@ from vectorplot.plan import plan_draw
 from vectorplot.testing import assert_drawing_is_right, edge_points
 
 ROOT = Path(__file__).resolve().parent.parent
-SVG = "{http://www.w3.org/2000/svg}"
 
 
 def gallery_module():
@@ -48,12 +48,11 @@ def assert_is_whole(path: Path) -> None:
     """The picture is XML with strokes that lie on its page."""
     root = ElementTree.fromstring(path.read_bytes())
     width, height = (float(root.get(side).removesuffix("mm")) for side in ("width", "height"))
-    strokes = [node for node in root.iter() if node.tag in {SVG + "polyline", SVG + "polygon", SVG + "line"}]
+    strokes = [points for layer in strokes_by_layer(root).values() for points in layer]
     assert root.tag == SVG + "svg" and strokes
-    for node in strokes:
-        for pair in node.get("points", "").split():
-            x, y = map(float, pair.split(","))
-            assert -0.01 <= x <= width + 0.01 and -0.01 <= y <= height + 0.01, f"{path.name}: {pair}"
+    points = np.concatenate(strokes)
+    off = (points < -0.01).any(axis=1) | (points > np.array([width, height]) + 0.01).any(axis=1)
+    assert not off.any(), f"{path.name}: {points[off][0]}"
 
 
 @pytest.mark.parametrize("path", [*SCENES, *EXAMPLES], ids=lambda path: path.stem)
@@ -75,16 +74,11 @@ def test_the_stored_pictures_are_the_ones_that_are_drawn_now(path, made):
 
 def lengths_by_layer(path: Path) -> dict[str, float]:
     """Millimetres drawn in each layer, under its label."""
-    label = "{http://www.inkscape.org/namespaces/inkscape}label"
-    lengths = {}
-    for layer in ElementTree.fromstring(path.read_bytes()).iter(SVG + "g"):
-        total = 0.0
-        for node in layer:
-            points = np.array([pair.split(",") for pair in node.get("points", "").split()], dtype=np.float64)
-            ring = np.concatenate([points, points[:1]]) if node.tag == SVG + "polygon" else points
-            total += np.hypot(*np.diff(ring, axis=0).T).sum()
-        lengths[layer.get(label)] = total
-    return lengths
+    layers = strokes_by_layer(ElementTree.fromstring(path.read_bytes()))
+    return {
+        label: sum(np.hypot(*np.diff(points, axis=0).T).sum() for points in strokes)
+        for label, strokes in layers.items()
+    }
 
 
 def test_the_gallery_shows_nothing_else_and_its_page_is_fresh(made):
@@ -132,7 +126,9 @@ def test_rays_confirm_every_scene(path):
     scene = replace(read, items=tuple(replace(item, lines=None) for item in read.items))
     edges, _ = edge_points(scene, 300)
     drawing = vp.draw(scene, lines=(*DRAWN, "edges"), hidden="solid")
-    assert assert_drawing_is_right(drawing, scene, scene.camera, samples=400, must_show=edges) > 400
+    # Where there are only smooth surfaces no edges must show, and rays that graze a surface decide nothing.
+    samples = 400 if len(edges) else 1000
+    assert assert_drawing_is_right(drawing, scene, scene.camera, samples=samples, must_show=edges) > 400
 
 
 def test_the_pencil_calls_for_no_effect():
