@@ -33,7 +33,8 @@ class Decals:
     offsets[k] to offsets[k+1], simple, its turn that of the face; face (m,) the face of the view it lies on; kind (m,)
     of DecalKind; grade (m,) how many lights it lacks (0 for decals that are no shadows); light (m,) which light of the
     scene, -1 for several or none; colour (m,) index into colours, or -1: the face's own; level (m,) the order on one
-    face, smaller first, equal ones in any order; colours: names of palettes and colours.
+    face, smaller first, equal ones in any order; colours: names of palettes and colours; lacking (m,): the lights that
+    do not get there at all, bit k for light k (None: as far as light says).
     """
 
     points: Floats
@@ -45,6 +46,7 @@ class Decals:
     colour: Ints
     level: Ints
     colours: tuple[str, ...] = ()
+    lacking: Ints | None = None
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
@@ -67,7 +69,15 @@ class Decals:
             self.colour[decals],
             self.level[decals],
             self.colours,
+            None if self.lacking is None else self.lacking[decals],
         )
+
+    @property
+    def lights_lacking(self) -> Ints:
+        """(m,) the lights that do not get there, bit k for light k."""
+        if self.lacking is not None:
+            return self.lacking
+        return np.where(self.light >= 0, np.left_shift(1, np.maximum(self.light, 0)), 0)
 
     @property
     def painting_order(self) -> Ints:
@@ -101,4 +111,5 @@ def joined_decals(*decals: Decals) -> Decals:
         np.concatenate(renamed),
         np.concatenate([d.level for d in decals]),
         colours,
+        np.concatenate([d.lights_lacking for d in decals]),
     )

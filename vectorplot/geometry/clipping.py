@@ -204,7 +204,7 @@ def cut_polygons(polygons: Polygons, distance: Floats) -> tuple[Polygons, Bools]
     share = np.where(crossing, distance / np.where(crossing, distance - beyond, 1.0), 0.0)
     made = polygons.points + share[:, None] * (polygons.points[following] - polygons.points)
     # Every corner may leave itself and, after it, a new corner on its side.
-    pairs = np.stack([polygons.points, made], axis=1).reshape(2 * count, -1)
+    pairs = np.stack([polygons.points, made], axis=1).reshape(2 * count, polygons.points.shape[1])
     kept = np.stack([distance >= 0.0, crossing], axis=1).reshape(2 * count)
     ends = np.concatenate([[0], np.cumsum(kept)])[2 * polygons.offsets]
     sizes = np.diff(ends)

@@ -1,0 +1,150 @@
+"""Cast shadows as polygons on the faces they fall on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vectorplot.effects.decals import DecalKind, Decals
+from vectorplot.effects.light_system import FacePlanes, LightBoxes, LightSystem, light_boxes, light_system
+from vectorplot.effects.shadow_casters import Casters, shadow_casters
+from vectorplot.effects.shadow_grades import Shadows, graded, joined_shadows, shadow_decals_of
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.plane_cuts import Parts, cut_by_planes
+from vectorplot.scene.scene import Light
+from vectorplot.scene.view import View
+from vectorplot.visibility.occluders import solid_items
+from vectorplot.visibility.painter.image_faces import corner_positions, drawn_faces
+from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
+
+MOST_LIGHTS = 62
+"""So many lights have each a bit of a number."""
+
+CASTERS_AT_ONCE = 1 << 14
+"""Casters whose partners are looked up at once."""
+
+
+@dataclass(frozen=True, eq=False)
+class Receivers:
+    """Faces that shadows may fall on: face (r,) of the view; points (3,c), offsets (r+1,)."""
+
+    face: Ints
+    points: Floats
+    offsets: Ints
+
+    @classmethod
+    def of(cls, view: View, face: Ints) -> Receivers:
+        """Some faces of a view."""
+        position, offsets = corner_positions(view.offsets, face)
+        return cls(face, view.points[:, view.corners[position]], offsets)
+
+
+def cast_shadows(
+    view: View, lights: Sequence[Light], *, casters: Bools | None = None, projected: ProjectedFaces | None = None
+) -> Shadows:
+    """The shadows of grade 1, light by light, on the faces that can be seen and are lit on the side that is seen.
+
+    casters (i,): the items that cast shadows (None: those that occlude). Where every point of a face is in the shadow
+    of one thing, the others that shadow it from this light are left out.
+    Errors: InputError for lights out of range, or more than MOST_LIGHTS of them.
+    Degenerate: faces that the light grazes, and dark sides, have no shadows; what touches a face or lies in its plane
+    casts none on it.
+    Source: Glaeser, section 6.3, figures 4 and 5.
+    """
+    if len(lights) > MOST_LIGHTS:
+        raise InputError(f"{len(lights)} lights cast shadows: at most {MOST_LIGHTS} can")
+    projected = project_faces(view) if projected is None else projected
+    items = view.occludes if casters is None else np.asarray(casters, dtype=np.bool_)
+    solids = solid_items(replace(view, occludes=items), projected)
+    planes = FacePlanes.of(view)
+    seen = drawn_faces(view, projected)
+    found = []
+    for number, light in enumerate(lights):
+        system = light_system(view, light)
+        facing = system.facing(planes, view.tolerance)
+        lit = seen[facing[seen] * projected.facing[seen] > 0]
+        dark = shadow_casters(view, planes, system, facing, items, solids)
+        found.append(_of_light(view, system, dark, Receivers.of(view, lit), number))
+    return joined_shadows(found)
+
+
+def _of_light(view: View, system: LightSystem, casters: Casters, receivers: Receivers, number: int) -> Shadows:
+    """The shadows that the casters throw on the receivers."""
+    parts = []
+    for caster, receiver in candidates(view, system, casters, receivers):
+        found = shadow_parts(view, casters, receivers, caster, receiver)
+        parts.append(Shadows.of_light(found, receivers.face[receiver[found.pair]], number))
+    return joined_shadows(parts).without_needless()
+
+
+def shadow_parts(view: View, casters: Casters, receivers: Receivers, caster: Ints, receiver: Ints) -> Parts:
+    """The parts of faces that things keep dark, pair by pair. Source: Glaeser, section 6.3, figure 4."""
+    return cut_by_planes(receivers.points, receivers.offsets, casters.volumes, receiver, caster, view.tolerance)
+
+
+def candidates(view: View, system: LightSystem, casters: Casters, receivers: Receivers) -> Iterator[tuple[Ints, Ints]]:
+    """Pairs of casters and receivers whose boxes overlap in an image of the light, the caster not behind; each pair
+    once, in lots. A convex solid is not paired with itself, nor a face.
+
+    Source: Glaeser, section 6.3 (bounding rectangles and priorities in the light systems).
+    """
+    if not len(casters) or not len(receivers.face):
+        return
+    givers = [boxes.grouped(casters.caster) for boxes in light_boxes(view, system, casters.face)]
+    takers = light_boxes(view, system, receivers.face)
+    trees = [_Tree.of(boxes, view.tolerance) for boxes in takers]
+    for low in range(0, len(casters), CASTERS_AT_ONCE):
+        lot = [tree.partners(boxes, low, low + CASTERS_AT_ONCE) for tree, boxes in zip(trees, givers, strict=True)]
+        caster, receiver = (np.concatenate([pairs[k] for pairs in lot]) for k in (0, 1))
+        if len(lot) > 1:
+            key = np.unique(caster * len(receivers.face) + receiver)
+            caster, receiver = np.divmod(key, len(receivers.face))
+        face = receivers.face[receiver]
+        own = casters.solid[caster] & (casters.item[caster] == view.face_item[face])
+        # Of a caster that is no solid the one face stands in order of the casters.
+        first = np.searchsorted(casters.caster, caster)
+        own |= ~casters.solid[caster] & (casters.face[first] == face)
+        yield caster[~own], receiver[~own]
+
+
+@dataclass(frozen=True, eq=False)
+class _Tree:
+    """A tree over boxes in an image of the light."""
+
+    boxes: LightBoxes
+    tree: object
+    tolerance: float
+
+    @classmethod
+    def of(cls, boxes: LightBoxes, tolerance: float) -> _Tree:
+        import shapely
+
+        left, right, bottom, top = boxes.box[:4]
+        return cls(boxes, shapely.STRtree(shapely.box(left, bottom, right, top), node_capacity=16), tolerance)
+
+    def partners(self, boxes: LightBoxes, low: int, high: int) -> tuple[Ints, Ints]:
+        """Pairs of other boxes, with numbers from low to high, and boxes in the tree that they overlap, and do not lie
+        behind."""
+        import shapely
+
+        begin, end = np.searchsorted(boxes.which, [low, high])
+        left, right, bottom, top, nearest = boxes.box[:5, begin:end]
+        asked, found = self.tree.query(shapely.box(left, bottom, right, top))  # type: ignore[attr-defined]
+        before = np.flatnonzero(nearest[asked] < self.boxes.box[5, found] - self.tolerance)
+        return boxes.which[begin + asked[before]], self.boxes.which[found[before]]
+
+
+def shadow_decals(
+    view: View, lights: Sequence[Light], *, casters: Bools | None = None, projected: ProjectedFaces | None = None
+) -> Decals:
+    """The shadows of every grade of all lights on the faces of a view, darker ones above: at any point the highest
+    grade there is the number of lights that the face is turned to and does not get.
+
+    Arguments, errors and degenerate cases as of cast_shadows; the shadows of one light may overlap.
+    Source: Glaeser, section 6.3, figure 6.
+    """
+    shadows = cast_shadows(view, lights, casters=casters, projected=projected)
+    return shadow_decals_of(graded(view, shadows, len(lights)), DecalKind.SHADOW)

@@ -1,0 +1,186 @@
+"""Convex polygons in space, each cut by several planes, many at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.geometry.clipping import Polygons, cut_polygons
+from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+
+PAIRS_AT_ONCE = 1 << 15
+"""Pairs handled at once: few enough for the processor's cache."""
+
+RUNGS = np.array([3, 4, 6, 8, 12, 16, 32, 64, 256, 1024, 1 << 14, 1 << 20, 1 << 30])
+"""Polygons are held in tables by their number of corners, up to one of these."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlaneBundles:
+    """Bundles of planes: planes (4,p) unit normals and constants, normal . point - constant is positive on the side
+    that is kept; first (b+1,): bundle k has the planes first[k] to first[k+1]."""
+
+    planes: Floats
+    first: Ints
+
+    def __len__(self) -> int:
+        return len(self.first) - 1
+
+
+@dataclass(frozen=True, eq=False)
+class Parts:
+    """What is left of pairs: points (3,c), offsets (m+1,); pair (m,): the pair each part belongs to, ascending; whole
+    (m,): nothing was cut off."""
+
+    points: Floats
+    offsets: Ints
+    pair: Ints
+    whole: Bools
+
+    def __len__(self) -> int:
+        return len(self.pair)
+
+
+def planes_of(normal: Floats, point: Floats) -> Floats:
+    """(4,n) planes through points (3,n): unit normals and constants. Degenerate: zeros where there is no normal."""
+    length = np.sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2])
+    unit = normal / np.where(length > 0.0, length, 1.0)
+    constant = unit[0] * point[0] + unit[1] * point[1] + unit[2] * point[2]
+    return np.concatenate([unit, constant[None]])
+
+
+def cut_by_planes(
+    points: Floats, offsets: Ints, bundles: PlaneBundles, polygon: Ints, bundle: Ints, tolerance: float
+) -> Parts:
+    """The parts of convex polygons above all planes of a bundle, pair by pair.
+
+    points (3,c), offsets (n+1,): the polygons; polygon (k,), bundle (k,): which of them go together. A distance within
+    the tolerance counts as zero: a polygon that only touches the kept side has no part, one that touches the other side
+    stays whole, with every digit.
+    Degenerate: parts narrower than the tolerance are left out; a bundle without planes leaves polygons whole.
+    Source: Hodgman and Sutherland; Glaeser, section 6.2.
+    """
+    alive = np.ones(len(polygon), dtype=np.bool_)
+    cuts: list[tuple[Ints, Ints]] = []
+    for pairs, corners in _lots(points, offsets, polygon):
+        gone, cutting = _sorted_out(corners, bundles, bundle[pairs], tolerance)
+        alive[pairs[gone]] = False
+        cuts.append((pairs[cutting[0]], cutting[1]))
+    pair = np.concatenate([np.zeros(0, dtype=np.intp), *(c[0] for c in cuts)])
+    plane = np.concatenate([np.zeros(0, dtype=np.intp), *(c[1] for c in cuts)])
+    useful = alive[pair]
+    order = np.argsort(pair[useful], kind="stable")
+    left = np.flatnonzero(alive)
+    return _cut(points, offsets, polygon, left, pair[useful][order], bundles.planes[:, plane[useful][order]], tolerance)
+
+
+def _lots(points: Floats, offsets: Ints, polygon: Ints) -> Iterator[tuple[Ints, Floats]]:
+    """Pairs in handy numbers with the corners (3,k,n) of their polygons, the last corner repeated where there are
+    fewer."""
+    sizes = np.diff(offsets)
+    rung = np.searchsorted(RUNGS, sizes)
+    for number in np.unique(rung[polygon]).tolist():
+        same = np.flatnonzero(rung[polygon] == number)
+        longest = int(sizes[polygon[same]].max())
+        step = max(PAIRS_AT_ONCE * 4 // longest, 1)
+        for low in range(0, len(same), step):
+            pairs = same[low : low + step]
+            of = polygon[pairs]
+            yield pairs, points[:, offsets[of] + np.minimum(np.arange(longest)[:, None], sizes[of] - 1)]
+
+
+def _sorted_out(
+    corners: Floats, bundles: PlaneBundles, bundle: Ints, tolerance: float
+) -> tuple[Ints, tuple[Ints, Ints]]:
+    """Which pairs have nothing above some plane, and of the others which are cut by which plane."""
+    counts = np.diff(bundles.first)[bundle]
+    here = np.arange(len(bundle))
+    gone: list[Ints] = []
+    cuts: list[tuple[Ints, Ints]] = []
+    for step in range(int(counts.max(initial=0))):
+        more = counts[here] > step
+        if not more.all():
+            here, corners = here[more], corners[:, :, more]
+        plane = bundles.first[bundle[here]] + step
+        a, b, c, d = bundles.planes[:, plane]
+        height = a * corners[0]
+        height += b * corners[1]
+        height += c * corners[2]
+        height -= d
+        below = height.max(axis=0) <= tolerance
+        cut = ~below & (height.min(axis=0) < -tolerance)
+        cuts.append((here[cut], plane[cut]))
+        if below.any():
+            gone.append(here[below])
+            here, corners = here[~below], corners[:, :, ~below]
+    none = np.zeros(0, dtype=np.intp)
+    pairs = np.concatenate([none, *(c[0] for c in cuts)]), np.concatenate([none, *(c[1] for c in cuts)])
+    return np.concatenate([none, *gone]), pairs
+
+
+def _cut(
+    points: Floats, offsets: Ints, polygon: Ints, left: Ints, pair: Ints, planes: Floats, tolerance: float
+) -> Parts:
+    """The polygons of the pairs that are left, cut by planes (4,k) of pairs (k,), ascending, one after the other."""
+    starts = np.searchsorted(pair, left)
+    counts = np.searchsorted(pair, left, side="right") - starts
+    found: list[tuple[Ints, Polygons]] = []
+    here = np.arange(len(left))
+    now = _picked(points.T, offsets, polygon[left])
+    for step in range(int(counts.max(initial=0)) + 1):
+        done = counts[here] == step
+        found.append((here[done], _picked(now.points, now.offsets, np.flatnonzero(done))))
+        rest = np.flatnonzero(~done)
+        here, now = here[rest], _picked(now.points, now.offsets, rest)
+        a, b, c, d = np.repeat(planes[:, starts[here] + step], np.diff(now.offsets), axis=1)
+        height = a * now.points[:, 0] + b * now.points[:, 1] + c * now.points[:, 2] - d
+        height[np.abs(height) <= tolerance] = 0.0
+        now, _ = cut_polygons(now, height)
+        filled = np.flatnonzero(np.diff(now.offsets))
+        here, now = here[filled], Polygons(now.points, np.append(now.offsets[filled], len(now.points)))
+    return _parts(found, left, counts, tolerance)
+
+
+def _parts(found: list[tuple[Ints, Polygons]], left: Ints, counts: Ints, tolerance: float) -> Parts:
+    """All parts in the order of their pairs, without those that are narrower than the tolerance."""
+    here = np.concatenate([f[0] for f in found])
+    sizes = np.concatenate([np.diff(f[1].offsets) for f in found])
+    corners = np.concatenate([f[1].points for f in found])
+    offsets = np.concatenate([[0], np.cumsum(sizes)])
+    wide = _wider(corners.T, offsets, tolerance) | (counts[here] == 0)
+    order = np.flatnonzero(wide)
+    order = order[np.argsort(here[order], kind="stable")]
+    result = _picked(corners, offsets, order)
+    return Parts(np.ascontiguousarray(result.points.T), result.offsets, left[here[order]], counts[here[order]] == 0)
+
+
+def _picked(points: Floats, offsets: Ints, which: Ints) -> Polygons:
+    """Some of the polygons with the points (c,3)."""
+    sizes = offsets[which + 1] - offsets[which]
+    ends = np.concatenate([[0], np.cumsum(sizes)])
+    return Polygons(points[np.arange(int(ends[-1])) + np.repeat(offsets[which] - ends[:-1], sizes)], ends)
+
+
+def _wider(points: Floats, offsets: Ints, tolerance: float) -> Bools:
+    """(n,) the polygons whose area is larger than a tolerance times half their extent."""
+    if len(offsets) == 1:
+        return np.zeros(0, dtype=np.bool_)
+    normal, spread = polygon_areas(points, offsets)
+    return np.asarray(np.sqrt((normal * normal).sum(axis=0)) > tolerance * spread, dtype=np.bool_)
+
+
+def polygon_areas(points: Floats, offsets: Ints) -> tuple[Floats, Floats]:
+    """(3,n) area vectors of polygons, twice their areas long, and (n,) their largest extents along an axis."""
+    starts, sizes = offsets[:-1], np.diff(offsets)
+    arm = points - np.repeat(points[:, starts], sizes, axis=1)
+    after = arm[:, next_positions(offsets, np.arange(points.shape[1]))]
+    normal = np.stack(
+        [
+            np.add.reduceat(arm[(k + 1) % 3] * after[(k + 2) % 3] - arm[(k + 2) % 3] * after[(k + 1) % 3], starts)
+            for k in range(3)
+        ]
+    )
+    extent = [np.maximum.reduceat(row, starts) - np.minimum.reduceat(row, starts) for row in arm]
+    return normal, np.maximum(np.maximum(extent[0], extent[1]), extent[2])
