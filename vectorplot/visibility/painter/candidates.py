@@ -11,6 +11,12 @@ from vectorplot.geometry.mesh import Floats, Ints
 QUERIES_AT_ONCE = 1 << 15
 """Boxes looked up in the tree at once: their partners are handled before the next ones are looked up."""
 
+FIRST_QUERIES = 1 << 10
+"""So many are looked up first, to learn how many partners a box has."""
+
+PARTNERS_AT_ONCE = 1 << 23
+"""About so many partners are found at once at most: where everything lies on everything they would fill the memory."""
+
 
 def box_pairs(box: Floats, tolerance: float) -> Iterator[tuple[Ints, Ints]]:
     """Pairs of boxes, smallest and largest x and y (4 or more, n), that overlap by more than a tolerance; each pair
@@ -25,11 +31,14 @@ def box_pairs(box: Floats, tolerance: float) -> Iterator[tuple[Ints, Ints]]:
         return
     rectangles = shapely.box(left, bottom, right, top)
     tree = shapely.STRtree(rectangles, node_capacity=16)
-    for low in range(0, len(left), QUERIES_AT_ONCE):
-        asked, found = tree.query(rectangles[low : low + QUERIES_AT_ONCE])
+    low, step = 0, FIRST_QUERIES
+    while low < len(left):
+        asked, found = tree.query(rectangles[low : low + step])
         asked = asked + low
         once = asked < found
         first, second = asked[once], found[once]
         wide = np.minimum(right[first], right[second]) - np.maximum(left[first], left[second]) > tolerance
         wide &= np.minimum(top[first], top[second]) - np.maximum(bottom[first], bottom[second]) > tolerance
         yield first[wide], second[wide]
+        low += step
+        step = int(np.clip(PARTNERS_AT_ONCE * step // max(len(asked), 1), 1, QUERIES_AT_ONCE))

@@ -1,0 +1,148 @@
+"""Painted pictures looked at in single points, and what rays through these points meet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import View, look
+from vectorplot.visibility.painter.image_faces import ImageFaces
+from vectorplot.visibility.painter.order import Painted, painters_order
+
+NEAR_EDGE = 1e-6
+"""Points nearer to the image of an edge than this part of the extent are not compared."""
+
+EDGE_ON = 1e-9
+"""Faces at a smaller angle to a ray, or in a plane nearer to the eye, are not met."""
+
+SAME_DEPTH = 1e-6
+"""Depths that differ by less than this part of the extent are the same: so faces in one place are, either way up."""
+
+
+@dataclass(frozen=True)
+class Compared:
+    view: View
+    painted: Painted
+    wrong: int
+    sure: int
+
+
+def sample_points(view: View, count: int, seed: int = 0) -> tuple[Floats, Floats]:
+    """Points of the image, strewn over all that the scene fills of it."""
+    random = np.random.default_rng(seed)
+    seen = np.clip(view.image[:, view.depth > view.near], -2.0, 2.0)
+    low, high = seen.min(axis=1, initial=2.0), seen.max(axis=1, initial=-2.0)
+    if (low > high).any():
+        low, high = -np.ones(2), np.ones(2)
+    return tuple(low[:, None] + (high - low)[:, None] * random.random((2, count)))
+
+
+def nearest(view: View, x: Floats, y: Floats) -> tuple[Floats, Bools]:
+    """(s,) inverse depths of what rays through points of the image meet first, 0 for nothing (in a parallel view the
+    height, -inf for nothing), and whether they are clear of all edges. Every face, seen from either side, counts."""
+    parallel = view.eye is None
+    if parallel:
+        start = np.stack([x + view.target[0], y + view.target[1], np.zeros_like(x)])
+        along = np.tile(np.array([[0.0], [0.0], [1.0]]), len(x))
+    else:
+        start = np.tile(view.eye[:, None], len(x))
+        along = np.stack([x / view.focus, y / view.focus, np.full_like(x, -1.0)])
+    best = np.full(len(x), -np.inf if parallel else 0.0)
+    sure = np.ones(len(x), dtype=np.bool_)
+    for size in np.unique(view.face_sizes):
+        faces = np.flatnonzero(view.face_sizes == size)
+        for low in range(0, len(faces), 256):
+            some = faces[low : low + 256]
+            corner = view.points[:, view.corners[view.offsets[some][:, None] + np.arange(size)]]
+            height, inside, near_edge = _met(corner, start, along, parallel)
+            if not parallel:
+                inside &= (height > 0.0) & (height < 1.0 / view.near)
+            best = np.maximum(best, np.where(inside, height, best[None]).max(axis=0))
+            sure &= ~near_edge.any(axis=0)
+    return best, sure
+
+
+def _met(corner: Floats, start: Floats, along: Floats, parallel: bool) -> tuple[Floats, Bools, Bools]:
+    """(f,s) inverse depths (or heights) of rays on planes of faces, whether within the face, and whether near a
+    side."""
+    after = np.roll(corner, -1, axis=2)
+    normal = np.cross(corner - corner[:, :, :1], after - corner[:, :, :1], axis=0).sum(axis=2)
+    normal /= np.maximum(np.linalg.norm(normal, axis=0), 1e-300)
+    slope = np.einsum("kf,ks->fs", normal, along)
+    drop = (normal * corner[:, :, 0]).sum(axis=0)[:, None] - np.einsum("kf,ks->fs", normal, start)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        height = drop / slope if parallel else slope / drop
+    # A ray passes a side on its inner side where it turns about it as the normal says.
+    across = np.abs(slope) > EDGE_ON * np.linalg.norm(along, axis=0)
+    if not parallel:
+        across &= np.abs(drop) > EDGE_ON
+    inside, near_edge = across.copy(), np.zeros(slope.shape, dtype=np.bool_)
+    turn = np.where(slope < 0.0, -1.0, 1.0)
+    for k in range(corner.shape[2]):
+        side = after[:, :, k] - corner[:, :, k]
+        length = np.linalg.norm(side, axis=0)
+        arm = start[:, None, :] - corner[:, :, k][:, :, None]
+        moment = np.einsum("kfs,ks->fs", np.cross(side[:, :, None], arm, axis=0), along)
+        scale = np.maximum(np.einsum("f,s->fs", length, np.linalg.norm(along, axis=0)), 1e-300)
+        if not parallel:
+            scale = scale * np.maximum(np.linalg.norm(arm, axis=0), 1e-3)
+        distance = turn * moment / scale
+        near_edge |= np.abs(distance) < NEAR_EDGE
+        inside &= distance > 0.0
+    return np.where(across, height, -np.inf), inside, near_edge & across
+
+
+def top_polygon(faces: ImageFaces, x: Floats, y: Floats) -> Ints:
+    """(s,) the last polygon painted over each point, or -1."""
+    top = np.full(len(x), -1)
+    for low in range(0, len(faces), 256):
+        which = np.arange(low, min(low + 256, len(faces)))
+        covered = np.ones((len(which), len(x)), dtype=np.bool_)
+        sizes = np.diff(faces.offsets)[which]
+        for k in range(int(sizes.max())):
+            a = faces.offsets[which] + np.minimum(k, sizes - 1)
+            b = faces.offsets[which] + np.where(k + 1 < sizes, k + 1, 0)
+            (ax, ay), (bx, by) = faces.points[:2, a], faces.points[:2, b]
+            turn = (bx - ax)[:, None] * (y - ay[:, None]) - (by - ay)[:, None] * (x - ax[:, None])
+            covered &= (turn >= 0.0) | (k >= sizes)[:, None]
+        last = np.where(covered, which[:, None], -1).max(axis=0)
+        top = np.maximum(top, last)
+    return top
+
+
+def heights_on(view: View, source: Ints, x: Floats, y: Floats) -> Floats:
+    """(s,) inverse depths, or heights, of faces of the view above points of the image; 0, or -inf, for face -1."""
+    parallel = view.eye is None
+    result = np.full(len(x), -np.inf if parallel else 0.0)
+    for k in np.flatnonzero(source >= 0):
+        corner = view.points[:, view.corners[view.offsets[source[k]] : view.offsets[source[k] + 1]]]
+        after = np.roll(corner, -1, axis=1)
+        normal = np.cross(corner - corner[:, :1], after - corner[:, :1], axis=0).sum(axis=1)
+        if parallel:
+            start, along = np.array([x[k] + view.target[0], y[k] + view.target[1], 0.0]), np.array([0.0, 0.0, 1.0])
+        else:
+            start, along = view.eye, np.array([x[k] / view.focus, y[k] / view.focus, -1.0])
+        drop, slope = normal @ (corner[:, 0] - start), normal @ along
+        result[k] = drop / slope if parallel else slope / drop
+    return result
+
+
+def compared(scene: Scene, camera: Camera, samples: int = 1500, seed: int = 0) -> Compared:
+    """The scene painted, and in how many of how many points something else than the nearest face is on top."""
+    view = look(scene, camera)
+    painted = painters_order(view)
+    x, y = sample_points(view, samples, seed)
+    truth, sure = nearest(view, x, y)
+    top = top_polygon(painted.faces, x, y)
+    source = np.append(painted.faces.source, -1)[top]
+    mine = heights_on(view, source, x, y)
+    same = mine == truth
+    both = np.isfinite(mine) & np.isfinite(truth)
+    scale = 1.0 if view.eye is None else np.maximum(np.abs(truth), 0.1)
+    apart = np.abs(np.where(both, mine, 0.0) - np.where(both, truth, 0.0))
+    same |= both & (apart <= SAME_DEPTH * scale)
+    return Compared(view, painted, int((sure & ~same).sum()), int(sure.sum()))
