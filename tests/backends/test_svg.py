@@ -10,7 +10,8 @@ from backend_samples import drawing_of, paths_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vectorplot.backends.svg import _millimetres, svg_bytes, svg_text
+from vectorplot.backends.svg import svg_bytes, svg_text
+from vectorplot.backends.svg_numbers import millimetres
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -50,7 +51,7 @@ def test_a_closed_path_is_a_polygon_that_does_not_repeat_its_start():
 
 @given(st.lists(st.integers(0, 2_000_000_000), min_size=1, max_size=30))
 def test_millimetres_are_decimals_without_needless_zeros(microns):
-    table = _millimetres(np.array(microns))
+    table = millimetres(np.array(microns))
     for row, number in zip(table, microns, strict=True):
         whole, part = divmod(number, 1000)
         assert bytes(row[row != 0]).decode() == f"{whole}.{part:03d}".rstrip("0").rstrip(".")

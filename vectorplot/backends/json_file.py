@@ -1,4 +1,4 @@
-"""Drawings as JSON: every stroke with its numbers in full, for programs and tests."""
+"""Drawings as JSON: every stroke and filled polygon with its numbers in full, for programs and tests."""
 
 from __future__ import annotations
 
@@ -10,11 +10,14 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.backends.json_fills import fills_of, fills_text
+from vectorplot.backends.json_numbers import numbers_of, plain
 from vectorplot.backends.sheet import check
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
+from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.pieces import chosen, concatenated, offsets_of, ranges
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry.mesh import Ints
 from vectorplot.geometry.strokes import LineKind
 
 FORMAT = "vectorplot-drawing"
@@ -22,32 +25,36 @@ VERSION = 1
 
 
 def json_bytes(drawing: Drawing) -> bytes:
-    """The drawing as JSON in ASCII, one stroke a line.
+    """The drawing as JSON in ASCII, one stroke or filled polygon a line.
 
     ``{"format": "vectorplot-drawing", "version": 1, "page_mm": [w, h], "page_from_world": 4x4 row-major, "strokes":
-    [{"kind", "item", "hidden_by", "points", "points3d", "closed"}], "fills": []}``; item is the item's name, points are
-    in mm, y upwards. Numbers have the digits that give back the same double. Nothing is clipped or rounded.
+    [{"kind", "item", "hidden_by", "points", "points3d", "closed"}], "fills": [{"kind", "item", "colour", "opacity",
+    "points", "points3d"}]}``; item is the item's name, points are in mm, y upwards; fills are painted one over the
+    other, colour is #rrggbb or a list with one for each corner. Numbers have the digits that give back the same double.
+    Nothing is clipped or rounded.
     Errors: InputError as vectorplot.backends.sheet, and for points in the world that are not finite.
     """
     check(drawing)
     paths = concatenated(tuple(paths for layer in drawing.layers for paths in layer.strokes))
-    if not (np.isfinite(paths.points3d).all() and np.isfinite(drawing.page_from_world).all()):
+    fills = Fills.joined(*(fills for layer in drawing.layers for fills in layer.fills))
+    solid = np.concatenate((paths.points3d, fills.points3d))
+    if not (np.isfinite(solid).all() and np.isfinite(drawing.page_from_world).all()):
         raise InputError("a point or the projection of the drawing is not finite")
     head = {
         "format": FORMAT,
         "version": VERSION,
         "page_mm": [float(drawing.width_mm), float(drawing.height_mm)],
-        "page_from_world": _plain(drawing.page_from_world),
+        "page_from_world": plain(drawing.page_from_world),
     }
-    strokes = _strokes(paths, drawing.items)
-    return f'{json.dumps(head)[:-1]},\n"strokes": [{strokes}],\n"fills": []}}\n'.encode("ascii")
+    strokes, areas = _strokes(paths, drawing.items), fills_text(fills, drawing.items)
+    return f'{json.dumps(head)[:-1]},\n"strokes": [{strokes}],\n"fills": [{areas}]}}\n'.encode("ascii")
 
 
 def read_drawing(path: str | os.PathLike[str]) -> Drawing:
     """The drawing in a JSON file that json_bytes wrote.
 
     Layers are not in the file: there is one for each kind of visible line, and one that is not plotted, ``hidden``,
-    for all the others; pens are the default one.
+    for all the others; beneath them one with all fills, ``fills``; pens are the default one.
     Errors: InputError that names the file, and the line where it is not JSON; OSError.
     """
     name = os.fspath(path)
@@ -62,11 +69,6 @@ def read_drawing(path: str | os.PathLike[str]) -> Drawing:
         raise InputError("not JSON", file=name) from None
 
 
-def _plain(numbers: Floats) -> Any:
-    """Nested lists of floats, -0 written as 0."""
-    return (np.asarray(numbers, dtype=np.float64) + 0.0).tolist()
-
-
 def _strokes(paths: Paths, items: tuple[str, ...]) -> str:
     """The strokes, formatted by one template with a place for every number."""
     counts = np.diff(paths.offsets)
@@ -78,7 +80,7 @@ def _strokes(paths: Paths, items: tuple[str, ...]) -> str:
     starts = 5 * paths.offsets[:-1]
     numbers[ranges(starts, 2 * counts)] = paths.points.ravel()
     numbers[ranges(starts + 2 * counts, 3 * counts)] = paths.points3d.ravel()
-    return template % tuple(_plain(numbers))
+    return template % tuple(plain(numbers))
 
 
 def _template(items: tuple[str, ...], kind: int, item: int, hidden_by: int, count: int, closed: int) -> str:
@@ -93,26 +95,16 @@ def _drawing(data: Any) -> Drawing:
         raise InputError(f"not a drawing: no format {FORMAT!r}")
     if data.get("version") != VERSION:
         raise InputError(f"version {data.get('version')!r} of the format is not known")
-    width, height = _numbers(data.get("page_mm"), (2,), "page_mm")
-    world = _numbers(data.get("page_from_world"), (4, 4), "page_from_world")
+    width, height = numbers_of(data.get("page_mm"), (2,), "page_mm")
+    world = numbers_of(data.get("page_from_world"), (4, 4), "page_from_world")
     paths, items = _paths(data.get("strokes"))
-    drawing = Drawing(float(width), float(height), _layers(paths), items, page_from_world=world)
+    fills, items = fills_of(data.get("fills", []), items)
+    layers = _layers(paths)
+    if len(fills):
+        layers = (Layer("fills", Pen(), (fills,)), *layers)
+    drawing = Drawing(float(width), float(height), layers, items, page_from_world=world)
     check(drawing)
     return drawing
-
-
-def _numbers(value: Any, shape: tuple[int, ...], name: str) -> Floats:
-    """The lists as an array of the shape, in which -1 stands for any length."""
-    try:
-        array = np.array(value)
-    except ValueError:
-        array = np.zeros(0, dtype=np.str_)
-    if array.size == 0 and 0 in (len(value) if isinstance(value, list) else 1, *shape):
-        return np.zeros(tuple(max(side, 0) for side in shape))
-    fits = array.ndim == len(shape) and all(n in (-1, side) for n, side in zip(shape, array.shape, strict=True))
-    if array.dtype.kind not in "iuf" or not fits or not np.isfinite(array).all():
-        raise InputError(f"{name}: expected finite numbers of shape {shape}".replace("-1", "n"))
-    return array.astype(np.float64)
 
 
 def _paths(strokes: Any) -> tuple[Paths, tuple[str, ...]]:
@@ -132,13 +124,13 @@ def _paths(strokes: Any) -> tuple[Paths, tuple[str, ...]]:
     names = tuple(dict.fromkeys(columns["item"]))
     place = {name: i for i, name in enumerate(names)}
     paths = Paths(
-        _numbers(list(chain.from_iterable(columns["points"])), (-1, 2), "points"),
+        numbers_of(list(chain.from_iterable(columns["points"])), (-1, 2), "points"),
         offsets_of(np.array(counts, dtype=np.intp)),
         np.array(columns["closed"], dtype=np.bool_),
         _kinds(columns["kind"]),
         np.array([place[name] for name in columns["item"]], dtype=np.intp),
         _counts(columns["hidden_by"]),
-        _numbers(list(chain.from_iterable(columns["points3d"])), (-1, 3), "points3d"),
+        numbers_of(list(chain.from_iterable(columns["points3d"])), (-1, 3), "points3d"),
     )
     return paths, names
 

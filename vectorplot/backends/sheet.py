@@ -1,7 +1,7 @@
-"""What every backend that makes a page draws: checked, clipped strokes in thousandths of a millimetre.
+"""What every backend that makes a page draws: checked, clipped strokes and areas in thousandths of a millimetre.
 
-A backend turns a Sheet into bytes and needs four primitives for it: a page, a pen, a polyline, a Bézier path. Because
-all of them draw the same integers, their pictures agree.
+A backend turns a Sheet into bytes and needs six primitives for it: a page, a pen, a polyline, a Bézier path, a filled
+polygon, a shaded triangle. Because all of them draw the same integers, their pictures agree.
 """
 
 from __future__ import annotations
@@ -9,15 +9,18 @@ from __future__ import annotations
 import re
 import unicodedata
 from dataclasses import dataclass, replace
+from itertools import groupby
 
 import numpy as np
 
+from vectorplot.backends.areas import Areas, areas
 from vectorplot.curves.bezier import BezierPaths
 from vectorplot.curves.bezier_clip import clipped_paths
 from vectorplot.curves.elliptic_arcs import EllipseArcs
 from vectorplot.drawing.clip import Rectangle, clipped_parts
 from vectorplot.drawing.curves import one_mark
 from vectorplot.drawing.drawing import Curves, Drawing, Layer, Paths, Pen
+from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.pieces import chosen, offsets_of, ranges
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats, Ints
@@ -29,8 +32,8 @@ _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
 @dataclass(frozen=True, eq=False)
-class Ink:
-    """The strokes of one layer, as they appear on the page.
+class Lines:
+    """Strokes of one layer, as they appear on the page.
 
     microns (p,2) int64, y upwards; offsets (m+1,); closed (m,); curved (m,): a cubic Bézier path, the points of which
     are its first point and three more for each segment; the others are polylines. A curve lies on the page, its handles
@@ -38,13 +41,28 @@ class Ink:
     closed one three or more. arcs: the curves that are arcs of ellipses, in mm, where a format can say so.
     """
 
-    label: str
-    pen: Pen
     microns: Ints
     offsets: Ints
     closed: Bools
     curved: Bools
     arcs: EllipseArcs
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+
+@dataclass(frozen=True, eq=False)
+class Ink:
+    """What one layer puts on the page: strokes and areas in drawing order."""
+
+    label: str
+    pen: Pen
+    parts: tuple[Lines | Areas, ...]
+
+    @property
+    def areas(self) -> tuple[Areas, ...]:
+        """The parts that are areas."""
+        return tuple(part for part in self.parts if isinstance(part, Areas))
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +80,8 @@ def sheet(drawing: Drawing) -> Sheet:
 
     The label of a layer is its number from 1 and its name, with the prefix % if it is not to be plotted.
     Errors: InputError for a point, page or pen width that is not finite, a page without area or larger than
-    LARGEST_PAGE_MM, a colour other than #rrggbb. Degenerate: strokes without length are dropped.
+    LARGEST_PAGE_MM, a colour other than #rrggbb, an opacity that is not from 0 to 1. Degenerate: strokes without length
+    and polygons without area are dropped.
     """
     check(drawing)
     inks = tuple(_ink(drawing, layer, number) for number, layer in enumerate(drawing.layers, start=1))
@@ -86,8 +105,11 @@ def check(drawing: Drawing) -> None:
             raise InputError(f"layer {layer.name!r}: pen width of {layer.pen.width_mm:g} mm")
         points = [paths.points for paths in layer.strokes]
         points += [mark.beziers.control for mark in layer.marks if isinstance(mark, Curves)]
+        points += [fills.points for fills in layer.fills]
         if not all(np.isfinite(some).all() for some in points):
             raise InputError(f"layer {layer.name!r}: a point on the page is not finite")
+        if not all(((fills.opacity >= 0.0) & (fills.opacity <= 1.0)).all() for fills in layer.fills):
+            raise InputError(f"layer {layer.name!r}: an opacity is not a number from 0 to 1")
 
 
 def plain_text(text: str) -> str:
@@ -98,7 +120,18 @@ def plain_text(text: str) -> str:
 
 def _ink(drawing: Drawing, layer: Layer, number: int) -> Ink:
     label = f"{'' if layer.plotted else '%'}{number} {plain_text(layer.name)}".rstrip()
-    mark = one_mark(layer.marks)
+    parts: list[Lines | Areas] = []
+    for filled, marks in groupby(layer.marks, lambda mark: isinstance(mark, Fills)):
+        some = tuple(marks)
+        if filled:
+            fills = Fills.joined(*(mark for mark in some if isinstance(mark, Fills)))
+            parts.append(areas(fills, drawing.width_mm, drawing.height_mm))
+        else:
+            parts.append(_lines(drawing, one_mark(tuple(mark for mark in some if not isinstance(mark, Fills)))))
+    return Ink(label, layer.pen, tuple(parts))
+
+
+def _lines(drawing: Drawing, mark: Curves) -> Lines:
     page = (0.0, 0.0, drawing.width_mm, drawing.height_mm)
     drawn_straight = np.flatnonzero(np.diff(mark.beziers.offsets) == 0)
     lines, line = clipped_parts(chosen(mark.paths, drawn_straight), page, drawing.page_from_world)
@@ -109,9 +142,7 @@ def _ink(drawing: Drawing, layer: Layer, number: int) -> Ink:
     order = np.argsort(source, kind="stable")
     count = np.concatenate((np.diff(straight.offsets), np.diff(curved.offsets)))[order]
     first = np.concatenate((straight.offsets[:-1], curved.offsets[:-1] + len(straight.microns)))[order]
-    return Ink(
-        label,
-        layer.pen,
+    return Lines(
         np.concatenate((straight.microns, curved.microns))[ranges(first, count)],
         offsets_of(count),
         np.concatenate((straight.closed, curved.closed))[order],

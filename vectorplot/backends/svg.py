@@ -1,7 +1,7 @@
-"""SVG for pen plotters and web pages: one Inkscape layer per pen, strokes only, millimetres.
+"""SVG for pen plotters and web pages: one Inkscape layer per pen, millimetres.
 
-svgwrite makes the document and its layers; the strokes of a layer are formatted in bulk and put in their places
-afterwards, because an object for each of them would cost a hundred times as much.
+svgwrite makes the document and its layers; the strokes and areas of a layer are formatted in bulk and put in their
+places afterwards, because an object for each of them would cost a hundred times as much.
 """
 
 from __future__ import annotations
@@ -13,7 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vectorplot.backends.sheet import Ink, Sheet, sheet
+from vectorplot.backends.areas import Areas
+from vectorplot.backends.sheet import Ink, Lines, Sheet, sheet
+from vectorplot.backends.svg_areas import ID_PREFIX, area_elements
+from vectorplot.backends.svg_numbers import formatted
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.mesh import Ints
 
@@ -39,7 +42,8 @@ def svg_text(drawing: Drawing) -> str:
 
     Width and height in mm and a viewBox, so that a user unit is 1 mm; three decimals; y downwards. The layers are
     top-level groups labelled ``1 visible``, ``%2 hidden``; lines are polyline and polygon elements, curves are path
-    elements with cubic segments, or with elliptic arcs where they are such. Ids begin with a
+    elements with cubic segments, or with elliptic arcs where they are such; filled polygons are path elements, several
+    neighbours of one colour in one, shaded ones have linear gradients. Ids begin with a
     hash of the content, so that several drawings can share a web page; nothing else changes from run to run.
     Errors: InputError as vectorplot.backends.sheet. Degenerate: an empty drawing is an empty page.
     """
@@ -49,51 +53,63 @@ def svg_text(drawing: Drawing) -> str:
 def svg_bytes(drawing: Drawing) -> bytes:
     """The drawing as the bytes of an SVG file in UTF-8; see svg_text."""
     page = sheet(drawing)
-    bodies = [elements(ink, page.height) for ink in page.inks]
-    frame = _document(page, bodies).encode("utf-8").split(f"<!--{_PLACE}-->".encode())
+    bodies = [_body(ink, number, page.height) for number, ink in enumerate(page.inks, start=1)]
+    prefix = _content_hash(page, bodies)
+    frame = _document(page, prefix).encode("utf-8").split(f"<!--{_PLACE}-->".encode())
     parts = [frame[0]]
     for body, after in zip(bodies, frame[1:], strict=True):
-        parts += [b"\n", body, after]
+        parts += [b"\n", body.replace(ID_PREFIX, prefix.encode()), after]
     return b"".join(parts) + b"\n"
 
 
-def elements(ink: Ink, height: int) -> bytes:
-    """The polyline, polygon and path elements of one layer; y is flipped about the page height in microns."""
-    shown, first, last = _separators(ink)
+def _body(ink: Ink, number: int, height: int) -> bytes:
+    """The elements of one layer."""
+    found = []
+    for place, part in enumerate(ink.parts):
+        if isinstance(part, Areas):
+            found.append(area_elements(part, ink.pen.width_mm, f"{number}-{place}", height))
+        else:
+            found.append(elements(part, height))
+    return b"".join(found)
+
+
+def elements(lines: Lines, height: int) -> bytes:
+    """The polyline, polygon and path elements of strokes; y is flipped about the page height in microns."""
+    shown, first, last = _separators(lines)
     blocks = []
     for start in range(0, len(shown), _POINTS_AT_ONCE):
         block = slice(start, start + _POINTS_AT_ONCE)
-        x, y = ink.microns[shown[block]].T
-        blocks.append(_formatted(first[block], x, height - y, last[block]))
+        x, y = lines.microns[shown[block]].T
+        blocks.append(formatted(first[block], x, height - y, last[block]))
     text = b"".join(blocks)
     for token, element in _ELEMENTS:
         text = text.replace(token, element)
     between = text.split(_ARC)
-    return b"".join(part for pair in zip(between, [*_arc_data(ink, height), b""], strict=True) for part in pair)
+    return b"".join(part for pair in zip(between, [*_arc_data(lines, height), b""], strict=True) for part in pair)
 
 
-def _separators(ink: Ink) -> tuple[Ints, NDArray[np.uint8], NDArray[np.uint8]]:
+def _separators(lines: Lines) -> tuple[Ints, NDArray[np.uint8], NDArray[np.uint8]]:
     """The points that are written (k,), what stands before each of them and what after it.
 
     Of an arc only the first point: the place of its other data is marked.
     """
-    starts, ends = ink.offsets[:-1], ink.offsets[1:]
+    starts, ends = lines.offsets[:-1], lines.offsets[1:]
     arc = np.zeros(len(starts), dtype=np.bool_)
-    arc[ink.arcs.stroke] = True
-    first, last = np.zeros(len(ink.microns), np.uint8), np.zeros(len(ink.microns), np.uint8)
+    arc[lines.arcs.stroke] = True
+    first, last = np.zeros(len(lines.microns), np.uint8), np.zeros(len(lines.microns), np.uint8)
     first[:] = ord(" ")
-    first[starts] = np.where(ink.curved, ord(_CURVE), np.where(ink.closed, ord(_LOOP), ord(_OPEN)))
-    first[starts[ink.curved] + 1] = ord("C")
-    last[ends - 1] = np.where(ink.curved & ink.closed, ord(_RING), ord(_END))
+    first[starts] = np.where(lines.curved, ord(_CURVE), np.where(lines.closed, ord(_LOOP), ord(_OPEN)))
+    first[starts[lines.curved] + 1] = ord("C")
+    last[ends - 1] = np.where(lines.curved & lines.closed, ord(_RING), ord(_END))
     last[starts[arc]] = ord(_ARC)
-    shown = ~np.repeat(arc, np.diff(ink.offsets))
+    shown = ~np.repeat(arc, np.diff(lines.offsets))
     shown[starts] = True
     return np.flatnonzero(shown), first[shown], last[shown]
 
 
-def _arc_data(ink: Ink, height: int) -> list[bytes]:
+def _arc_data(lines: Lines, height: int) -> list[bytes]:
     """For each arc the rest of its path element: parts of equal parameter length."""
-    arcs = ink.arcs
+    arcs = lines.arcs
     size = np.stack((np.hypot(*arcs.first.T), np.hypot(*arcs.second.T)))
     # In the file y goes down: angles and senses of turning are mirrored. The axes of a circle have no direction.
     tilt = np.degrees(np.arctan2(-arcs.first[:, 1], arcs.first[:, 0])) % 180.0
@@ -106,45 +122,17 @@ def _arc_data(ink: Ink, height: int) -> list[bytes]:
     number = np.arange(len(owner)) - np.repeat(last + 1 - count, count) + 1
     end = arcs.some(owner).points(arcs.start[owner] + (arcs.end - arcs.start)[owner] * (number / count[owner]))
     # The last end is that of the stroke, so that strokes that touch do so in the file too.
-    end[last] = ink.microns[ink.offsets[arcs.stroke + 1] - 1] / 1000.0
+    end[last] = lines.microns[lines.offsets[arcs.stroke + 1] - 1] / 1000.0
     end[:, 1] = height / 1000.0 - end[:, 1]
     rows = np.column_stack((size.T[owner], tilt[owner], clockwise[owner], end)).tolist()
     parts = [f"A{_short(a)} {_short(b)} {_short(c)} 0 {d:.0f} {_short(x)},{_short(y)}" for a, b, c, d, x, y in rows]
-    ends = zip((last + 1).tolist(), count.tolist(), ink.closed[arcs.stroke].tolist(), strict=True)
+    ends = zip((last + 1).tolist(), count.tolist(), lines.closed[arcs.stroke].tolist(), strict=True)
     return [(" ".join(parts[k - n : k]) + ('Z"/>\n' if ring else '"/>\n')).encode("ascii") for k, n, ring in ends]
 
 
 def _short(number: float) -> str:
     """The number with the decimals of arcs, without needless zeros."""
     return f"{round(number / _DECIMAL) * _DECIMAL:.5f}".rstrip("0").rstrip(".")
-
-
-def _formatted(first: NDArray[np.uint8], x: Ints, y: Ints, last: NDArray[np.uint8]) -> bytes:
-    """Rows of ``<first>x,y<last>`` as bytes; a zero in last is left out."""
-    x_text, y_text = _millimetres(x), _millimetres(y)
-    comma = np.full(len(x), ord(","), np.uint8)
-    table = np.column_stack((first, x_text, comma, y_text, last))
-    text: NDArray[np.uint8] = table[table != 0]
-    return text.tobytes()
-
-
-def _millimetres(microns: Ints) -> NDArray[np.uint8]:
-    """Decimals in mm as rows of characters, with 0 where a row has no character: no leading or trailing zeros."""
-    whole, part = np.divmod(np.abs(microns).astype(np.uint32), np.uint32(1000))
-    digits = len(str(int(whole.max(initial=0)))) + 1
-    text = np.zeros((len(microns), digits + 4), np.uint8)
-    text[:, 0] = np.where(microns < 0, ord("-"), 0)
-    rest = whole
-    for column in range(digits - 1, 0, -1):
-        rest, digit = np.divmod(rest, np.uint32(10))
-        shown = (digit + rest > 0) | (column == digits - 1)
-        text[:, column] = np.where(shown, digit + ord("0"), 0)
-    text[:, digits] = np.where(part > 0, ord("."), 0)
-    for column, unit in ((1, 100), (2, 10), (3, 1)):
-        # A decimal is shown if it or a later one is not zero.
-        shown = part % (unit * 10) > 0
-        text[:, digits + column] = np.where(shown, part // unit % 10 + ord("0"), 0)
-    return text
 
 
 class _Place:
@@ -156,7 +144,7 @@ class _Place:
         return ET.Comment(_PLACE)
 
 
-def _document(page: Sheet, bodies: list[bytes]) -> str:
+def _document(page: Sheet, prefix: str) -> str:
     """The page and its layers with a mark in place of their lines."""
     import svgwrite
     from svgwrite.extensions import Inkscape
@@ -168,7 +156,6 @@ def _document(page: Sheet, bodies: list[bytes]) -> str:
     layers = Inkscape(document)
     if page.title:
         document.set_desc(title=page.title)
-    prefix = _content_hash(page, bodies)
     for number, ink in enumerate(page.inks, start=1):
         layer = layers.layer(
             label=ink.label,

@@ -15,8 +15,8 @@ Colours = NDArray[np.uint8]
 
 SEAM_MM = 0.15
 """Opaque polygons are stroked in their own colour with a line of this width, so that the paper does not shine through
-between neighbours, both of which cover a pixel in part only. A line as wide as a pixel does that: this one does from 170
-dots per inch on. A polygon grows by half of it."""
+between neighbours, both of which cover a pixel in part only. A line as wide as a pixel does that: this one does from
+170 dots per inch on. A polygon grows by half of it."""
 
 
 class FillKind(IntEnum):
@@ -53,7 +53,7 @@ class Fills:
 
     points (p,2) on the page in mm, y upwards; offsets (m+1,): polygon k has the corners offsets[k] to offsets[k+1]. A
     polygon is simple, wound either way; one with holes is cut open to them first. One of two corners is a line, as wide
-    as the pen of its layer. colours (p,3): red, green and blue of every corner; a polygon whose corners have one colour
+    as the pen of its layer, in the mean of their colours. colours (p,3): red, green and blue of every corner; a polygon whose corners have one colour
     is flat, any other one is convex, and shaded linearly over each triangle of the fan from its first corner. opacity
     (m,) 0 (clear) to 1; item (m,) indices into Drawing.items, -1 for none; points3d (p,3) the same points in the world;
     kind (m,) FillKind values.
@@ -105,8 +105,8 @@ class Fills:
         item: ArrayLike = -1,
         kind: ArrayLike = FillKind.FACE,
     ) -> Fills:
-        """Polygons of one colour each, given as (m,3); opacity, item and kind for each (m,) or for all. Without points3d
-        the world is the page."""
+        """Polygons of one colour each, given as (m,3); opacity, item and kind for each (m,) or for all. Without
+        points3d the world is the page."""
         count = len(offsets) - 1
         solid = np.column_stack((points, np.zeros(len(points)))) if points3d is None else points3d
         return cls(

@@ -1,0 +1,29 @@
+"""Arrays of numbers in JSON."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Floats
+
+
+def plain(numbers: Floats) -> Any:
+    """Nested lists of floats, -0 written as 0."""
+    return (np.asarray(numbers, dtype=np.float64) + 0.0).tolist()
+
+
+def numbers_of(value: Any, shape: tuple[int, ...], name: str) -> Floats:
+    """The lists as an array of the shape, in which -1 stands for any length. Errors: InputError for anything else."""
+    try:
+        array = np.array(value)
+    except ValueError:
+        array = np.zeros(0, dtype=np.str_)
+    if array.size == 0 and 0 in (len(value) if isinstance(value, list) else 1, *shape):
+        return np.zeros(tuple(max(side, 0) for side in shape))
+    fits = array.ndim == len(shape) and all(n in (-1, side) for n, side in zip(shape, array.shape, strict=True))
+    if array.dtype.kind not in "iuf" or not fits or not np.isfinite(array).all():
+        raise InputError(f"{name}: expected finite numbers of shape {shape}".replace("-1", "n"))
+    return array.astype(np.float64)

@@ -1,0 +1,90 @@
+"""Shaded triangles for formats that shade along one direction only.
+
+A triangle the colours of which change along one direction, as shades of one palette do, is exact. One that mixes three
+colours is cut into strips along the direction of its greatest change, so narrow that what changes across them cannot be
+seen.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.backends.areas import SHADE_ERROR, Polygons, rounded
+from vectorplot.drawing.fills import Colours
+from vectorplot.drawing.pieces import ranges
+from vectorplot.geometry.convex_clipping import clipped
+from vectorplot.geometry.mesh import Floats, Ints
+
+
+@dataclass(frozen=True, eq=False)
+class Strips:
+    """Polygons with linear gradients: microns (p,2) int64, offsets (s+1,); triangle (s,) that each is a part of,
+    ascending; ends (s,2,2) in microns from where to where the gradient runs; colours (s,2,3) there."""
+
+    microns: Ints
+    offsets: Ints
+    triangle: Ints
+    ends: Floats
+    colours: Colours
+
+
+def strips_of(corners: Floats, colours: Floats) -> Strips:
+    """Triangles with corners (t,3,2) in microns, shaded linearly from colours (t,3,3) there, as strips. No colour is
+    off by more than SHADE_ERROR, and what rounding adds.
+
+    The linear map from places to colours is, by its singular values, a change along one direction and a smaller one
+    across it. A strip has the colours of its middle line.
+    """
+    sides, changes = corners[:, 1:] - corners[:, :1], colours[:, 1:] - colours[:, :1]
+    slopes = np.linalg.solve(sides, changes)  # (t,2,3): a way on the page times it is the change of colour
+    directions, sizes, _ = np.linalg.svd(slopes, full_matrices=False)
+    local = (corners - corners[:, :1]) @ directions
+    low, high = local.min(axis=1), local.max(axis=1)
+    number = np.ceil((high[:, 1] - low[:, 1]) * sizes[:, 1] / (2.0 * SHADE_ERROR))
+    number = np.maximum(number, 1.0).astype(np.intp)
+    owner = np.repeat(np.arange(len(corners)), number)
+    step = ranges(np.zeros(len(corners), dtype=np.intp), number)
+    width = ((high - low)[:, 1] / number)[owner]
+    middle = low[owner, 1] + (step + 0.5) * width
+    # Strips at the ends are wider, so that rounding cannot cut anything off.
+    before, behind = np.where(step == 0, 1.0, 0.5) * width, np.where(step == number[owner] - 1, 1.0, 0.5) * width
+    reach = (high - low).max(axis=1)[owner]
+    slabs = _rectangles(low[owner, 0] - reach, high[owner, 0] + reach, middle - before, middle + behind)
+    quads = corners[owner, :1] + slabs @ directions[owner].transpose(0, 2, 1)
+    points, offsets, strip = clipped(
+        corners[owner].reshape(-1, 2).T,
+        np.arange(0, 3 * len(owner) + 1, 3),
+        quads.reshape(-1, 2).T,
+        np.arange(0, 4 * len(owner) + 1, 4),
+    )
+    blank = np.zeros((points.shape[1], 3), dtype=np.uint8)
+    microns, offsets, _, kept = rounded(Polygons(points.T / 1000.0, offsets, blank, strip))
+    strip = strip[kept]
+    owner, middle = owner[strip], middle[strip]
+    along = np.einsum(
+        "pi,pi->p",
+        microns - np.repeat(corners[owner, 0], np.diff(offsets), axis=0),
+        np.repeat(directions[owner, :, 0], np.diff(offsets), axis=0),
+    )
+    ways = np.stack([np.stack((end, middle), axis=-1) for end in _extremes(along, offsets)], axis=1)
+    ways = ways @ directions[owner].transpose(0, 2, 1)
+    values = colours[owner, :1] + ways @ slopes[owner]
+    return Strips(
+        microns, offsets, owner, corners[owner, :1] + ways, np.rint(np.clip(values, 0.0, 255.0)).astype(np.uint8)
+    )
+
+
+def _rectangles(left: Floats, right: Floats, low: Floats, high: Floats) -> Floats:
+    """(s,4,2) the corners of rectangles."""
+    return np.stack(
+        [np.stack(corner, axis=-1) for corner in ((left, low), (right, low), (right, high), (left, high))], 1
+    )
+
+
+def _extremes(values: Floats, offsets: Ints) -> tuple[Floats, Floats]:
+    """Smallest and largest of the values of each polygon."""
+    if len(offsets) == 1:
+        return np.zeros(0), np.zeros(0)
+    return np.minimum.reduceat(values, offsets[:-1]), np.maximum.reduceat(values, offsets[:-1])
