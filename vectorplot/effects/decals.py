@@ -23,6 +23,8 @@ class DecalKind(IntEnum):
     """A coloured polygon of the face's own."""
     REFLECTION = 5
     """What a mirror shows."""
+    LIGHT = 6
+    """Where light comes in by way of a mirror; light is then the number of the double, -1 where it is in the way."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -123,12 +123,13 @@ def patterns_in_shadows(view: View, patterns: Decals, shadows: Decals, dark: Boo
         patterns.colour,
         ground + patterns.level * grades,
         patterns.colours,
+        np.where(dark[patterns.face], (1 << lights) - 1, 0),
     )
-    return joined_decals(whole, _shadowed(view, whole, shadows))
+    return joined_decals(whole, in_shadows(view, whole, shadows))
 
 
-def _shadowed(view: View, patterns: Decals, shadows: Decals) -> Decals:
-    """The parts of patterns that lie in shadows."""
+def in_shadows(view: View, patterns: Decals, shadows: Decals) -> Decals:
+    """The parts of patterns that lie in shadows, in the level of their pattern plus the grade of the shadow."""
     shadow = np.flatnonzero(shadows.kind == DecalKind.SHADOW)
     shadow = shadow[np.argsort(shadows.face[shadow], kind="stable")]
     faces = shadows.face[shadow]
@@ -154,6 +155,7 @@ def _shadowed(view: View, patterns: Decals, shadows: Decals) -> Decals:
         patterns.colour[pattern],
         patterns.level[pattern] + shadows.grade[shade],
         patterns.colours,
+        None if shadows.lacking is None else shadows.lacking[shade],
     )
 
 

@@ -1,0 +1,126 @@
+"""Polygons of the image that are seen through windows: mirrors, or faces of transparent bodies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.geometry.convex_clipping import clipped, contained
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.scene.view import View
+from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions
+from vectorplot.visibility.projected_faces import Floats32
+
+
+@dataclass(frozen=True, eq=False)
+class SeenThrough:
+    """Polygons to be painted right after the windows they are seen through, in this order.
+
+    points (3,c) in the image, as of ImageFaces: heights are those of the doubles; offsets (m+1,); source (m,): the face
+    of the view that is seen; window (m,), ascending: the painted polygon each one is painted after; pane (m,): the face
+    of the view that this window is, or is a part of: the mirror.
+    """
+
+    points: Floats
+    offsets: Ints
+    source: Ints
+    window: Ints
+    pane: Ints
+
+    def __len__(self) -> int:
+        return len(self.source)
+
+
+def nothing_seen() -> SeenThrough:
+    """No polygons at all."""
+    none = np.zeros(0, dtype=np.intp)
+    return SeenThrough(np.zeros((3, 0)), np.zeros(1, dtype=np.intp), none, none, none)
+
+
+def seen_through(faces: ImageFaces, painted: ImageFaces, windows: Ints, tolerance: float) -> SeenThrough:
+    """Faces (of what is behind windows, back to front), clipped with the windows (n,), numbers of painted polygons.
+
+    Faces whose rectangles do not meet a window's are not looked at, and those wholly inside are not clipped.
+    Source: Glaeser, section 6.4.
+    """
+    if not len(faces) or not len(windows):
+        return nothing_seen()
+    import shapely
+
+    left, right, bottom, top = faces.box[:4]
+    tree = shapely.STRtree(shapely.box(left, bottom, right, top), node_capacity=16)
+    left, right, bottom, top = painted.box[:4, windows]
+    window, face = tree.query(shapely.box(left, bottom, right, top))
+    order = np.lexsort((face, window))
+    window, face = windows[window[order]], face[order]
+    points, offsets, pair = _clipped_pairs(faces, painted, face, window, tolerance)
+    window, source = window[pair], faces.source[face[pair]]
+    return sorted_by_window(SeenThrough(points, offsets, source, window, painted.source[window]))
+
+
+def sorted_by_window(seen: SeenThrough) -> SeenThrough:
+    """The same polygons by windows; those of one window in the order they have."""
+    order = np.argsort(seen.window, kind="stable")
+    position, offsets = corner_positions(seen.offsets, order)
+    return SeenThrough(seen.points[:, position], offsets, seen.source[order], seen.window[order], seen.pane[order])
+
+
+def joined_seen(parts: list[SeenThrough]) -> SeenThrough:
+    """Polygons of different windows together."""
+    if not parts:
+        return nothing_seen()
+    starts = np.cumsum([0, *(part.offsets[-1] for part in parts[:-1])])
+    offsets = [np.zeros(1, dtype=np.intp), *(p.offsets[1:] + s for p, s in zip(parts, starts, strict=True))]
+    return sorted_by_window(
+        SeenThrough(
+            np.concatenate([part.points for part in parts], axis=1),
+            np.concatenate(offsets),
+            np.concatenate([part.source for part in parts]),
+            np.concatenate([part.window for part in parts]),
+            np.concatenate([part.pane for part in parts]),
+        )
+    )
+
+
+def _clipped_pairs(
+    faces: ImageFaces, painted: ImageFaces, face: Ints, window: Ints, tolerance: float
+) -> tuple[Floats, Ints, Ints]:
+    corner, starts = corner_positions(faces.offsets, face)
+    border, borders = corner_positions(painted.offsets, window)
+    points, sides = faces.points[:, corner], painted.points[:2, border]
+    whole = contained(points, starts, sides, borders, tolerance=tolerance)
+    if whole.all():
+        return points, starts, np.arange(len(face))
+    partly = np.flatnonzero(~whole)
+    corner, some = corner_positions(starts, partly)
+    border, some_borders = corner_positions(borders, partly)
+    cut, ends, kept = clipped(points[:, corner], some, sides[:, border], some_borders, tolerance=tolerance)
+    kept_whole = np.flatnonzero(whole)
+    corner, whole_ends = corner_positions(starts, kept_whole)
+    pair = np.concatenate([kept_whole, partly[kept]])
+    order = np.argsort(pair, kind="stable")
+    every = np.concatenate([points[:, corner], cut], axis=1)
+    offsets = np.concatenate([whole_ends, ends[1:] + whole_ends[-1]])
+    position, offsets = corner_positions(offsets, order)
+    return every[:, position], offsets, pair[order]
+
+
+def unmapped(view: View, points: Floats) -> Floats:
+    """(3,n) the points of the view of which points (3,n) are the images and heights: the inverse of mapped.
+
+    Source: Glaeser, section 2.4 (the transformation T2).
+    """
+    if view.eye is None:
+        return np.concatenate([points[:2] + view.target[:2, None], points[2:]])
+    depth = view.focus * view.focus / (points[2] + view.focus)
+    return np.concatenate([points[:2] * (depth / view.focus) + view.eye[:2, None], view.eye[2] - depth[None]])
+
+
+def near_windows(box: Floats | Floats32, windows: Floats) -> Bools:
+    """(n,) which rectangles (4,n), smallest and largest x, smallest and largest y, meet the common one of windows
+    (4,w)."""
+    left, right, bottom, top = windows
+    across = (box[1] >= left.min(initial=np.inf)) & (box[0] <= right.max(initial=-np.inf))
+    along = (box[3] >= bottom.min(initial=np.inf)) & (box[2] <= top.max(initial=-np.inf))
+    return np.asarray(across & along, dtype=np.bool_)
