@@ -89,3 +89,14 @@ def test_time_for_a_hundred_thousand_chords():
     print(f"{len(paths)} chords: {spent:.2f} s")
     assert len(result) == len(paths)
     assert spent < 5.0  # 1 s on a quiet machine
+
+
+def test_chords_without_length_go():
+    one, two = chords(wave, 0.0, 1.0, 50), chords(wave, 0.0, 1.0, 40)
+    points = one.points.reshape(-1, 2, 2).copy()
+    points[20:30] = points[20, 0]
+    still = replace(one, points=points.reshape(-1, 2))
+    left = without_smooth_duplicates(concatenated((still, two)), np.repeat([0, 1], [50, 40]), TOL)
+    along = left.points[left.offsets[1:] - 1] - left.points[left.offsets[:-1]]
+    assert along.any(axis=1).all()
+    assert np.isfinite(left.points).all()

@@ -67,3 +67,11 @@ def test_zones_closer_than_the_gap_are_one() -> None:
     zones = one_owner([(0.1, 0.2), (0.2 + 1e-9, 0.3)])
     assert len(union(*zones, np.array([1e-8]))[0]) == 1
     assert len(union(*zones, np.array([1e-10]))[0]) == 2
+
+
+def test_a_gap_as_long_as_its_owner_does_not_reach_the_next_one() -> None:
+    owner, low, high = np.array([0, 1, 1]), np.array([0.0, 0.0, 0.75]), np.array([1.0, 0.25, 1.0])
+    found = union(owner, low, high, np.array([1.0, 0.0]))
+    assert found[0].tolist() == [0, 1, 1]
+    assert found[1].tolist() == [0.0, 0.0, 0.75]
+    assert found[2].tolist() == [1.0, 0.25, 1.0]

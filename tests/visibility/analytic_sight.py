@@ -154,5 +154,7 @@ def quadric_hits(shape, points: np.ndarray, direction: np.ndarray) -> Hits:
     with np.errstate(divide="ignore", invalid="ignore"):
         apart = np.abs(b * b - 4.0 * a * c) / np.abs(a)
     margin = np.minimum(margin, np.where(own, np.inf, apart)[:, None])
+    # Rays along a ruling run in the surface: they neither meet it nor miss it.
+    margin[own & (b == 0.0) & (np.abs(a) < 1e-12)] = 0.0
     t = np.where(within >= 0.0, t, np.nan)
     return Hits(t, margin, own)

@@ -17,8 +17,8 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.surfaces.torus import Torus
 
-SAMPLES = 4096
-BISECTIONS = 45
+SAMPLES = 2048
+BISECTIONS = 34
 TURN = 2.0 * np.pi
 
 
@@ -159,11 +159,16 @@ def runs_of(torus: Torus, camera: Camera, curve: TorusCurve) -> list[Run]:
 
     s = (np.arange(SAMPLES) + 0.4637) / SAMPLES
     ends = np.append(s, s[0] + 1.0)
-    events = []
-    for which in (0, 1):
-        value = look(ends)[which]
-        events.append(_zeros(lambda x, w=which: look(x)[w], ends, value))
-        events.append(_near_misses(lambda x, w=which: look(x)[w], ends, value))
+    values = np.stack(look(ends)[:2])
+    which, k = np.nonzero(values[:, :-1] * values[:, 1:] < 0.0)
+    low, high, start = ends[k], ends[k + 1], values[which, k]
+    each = np.arange(len(k))
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        same = np.stack(look(middle)[:2])[which, each] * start > 0.0
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    events = [0.5 * (low + high)]
+    events += [_near_misses(lambda x, w=w: look(x)[w], ends, values[w]) for w in (0, 1)]
     cuts = np.unique(np.concatenate(events) % 1.0)
     if not len(cuts):
         return [Run(0.0, 1.0, bool(look(np.array([0.123]))[2][0]), np.inf)]
@@ -204,9 +209,14 @@ def _near_misses(function, s, value) -> np.ndarray:
     size = np.abs(value)
     k = 1 + np.flatnonzero((size[1:-1] <= size[:-2]) & (size[1:-1] <= size[2:]))
     k = k[(value[k - 1] * value[k] > 0.0) & (value[k] * value[k + 1] > 0.0)]
+    # Only where the parabola through three samples comes near to zero at all.
+    slope, bend = (size[k + 1] - size[k - 1]) / 2.0, size[k + 1] - 2.0 * size[k] + size[k - 1]
+    k = k[size[k] - slope**2 / (2.0 * np.maximum(bend, 1e-300)) < 0.5 * size[k]]
+    if not len(k):
+        return np.zeros(0)
     low, high, sign = s[k - 1], s[k + 1], np.sign(value[k])
     golden = 0.5 * (np.sqrt(5.0) - 1.0)
-    for _ in range(60):
+    for _ in range(40):
         x, y = high - golden * (high - low), low + golden * (high - low)
         less = function(x) * sign < function(y) * sign
         low, high = np.where(less, low, x), np.where(less, y, high)

@@ -27,10 +27,14 @@ def without_smooth_duplicates(paths: Paths, rank: Ints, tolerance_mm: float) -> 
     paths: strokes of two points; those that are smooth are chords between points of a curve; rank (m,): equal for all
     chords of a curve, which gives way to curves of smaller rank only. A chord goes if its ends and the middle of its
     own arc lie on arcs of smaller rank, within tolerance_mm and a little of the arcs' height, and so does all
-    of its curve, or TOUCHING_MM of it in a row. Strokes keep their order.
+    of its curve, or TOUCHING_MM of it in a row; chords without length go too. Strokes keep their order.
     Degenerate: curves that overlap in part may go on doing so over less than a chord at the ends of the common part.
     Source: cubic Hermite arcs over the chords, with the tangents of circles through three neighbouring points.
     """
+    along = paths.points[paths.offsets[1:] - 1] - paths.points[paths.offsets[:-1]]
+    long = ~paths.smooth | along.any(axis=1)
+    if not long.all():
+        paths, rank = chosen(paths, long), rank[long]
     smooth = np.flatnonzero(paths.smooth)
     if len(smooth) < 2 or (rank[smooth] == rank[smooth[0]]).all():
         return paths

@@ -24,7 +24,8 @@ def union(owner: Ints, low: Floats, high: Floats, gap: Floats) -> tuple[Ints, Fl
     order = np.argsort(owner + 0.5 * low)
     owner, low, high = owner[order], low[order], high[order]
     rank = np.concatenate([[0], np.cumsum(owner[1:] != owner[:-1])])
-    reach = (rank << (BITS + 1)) + ((high + gap[owner]) * (1 << BITS)).astype(np.int64)
+    # Never beyond the end of its owner: there the next one begins.
+    reach = (rank << (BITS + 1)) + (np.minimum(high + gap[owner], 1.0) * (1 << BITS)).astype(np.int64)
     reach = np.maximum.accumulate(reach)
     begin = (rank << (BITS + 1)) + (low * (1 << BITS)).astype(np.int64)
     starts = np.flatnonzero(np.concatenate([[True], begin[1:] > reach[:-1]]))

@@ -42,6 +42,9 @@ MODEL_RESIDUAL, MODEL_RESIDUAL_OF_GAP = 1e-6, 1e-3
 """The same while the curves are replaced by cubic arcs, and as a part of the square of the gap: towards a place where
 two curves touch they come together like the square of what is left of the gap."""
 
+PARALLEL = 1e-6
+"""Sine of an angle below which a curve does not cross an edge but runs along it in the image."""
+
 NEAR_CUSPS = 0.1
 """Part of the largest bending along an edge below which a cusp is near."""
 
@@ -230,11 +233,11 @@ def _events(
     alike = edge_on[curve] & (curves.sheet[curve] == edges.sheet[edge]) & (edges.kind[edge] == LineKind.CONTOUR)
     exact = max(RESIDUAL, ULPS * projection.rounding(view))
     real = (gap > np.where(alike, FOLDS_GAP, GAP)) & (residual <= exact) & (residual <= RESIDUAL_OF_GAP * gap**3)
-    pairs = pairs.some(real)
-    points, places = two.points[real], two.places[real]
-    direction = projection.image_slopes(view, one.points[real], one.slopes[real])
-    along = projection.image_slopes(view, points, two.slopes[real])
-    edge = edge[real]
+    direction = projection.image_slopes(view, one.points, one.slopes)
+    along = projection.image_slopes(view, two.points, two.slopes)
+    real &= np.abs(turn(along, direction)) > PARALLEL * np.sqrt(dot(along, along) * dot(direction, direction))
+    pairs, points, places, edge = pairs.some(real), two.points[real], two.places[real], edge[real]
+    direction, along = direction[real], along[real]
     kind = edges.kind[edge]
     covered = covered_sides(view, sheets, edges.sheet[edge], kind, points, places, two.slopes[real])
     step = np.where(kind == LineKind.BOUNDARY, 1, 2)

@@ -29,6 +29,10 @@ LOCAL = 1e-3
 CONTACT, CONTACT_PLACES = 1e-4, 1e-3
 """From a contour, meetings nearer than the one, or at places nearer than the other, are the contour itself."""
 
+GRAZING = 1e-4
+"""Sight lines that meet a sheet at a smaller angle than this, in radians, only touch it: there they are no farther
+behind it than points are known."""
+
 ONE_MEETING = 1e-6
 """Meetings closer together than this, in space and as places, are one."""
 
@@ -78,7 +82,8 @@ def _in_front(view: View, target: Target, number: int, samples: Samples) -> Ints
     long = np.linalg.norm(way, axis=1)
     sample, meeting, places = _meetings(view, target, samples, way, number)
     distance = meeting * long[sample]
-    front = distance > TOUCHING
+    grazing = np.abs(dot(target.sheet.normals(places), way[sample])) <= GRAZING * long[sample]
+    front = (distance > TOUCHING) & ~grazing
     if view.eye is not None:
         front &= meeting < 1.0
     count = np.zeros(len(samples), dtype=np.intp)

@@ -81,8 +81,17 @@ def traced_scene(
     for number, item in enumerate(scene.items):
         if is_curve(item.shape) and LineKind.CURVE in kinds_of(item, kinds):
             drawn.append(space_curve(view, item.shape, number, sheets, tracing))
-    curves = together([*drawn, met.curves])
-    return TracedScene(sheets, met.meets_itself, curves, together(edges), tuple(dict.fromkeys(doubts)))
+    curves, hiding = (_with_images(view, together(parts)) for parts in ([*drawn, met.curves], edges))
+    return TracedScene(sheets, met.meets_itself, curves, hiding, tuple(dict.fromkeys(doubts)))
+
+
+def _with_images(view: View, curves: Curves) -> Curves:
+    """The curves but for those that run along sight rays, such as rulings seen end-on: their images are points."""
+    if not len(curves):
+        return curves
+    image, first = _picture(view, curves.points), curves.offsets[:-1]
+    extent = np.maximum.reduceat(image, first) - np.minimum.reduceat(image, first)
+    return curves.some(np.flatnonzero((extent > view.tolerance).any(axis=1)))
 
 
 def _picture(view: View, points: Floats) -> Floats:

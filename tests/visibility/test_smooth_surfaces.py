@@ -1,0 +1,184 @@
+"""Curves of smooth surfaces, alone and among polyhedra, against brute-force rays and against themselves."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from analytic_sight import sheets_in_front
+from smooth_scenes import few, implicit_surfaces, mixed_scenes, single_surfaces, special_views, views
+from smooth_seen import Chords, chords_seen
+
+from vectorplot.draw import draw
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.strokes import LineKind
+from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.surfaces.ellipsoid import Sphere
+from vectorplot.surfaces.placed import PlacedSurface
+from vectorplot.testing import assert_drawing_is_right
+from vectorplot.testing.shapes import box
+
+SINGLE, IMPLICIT, MIXED = single_surfaces(), implicit_surfaces(), mixed_scenes()
+
+NOT_KNOWN = 3e-6
+"""Clearance, as a part of the extent, below which rays leave a point open."""
+
+
+def assert_right(scene: Scene, camera: Camera, samples: int, seed: int) -> None:
+    drawing = draw(scene, camera, hidden="solid")
+    compared = assert_drawing_is_right(drawing, scene, camera, samples=samples, seed=seed, clearance=NOT_KNOWN)
+    assert compared > samples // 3
+
+
+@pytest.mark.parametrize("name", SINGLE)
+def test_a_surface_as_rays_see_it(name: str) -> None:
+    for seed, camera in enumerate(views(SINGLE[name], 2, len(name))):
+        assert_right(SINGLE[name], camera, 250, seed)
+
+
+@pytest.mark.parametrize("name", IMPLICIT)
+def test_an_implicit_surface_as_rays_see_it(name: str) -> None:
+    for seed, camera in enumerate(views(IMPLICIT[name], 2, len(name))):
+        assert_right(IMPLICIT[name], camera, 250, seed)
+
+
+@pytest.mark.parametrize("name", MIXED)
+def test_surfaces_and_polyhedra_as_rays_see_them(name: str) -> None:
+    for seed, camera in enumerate(views(MIXED[name], 2, len(name))):
+        assert_right(MIXED[name], camera, 250, seed)
+
+
+CLOSED_FORMS = ["torus", "sphere", "hyperbolic paraboloid", "hyperboloid", "cylinder"]
+
+
+@pytest.mark.parametrize("name", CLOSED_FORMS)
+def test_views_along_axes_and_rulings_as_in_closed_form(name: str) -> None:
+    scene, compared = SINGLE[name], 0
+    shape = scene.items[0].shape
+    for camera in special_views(scene):
+        chords = chords_seen(scene, camera)
+        # Chords are beside the surface, their ends on it: a chord tells of the end it shares with another.
+        inner = np.flatnonzero((chords.end[:-1] == chords.start[1:]).all(axis=1))
+        inner = inner[chords.hidden_by[inner] == chords.hidden_by[inner + 1]]
+        sheets, sure = sheets_in_front(shape, camera, chords.end[inner])
+        wrong = np.flatnonzero(sure & ((sheets > 0) != (chords.hidden_by[inner] > 0)))
+        compared += int(sure.sum())
+        assert not len(wrong), f"{len(wrong)} of {sure.sum()}, {chords.end[inner[wrong[0]]]}, {camera}"
+    assert compared > 5000
+
+
+def test_a_flat_graph_along_its_axis_as_rays_see_it() -> None:
+    for seed, camera in enumerate(list(special_views(SINGLE["ripple"]))[1:6:2]):
+        drawing = draw(SINGLE["ripple"], camera, hidden="solid")
+        assert_drawing_is_right(drawing, SINGLE["ripple"], camera, samples=200, seed=seed, clearance=NOT_KNOWN)
+
+
+def assert_same_lengths(one: Chords, two: Chords, *, scale: float = 1.0, tolerance: float = 1e-6) -> None:
+    """Equal lengths of each kind behind equal numbers of items, relative to all of them."""
+    expected, found = one.lengths(), two.lengths() / scale
+    worst = np.abs(expected - found).max() / expected.sum()
+    assert worst < tolerance, f"lengths of kinds by number of items in front differ by {worst:.2g} of all"
+
+
+def moved(scene: Scene, camera: Camera, scale: float, offset: np.ndarray) -> tuple[Scene, Camera]:
+    """Scene, lights and camera, scaled and shifted."""
+    items = []
+    for item in scene.items:
+        if isinstance(item.shape, Mesh):
+            whole = np.eye(4)
+            whole[:3, :3], whole[:3, 3] = scale * np.eye(3), offset
+            items.append(replace(item, shape=item.shape.transformed(whole)))
+        else:
+            items.append(replace(item, shape=PlacedSurface(item.shape, scale * np.eye(3), offset)))
+    eye, target = (tuple((scale * np.asarray(p) + offset).tolist()) for p in (camera.eye, camera.target))
+    return replace(scene, items=tuple(items)), Camera(eye, target, camera.up, 0.0, camera.fov_deg, camera.parallel)
+
+
+@pytest.mark.parametrize(("scale", "offset"), [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e6)])
+@pytest.mark.parametrize("name", ["linked tori", "torus and box"])
+def test_size_and_place_change_nothing(name: str, scale: float, offset: float) -> None:
+    scene = MIXED[name]
+    for camera in views(scene, 2, 3):
+        there = moved(scene, camera, scale, offset * np.array([1.0, -1.0, 1.0]))
+        assert_same_lengths(chords_seen(scene, camera), chords_seen(*there), scale=scale, tolerance=1e-5)
+
+
+@pytest.mark.parametrize("name", ["linked tori", "torus and box", "far behind"])
+def test_the_order_of_items_changes_nothing(name: str) -> None:
+    scene = MIXED[name]
+    turned = replace(scene, items=scene.items[::-1])
+    for camera in views(scene, 2, 4):
+        assert_same_lengths(chords_seen(scene, camera), chords_seen(turned, camera))
+
+
+def test_what_stands_behind_changes_nothing_in_front() -> None:
+    scene = MIXED["linked tori"]
+    for camera in views(scene, 2, 6):
+        away = np.asarray(camera.target) - 12.0 * camera.direction
+        low, high = away - 2.0, away + 2.0
+        behind = replace(scene, items=(*scene.items, Item("ball", Sphere(1.0, away)), Item("box", box(low, high))))
+        before, after = chords_seen(scene, camera), chords_seen(behind, camera)
+        own = after.item < len(scene.items)
+        kept = Chords(*(getattr(after, name)[own] for name in ("start", "end", "kind", "item", "hidden_by")))
+        # The picture is larger now, and so are the chords that are near enough to the curves.
+        assert_same_lengths(before, kept, tolerance=1e-4)
+
+
+def test_what_stands_in_front_only_hides() -> None:
+    scene = MIXED["spheres piercing"]
+    for camera in views(scene, 2, 7):
+        front = replace(scene, items=(*scene.items, Item("ball", Sphere(0.6, 2.8 * camera.direction))))
+        before, after = chords_seen(scene, camera), chords_seen(front, camera)
+        own = after.item < len(scene.items)
+        kept = Chords(*(getattr(after, name)[own] for name in ("start", "end", "kind", "item", "hidden_by")))
+        assert np.isclose(kept.length.sum(), before.length.sum(), rtol=1e-4)
+        visible, counted = (chords.lengths().sum(axis=0) for chords in (before, kept))
+        assert (np.cumsum(counted) <= np.cumsum(visible) + 1e-4 * visible.sum()).all()
+        assert counted[0] < visible[0]
+
+
+def test_what_does_not_occlude_hides_nothing() -> None:
+    scene = MIXED["linked tori"]
+    glass = replace(scene, items=tuple(replace(item, occludes=False) for item in scene.items))
+    for camera in views(glass, 2, 8):
+        assert (chords_seen(glass, camera).hidden_by == 0).all()
+
+
+@pytest.mark.parametrize("name", [*SINGLE, *MIXED])
+def test_counts_are_of_items(name: str) -> None:
+    scene = {**SINGLE, **MIXED}[name]
+    camera = next(views(scene, 1, 9))
+    chords = chords_seen(scene, camera)
+    assert len(chords.start)
+    assert chords.hidden_by.max() <= sum(item.occludes for item in scene.items)
+
+
+def test_a_drawing_without_hidden_lines_shows_what_nothing_hides() -> None:
+    for scene in (SINGLE["torus"], MIXED["torus and box"]):
+        for camera in views(scene, 2, 10):
+            every, seen = draw(scene, camera, hidden="solid"), draw(scene, camera)
+            lengths = []
+            for drawing in (every, seen):
+                total = np.zeros(len(LineKind))
+                for layer in drawing.layers:
+                    for paths in layer.strokes:
+                        for k in np.flatnonzero(paths.hidden_by == 0):
+                            points = paths.points[paths.offsets[k] : paths.offsets[k + 1]]
+                            points = np.concatenate([points, points[:1]]) if paths.closed[k] else points
+                            total[paths.kind[k]] += np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
+                lengths.append(total)
+            assert np.allclose(*lengths, rtol=1e-5, atol=0.02)
+
+
+def test_a_sphere_shows_half_of_itself() -> None:
+    scene = Scene((Item("ball", Sphere(1.0), curves=few(12, 9)),), lights=(Light((1.0, 1.0, 1.0), parallel=True),))
+    camera = Camera((5.0, 3.0, 2.0), parallel=True)
+    chords = chords_seen(scene, camera)
+    contour = chords.kind == LineKind.CONTOUR
+    assert (chords.hidden_by[contour] == 0).all()
+    assert np.isclose(chords.length[contour].sum(), 2.0 * np.pi, rtol=1e-4)
+    middle = 0.5 * (chords.start + chords.end)[~contour] @ camera.direction
+    sure = np.abs(middle) > 1e-3
+    assert np.array_equal(chords.hidden_by[~contour][sure] == 0, middle[sure] > 0.0)
