@@ -49,3 +49,21 @@ def beside_edges(picture):
         for along in range(3):
             found |= padded[down : down + rows, along : along + columns] != picture
     return found
+
+
+def stopped(vertices, triangles, places, normals, light):
+    """(n,) whether a ray from places (n, 3), a little above their faces, to a light meets a triangle; and (n,) which
+    faces look at the light."""
+    size = np.ptp(vertices, axis=0).max()
+    target = np.asarray(light.position, dtype=np.float64)
+    way = np.broadcast_to(target, places.shape) if light.parallel else target - places
+    distance = np.linalg.norm(way, axis=1)
+    way = way / distance[:, None]
+    reach = np.full(len(places), 1e6 * size) if light.parallel else distance * (1.0 - 1e-4)
+    found = intersector(vertices, triangles).run(
+        (places + 1e-4 * size * normals).astype(np.float32),
+        np.ascontiguousarray(way, dtype=np.float32),
+        dists=reach.astype(np.float32),
+        query="OCCLUDED",
+    )
+    return np.asarray(found) >= 0, (normals * way).sum(axis=1) > 0.02

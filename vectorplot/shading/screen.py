@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -37,6 +38,14 @@ class ScreenTriangles:
 
     def __len__(self) -> int:
         return len(self.corners)
+
+
+@dataclass(frozen=True)
+class HalfSpace:
+    """Homogeneous points p (4,) with normal . p >= limit."""
+
+    normal: tuple[float, float, float, float]
+    limit: float = 0.0
 
 
 def raster_size(columns: int, rows: int) -> tuple[int, int]:
@@ -78,12 +87,14 @@ def front_facing(points: ArrayLike, corners: Ints, eye: ArrayLike) -> Bools:
     return np.asarray(np.einsum("ij,ij->i", np.cross(b - a, c - a), e[:3] - e[3] * a) > 0.0)
 
 
-def screen_triangles(points: ArrayLike, corners: ArrayLike, *, near: float = NEAR) -> ScreenTriangles:
+def screen_triangles(
+    points: ArrayLike, corners: ArrayLike, *, near: float = NEAR, sides: Sequence[HalfSpace] = ()
+) -> ScreenTriangles:
     """The triangles (t, 3) of homogeneous points (n, 4), as CoordinateSystem.homogeneous gives them, cut to what is
     in front of the near plane, and dropped or cut where they leave the guard band.
 
     A cut edge gets its new corner by the same arithmetic in all triangles that have it, so that no gap opens.
-    near: the smallest weight, 1 in the image plane and 0 at the eye.
+    near: the smallest weight, 1 in the image plane and 0 at the eye; sides: what is outside of them is cut off first.
     Errors: InputError for coordinates that are not finite, for corners out of range, for near <= 0.
     Source: Glaeser, section 2.5 (Hodgman and Sutherland); erratum G2-09.
     """
@@ -91,11 +102,12 @@ def screen_triangles(points: ArrayLike, corners: ArrayLike, *, near: float = NEA
     if not 0.0 < near < np.inf:
         raise InputError(f"a near plane at {near:g} shows nothing")
     source = np.arange(len(corners), dtype=np.intp)
+    for side in sides:
+        p, corners, source = _kept(p, corners, source, p @ np.asarray(side.normal) - side.limit)
     # The near plane first, then the sides of the guard band.
-    for axis, side in ((3, 1.0), (0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)):
-        inside = p[:, 3] - near if axis == 3 else side * p[:, axis] + GUARD_BAND * p[:, 3]
-        if len(p) and inside.min() < 0.0:
-            p, corners, source = _cut(p, corners, source, inside)
+    for axis, sign in ((3, 1.0), (0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)):
+        inside = p[:, 3] - near if axis == 3 else sign * p[:, axis] + GUARD_BAND * p[:, 3]
+        p, corners, source = _kept(p, corners, source, inside)
     # Points that no triangle is left of may have no image.
     seen = p[:, 3] >= near / 2.0
     flat = p[:, :3] / np.where(seen, p[:, 3], 1.0)[:, None]
@@ -113,6 +125,10 @@ def _checked(points: ArrayLike, corners: ArrayLike) -> tuple[Floats, Ints]:
     if len(t) and (t.min() < 0 or t.max() >= len(p)):
         raise InputError(f"a triangle names point {int(t.max() if t.max() >= len(p) else t.min())} of {len(p)}")
     return p, t
+
+
+def _kept(points: Floats, corners: Ints, source: Ints, inside: Floats) -> tuple[Floats, Ints, Ints]:
+    return _cut(points, corners, source, inside) if len(points) and inside.min() < 0.0 else (points, corners, source)
 
 
 def _cut(points: Floats, corners: Ints, source: Ints, inside: Floats) -> tuple[Floats, Ints, Ints]:

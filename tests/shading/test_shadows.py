@@ -1,0 +1,294 @@
+"""Shadow buffers and exact shadows: against rays, and the buffers against the exact ones."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from rays import stopped
+from scenes import COLUMNS, FIELD_CAMERA, ROWS, box, camera_of, field, floor, sample, triangles_of, visible
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.projection import CoordinateSystem
+from vectorplot.scene.scene import Light
+from vectorplot.shading import shadow_map as maps
+from vectorplot.shading.screen import front_facing
+from vectorplot.shading.seen_region import seen_region
+from vectorplot.shading.shadow_buffer import is_inside, light_system, shadow_buffer
+from vectorplot.shading.shadow_map import light_plane, shadow_map, standard_frame, texels_per_unit, trapezoid_frame
+from vectorplot.shading.shadow_rays import blocked_exactly
+from vectorplot.testing.surfaces import bumpy_icosphere
+
+SUN = Light((1.0, -1.5, 2.0), parallel=True)
+FAR_LAMP = Light((20.0, -30.0, 40.0))
+LAMPS = [SUN, FAR_LAMP, Light((0.4, 0.3, 1.9))]
+
+
+def bounds(points):
+    return np.array([points.min(axis=0), points.max(axis=0)])
+
+
+@pytest.mark.parametrize("light", LAMPS, ids=["sun", "lamp", "lamp in the scene"])
+@pytest.mark.parametrize("seed", [0, 2, 3, 4])
+def test_exact_shadows_are_those_of_rays(seed, light):
+    points, corners = sample(seed)
+    found, places, normals = visible(points, corners, camera_of(points, seed))
+    rays, facing = stopped(points, corners, places, normals, light)
+    exact = blocked_exactly(light, places, found.triangle, points, corners)
+    # Rays of single precision start a little above the faces: they differ along the shadows' borders.
+    assert (exact != rays)[facing].mean() < 0.003
+    assert exact[facing].any() or seed == 3, "the graph is too flat"
+
+
+@pytest.mark.capability("G8.6-shadow-buffer")
+@pytest.mark.parametrize("light", LAMPS, ids=["sun", "lamp", "lamp in the scene"])
+@pytest.mark.parametrize("seed", [0, 2, 3])
+def test_shadow_buffers_agree_with_exact_shadows_and_larger_ones_more(seed, light):
+    points, corners = sample(seed)
+    found, places, normals = visible(points, corners, camera_of(points, seed))
+    exact = blocked_exactly(light, places, found.triangle, points, corners)
+    _, facing = stopped(points, corners, places, normals, light)
+    wrong = [
+        (shadow_buffer(light, points, corners, size=size).blocks(places, normals) != exact)[facing].mean()
+        for size in (128, 512, 2048)
+    ]
+    assert wrong[2] < 0.006
+    assert wrong[0] > wrong[1] > wrong[2] or wrong[0] < 1e-4
+
+
+@pytest.mark.capability("G8.6-shadow-buffer")
+def test_small_buffers_of_16_and_8_bits():
+    points, corners = sample(2)
+    found, places, normals = visible(points, corners, camera_of(points, 2))
+    exact = blocked_exactly(SUN, places, found.triangle, points, corners)
+    _, facing = stopped(points, corners, places, normals, SUN)
+    wrong = {}
+    for bits, size in ((32, 500), (16, 500), (8, 250)):
+        buffer = shadow_buffer(SUN, points, corners, size=size, bits=bits)
+        assert buffer.maps[0].code.dtype == np.dtype(f"uint{bits}")
+        wrong[bits] = (buffer.blocks(places, normals) != exact)[facing].mean()
+    assert wrong[16] < 1.2 * wrong[32] + 1e-3
+    assert wrong[8] < 0.02
+
+
+def test_the_bias_follows_the_slope():
+    points, corners = triangles_of(bumpy_icosphere(4))
+    found, places, normals = visible(points, corners, camera_of(points, 1))
+    exact = blocked_exactly(SUN, places, found.triangle, points, corners)
+    buffer = shadow_buffer(SUN, points, corners, size=256)
+    _, facing = stopped(points, corners, places, normals, SUN)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(maps, "SLOPE_BIAS", 0.0)
+        patch.setattr(maps, "CONSTANT_BIAS", 0.0)
+        acne = (buffer.blocks(places, normals) & ~exact)[facing].mean()
+    assert acne > 0.25, "without any bias a good part of what is lit hides itself"
+    assert (buffer.blocks(places, normals) & ~exact)[facing].mean() < 0.02
+
+
+def test_a_convex_body_casts_no_shadow_on_itself():
+    points, corners = triangles_of(box((0, 0, 0), (1, 2, 3)))
+    for light in (SUN, FAR_LAMP):
+        found, places, normals = visible(points, corners, Camera((4, -9, 7), (0.5, 1, 1.5)))
+        _, facing = stopped(points, corners, places, normals, light)
+        assert not shadow_buffer(light, points, corners, size=300).blocks(places, normals)[facing].any()
+        assert not blocked_exactly(light, places, found.triangle, points, corners)[facing].any()
+
+
+@pytest.mark.capability("N6-z")
+def test_back_faces_alone_need_no_bias():
+    points, corners = triangles_of(box((0, 0, 0), (1, 1, 1)), floor(4.0, -0.5))
+    camera = Camera((5, -9, 8), (0.5, 0.5, 0))
+    found, places, normals = visible(points, corners, camera)
+    away = ~front_facing(points, corners, (*SUN.position, 0.0))
+    exact = blocked_exactly(SUN, places, found.triangle, points, corners)
+    _, facing = stopped(points, corners, places, normals, SUN)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(maps, "SLOPE_BIAS", 0.0)
+        patch.setattr(maps, "CONSTANT_BIAS", 0.0)
+        wrong = {
+            name: (shadow_buffer(SUN, points, part, size=512).blocks(places, normals) != exact)[facing].mean()
+            for name, part in (("all", corners), ("away", corners[away]))
+        }
+    assert wrong["away"] < 0.01 < 0.2 < wrong["all"]
+
+
+@pytest.mark.hard(18, 19)
+@pytest.mark.parametrize(("scale", "shift"), [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e6)])
+def test_scale_and_place_change_no_shadow(scale, shift):
+    points, corners = sample(2)
+    camera = camera_of(points, 2)
+    moved = Camera(
+        tuple(scale * np.array(camera.eye) + shift),
+        tuple(scale * np.array(camera.target) + shift),
+        fov_deg=35.0,
+        parallel=camera.parallel,
+    )
+    results = []
+    for s, t, eye in ((1.0, 0.0, camera), (scale, shift, moved)):
+        p = s * points + t
+        found, places, normals = visible(p, corners, eye)
+        light = Light(tuple(s * np.array(FAR_LAMP.position) + t))
+        shadows = [shadow_buffer(light, p, corners, size=256).blocks(places, normals)]
+        shadows.append(blocked_exactly(light, places, found.triangle, p, corners))
+        pictures = np.zeros((2, ROWS * COLUMNS), dtype=bool)
+        pictures[:, found.pixel] = shadows
+        results.append(pictures)
+    assert (results[0] != results[1]).mean(axis=1).max() < 2e-4
+
+
+@pytest.mark.capability("N2-ppsl")
+def test_the_lamps_plane_of_sun_and_lamp():
+    rng = np.random.default_rng(0)
+    points = rng.uniform(-1, 1, (20, 3))
+    system = CoordinateSystem.of_light((3, 4, 12), (0, 0, 0))
+    images = light_plane(system, points)
+    shadow = system.to_world(np.column_stack([images, np.zeros(20)]))
+    lamp = np.array([3.0, 4.0, 12.0])
+    assert np.abs(shadow @ (lamp / 13.0)).max() < 1e-12, "in the plane through the target"
+    assert np.abs(np.cross(points - lamp, shadow - lamp)).max() < 1e-10, "lamp, point and shadow on a line"
+    sun = CoordinateSystem.of_parallel_light((3, 4, 12))
+    shadow = sun.to_world(np.column_stack([light_plane(sun, points), np.zeros(20)]))
+    assert np.abs(np.cross(points - shadow, lamp)).max() < 1e-12
+    with pytest.raises(InputError, match="neutral plane"):
+        light_plane(system, [(6, 8, 24)])
+
+
+@pytest.mark.capability("R-zcorr")
+@pytest.mark.parametrize("light", [SUN, Light((60.0, -90.0, 150.0))], ids=["sun", "lamp"])
+def test_depths_of_a_tapered_map_are_the_lamps_own(light):
+    points, corners = field()
+    region = seen_region(FIELD_CAMERA, COLUMNS, ROWS, bounds(points))
+    system = light_system(light, points)
+    tapered = shadow_map(system, trapezoid_frame(system, region, 0.8), points, corners, 700, 700)
+    assert np.ptp(tapered.texel_from_light[2, :2]) > 0.0, "it has a taper"
+    row, column = np.nonzero(tapered.code)
+    at = np.column_stack([column, row, np.ones(len(row))]) @ tapered.light_from_texel.T
+    places = system.to_world(np.column_stack([at[:, :2] / at[:, 2:], unscaled(system, tapered.depth[row, column])]))
+    assert (np.abs(places[:, 2]) < 1e-3).mean() > 0.5, "the floor is where it is, near the eye and far away"
+    assert places[:, 2].min() > -1e-3
+    assert places[:, 2].max() < points[:, 2].max() + 1e-3
+    # Per vertex the same depth, put into the tapered system: z_T = z_L w_T / w_L.
+    h = system.homogeneous(points)
+    weight = h[:, [0, 1, 3]] @ tapered.texel_from_light[2]
+    z_t = h[:, 2] / h[:, 3] * weight / h[:, 3]
+    assert np.allclose(z_t / (weight / h[:, 3]), h[:, 2] / h[:, 3], rtol=1e-12)
+
+
+def unscaled(system, depth):
+    """Depth in the system of depths after T2."""
+    return depth if not np.isfinite(system.distance) else system.distance * depth / (1.0 + depth)
+
+
+@pytest.mark.capability("R-two-pass", "RN-in-B8.6", "R-demos", "N2-eta")
+@pytest.mark.parametrize(
+    "light",
+    [SUN, Light((-1.0, -0.3, 1.2), parallel=True), Light((0.05, 1.0, 0.8), parallel=True), Light((60.0, -90.0, 150.0))],
+    ids=["behind", "side", "against", "lamp"],
+)
+def test_the_trapezoid_shows_more_of_what_is_near_and_the_same_shadows(light):
+    points, corners = field()
+    found, places, normals = visible(points, corners, FIELD_CAMERA, 480, 360)
+    region = seen_region(FIELD_CAMERA, 480, 360, bounds(points))
+    exact = blocked_exactly(light, places, found.triangle, points, corners)
+    _, facing = stopped(points, corners, places, normals, light)
+    distance = np.linalg.norm(places - FIELD_CAMERA.eye, axis=1)
+    near = distance <= np.quantile(distance, 0.1)
+    texels, wrong = {}, {}
+    for frame in ("standard", "box", "trapezoid"):
+        buffer = shadow_buffer(light, points, corners, size=1024, frame=frame, region=region)
+        texels[frame] = texels_per_unit(buffer.maps[0], places[near]).mean()
+        coarse = shadow_buffer(light, points, corners, size=256, frame=frame, region=region)
+        bad = coarse.blocks(places, normals) != exact
+        wrong[frame] = (bad[near & facing].mean(), bad[facing].mean())
+    assert texels["trapezoid"] > 8.0 * texels["standard"]
+    assert texels["trapezoid"] > 4.0 * texels["box"] >= 4.0 * texels["standard"]
+    assert wrong["trapezoid"][0] < 0.6 * wrong["standard"][0], "near the eye"
+    assert wrong["trapezoid"][1] < wrong["standard"][1], "and in all"
+
+
+@pytest.mark.hard(33)
+@pytest.mark.parametrize("angle", [0.0, 1e-9, 1e-4, 0.01, 0.1, np.pi - 0.1, np.pi - 1e-4, np.pi])
+def test_a_light_that_faces_the_eye_has_the_right_shadows(angle):
+    points, corners = triangles_of(box((-1, -1, -1), (1, 1, 1)), box((1.5, 1, -1), (2, 3, 1)), floor(8.0, -1.2))
+    camera = Camera((0, -14, 1), (0, 0, 1), fov_deg=50.0)
+    right, _, back = camera.axes
+    light = Light(tuple(np.cos(angle) * back + np.sin(angle) * right + (0.0, 0.0, 0.2)), parallel=True)
+    found, places, normals = visible(points, corners, camera)
+    exact = blocked_exactly(light, places, found.triangle, points, corners)
+    _, facing = stopped(points, corners, places, normals, light)
+    region = seen_region(camera, COLUMNS, ROWS, bounds(points))
+    buffer = shadow_buffer(light, points, corners, size=1024, frame="trapezoid", region=region)
+    assert np.isfinite(buffer.maps[0].texel_from_light).all()
+    assert (buffer.blocks(places, normals) != exact)[facing].mean() < 0.02
+
+
+@pytest.mark.hard(33)
+def test_a_lamp_in_the_scene_casts_shadows_away_from_itself_on_all_sides():
+    room = box((-4, -4, -4), (4, 4, 4))
+    points, corners = triangles_of(
+        room, *(box(c - 0.5, c + 0.5) for c in 2.0 * np.concatenate([np.eye(3), -np.eye(3)]))
+    )
+    lamp = Light((0.0, 0.0, 0.0))
+    assert is_inside(lamp, points)
+    # A point on each wall, behind a box, and one beside its shadow.
+    ways = np.concatenate([np.eye(3), -np.eye(3)])
+    behind, beside = 4.0 * ways, 4.0 * ways + 2.5 * np.roll(ways, 1, axis=1)
+    places, normals = np.concatenate([behind, beside]), np.concatenate([-ways, -ways])
+    expected = np.repeat([True, False], 6)
+    buffer = shadow_buffer(lamp, points, corners, size=512)
+    assert len(buffer.maps) == 6
+    assert (buffer.blocks(places, normals) == expected).all()
+    assert (blocked_exactly(lamp, places, np.full(12, -1), points, corners) == expected).all()
+
+
+@pytest.mark.hard(34)
+def test_a_frustum_without_taper_falls_to_the_rectangle():
+    points, corners = sample(2)
+    camera = Camera((0, -1e7, 3e6), (0, 0, 0), fov_deg=1e-4)
+    region = seen_region(camera, COLUMNS, ROWS, bounds(points))
+    system = light_system(SUN, points)
+    matrix = trapezoid_frame(system, region, 0.8)
+    assert np.isfinite(matrix).all()
+    assert np.linalg.matrix_rank(matrix) == 3
+    buffer = shadow_buffer(SUN, points, corners, size=512, frame="trapezoid", region=region)
+    assert np.isfinite(buffer.maps[0].depth_code.maximum)
+
+
+@pytest.mark.capability("R-nonsquare")
+def test_maps_need_not_be_square():
+    points, corners = sample(2)
+    found, places, normals = visible(points, corners, camera_of(points, 2))
+    exact = blocked_exactly(SUN, places, found.triangle, points, corners)
+    _, facing = stopped(points, corners, places, normals, SUN)
+    wide = shadow_buffer(SUN, points, corners, size=1024, rows=256)
+    assert wide.maps[0].code.shape == (256, 1024)
+    assert (wide.blocks(places, normals) != exact)[facing].mean() < 0.01
+
+
+def test_nothing_casts_no_shadow_and_impossible_maps_are_refused():
+    points, corners = sample(2)
+    none = shadow_buffer(SUN, np.zeros((0, 3)), np.zeros((0, 3), dtype=np.intp))
+    assert not none.blocks([(0.0, 0.0, 0.0)], [(0.0, 0.0, 1.0)]).any()
+    flat = shadow_map(
+        light_system(SUN, points), standard_frame(np.eye(2)), points[:0], np.zeros((0, 3), dtype=np.intp), 64, 64
+    )
+    assert not flat.code.any()
+    for options in ({"bits": 12}, {"frame": "round"}, {"frame": "box"}, {"size": 2}, {"size": 10**6}):
+        with pytest.raises(InputError):
+            shadow_buffer(SUN, points, corners, **options)
+    with pytest.raises(InputError, match="focus"):
+        seen_region(FIELD_CAMERA, 10, 10, bounds(points), 1.5)
+
+
+def test_the_seen_region_is_the_frustum_within_the_box():
+    camera = Camera((0, -10, 0), (0, 0, 0), fov_deg=90.0)
+    region = seen_region(camera, 200, 100, [(-1, -1, -1), (1, 1, 1)], 0.25)
+    assert np.allclose(bounds(region.points), [(-1, -1, -1), (1, 1, 1)], atol=1e-7), "all of a small box"
+    assert np.allclose([region.near, region.far, region.focus], [(0, -1, 0), (0, 1, 0), (0, -0.5, 0)], atol=1e-7)
+    assert np.allclose(bounds(region.focus_points)[1], (1, -0.5, 1), atol=1e-7)
+    wide = seen_region(camera, 200, 100, [(-99, -5, -99), (99, 5, 99)])
+    assert np.allclose(bounds(wide.points), [(-30, -5, -15), (30, 5, 15)], atol=1e-4)
+    parallel = seen_region(Camera((0, -10, 0), parallel=True, height=4.0), 200, 100, [(-9, -9, -9), (9, 9, 9)])
+    assert np.allclose(bounds(parallel.points), [(-4, -9, -2), (4, 9, 2)], atol=1e-6)
+    behind = seen_region(camera, 200, 100, [(-1, -20, -1), (1, -15, 1)])
+    assert not len(behind.points)

@@ -1,0 +1,128 @@
+"""Shadow buffers: for every light of a scene the maps of what it sees.
+
+Source: Glaeser, section 8.6; for the tapered maps Ressler, and Martin and Tan.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.projection import CoordinateSystem
+from vectorplot.scene.scene import Light
+from vectorplot.shading.seen_region import SeenRegion
+from vectorplot.shading.shadow_map import (
+    ShadowMap,
+    blocked,
+    light_plane,
+    region_axis,
+    shadow_map,
+    standard_frame,
+    trapezoid_frame,
+)
+from vectorplot.shading.trapezoid import searched_line
+
+Frame = Literal["standard", "box", "trapezoid"]
+
+WIDEST_COSINE = 0.5
+"""A lamp that sees a corner of the scene more than 60 degrees off its middle needs six maps."""
+
+SIDES = np.concatenate([np.eye(3), -np.eye(3)])
+"""The directions of the six maps of a lamp in the scene."""
+
+
+@dataclass(frozen=True, eq=False)
+class ShadowBuffer:
+    """The maps of one light: a single one, or six around a lamp within the scene."""
+
+    maps: tuple[ShadowMap, ...]
+
+    def blocks(self, points: ArrayLike, normals: ArrayLike) -> Bools:
+        """(n,) whether something stands between the light and world points (n, 3) on faces with normals (n, 3)."""
+        p = np.asarray(points, dtype=np.float64).reshape(-1, 3)
+        found = np.zeros(len(p), dtype=np.bool_)
+        for one in self.maps:
+            found |= blocked(one, p, normals)
+        return found
+
+
+def shadow_buffer(
+    light: Light,
+    points: ArrayLike,
+    corners: Ints,
+    *,
+    size: int = 1024,
+    rows: int | None = None,
+    bits: int = 32,
+    frame: Frame = "standard",
+    region: SeenRegion | None = None,
+) -> ShadowBuffer:
+    """The shadow buffer of a light for triangles (t, 3) of world points (n, 3).
+
+    size: columns, and rows unless told otherwise, in texels; bits: 8, 16 or 32 for a depth; frame: the map shows the
+    whole scene, the box about what is seen, or the trapezoid around it, of which most is what is near the eye; region:
+    what the camera sees, for the latter two. A lamp within the scene has six maps of half the size, whole ones.
+    Errors: InputError for impossible sizes, bits and frames, for a tapered map without a region.
+    Degenerate: where nothing is seen, and where the eye's line of sight runs behind the lamp, the map is standard.
+    Source: Glaeser, section 8.6; Martin and Tan, recipe.
+    """
+    if frame not in ("standard", "box", "trapezoid"):
+        raise InputError(f"frame {frame!r}: expected standard, box or trapezoid")
+    if frame != "standard" and region is None:
+        raise InputError(f"a shadow map of the frame {frame} needs the region that is seen")
+    p = np.asarray(points, dtype=np.float64).reshape(-1, 3)
+    down = size if rows is None else rows
+    if not len(p):
+        return ShadowBuffer(())
+    if is_inside(light, p):
+        maps = (_side_map(light, way, p, corners, (max(size // 2, 4), max(down // 2, 4)), bits) for way in SIDES)
+        return ShadowBuffer(tuple(maps))
+    system = light_system(light, p)
+    matrix = _frame(system, p, frame, region)
+    return ShadowBuffer((shadow_map(system, matrix, p, corners, size, down, bits=bits),))
+
+
+def light_system(light: Light, points: Floats) -> CoordinateSystem:
+    """The system of a light, with its target in the middle of the points (n, 3)."""
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    if light.parallel:
+        return CoordinateSystem.of_parallel_light(light.position, middle)
+    return CoordinateSystem.of_light(light.position, middle)
+
+
+def is_inside(light: Light, points: Floats) -> bool:
+    """Whether a lamp stands in the box about points (n, 3), or so close to it that one map would be too wide."""
+    if light.parallel:
+        return False
+    low, high = points.min(axis=0), points.max(axis=0)
+    corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * (high - low) + low
+    place = np.asarray(light.position, dtype=np.float64)
+    arm, middle = corners - place, (low + high) / 2.0 - place
+    cosine = arm @ middle
+    return bool((cosine <= WIDEST_COSINE * np.linalg.norm(arm, axis=1) * np.linalg.norm(middle)).any())
+
+
+def _side_map(light: Light, way: Floats, points: Floats, corners: Ints, size: tuple[int, int], bits: int) -> ShadowMap:
+    """The map of a quarter turn about one direction from a lamp."""
+    place = np.asarray(light.position, dtype=np.float64)
+    reach = float(np.abs(points - place).max()) or 1.0
+    system = CoordinateSystem.of_light(place, place + reach * way)
+    return shadow_map(system, np.diag([1.0 / reach, 1.0 / reach, 1.0]), points, corners, *size, bits=bits)
+
+
+def _frame(system: CoordinateSystem, points: Floats, frame: Frame, region: SeenRegion | None) -> Floats:
+    if frame == "standard" or region is None or not len(region.points):
+        return standard_frame(light_plane(system, points))
+    if frame == "box":
+        return standard_frame(light_plane(system, region.points))
+    centres = np.stack([region.near, region.far, region.focus])
+    if not (system.homogeneous(centres)[:, 3] > 0.0).all():
+        return standard_frame(light_plane(system, points))
+    axis, focus, images = region_axis(system, region)
+    line = searched_line(images, axis, focus, light_plane(system, region.focus_points))
+    return trapezoid_frame(system, region, line)
