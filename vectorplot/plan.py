@@ -106,7 +106,7 @@ class Walk:
         result = function(*args, **kwargs)
         seconds = time.perf_counter() - start
         if self._explain is not None:
-            self._explain(StageReport(name, stage.why, seconds, _count(result), _peak_mb()))
+            self._explain(StageReport(name, stage.why, seconds, _count(result), peak_mb()))
         self.fraction(name)(1.0)
         return result
 
@@ -117,7 +117,7 @@ def _count(result: Any) -> int:
     return len(first) if hasattr(first, "__len__") else 1
 
 
-def _peak_mb() -> float:
+def peak_mb() -> float:
     """Peak memory of this process; where the system does not tell it apart, of its parent too if that is larger."""
     import resource
     import sys
