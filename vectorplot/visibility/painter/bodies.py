@@ -8,8 +8,9 @@ import numpy as np
 
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.view import View
+from vectorplot.visibility.occluders import solid_items
 from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions
-from vectorplot.visibility.projected_faces import newell
+from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, newell
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,6 +28,13 @@ class Bodies:
 
     def __len__(self) -> int:
         return len(self.item)
+
+
+def outlined_items(view: View, projected: ProjectedFaces) -> Bools:
+    """(i,) the items that are convex bodies with an outline in the image: closed, and not through the near plane."""
+    solid = solid_items(view, projected)
+    solid[view.face_item[~np.isfinite(projected.nearest) | (projected.box[1] >= EVERYWHERE)]] = False
+    return solid
 
 
 def convex_bodies(view: View, faces: ImageFaces, items: Ints) -> Bodies:

@@ -20,25 +20,31 @@ PARTNERS_AT_ONCE = 1 << 23
 
 def box_pairs(box: Floats, tolerance: float) -> Iterator[tuple[Ints, Ints]]:
     """Pairs of boxes, smallest and largest x and y (4 or more, n), that overlap by more than a tolerance; each pair
-    once, the smaller number first, in lots.
+    once, the smaller number first, in lots."""
+    for first, second in boxes_over(box, box, tolerance):
+        once = first < second
+        yield first[once], second[once]
+
+
+def boxes_over(box: Floats, others: Floats, tolerance: float) -> Iterator[tuple[Ints, Ints]]:
+    """Boxes (4 or more, n), in ascending order, with each of the others (4 or more, m) that it overlaps by more than a
+    tolerance, in lots.
 
     Source: Leutenegger, Lopez and Edgington, STR: a simple and efficient algorithm for R-tree packing (1997).
     """
     import shapely
 
-    left, right, bottom, top = box[:4]
-    if not len(left):
+    (left, right, bottom, top), (left_2, right_2, bottom_2, top_2) = box[:4], others[:4]
+    if not len(left) or not len(left_2):
         return
+    tree = shapely.STRtree(shapely.box(left_2, bottom_2, right_2, top_2), node_capacity=16)
     rectangles = shapely.box(left, bottom, right, top)
-    tree = shapely.STRtree(rectangles, node_capacity=16)
     low, step = 0, FIRST_QUERIES
     while low < len(left):
-        asked, found = tree.query(rectangles[low : low + step])
-        asked = asked + low
-        once = asked < found
-        first, second = asked[once], found[once]
-        wide = np.minimum(right[first], right[second]) - np.maximum(left[first], left[second]) > tolerance
-        wide &= np.minimum(top[first], top[second]) - np.maximum(bottom[first], bottom[second]) > tolerance
-        yield first[wide], second[wide]
+        first, second = tree.query(rectangles[low : low + step])
+        first = first + low
+        wide = np.minimum(right[first], right_2[second]) - np.maximum(left[first], left_2[second]) > tolerance
+        wide &= np.minimum(top[first], top_2[second]) - np.maximum(bottom[first], bottom_2[second]) > tolerance
         low += step
-        step = int(np.clip(PARTNERS_AT_ONCE * step // max(len(asked), 1), 1, QUERIES_AT_ONCE))
+        step = int(np.clip(PARTNERS_AT_ONCE * step // max(len(first), 1), 1, QUERIES_AT_ONCE))
+        yield first[wide], second[wide]

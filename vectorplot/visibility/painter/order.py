@@ -8,8 +8,7 @@ import numpy as np
 
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.view import View
-from vectorplot.visibility.occluders import solid_items
-from vectorplot.visibility.painter.bodies import Bodies, convex_bodies
+from vectorplot.visibility.painter.bodies import Bodies, convex_bodies, outlined_items
 from vectorplot.visibility.painter.body_pairs import UNDECIDED, body_relations
 from vectorplot.visibility.painter.candidates import box_pairs
 from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
@@ -29,7 +28,7 @@ from vectorplot.visibility.painter.image_faces import (
     joined,
 )
 from vectorplot.visibility.painter.mikado import component_ranks
-from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, project_faces
+from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 
 PAIRS_AT_ONCE = 1 << 20
 """Pairs of faces of two bodies listed at once."""
@@ -98,10 +97,7 @@ class _Things:
 
 
 def _things(view: View, projected: ProjectedFaces, faces: ImageFaces) -> _Things:
-    solid = solid_items(view, projected)
-    # A body that reaches through the near plane has no outline.
-    solid[view.face_item[~np.isfinite(projected.nearest) | (projected.box[1] >= EVERYWHERE)]] = False
-    bodies = convex_bodies(view, faces, np.flatnonzero(solid))
+    bodies = convex_bodies(view, faces, np.flatnonzero(outlined_items(view, projected)))
     of_face = np.full(len(faces), -1, dtype=np.intp)
     of_face[bodies.shown] = np.repeat(np.arange(len(bodies)), np.diff(bodies.first))
     single = np.flatnonzero(of_face < 0)
