@@ -73,10 +73,14 @@ def test_a_height_needs_a_parallel_projection():
         camera_from(CameraOptions(height=2.0), SCENE)
 
 
+def page_options(**said):
+    return {"page": None, "landscape": False, "margin": None, **said}
+
+
 def test_the_page_is_that_of_the_scene_but_for_the_options():
-    assert page_from(None, False, None, SCENE) == Page()
-    assert page_from(None, False, None, WITH_CAMERA) == WITH_CAMERA.page
-    assert page_from((210.0, 297.0), True, None, WITH_CAMERA) == Page(297.0, 210.0, 5.0)
-    assert page_from(None, False, 0.0, WITH_CAMERA) == Page(100.0, 50.0, 0.0)
+    assert page_from(page_options(), SCENE) == Page()
+    assert page_from(page_options(), WITH_CAMERA) == WITH_CAMERA.page
+    assert page_from(page_options(page=(210.0, 297.0), landscape=True), WITH_CAMERA) == Page(297.0, 210.0, 5.0)
+    assert page_from(page_options(margin=0.0), WITH_CAMERA) == Page(100.0, 50.0, 0.0)
     with pytest.raises(click.UsageError, match="leaves nothing"):
-        page_from(None, False, 25.0, WITH_CAMERA)
+        page_from(page_options(margin=25.0), WITH_CAMERA)

@@ -12,7 +12,18 @@ from vectorplot.errors import InputError
 
 Value = TypeVar("Value")
 
-KINDS = ("contour", "boundary", "crease", "intersection", "edges", "pattern", "parameter", "isophote", "section", "curve")
+KINDS = (
+    "contour",
+    "boundary",
+    "crease",
+    "intersection",
+    "edges",
+    "pattern",
+    "parameter",
+    "isophote",
+    "section",
+    "curve",
+)
 
 DRAWN = ("contour", "boundary", "crease", "intersection", "pattern", "parameter", "isophote", "section", "curve")
 """The kinds of lines that are drawn unless the user says otherwise."""

@@ -1,17 +1,53 @@
-"""From options to a camera and a page; the scene file's own are the defaults, field by field."""
+"""Options for camera and page, and what becomes of them; the scene file's own are the defaults, field by field."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from functools import reduce
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.options import chosen, exclusive
+from vectorplot.cli.options import at_least, between, chosen, exclusive, number, point, sheet
 
 if TYPE_CHECKING:
     from vectorplot.geometry.camera import Camera, Point
     from vectorplot.scene.scene import Page, Scene
+
+Command = Callable[..., None]
+
+VIEW_WORDS = ("front", "back", "left", "right", "top", "bottom", "iso")
+
+CAMERA_OPTIONS = (
+    click.option("--eye", type=point, metavar="X,Y,Z", help="Where one looks from."),
+    click.option("--target", type=point, metavar="X,Y,Z", help="What one looks at."),
+    click.option("--up", type=point, metavar="X,Y,Z", help="Direction that is up in the picture (default: z)."),
+    click.option("--twist", type=number, metavar="DEG", help="Turn of the camera about its principal ray."),
+    click.option("--fov", type=between(0.0, 180.0), metavar="DEG", help="Full angle over the picture height."),
+    click.option("--parallel", is_flag=True, help="Parallel projection along eye - target."),
+    click.option(
+        "--height", type=between(0.0, math.inf), metavar="H", help="World units over the page, when parallel."
+    ),
+    click.option(
+        "--view", type=click.Choice(VIEW_WORDS), help="A main view in place of --eye, parallel unless --fov is given."
+    ),
+)
+
+PAGE_OPTIONS = (
+    click.option(
+        "--page", type=sheet, metavar="SIZE", help="A0 to A6, letter, legal, ... or WIDTHxHEIGHT in mm.  [default: A4]"
+    ),
+    click.option("--landscape", is_flag=True, help="Lay the page on its longer side."),
+    click.option("--margin", type=at_least(0.0), metavar="MM", help="Empty border of the page.  [default: 10]"),
+    click.option("--fit/--no-fit", default=True, help="Fill the page, or keep the camera's scale."),
+)
+
+
+def with_options(*options: Callable[[Command], Command]) -> Callable[[Command], Command]:
+    """A decorator that gives a command these options, in this order."""
+    return lambda command: reduce(lambda inner, option: option(inner), reversed(options), command)
 
 
 @dataclass(frozen=True)
@@ -26,6 +62,14 @@ class CameraOptions:
     parallel: bool = False
     height: float | None = None
     view: str | None = None
+
+    @classmethod
+    def of(cls, options: dict[str, Any]) -> CameraOptions:
+        """What a command with CAMERA_OPTIONS was told. Bad usage for options that contradict each other."""
+        names = ("eye", "target", "up", "twist", "fov", "parallel", "height", "view")
+        found = cls(**{name: options[name] for name in names})
+        found.check()
+        return found
 
     def check(self) -> None:
         """Bad usage for options that contradict each other."""
@@ -60,15 +104,18 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
     )
 
 
-def page_from(size: tuple[float, float] | None, landscape: bool, margin: float | None, scene: Scene) -> Page:
-    """The page of the scene (or A4) with the user's size, margin and orientation; bad usage if nothing is left."""
+def page_from(options: dict[str, Any], scene: Scene) -> Page:
+    """The page of the scene (or A4) with the user's size, margin and orientation; bad usage if nothing is left.
+
+    options: what a command with PAGE_OPTIONS was told.
+    """
     from vectorplot.errors import InputError
     from vectorplot.scene.scene import Page
 
     base = chosen(scene.page, Page())
-    width, height = chosen(size, (base.width_mm, base.height_mm))
+    width, height = chosen(options["page"], (base.width_mm, base.height_mm))
     try:
-        page = Page(width, height, chosen(margin, base.margin_mm))
+        page = Page(width, height, chosen(options["margin"], base.margin_mm))
     except InputError as error:
         raise click.UsageError(str(error)) from None
-    return page.landscape if landscape else page
+    return page.landscape if options["landscape"] else page

@@ -1,0 +1,79 @@
+"""What the commands that make pictures share: read, make, write, and say what it cost."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from vectorplot.cli.progress import progress_bar, table, told_warnings
+from vectorplot.errors import InputWarning
+
+if TYPE_CHECKING:
+    from vectorplot.drawing.drawing import Drawing
+    from vectorplot.plan import StageReport
+    from vectorplot.scene.scene import Scene
+
+
+@dataclass(frozen=True)
+class Report:
+    """Whom a verb tells how far it is, and what each stage cost."""
+
+    progress: Callable[[str, float], None] | None
+    explain: Callable[[StageReport], None]
+
+
+def make_picture(
+    scene_file: str,
+    out: str,
+    format_: str,
+    picture: Callable[[Scene, Report], Drawing],
+    *,
+    quiet: bool,
+    explain: bool,
+) -> None:
+    """Read a scene, make a picture of it and write that; nothing is written unless all of it succeeds.
+
+    quiet: no warnings, no progress bar; explain: print what each stage cost.
+    """
+    from vectorplot.io.read import read
+    from vectorplot.plan import Stage, Walk
+    from vectorplot.save import write
+
+    reports: list[StageReport] = []
+    walk = Walk((Stage("read", scene_file), Stage("write", f"as {format_}")), reports.append, None)
+    with told_warnings(quiet=quiet):
+        check_place(out)
+        with progress_bar(quiet=quiet) as progress:
+            scene = walk.run("read", read, scene_file)
+            made = picture(scene, Report(progress, reports.append))
+            if not any(len(mark) for layer in made.layers for mark in layer.marks):
+                warnings.warn(f"{scene_file}: nothing to draw: the picture is empty", InputWarning, stacklevel=2)
+            write_out(out, walk.run("write", write, made, format_))
+    if explain:
+        click.echo(table(reports), err=True)
+
+
+def check_place(out: str) -> None:
+    """An OSError before the work where there is no folder to write into."""
+    folder = Path(out).parent
+    if out != "-" and not folder.is_dir():
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(folder))
+
+
+def write_out(out: str, content: bytes) -> None:
+    """Write to a file, whole or not at all, or to stdout for ``-``."""
+    if out == "-":
+        sys.stdout.buffer.write(content)
+        sys.stdout.buffer.flush()
+        return
+    from vectorplot.save import write_whole
+
+    write_whole(out, content)
