@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from vectorplot.effects.decals import DecalKind, Decals
 from vectorplot.features.edges import cross
 from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
-from vectorplot.geometry.plane_cuts import Parts, PlaneBundles, cut_by_planes, planes_of, polygon_areas
+from vectorplot.geometry.plane_cuts import Parts, PlaneBundles, crossings_of, cut_by_planes, planes_of, polygon_areas
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import corner_positions
 from vectorplot.visibility.projected_faces import newell
@@ -18,6 +20,9 @@ from vectorplot.visibility.projected_faces import newell
 PITCH = 4.0
 """Faces are spread out on a plane at this distance from each other, so that one tree holds them all: no face of a
 view is wider than twice the root of 3."""
+
+OUTWARDS = np.array([[-1.0], [1.0], [-1.0], [1.0]])
+"""Which way the sides of a box look: smallest and largest x, smallest and largest y."""
 
 POLYGONS_AT_ONCE = 1 << 14
 """Polygons whose partners are looked up at once."""
@@ -49,6 +54,12 @@ class Shadows:
     def grade(self) -> Ints:
         """(m,) how many lights each lacks."""
         return np.bitwise_count(self.lacking).astype(np.intp)
+
+    @cached_property
+    def area(self) -> Floats:
+        """(m,) twice their areas."""
+        normal, _ = polygon_areas(self.points, self.offsets)
+        return np.asarray(np.sqrt((normal * normal).sum(axis=0)), dtype=np.float64)
 
     def some(self, which: Ints) -> Shadows:
         """Some of them, in the order asked for."""
@@ -97,17 +108,43 @@ def graded(view: View, shadows: Shadows, lights: int) -> Shadows:
 
     Source: Glaeser, section 6.3, figure 6.
     """
-    single = Shadows(
-        shadows.points, shadows.offsets, shadows.face, shadows.lacking, shadows.whole, np.arange(len(shadows))[None]
-    )
+    if lights > 1:
+        shadows = without_covered(view, shadows)
+    single = replace(shadows, parents=np.arange(len(shadows))[None])
     grades = [single]
     if lights < 2 or not len(shadows):
         return single
-    tree = _FaceTree.of(view, single)
-    borders = _borders(view, single)
+    tree, borders = _FaceTree.of(view, single), _borders(view, single)
     while len(grades) < lights and len(grades[-1]):
         grades.append(_next_grade(view, grades[-1], single, tree, borders).without_needless())
     return joined_shadows(grades)
+
+
+def without_covered(view: View, shadows: Shadows) -> Shadows:
+    """The same without those that lie in another one on the same face for want of the same lights.
+
+    Of those that cover each other the first one stays.
+    """
+    if not len(shadows):
+        return shadows
+    tree, borders = _FaceTree.of(view, shadows), _borders(view, shadows)
+    covered = np.zeros(len(shadows), dtype=np.bool_)
+    for low in range(0, len(shadows), POLYGONS_AT_ONCE):
+        lot = shadows.some(np.arange(low, min(low + POLYGONS_AT_ONCE, len(shadows))))
+        mine, other = tree.partners(tree.box[:, low : low + POLYGONS_AT_ONCE])
+        same = np.flatnonzero((shadows.lacking[other] == lot.lacking[mine]) & (other != mine + low))
+        mine, other = mine[same], other[same]
+        inner = tree.box[:, mine + low] * OUTWARDS
+        inside = np.flatnonzero((inner <= tree.box[:, other] * OUTWARDS + view.tolerance).all(axis=0))
+        mine, other = mine[inside], other[inside]
+        found = crossings_of(lot.points, lot.offsets, borders, mine, other, view.tolerance)
+        within = found.pair[found.whole]
+        mine, other = mine[within] + low, other[within]
+        # What covers it is not covered itself, or else the cover of that one covers it too.
+        area = shadows.area
+        larger = (area[other] > area[mine]) | ((area[other] == area[mine]) & (other < mine))
+        covered[mine[larger]] = True
+    return shadows.some(np.flatnonzero(~covered))
 
 
 def _next_grade(view: View, shadows: Shadows, single: Shadows, tree: _FaceTree, borders: PlaneBundles) -> Shadows:
@@ -115,7 +152,7 @@ def _next_grade(view: View, shadows: Shadows, single: Shadows, tree: _FaceTree, 
     found = []
     for low in range(0, len(shadows), POLYGONS_AT_ONCE):
         lot = shadows.some(np.arange(low, min(low + POLYGONS_AT_ONCE, len(shadows))))
-        mine, other = tree.partners(view, lot)
+        mine, other = tree.partners(_laid_out(view, lot))
         later = np.flatnonzero(single.lacking[other] > lot.lacking[mine])
         mine, other = mine[later], other[later]
         parts = cut_by_planes(lot.points, lot.offsets, borders, mine, other, view.tolerance)
@@ -150,42 +187,42 @@ def _borders(view: View, shadows: Shadows) -> PlaneBundles:
 
 @dataclass(frozen=True, eq=False)
 class _FaceTree:
-    """A tree over shadows, laid out so that only those on one face come together."""
+    """A tree over shadows, laid out so that only those on one face come together: box (4,m), smallest and largest x,
+    smallest and largest y."""
 
-    tree: object
-    columns: int
+    tree: Any
+    box: Floats
 
     @classmethod
     def of(cls, view: View, shadows: Shadows) -> _FaceTree:
         import shapely
 
-        columns = int(np.sqrt(view.face_count)) + 1
-        return cls(shapely.STRtree(_laid_out(view, shadows, columns), node_capacity=16), columns)
+        box = _laid_out(view, shadows)
+        left, right, bottom, top = box
+        return cls(shapely.STRtree(shapely.box(left, bottom, right, top), node_capacity=16), box)
 
-    def partners(self, view: View, shadows: Shadows) -> tuple[Ints, Ints]:
-        """Pairs of other shadows and shadows in the tree on the same face whose boxes overlap."""
-        mine, other = self.tree.query(_laid_out(view, shadows, self.columns))  # type: ignore[attr-defined]
+    def partners(self, box: Floats) -> tuple[Ints, Ints]:
+        """Pairs of boxes and shadows in the tree on the same face that they overlap."""
+        import shapely
+
+        left, right, bottom, top = box
+        mine, other = self.tree.query(shapely.box(left, bottom, right, top))
         return mine, other
 
 
-def _laid_out(view: View, shadows: Shadows, columns: int) -> object:
-    """(m,) boxes of shadows, seen along the axis that their face is steepest to, each face on a field of its own."""
-    import shapely
-
+def _laid_out(view: View, shadows: Shadows) -> Floats:
+    """(4,m) boxes of shadows, seen along the axis that their face is steepest to, each face on a field of its own."""
     normal, _, _ = newell(view, shadows.face)
     sizes = np.diff(shadows.offsets)
     axis = np.argmax(np.abs(normal), axis=0)
-    first, second = (axis + 1) % 3, (axis + 2) % 3
     position = np.arange(shadows.points.shape[1])
-    x, y = (shadows.points[np.repeat(k, sizes), position] for k in (first, second))
-    starts = shadows.offsets[:-1]
-    row, column = np.divmod(shadows.face, columns)
-    return shapely.box(
-        np.minimum.reduceat(x, starts) + PITCH * column,
-        np.minimum.reduceat(y, starts) + PITCH * row,
-        np.maximum.reduceat(x, starts) + PITCH * column,
-        np.maximum.reduceat(y, starts) + PITCH * row,
-    )
+    row, column = np.divmod(shadows.face, int(np.sqrt(view.face_count)) + 1)
+    result = []
+    for step, field in ((1, column), (2, row)):
+        x = shadows.points[np.repeat((axis + step) % 3, sizes), position]
+        for extreme in (np.minimum, np.maximum):
+            result.append(extreme.reduceat(x, shadows.offsets[:-1]) + PITCH * field)
+    return np.stack(result)
 
 
 def shadow_decals_of(shadows: Shadows, kind: DecalKind) -> Decals:

@@ -13,7 +13,7 @@ from vectorplot.effects.shadow_casters import Casters, shadow_casters
 from vectorplot.effects.shadow_grades import Shadows, graded, joined_shadows, shadow_decals_of
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats, Ints
-from vectorplot.geometry.plane_cuts import Parts, cut_by_planes
+from vectorplot.geometry.plane_cuts import Crossings, crossings_of, parts_of
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
 from vectorplot.visibility.occluders import solid_items
@@ -23,7 +23,7 @@ from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 MOST_LIGHTS = 62
 """So many lights have each a bit of a number."""
 
-CASTERS_AT_ONCE = 1 << 14
+CASTERS_AT_ONCE = 1 << 10
 """Casters whose partners are looked up at once."""
 
 
@@ -72,17 +72,34 @@ def cast_shadows(
 
 
 def _of_light(view: View, system: LightSystem, casters: Casters, receivers: Receivers, number: int) -> Shadows:
-    """The shadows that the casters throw on the receivers."""
+    """The shadows that the casters throw on the receivers; on a face that one of them darkens whole, only that one."""
     parts = []
+    dark = np.zeros(len(receivers.face), dtype=np.bool_)
     for caster, receiver in candidates(view, system, casters, receivers):
-        found = shadow_parts(view, casters, receivers, caster, receiver)
-        parts.append(Shadows.of_light(found, receivers.face[receiver[found.pair]], number))
+        light = np.flatnonzero(~dark[receiver])
+        caster, receiver = caster[light], receiver[light]
+        found = shadow_crossings(view, casters, receivers, caster, receiver)
+        first = _first_whole(found, receiver, len(dark))
+        dark[receiver[found.pair[first]]] = True
+        useful = ~dark[receiver[found.pair]]
+        useful[first] = True
+        found = found.some(np.flatnonzero(useful))
+        cut = parts_of(receivers.points, receivers.offsets, receiver, found, view.tolerance)
+        parts.append(Shadows.of_light(cut, receivers.face[receiver[cut.pair]], number))
+    # What was found of a face before it was found to be dark.
     return joined_shadows(parts).without_needless()
 
 
-def shadow_parts(view: View, casters: Casters, receivers: Receivers, caster: Ints, receiver: Ints) -> Parts:
-    """The parts of faces that things keep dark, pair by pair. Source: Glaeser, section 6.3, figure 4."""
-    return cut_by_planes(receivers.points, receivers.offsets, casters.volumes, receiver, caster, view.tolerance)
+def _first_whole(found: Crossings, receiver: Ints, count: int) -> Ints:
+    """Of each receiver that is dark as a whole, the first pair that says so."""
+    whole = np.flatnonzero(found.whole)
+    _, first = np.unique(receiver[found.pair[whole]], return_index=True)
+    return whole[first]
+
+
+def shadow_crossings(view: View, casters: Casters, receivers: Receivers, caster: Ints, receiver: Ints) -> Crossings:
+    """Where things cut the light off from faces, pair by pair. Source: Glaeser, section 6.3, figure 4."""
+    return crossings_of(receivers.points, receivers.offsets, casters.volumes, receiver, caster, view.tolerance)
 
 
 def candidates(view: View, system: LightSystem, casters: Casters, receivers: Receivers) -> Iterator[tuple[Ints, Ints]]:

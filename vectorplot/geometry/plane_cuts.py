@@ -13,6 +13,9 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
 PAIRS_AT_ONCE = 1 << 15
 """Pairs handled at once: few enough for the processor's cache."""
 
+PARTS_AT_ONCE = 1 << 17
+"""Polygons cut at once: their memory stays small beside what they are cut into."""
+
 RUNGS = np.array([3, 4, 6, 8, 12, 16, 32, 64, 256, 1024, 1 << 14, 1 << 20, 1 << 30])
 """Polygons are held in tables by their number of corners, up to one of these."""
 
@@ -51,29 +54,92 @@ def planes_of(normal: Floats, point: Floats) -> Floats:
     return np.concatenate([unit, constant[None]])
 
 
+@dataclass(frozen=True, eq=False)
+class Crossings:
+    """Pairs of convex polygons and bundles of planes of which something is left.
+
+    pair (m,), ascending; planes (4,k), first (m+1,): pair[j] is cut by the planes first[j] to first[j+1].
+    """
+
+    pair: Ints
+    planes: Floats
+    first: Ints
+
+    def __len__(self) -> int:
+        return len(self.pair)
+
+    @property
+    def whole(self) -> Bools:
+        """(m,) whether nothing is cut off."""
+        return np.asarray(self.first[1:] == self.first[:-1], dtype=np.bool_)
+
+    def some(self, which: Ints) -> Crossings:
+        """Some of them, given by ascending numbers."""
+        position, first = runs(self.first, which)
+        return Crossings(self.pair[which], self.planes[:, position], first)
+
+
+def runs(offsets: Ints, which: Ints) -> tuple[Ints, Ints]:
+    """Where the members of some groups stand, one group after the other, and the offsets of these groups."""
+    sizes = offsets[which + 1] - offsets[which]
+    ends = np.concatenate([[0], np.cumsum(sizes)])
+    return np.arange(int(ends[-1])) + np.repeat(offsets[which] - ends[:-1], sizes), ends
+
+
+def crossings_of(
+    points: Floats, offsets: Ints, bundles: PlaneBundles, polygon: Ints, bundle: Ints, tolerance: float
+) -> Crossings:
+    """The planes that cut polygons, pair by pair, as far as no plane of its bundle has all of a polygon below it.
+
+    points (3,c), offsets (n+1,): convex polygons; polygon (k,), bundle (k,): which of them go together. A distance
+    within the tolerance counts as zero: a polygon that only touches the side that is kept is gone.
+    """
+    alive = np.ones(len(polygon), dtype=np.bool_)
+    none = np.zeros(0, dtype=np.intp)
+    pairs, planes = [none], [none]
+    for lot, corners in _lots(points, offsets, polygon):
+        gone, cut, plane = _sorted_out(corners, bundles, bundle[lot], tolerance)
+        alive[lot[gone]] = False
+        pairs.append(lot[cut])
+        planes.append(plane)
+    pair, plane = np.concatenate(pairs), np.concatenate(planes)
+    useful = np.flatnonzero(alive[pair])
+    useful = useful[np.argsort(pair[useful], kind="stable")]
+    left = np.flatnonzero(alive)
+    counts = np.bincount(pair[useful], minlength=len(polygon))[left]
+    return Crossings(left, bundles.planes[:, plane[useful]], np.concatenate([[0], np.cumsum(counts)]))
+
+
+def parts_of(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings, tolerance: float) -> Parts:
+    """What the planes leave of the polygons of pairs: those that nothing cuts keep every digit.
+
+    Arguments as of crossings_of. Degenerate: parts narrower than the tolerance are left out.
+    Source: Hodgman and Sutherland; Glaeser, section 6.2.
+    """
+    found = [_no_parts()]
+    for low in range(0, len(crossings), PARTS_AT_ONCE):
+        lot = crossings.some(np.arange(low, min(low + PARTS_AT_ONCE, len(crossings))))
+        found.append(_cut(points, offsets, polygon, lot, tolerance))
+    sizes = np.concatenate([np.diff(f.offsets) for f in found])
+    return Parts(
+        np.concatenate([f.points for f in found], axis=1),
+        np.concatenate([[0], np.cumsum(sizes)]),
+        np.concatenate([f.pair for f in found]),
+        np.concatenate([f.whole for f in found]),
+    )
+
+
 def cut_by_planes(
     points: Floats, offsets: Ints, bundles: PlaneBundles, polygon: Ints, bundle: Ints, tolerance: float
 ) -> Parts:
-    """The parts of convex polygons above all planes of a bundle, pair by pair.
+    """The parts of convex polygons above all planes of a bundle, pair by pair: crossings_of and parts_of together."""
+    crossings = crossings_of(points, offsets, bundles, polygon, bundle, tolerance)
+    return parts_of(points, offsets, polygon, crossings, tolerance)
 
-    points (3,c), offsets (n+1,): the polygons; polygon (k,), bundle (k,): which of them go together. A distance within
-    the tolerance counts as zero: a polygon that only touches the kept side has no part, one that touches the other side
-    stays whole, with every digit.
-    Degenerate: parts narrower than the tolerance are left out; a bundle without planes leaves polygons whole.
-    Source: Hodgman and Sutherland; Glaeser, section 6.2.
-    """
-    alive = np.ones(len(polygon), dtype=np.bool_)
-    cuts: list[tuple[Ints, Ints]] = []
-    for pairs, corners in _lots(points, offsets, polygon):
-        gone, cutting = _sorted_out(corners, bundles, bundle[pairs], tolerance)
-        alive[pairs[gone]] = False
-        cuts.append((pairs[cutting[0]], cutting[1]))
-    pair = np.concatenate([np.zeros(0, dtype=np.intp), *(c[0] for c in cuts)])
-    plane = np.concatenate([np.zeros(0, dtype=np.intp), *(c[1] for c in cuts)])
-    useful = alive[pair]
-    order = np.argsort(pair[useful], kind="stable")
-    left = np.flatnonzero(alive)
-    return _cut(points, offsets, polygon, left, pair[useful][order], bundles.planes[:, plane[useful][order]], tolerance)
+
+def _no_parts() -> Parts:
+    none = np.zeros(0, dtype=np.intp)
+    return Parts(np.zeros((3, 0)), np.zeros(1, dtype=np.intp), none, none.astype(np.bool_))
 
 
 def _lots(points: Floats, offsets: Ints, polygon: Ints) -> Iterator[tuple[Ints, Floats]]:
@@ -91,14 +157,12 @@ def _lots(points: Floats, offsets: Ints, polygon: Ints) -> Iterator[tuple[Ints, 
             yield pairs, points[:, offsets[of] + np.minimum(np.arange(longest)[:, None], sizes[of] - 1)]
 
 
-def _sorted_out(
-    corners: Floats, bundles: PlaneBundles, bundle: Ints, tolerance: float
-) -> tuple[Ints, tuple[Ints, Ints]]:
-    """Which pairs have nothing above some plane, and of the others which are cut by which plane."""
+def _sorted_out(corners: Floats, bundles: PlaneBundles, bundle: Ints, tolerance: float) -> tuple[Ints, Ints, Ints]:
+    """Which pairs have nothing above some plane; and pairs and planes that cut them, some of them gone later."""
     counts = np.diff(bundles.first)[bundle]
     here = np.arange(len(bundle))
-    gone: list[Ints] = []
-    cuts: list[tuple[Ints, Ints]] = []
+    none = np.zeros(0, dtype=np.intp)
+    gone, pairs, planes = [none], [none], [none]
     for step in range(int(counts.max(initial=0))):
         more = counts[here] > step
         if not more.all():
@@ -111,56 +175,51 @@ def _sorted_out(
         height -= d
         below = height.max(axis=0) <= tolerance
         cut = ~below & (height.min(axis=0) < -tolerance)
-        cuts.append((here[cut], plane[cut]))
+        pairs.append(here[cut])
+        planes.append(plane[cut])
         if below.any():
             gone.append(here[below])
             here, corners = here[~below], corners[:, :, ~below]
-    none = np.zeros(0, dtype=np.intp)
-    pairs = np.concatenate([none, *(c[0] for c in cuts)]), np.concatenate([none, *(c[1] for c in cuts)])
-    return np.concatenate([none, *gone]), pairs
+    return np.concatenate(gone), np.concatenate(pairs), np.concatenate(planes)
 
 
-def _cut(
-    points: Floats, offsets: Ints, polygon: Ints, left: Ints, pair: Ints, planes: Floats, tolerance: float
-) -> Parts:
-    """The polygons of the pairs that are left, cut by planes (4,k) of pairs (k,), ascending, one after the other."""
-    starts = np.searchsorted(pair, left)
-    counts = np.searchsorted(pair, left, side="right") - starts
+def _cut(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings, tolerance: float) -> Parts:
+    """The polygons cut by their planes one after the other."""
+    counts = np.diff(crossings.first)
     found: list[tuple[Ints, Polygons]] = []
-    here = np.arange(len(left))
-    now = _picked(points.T, offsets, polygon[left])
+    here = np.arange(len(crossings))
+    now = _picked(points.T, offsets, polygon[crossings.pair])
     for step in range(int(counts.max(initial=0)) + 1):
         done = counts[here] == step
         found.append((here[done], _picked(now.points, now.offsets, np.flatnonzero(done))))
         rest = np.flatnonzero(~done)
         here, now = here[rest], _picked(now.points, now.offsets, rest)
-        a, b, c, d = np.repeat(planes[:, starts[here] + step], np.diff(now.offsets), axis=1)
+        a, b, c, d = np.repeat(crossings.planes[:, crossings.first[here] + step], np.diff(now.offsets), axis=1)
         height = a * now.points[:, 0] + b * now.points[:, 1] + c * now.points[:, 2] - d
         height[np.abs(height) <= tolerance] = 0.0
         now, _ = cut_polygons(now, height)
         filled = np.flatnonzero(np.diff(now.offsets))
         here, now = here[filled], Polygons(now.points, np.append(now.offsets[filled], len(now.points)))
-    return _parts(found, left, counts, tolerance)
+    return _parts(found, crossings, tolerance)
 
 
-def _parts(found: list[tuple[Ints, Polygons]], left: Ints, counts: Ints, tolerance: float) -> Parts:
+def _parts(found: list[tuple[Ints, Polygons]], crossings: Crossings, tolerance: float) -> Parts:
     """All parts in the order of their pairs, without those that are narrower than the tolerance."""
     here = np.concatenate([f[0] for f in found])
     sizes = np.concatenate([np.diff(f[1].offsets) for f in found])
     corners = np.concatenate([f[1].points for f in found])
     offsets = np.concatenate([[0], np.cumsum(sizes)])
-    wide = _wider(corners.T, offsets, tolerance) | (counts[here] == 0)
-    order = np.flatnonzero(wide)
+    whole = crossings.whole[here]
+    order = np.flatnonzero(_wider(corners.T, offsets, tolerance) | whole)
     order = order[np.argsort(here[order], kind="stable")]
     result = _picked(corners, offsets, order)
-    return Parts(np.ascontiguousarray(result.points.T), result.offsets, left[here[order]], counts[here[order]] == 0)
+    return Parts(np.ascontiguousarray(result.points.T), result.offsets, crossings.pair[here[order]], whole[order])
 
 
 def _picked(points: Floats, offsets: Ints, which: Ints) -> Polygons:
     """Some of the polygons with the points (c,3)."""
-    sizes = offsets[which + 1] - offsets[which]
-    ends = np.concatenate([[0], np.cumsum(sizes)])
-    return Polygons(points[np.arange(int(ends[-1])) + np.repeat(offsets[which] - ends[:-1], sizes)], ends)
+    position, ends = runs(offsets, which)
+    return Polygons(points[position], ends)
 
 
 def _wider(points: Floats, offsets: Ints, tolerance: float) -> Bools:
