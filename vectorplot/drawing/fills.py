@@ -53,10 +53,10 @@ class Fills:
 
     points (p,2) on the page in mm, y upwards; offsets (m+1,): polygon k has the corners offsets[k] to offsets[k+1]. A
     polygon is simple, wound either way; one with holes is cut open to them first. One of two corners is a line, as wide
-    as the pen of its layer, in the mean of their colours. colours (p,3): red, green and blue of every corner; a polygon whose corners have one colour
-    is flat, any other one is convex, and shaded linearly over each triangle of the fan from its first corner. opacity
-    (m,) 0 (clear) to 1; item (m,) indices into Drawing.items, -1 for none; points3d (p,3) the same points in the world;
-    kind (m,) FillKind values.
+    as the pen of its layer, in the mean of their colours. colours (p,3): red, green and blue of every corner; a polygon
+    whose corners have one colour is flat, any other one is convex, and shaded linearly over each triangle of the fan
+    from its first corner. opacity (m,) 0 (clear) to 1; item (m,) indices into Drawing.items, -1 for none; points3d
+    (p,3) the same points in the world; kind (m,) FillKind values.
     Errors: InputError where the arrays do not fit together.
     Source: Glaeser, sections 4.5 and 5.1.
     """
