@@ -84,7 +84,7 @@ def surface_tessellation(surface: Surface, columns: int, rows: int) -> Tessellat
     places = _uneven_grid(domain, columns, rows)
     with np.errstate(all="ignore"):
         points = surface.points(*wrapped(domain, places[..., 0], places[..., 1]))
-    number = _numbers(surface, columns, rows).ravel()
+    number = grid_numbers(surface, columns, rows).ravel()
     at = np.arange((columns + 1) * (rows + 1)).reshape(columns + 1, rows + 1)
     corners = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]]).reshape(4, -1)
     normals = average_normals(points, closed_u=domain.closed_u, closed_v=domain.closed_v).reshape(-1, 3)
@@ -143,7 +143,7 @@ def _uneven_grid(domain: Domain, columns: int, rows: int) -> Floats:
     return result
 
 
-def _numbers(surface: Surface, columns: int, rows: int) -> Ints:
+def grid_numbers(surface: Surface, columns: int, rows: int) -> Ints:
     """(columns+1, rows+1) numbers of grid points; on seams and at poles several are one point."""
     domain = surface.domain
     number = np.arange((columns + 1) * (rows + 1)).reshape(columns + 1, rows + 1)

@@ -1,0 +1,75 @@
+"""Smooth surfaces as fine meshes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from vectorplot.errors import InputError
+from vectorplot.features.facets import facets
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.surfaces.cylinder import Cone
+from vectorplot.surfaces.ellipsoid import Sphere
+from vectorplot.surfaces.graph import graph
+from vectorplot.surfaces.quadric import implicit_sphere
+from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.torus import ImplicitTorus, Torus
+
+
+def edges_of(mesh: Mesh) -> np.ndarray:
+    return np.stack([mesh.corners, mesh.corners[mesh.next_corner]], axis=1)
+
+
+@pytest.mark.parametrize("tolerance", [0.1, 1e-2, 1e-3])
+def test_a_torus_within_the_tolerance_closed_and_with_its_normals(tolerance: float) -> None:
+    torus = Torus(3.0, 1.0)
+    found = facets(torus, tolerance)
+    corners = found.mesh.vertices[found.mesh.corners.reshape(-1, 3)]
+    middles = np.concatenate([corners.mean(axis=1), *(0.5 * (corners[:, k] + corners[:, k - 1]) for k in range(3))])
+    ring = np.hypot(middles[:, 0], middles[:, 1]) - 3.0
+    off = np.abs(np.hypot(ring, middles[:, 2]) - 1.0)
+    assert off.max() <= 2.5 * tolerance
+    assert len(found.mesh.vertices) * 2 == found.mesh.face_count  # Euler: a torus without seams
+    around = found.mesh.vertices * [1.0, 1.0, 0.0]
+    expected = found.mesh.vertices - 3.0 * around / np.linalg.norm(around, axis=1, keepdims=True)
+    assert np.abs(np.abs((expected * found.normals).sum(axis=1)) - 1.0).max() < 1e-12
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    true = found.normals[found.mesh.corners.reshape(-1, 3)[:, 0]]
+    assert ((normal * true).sum(axis=1) > 0.0).all()
+
+
+def test_cost_grows_as_the_tolerance_asks() -> None:
+    counts = [facets(Sphere(1.0), tolerance).mesh.face_count for tolerance in (1e-2, 1e-3, 1e-4)]
+    assert np.all(np.diff(np.log10(counts)) < 1.2)
+    assert np.all(np.diff(np.log10(counts)) > 0.6)
+
+
+def test_poles_and_apices_are_one_vertex_with_a_normal() -> None:
+    ball = facets(Sphere(2.0), 0.01)
+    at_pole = np.abs(ball.mesh.vertices[:, 2]) > 2.0 - 1e-9
+    assert at_pole.sum() == 2
+    assert np.allclose(np.abs(ball.normals[at_pole]), [0.0, 0.0, 1.0], atol=1e-9)
+    assert ball.mesh.face_count == 2 * len(ball.mesh.vertices) - 4
+    assert np.isfinite(facets(Cone(0.7, 0.0, 1.0), 0.01).mesh.vertices).all()
+
+
+def test_holes_stay_open() -> None:
+    roof = graph(lambda x, y: np.sqrt(1.0 - x * x - y * y), Domain(-1.5, 1.5, -1.5, 1.5))
+    found = facets(roof, 0.01)
+    assert found.mesh.face_count > 100
+    assert np.isfinite(found.mesh.vertices).all()
+
+
+@pytest.mark.parametrize("surface", [implicit_sphere(1.0), ImplicitTorus(3.0, 1.0)], ids=["sphere", "torus"])
+def test_implicit_surfaces_are_closed_and_on_the_surface(surface) -> None:
+    found = facets(surface, 5e-3)
+    assert np.all(np.unique(np.sort(edges_of(found.mesh), axis=1), axis=0, return_counts=True)[1] == 2)
+    assert np.abs(surface.values(found.mesh.vertices)).max() < 1e-9
+    assert np.allclose(np.linalg.norm(found.normals, axis=1), 1.0)
+
+
+def test_what_is_no_surface_and_no_tolerance_are_errors() -> None:
+    with pytest.raises(InputError, match="no smooth surface"):
+        facets(3, 0.1)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="positive"):
+        facets(Sphere(1.0), 0.0)
