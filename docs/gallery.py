@@ -22,6 +22,7 @@ LOOK_AT = {
     "box": "A hollow box has no bottom and no top; `+bottom` closes it below. The back walls are seen inside.",
     "cone": "A meridian with its upper end on the axis: all faces meet in a single vertex. `edges` shows them.",
     "cubes": "They have their centre in common; edges stop where one cube enters the other, and the section is drawn.",
+    "curves": "Curves in space, some of them on surfaces that hide half of them: a course, a knot, borders of holes.",
     "cyclide": "A torus inverted in a sphere; all parameter lines are circles, before and after.",
     "cylinder": "One looks in at the open top: inside the faces show their back, and the near rim hides the bottom.",
     "implicit": "Surfaces by their equations alone: level lines on a rounded cube, isophotes on a pretzel.",

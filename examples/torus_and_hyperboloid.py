@@ -5,6 +5,7 @@ picture, goes through height 0, the surfaces meet. Source: Glaeser, section 8.4,
 """
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,7 @@ from vectorplot.testing import assert_on_both, assert_on_surface, curves_in_spac
 A, B, CENTRE = 3.0, 1.2, (1.2, 0.0, 0.3)
 TORUS, EQUATION = Torus(A, B, CENTRE), ImplicitTorus(A, B, CENTRE)
 HYPERBOLOID = Hyperboloid((1.6, 1.6, 1.5), -3, 3)
+THICK = vp.Pen(0.6)
 
 
 def on_torus(u: np.ndarray, v: np.ndarray) -> np.ndarray:
@@ -38,19 +40,20 @@ def main(folder: Path) -> None:
     round_trip = HYPERBOLOID.domain
     flat = Domain(round_trip.u_start, round_trip.u_end, round_trip.v_start, round_trip.v_end)
     height = graph(lambda u, v: np.arcsinh(on_torus(u, v) / 12) / 4, flat)
-    corners = [(u, v, 0) for u, v in ((-1, -2), (8, -2), (8, 2), (-1, 2))]
-    zero = vp.Item("ZERO", vp.Mesh.from_polygons(corners, [range(4)]), lines=("intersection",), occludes=False)
-    graphs = vp.Scene((vp.Item("GRAPH", height, curves=vp.SurfaceLines(19, 8)), zero), title="Torus in hyperboloid")
+    zero = vp.SurfaceLines(19, 8, sections=(vp.Section((0, 0, 1), (0,)),))
+    graphs = vp.Scene((vp.Item("GRAPH", height, curves=zero),), title="Torus in hyperboloid")
     camera = vp.Camera(eye=(9, -7, 13), target=(3, 0, 0), fov_deg=24)
     level = vp.draw(graphs, camera, page=vp.Page(130, 80, 5))
+    thick = (replace(layer, pen=THICK) if layer.name == "section" else layer for layer in level.layers)
+    level = replace(level, layers=tuple(thick))
     vp.save(level, folder / "torus_and_hyperboloid_graph.svg")
 
     found = zero_manifold_of_f_uv(on_torus, HYPERBOLOID.domain, columns=32, rows=32, tolerance=1e-4)
     traced = np.concatenate([HYPERBOLOID.points(*found[k].T) for k in range(len(found))])
     assert np.abs(EQUATION.values(traced)).max() < 1e-9
-    u, v, z = np.concatenate(curves_in_space(level, kind="intersection")).T
-    assert_on_surface(HYPERBOLOID.points(u, v), EQUATION, tolerance=1e-3)
-    assert np.allclose(z, 0, atol=1e-3), "the zero lines of the graph"
+    u, v, z = np.concatenate(curves_in_space(level, kind="section")).T
+    assert_on_surface(HYPERBOLOID.points(u, v), EQUATION, tolerance=1e-9)
+    assert np.allclose(z, 0, atol=1e-9), "the zero lines of the graph"
     assert_on_both(curves_in_space(drawing, kind="intersection"), EQUATION, HYPERBOLOID, tolerance=1e-3)
 
 

@@ -105,6 +105,39 @@ def test_a_chess_pawn_falls_into_convex_parts_that_fill_it(made):
     assert len(made(ROOT / "examples" / "convex_parts.py")) == 2
 
 
+FIGURES = {
+    "8.1": "loxodrome",
+    "8.2": "cylinder_intersections",
+    "8.3": "translation_surface",
+    "8.4": "surfaces_of_revolution",
+    "8.5": "helical_surfaces",
+    "8.6": "rotoidal_surfaces",
+    "8.7": "spiral_surfaces",
+    "8.8": "minimal_surfaces",
+    "8.8, its caption": "helicoid_to_catenoid",
+    "8.9": "torus_parameters",
+    "8.10": "dupin_cyclide",
+    "8.11 and 8.12": "curve_tracing",
+    "8.13 and 8.14": "contours",
+    "8.15": "isophotes",
+    "8.16": "torus_and_hyperboloid",
+    "9.7": "function_graph",
+}
+"""The figures of mathematical curves and surfaces, and the scripts that draw them and assert what they show."""
+
+
+@pytest.mark.parametrize("figure", FIGURES)
+def test_figures_of_curves_and_surfaces_are_drawn_and_asserted(figure, made):
+    path = ROOT / "examples" / f"{FIGURES[figure]}.py"
+    assert made(path)
+    assert "assert" in path.read_text(encoding="utf-8").partition("def main")[2]
+
+
+@pytest.mark.capability("G9.3-contour")
+def test_the_contour_polygon_converges_to_the_true_contour(made):
+    assert made(ROOT / "examples" / "function_graph.py")
+
+
 @pytest.mark.capability("G3.6-demo")
 def test_sample_intersections_have_their_pictures(made):
     sources = [ROOT / "data" / name for name in ("cubes.scene", "pencil.scene", "intersections.scene")]
