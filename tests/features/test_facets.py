@@ -16,6 +16,10 @@ from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.torus import ImplicitTorus, Torus
 
 
+def within(tolerance: float):
+    return lambda points: np.full(points.shape[:-1], tolerance)
+
+
 def edges_of(mesh: Mesh) -> np.ndarray:
     return np.stack([mesh.corners, mesh.corners[mesh.next_corner]], axis=1)
 
@@ -23,7 +27,7 @@ def edges_of(mesh: Mesh) -> np.ndarray:
 @pytest.mark.parametrize("tolerance", [0.1, 1e-2, 1e-3])
 def test_a_torus_within_the_tolerance_closed_and_with_its_normals(tolerance: float) -> None:
     torus = Torus(3.0, 1.0)
-    found = facets(torus, tolerance)
+    found = facets(torus, within(tolerance))
     corners = found.mesh.vertices[found.mesh.corners.reshape(-1, 3)]
     middles = np.concatenate([corners.mean(axis=1), *(0.5 * (corners[:, k] + corners[:, k - 1]) for k in range(3))])
     ring = np.hypot(middles[:, 0], middles[:, 1]) - 3.0
@@ -39,37 +43,42 @@ def test_a_torus_within_the_tolerance_closed_and_with_its_normals(tolerance: flo
 
 
 def test_cost_grows_as_the_tolerance_asks() -> None:
-    counts = [facets(Sphere(1.0), tolerance).mesh.face_count for tolerance in (1e-2, 1e-3, 1e-4)]
+    counts = [facets(Sphere(1.0), within(tolerance)).mesh.face_count for tolerance in (1e-2, 1e-3, 1e-4)]
     assert np.all(np.diff(np.log10(counts)) < 1.2)
     assert np.all(np.diff(np.log10(counts)) > 0.6)
 
 
 def test_poles_and_apices_are_one_vertex_with_a_normal() -> None:
-    ball = facets(Sphere(2.0), 0.01)
+    ball = facets(Sphere(2.0), within(0.01))
     at_pole = np.abs(ball.mesh.vertices[:, 2]) > 2.0 - 1e-9
     assert at_pole.sum() == 2
     assert np.allclose(np.abs(ball.normals[at_pole]), [0.0, 0.0, 1.0], atol=1e-9)
     assert ball.mesh.face_count == 2 * len(ball.mesh.vertices) - 4
-    assert np.isfinite(facets(Cone(0.7, 0.0, 1.0), 0.01).mesh.vertices).all()
+    assert np.isfinite(facets(Cone(0.7, 0.0, 1.0), within(0.01)).mesh.vertices).all()
 
 
 def test_holes_stay_open() -> None:
     roof = graph(lambda x, y: np.sqrt(1.0 - x * x - y * y), Domain(-1.5, 1.5, -1.5, 1.5))
-    found = facets(roof, 0.01)
+    found = facets(roof, within(0.01))
     assert found.mesh.face_count > 100
     assert np.isfinite(found.mesh.vertices).all()
 
 
 @pytest.mark.parametrize("surface", [implicit_sphere(1.0), ImplicitTorus(3.0, 1.0)], ids=["sphere", "torus"])
 def test_implicit_surfaces_are_closed_and_on_the_surface(surface) -> None:
-    found = facets(surface, 5e-3)
+    found = facets(surface, within(5e-3))
     assert np.all(np.unique(np.sort(edges_of(found.mesh), axis=1), axis=0, return_counts=True)[1] == 2)
     assert np.abs(surface.values(found.mesh.vertices)).max() < 1e-9
     assert np.allclose(np.linalg.norm(found.normals, axis=1), 1.0)
 
 
-def test_what_is_no_surface_and_no_tolerance_are_errors() -> None:
+def test_what_is_no_surface_is_an_error() -> None:
     with pytest.raises(InputError, match="no smooth surface"):
-        facets(3, 0.1)  # type: ignore[arg-type]
-    with pytest.raises(InputError, match="positive"):
-        facets(Sphere(1.0), 0.0)
+        facets(3, within(0.1))  # type: ignore[arg-type]
+
+
+def test_what_is_far_from_the_eye_may_be_coarse() -> None:
+    long = graph(lambda x, y: np.sin(3.0 * x), Domain(0.0, 10.0, 0.0, 1.0))
+    near = facets(long, within(1e-3)).mesh.face_count
+    far = facets(long, lambda points: 1e-3 * np.maximum(1.0, 10.0 * points[..., 0])).mesh.face_count
+    assert far < 0.7 * near

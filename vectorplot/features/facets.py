@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +25,10 @@ IMPLICIT_CELLS = (32, 160)
 """Cells along the longest side of an implicit surface's box, at least and at most."""
 
 
+Allowed = Callable[[Floats], Floats]
+"""How far (...) triangles may be off a surface at points (..., 3)."""
+
+
 @dataclass(frozen=True, eq=False)
 class Facets:
     """A mesh, and the unit normals (v,3) of the true surface at its vertices, NaN where it has none."""
@@ -32,28 +37,26 @@ class Facets:
     normals: Floats
 
 
-def facets(shape: Surface | ImplicitSurface, tolerance: float) -> Facets:
-    """Triangles whose edges are no farther than the tolerance from a smooth surface, every vertex on it.
+def facets(shape: Surface | ImplicitSurface, allowed: Allowed) -> Facets:
+    """Triangles whose edges are no farther from a smooth surface than is allowed, every vertex on it.
 
     Triangles turn as u to v does; those of an implicit surface are counter-clockwise from where F > 0. Vertices on
     seams and at poles are one.
     Error: MOST_CELLS and MOST bound the triangles, and the middles of triangles may be twice as far away. Details
     smaller than a FEWESTth of the domain, or a cell of an implicit surface, may be missed.
-    Errors: InputError for a tolerance that is not positive, and for what is no smooth surface.
+    Errors: InputError for what is no smooth surface.
     Degenerate: triangles with a corner in a hole, and those without area, are left out.
     Source: Glaeser, section 8.4 (polygonised surfaces).
     """
-    if not tolerance > 0.0:
-        raise InputError(f"a tolerance of {tolerance:g}: expected a positive length")
     if is_parametrised(shape):
-        return _parametrised(shape, tolerance)
+        return _parametrised(shape, allowed)
     if is_implicit(shape):
-        return _implicit(shape, tolerance)
+        return _implicit(shape, allowed)
     raise InputError(f"a {type(shape).__name__} is no smooth surface")
 
 
-def _parametrised(surface: Surface, tolerance: float) -> Facets:
-    columns, rows = _fineness(surface, tolerance)
+def _parametrised(surface: Surface, allowed: Allowed) -> Facets:
+    columns, rows = _fineness(surface, allowed)
     u, v = np.meshgrid(*surface.domain.grid(columns, rows), indexing="ij")
     points = np.asarray(surface.points(u, v), dtype=np.float64)
     number = grid_numbers(surface, columns, rows).ravel()
@@ -66,15 +69,14 @@ def _parametrised(surface: Surface, tolerance: float) -> Facets:
     return Facets(Mesh.from_triangles(flat[used], corners), normals)
 
 
-def _fineness(surface: Surface, tolerance: float) -> tuple[int, int]:
+def _fineness(surface: Surface, allowed: Allowed) -> tuple[int, int]:
     """Columns and rows of a grid that is close enough: a chord's distance falls like the square of its length."""
     columns = rows = FEWEST
     for _ in range(3):
-        across, along = _sags(surface, columns, rows)
-        if max(across, along) <= tolerance:
+        across, along = _excesses(surface, allowed, columns, rows)
+        if max(across, along) <= 1.0:
             break
-        columns = _more(columns, across / tolerance)
-        rows = _more(rows, along / tolerance)
+        columns, rows = _more(columns, across), _more(rows, along)
     while columns * rows > MOST_CELLS:
         columns, rows = columns // 2 + 1, rows // 2 + 1
     return columns, rows
@@ -84,42 +86,43 @@ def _more(count: int, excess: float) -> int:
     return count if excess <= 1.0 else min(int(np.ceil(count * np.sqrt(1.05 * excess))), MOST)
 
 
-def _sags(surface: Surface, columns: int, rows: int) -> tuple[float, float]:
-    """How far the middles of chords are off the surface, along u and along v; the worst of some rows and columns."""
+def _excesses(surface: Surface, allowed: Allowed, columns: int, rows: int) -> tuple[float, float]:
+    """By how many times the middles of chords are farther off the surface than is allowed, along u and along v; the
+    worst of some rows and columns."""
     u, v = surface.domain.grid(2 * columns, 2 * rows)
     few_u, few_v = u[:: max(1, columns // 16)], v[:: max(1, rows // 16)]
-    across = _sag(surface.points(*np.meshgrid(u, few_v, indexing="ij")))
-    along = _sag(np.swapaxes(surface.points(*np.meshgrid(few_u, v, indexing="ij")), 0, 1))
+    across = _excess(surface.points(*np.meshgrid(u, few_v, indexing="ij")), allowed)
+    along = _excess(np.swapaxes(surface.points(*np.meshgrid(few_u, v, indexing="ij")), 0, 1), allowed)
     return across, along
 
 
-def _sag(points: Floats) -> float:
+def _excess(points: Floats, allowed: Allowed) -> float:
     with np.errstate(invalid="ignore"):
         off = points[1::2] - 0.5 * (points[:-1:2] + points[2::2])
         along = points[2::2] - points[:-1:2]
         length = np.linalg.norm(along, axis=-1, keepdims=True)
         along = np.divide(along, length, out=np.zeros_like(along), where=length > 0.0)
         off = off - (off * along).sum(axis=-1, keepdims=True) * along
-    long = np.linalg.norm(off, axis=-1)
-    return float(np.nanmax(np.where(np.isfinite(long), long, 0.0), initial=0.0))
+        long = np.linalg.norm(off, axis=-1) / allowed(points[1::2])
+    return float(np.where(np.isfinite(long), long, 0.0).max(initial=0.0))
 
 
-def _implicit(surface: ImplicitSurface, tolerance: float) -> Facets:
+def _implicit(surface: ImplicitSurface, allowed: Allowed) -> Facets:
     fewest, most = IMPLICIT_CELLS
     mesh, _ = settled_mesh(surface, fewest)
-    excess = _implicit_sag(surface, mesh) / tolerance
+    excess = _implicit_excess(surface, mesh, allowed)
     if excess > 1.0:
         mesh, _ = settled_mesh(surface, min(int(np.ceil(fewest * np.sqrt(excess))), most))
     return Facets(mesh, _unit_gradients(surface, mesh.vertices))
 
 
-def _implicit_sag(surface: ImplicitSurface, mesh: Mesh) -> float:
-    """The distance of the middles of triangles from the surface, to first order."""
+def _implicit_excess(surface: ImplicitSurface, mesh: Mesh, allowed: Allowed) -> float:
+    """By how many times the middles of triangles are farther off the surface than is allowed, to first order."""
     middles = mesh.vertices[_triangles(mesh)].mean(axis=1)
     if not len(middles):
         return 0.0
     with np.errstate(all="ignore"):
-        off = np.abs(surface.values(middles)) / np.linalg.norm(surface.gradients(middles), axis=1)
+        off = np.abs(surface.values(middles)) / np.linalg.norm(surface.gradients(middles), axis=1) / allowed(middles)
     return float(np.quantile(np.where(np.isfinite(off), off, 0.0), 0.99))
 
 
