@@ -126,16 +126,24 @@ def _uncovered(faces: _Covers, covers: _Covers, behind: Ints, front: Ints, toler
     cut, of = np.unique(behind, return_inverse=True)
     whole = _polygons(*_some(faces, cut))
     above = _polygons(covers.points, covers.offsets)[front]
-    unions = shapely.union_all(shapely.geometrycollections(above, indices=of)[:, None], axis=1)
-    left = shapely.set_precision(shapely.difference(whole, unions), tolerance)
-    # Without a grid this is three times faster, but where sides nearly coincide a cover is lost now and then.
-    wrong = _faulty(faces, covers, behind, front, of, left, tolerance)
+    # Without a grid this is three times faster, but where sides nearly coincide it fails, or loses a cover.
+    try:
+        left = shapely.set_precision(_difference(whole, above, of, None), tolerance)
+        wrong = _faulty(faces, covers, behind, front, of, left, tolerance)
+    except shapely.GEOSException:
+        left, wrong = whole.copy(), np.ones(len(cut), dtype=np.bool_)
     if wrong.any():
         again, number = np.flatnonzero(wrong[of]), np.cumsum(wrong) - 1
-        several = shapely.geometrycollections(above[again], indices=number[of[again]])
-        unions = shapely.union_all(several[:, None], axis=1, grid_size=tolerance)
-        left[wrong] = shapely.difference(whole[wrong], unions, grid_size=tolerance)
+        left[wrong] = _difference(whole[wrong], above[again], number[of[again]], tolerance)
     return left
+
+
+def _difference(whole: Any, above: Any, of: Ints, grid: float | None) -> Any:
+    """Polygons less the union of what lies above each of them."""
+    import shapely
+
+    unions = shapely.union_all(shapely.geometrycollections(above, indices=of)[:, None], axis=1, grid_size=grid)
+    return shapely.difference(whole, unions, grid_size=grid)
 
 
 def _faulty(faces: _Covers, covers: _Covers, behind: Ints, front: Ints, of: Ints, left: Any, tolerance: float) -> Bools:

@@ -1,0 +1,111 @@
+"""Shapes cut by parallel planes: of two slices the one on the far side of a plane between them is drawn first."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.clipping import Polygons, cut_polygons
+from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.visibility.painter.candidates import box_pairs
+from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
+from vectorplot.visibility.painter.face_pairs import APART, face_relations
+from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions
+
+
+def slice_order(levels: ArrayLike, eye: float) -> Ints:
+    """(k,) the slices between parallel planes, back to front: slice i lies between levels i and i+1.
+
+    levels (k+1,) ascending, eye: of the same coordinate; infinite where the rays are parallel. The slices below the eye
+    come first, upwards, then those above it, downwards, and last the one the eye is in.
+    Errors: InputError where levels do not ascend.
+    Source: Glaeser, sections 5.2 to 5.4 (the plane through the eye).
+    """
+    level = np.asarray(levels, dtype=np.float64)
+    if level.ndim != 1 or len(level) < 2 or not (np.diff(level) > 0.0).all():
+        raise InputError("the planes between slices must ascend, and be two at least")
+    own = int(np.searchsorted(level, eye, side="right")) - 1
+    count = len(level) - 1
+    middle = np.arange(own, min(own + 1, count)) if own >= 0 else np.arange(0)
+    return np.concatenate([np.arange(min(own, count)), np.arange(count - 1, own, -1), middle]).astype(np.intp)
+
+
+def eye_coordinate(eye: ArrayLike, axis: int) -> float:
+    """A coordinate of the eye (3,); of a direction towards the eye (x, y, z, 0) plus or minus infinity."""
+    place = np.asarray(eye, dtype=np.float64)
+    if place.shape not in ((3,), (4,)) or not np.isfinite(place).all() or (len(place) == 4 and place[3] != 0.0):
+        raise InputError("an eye has three coordinates, a direction towards it is (x, y, z, 0)")
+    if len(place) == 3:
+        return float(place[axis])
+    # Where the rays run along the planes the slices do not cover one another, whatever their order.
+    return float("-inf") if place[axis] < 0.0 else float("inf")
+
+
+def cut_into_slices(points: ArrayLike, offsets: Ints, axis: int, levels: ArrayLike) -> tuple[Polygons, Ints, Ints]:
+    """Convex polygons with corners points (c,3), cut by the planes where a coordinate has one of some ascending levels
+    (k,): the pieces, the polygon each comes from, and its slice, 0 below the first level, k above the last.
+
+    New corners lie on the planes to the last digit. All polygons are halved at once, so that the price grows with the
+    pieces and the logarithm of the levels.
+    Degenerate: a polygon in one of the planes lies in the slice above it.
+    Source: Glaeser, section 5.4, figure 6 (horizontal slices).
+    """
+    level = np.asarray(levels, dtype=np.float64)
+    pieces, source = Polygons(np.array(points, dtype=np.float64), offsets), np.arange(len(offsets) - 1)
+    if not len(source):
+        return pieces, source, source
+    coordinate = pieces.points[:, axis]
+    first = np.searchsorted(level, np.minimum.reduceat(coordinate, offsets[:-1]), side="right")
+    last = np.searchsorted(level, np.maximum.reduceat(coordinate, offsets[:-1]), side="left")
+    while (across := last > first).any():
+        whole, cut = np.flatnonzero(~across), np.flatnonzero(across)
+        middle = (first[cut] + last[cut] + 1) // 2
+        some = _some(pieces, cut)
+        limit = np.repeat(level[middle - 1], np.diff(some.offsets))
+        height = some.points[:, axis] - limit
+        below, above = (_cut_at(some, side * height, axis, level[middle - 1]) for side in (-1.0, 1.0))
+        pieces = _joined(_some(pieces, whole), below, above)
+        source = np.concatenate([source[whole], source[cut], source[cut]])
+        first, last = (
+            np.concatenate([first[whole], first[cut], middle]),
+            np.concatenate([last[whole], middle - 1, last[cut]]),
+        )
+    return pieces, source, first
+
+
+def _cut_at(polygons: Polygons, height: Floats, axis: int, level: Floats) -> Polygons:
+    part, is_new = cut_polygons(polygons, height)
+    part.points[is_new, axis] = np.repeat(level, np.diff(part.offsets))[is_new]
+    return part
+
+
+def _some(polygons: Polygons, which: Ints) -> Polygons:
+    position, offsets = corner_positions(polygons.offsets, which)
+    return Polygons(polygons.points[position], offsets)
+
+
+def _joined(*lots: Polygons) -> Polygons:
+    sizes = np.concatenate([np.diff(lot.offsets) for lot in lots])
+    return Polygons(np.concatenate([lot.points for lot in lots]), np.concatenate([[0], np.cumsum(sizes)]))
+
+
+def sliced_order(faces: ImageFaces, place: Ints, tolerance: float) -> ImageFaces:
+    """Faces back to front, where place (n,) of the slice each lies in is known: only faces of one slice are compared,
+    and cut where they must be.
+
+    place: rank of the slice in the order of drawing, as of slice_order. The price grows with the faces, however many
+    slices overlap in the image.
+    Source: Glaeser, section 5.3 (ribbons of a slice by priority).
+    """
+    box = faces.box[:4].copy()
+    width = float(np.ptp(box[:2])) + 1.0 if len(faces) else 1.0
+    # Side by side, so that only faces of one slice meet.
+    box[:2] += width * place
+    lots = [Pairs(place[:0], place[:0], np.zeros(0, dtype=np.int8))]
+    for first, second in box_pairs(box, 0.0):
+        pairs = Pairs(first, second, face_relations(faces, first, second, tolerance))
+        lots.append(pairs.some(pairs.codes != APART))
+    found = Pairs(*(np.concatenate([getattr(lot, row) for lot in lots]) for row in ("first", "second", "codes")))
+    pieces, places = cut_into_order(faces, place, found, tolerance)
+    return pieces.some(np.lexsort((pieces.rank, places)))
