@@ -34,11 +34,13 @@ class FillKind(IntEnum):
     """A coloured polygon on a face."""
     REFLECTION = 5
     """What a mirror shows."""
-    GLASS = 6
+    LIGHT = 6
+    """A part of a face that light reaches by way of a mirror."""
+    GLASS = 7
     """A face that one sees through."""
-    EDGE = 7
+    EDGE = 8
     """A line between two points."""
-    BACKGROUND = 8
+    BACKGROUND = 9
     """The paper."""
 
     @property

@@ -1,0 +1,230 @@
+"""How bright points of surfaces are: Lambert's law, dark sides, highlights, distance and depth.
+
+Shades are parts of a palette, from 0 to 1. Light sources share four fifths of it; the last fifth is ambient light, and
+goes to what is near the eye. Points may be barycentres of faces, vertices, or what is visible in each pixel.
+Source: Glaeser, sections 4.5 and 8.5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Bools, Floats
+from vectorplot.scene.scene import Light
+
+AMBIENT = 0.2
+"""The part of the palette that is kept for ambient light (decision D-5)."""
+
+REDUCED = 1.0 - AMBIENT
+"""The part that light sources fill."""
+
+DARK_SIDE = 0.3
+"""How bright a face is that is lit from behind, against one lit from the front at the same angle (decision D-5)."""
+
+
+@dataclass(frozen=True)
+class Finish:
+    """What a material makes of light: diffuse * cos^exponent(alpha) + highlight * weight(alpha) * cos^sharpness(beta).
+
+    alpha: between normal and light; beta: between reflected ray and eye. weight: a constant, or measured pairs of an
+    angle in radians and a value, joined by a cubic spline. highlight 0: no highlight at all.
+    Errors: InputError for factors that are negative or not finite, an exponent that is not positive, fewer than two
+    measured pairs or angles that do not rise.
+    Source: Glaeser, sections 4.5 (equation 2), 8.5 (equations 31 and 32).
+    """
+
+    exponent: float = 1.0
+    diffuse: float = 1.0
+    highlight: float = 0.0
+    sharpness: float = 1.0
+    weight: float | tuple[tuple[float, float], ...] = 0.1
+
+    def __post_init__(self) -> None:
+        factors = (self.exponent, self.diffuse, self.highlight, self.sharpness)
+        if not all(0.0 <= f < np.inf for f in factors) or not min(self.exponent, self.sharpness) > 0.0:
+            raise InputError(f"material: {factors} are not all positive, finite numbers")
+        table = np.asarray(self.weight, dtype=np.float64)
+        if not np.isfinite(table).all() or (table.ndim and (table.ndim != 2 or table.shape[1] != 2 or len(table) < 2)):
+            raise InputError("material: the weight of the highlight is one number, or two or more pairs of numbers")
+        if table.ndim and not (np.diff(table[:, 0]) > 0.0).all():
+            raise InputError("material: the angles of the measured highlight must rise")
+
+    @classmethod
+    def polished(cls, sharpness: float, diffuse: float = 0.4, exponent: float = 1.0) -> Finish:
+        """A reflecting material: sharpness 2 to 1024, diffuse 0.2 to 0.5; the highlight is the logarithm of the
+        sharpness to the base 2. Source: Glaeser, section 8.5, equation 32."""
+        if not sharpness > 1.0:
+            raise InputError(f"material: a sharpness of {sharpness:g} is no highlight")
+        return cls(exponent, diffuse, float(np.log2(sharpness)), sharpness)
+
+    def weight_at(self, cosine: Floats) -> Floats:
+        """(...) the weight of the highlight, never negative, where the light comes in at an angle with this cosine."""
+        if isinstance(self.weight, float | int):
+            return np.full(cosine.shape, max(float(self.weight), 0.0))
+        from scipy.interpolate import CubicSpline
+
+        angles, values = np.array(self.weight).T
+        angle = np.clip(np.arccos(np.clip(cosine, -1.0, 1.0)), angles[0], angles[-1])
+        return np.asarray(np.maximum(CubicSpline(angles, values, bc_type="natural")(angle), 0.0))
+
+
+FINISHES: dict[str, Finish] = {
+    "normal": Finish(),
+    "metallic": Finish.polished(16.0, 0.5, 2.0),
+    "shiny": Finish.polished(256.0, 0.5),
+    "mat": Finish(exponent=0.5),
+    "wood": Finish(exponent=0.7, diffuse=0.9),
+    "plastic": Finish.polished(64.0, 0.5),
+    "transparent": Finish.polished(256.0, 0.3),
+    "mirror": Finish.polished(1024.0, 0.2),
+}
+"""What the words of scene.Material mean. Source: Glaeser, sections 4.5, figure 4, and 8.5, figure 18."""
+
+
+def lambert(cosine: ArrayLike, exponent: float = 1.0) -> Floats:
+    """(...) cos^exponent of the angle between normal and light; on the dark side, where the cosine is negative, 0.3 of
+    what it would be from the front. Source: Glaeser, section 4.5, equation 2; erratum G4-08."""
+    c = np.clip(np.asarray(cosine, dtype=np.float64), -1.0, 1.0)
+    size = np.abs(c) if exponent == 1.0 else np.abs(c) ** exponent
+    return np.asarray(np.where(c > 0.0, size, DARK_SIDE * size))
+
+
+def backlit(cosine: ArrayLike) -> Bools:
+    """(...) whether light falls on the other side only. Light along the face does not light it."""
+    return np.asarray(np.asarray(cosine) <= 0.0)
+
+
+def facing(normals: ArrayLike, to_eye: ArrayLike) -> Floats:
+    """(n, 3) the normals, turned to the side the eye is on: so the faces of hollow bodies are lit if eye and light are
+    on the same side. Source: Glaeser, section 4.5."""
+    n, e = np.asarray(normals, dtype=np.float64), np.asarray(to_eye, dtype=np.float64)
+    return np.where((n * e).sum(axis=-1, keepdims=True) < 0.0, -n, n)
+
+
+def reflected(normals: ArrayLike, to_light: ArrayLike) -> Floats:
+    """(..., 3) the directions of reflected rays: 2 (n.l) n - l for unit vectors.
+
+    Source: Glaeser, section 8.5, equation 30.
+    """
+    n, light = np.asarray(normals, dtype=np.float64), np.asarray(to_light, dtype=np.float64)
+    return np.asarray(2.0 * (n * light).sum(axis=-1, keepdims=True) * n - light)
+
+
+def brightness(cos_alpha: ArrayLike, cos_beta: ArrayLike, finish: Finish) -> Floats:
+    """(...) what a surface sends to the eye of one light of intensity 1: 1 and more is as bright as can be.
+
+    Highlights are only where the light falls on the outer side and the reflected ray runs towards the eye.
+    Source: Glaeser, section 8.5, equation 31; erratum G8-16.
+    """
+    alpha = np.clip(np.asarray(cos_alpha, dtype=np.float64), -1.0, 1.0)
+    beta = np.clip(np.asarray(cos_beta, dtype=np.float64), -1.0, 1.0)
+    bright = finish.diffuse * lambert(alpha, finish.exponent)
+    if finish.highlight == 0.0:
+        return np.asarray(bright)
+    shining = (alpha > 0.0) & (beta > 0.0)
+    peak = np.where(shining, beta, 0.0) ** finish.sharpness
+    return np.asarray(bright + finish.highlight * finish.weight_at(alpha) * peak)
+
+
+def towards(points: ArrayLike, source: ArrayLike) -> Floats:
+    """(n, 3) unit vectors from points (n, 3) to an eye or a lamp at (x, y, z, 1), or against parallel rays that come
+    from the direction (x, y, z, 0). Degenerate: a point in the lamp has no direction: zeros."""
+    p, s = np.asarray(points, dtype=np.float64), np.asarray(source, dtype=np.float64)
+    if s.shape != (4,) or not np.isfinite(s).all():
+        raise InputError("a light or an eye needs four finite homogeneous coordinates")
+    ray = s[:3] - p if s[3] != 0.0 else np.broadcast_to(s[:3] / np.abs(s[:3]).max(initial=1e-300), p.shape)
+    length = np.sqrt(np.einsum("ij,ij->i", ray, ray))
+    return np.asarray(ray / np.where(length > 0.0, length, 1.0)[:, None])
+
+
+def homogeneous_light(light: Light) -> tuple[float, float, float, float]:
+    """Where a light of a scene is."""
+    x, y, z = light.position
+    return (x, y, z, 0.0 if light.parallel else 1.0)
+
+
+def intensities(lights: Sequence[Light]) -> Floats:
+    """(l,) the intensities of the lights; 1 / sqrt(l) for those that have none. Source: Glaeser, section 4.5."""
+    usual = 1.0 / np.sqrt(max(len(lights), 1))
+    given = np.array([usual if light.intensity is None else light.intensity for light in lights], dtype=np.float64)
+    if not ((given >= 0.0) & (given < np.inf)).all():
+        raise InputError("the intensity of a light must be a finite number that is not negative")
+    return given
+
+
+def light_shares(
+    points: ArrayLike, normals: ArrayLike, eye: ArrayLike, lights: Sequence[Light], finish: Finish
+) -> Floats:
+    """(l, n) the brightness that each light of intensity 1 gives to points (n, 3) with unit normals (n, 3).
+
+    eye: (x, y, z, 1), or (x, y, z, 0) for parallel rays to that direction. For hollow bodies turn the normals by
+    facing.
+    Source: Glaeser, sections 4.5 and 8.5.
+    """
+    p, n = np.asarray(points, dtype=np.float64), np.asarray(normals, dtype=np.float64)
+    to_eye = towards(p, eye) if finish.highlight else None
+    shares = np.zeros((len(lights), len(p)))
+    for share, light in zip(shares, lights, strict=True):
+        to_light = towards(p, homogeneous_light(light))
+        alpha = np.einsum("ij,ij->i", n, to_light)
+        beta = np.zeros(len(p))
+        if to_eye is not None:
+            # The reflected ray against the direction to the eye, without the ray itself.
+            beta = 2.0 * alpha * np.einsum("ij,ij->i", n, to_eye) - np.einsum("ij,ij->i", to_light, to_eye)
+        share[:] = brightness(alpha, beta, finish)
+    return shares
+
+
+def distance_factor(light_distance: float, depth: ArrayLike, nearest: float) -> Floats:
+    """(...) how much less light arrives at depths in a light's system than at the nearest one: the square of the ratio
+    of distances, at most 1.
+
+    Errors: InputError where a depth or the nearest one is not below the light.
+    Source: Glaeser, section 4.5, equation 4.
+    """
+    z = np.asarray(depth, dtype=np.float64)
+    if not (nearest < light_distance and (z <= nearest).all()):
+        raise InputError("a point is nearer to the light than the nearest one")
+    return np.asarray(((light_distance - nearest) / (light_distance - z)) ** 2)
+
+
+def depth_cue(depth: ArrayLike, minimum: float, total: float) -> Floats:
+    """(...) what ambient light adds to shades: from 0 at the smallest depth of the screen to 0.2 at the largest.
+
+    total: the depth of the scene. Degenerate: a scene without depth gets all of it.
+    Source: Glaeser, section 4.5, equation 5, figure 6.
+    """
+    z = np.asarray(depth, dtype=np.float64)
+    share = (z - minimum) / total if total > 0.0 else np.ones(z.shape)
+    return np.asarray(AMBIENT * np.clip(share, 0.0, 1.0))
+
+
+def shades(shares: ArrayLike, intensity: ArrayLike, cue: ArrayLike = 0.0) -> Floats:
+    """(n,) shades 0 to 1 from the shares (l, n) of lights with intensities (l,): their sum takes four fifths of the
+    palette, cut off there; then comes the cue. Source: Glaeser, section 4.5, equations 3, 5 and 7; erratum G4-08."""
+    total = np.asarray(intensity, dtype=np.float64) @ np.asarray(shares, dtype=np.float64)
+    return np.asarray(np.clip(REDUCED * np.minimum(total, 1.0) + np.asarray(cue), 0.0, 1.0))
+
+
+def fitting(shares: ArrayLike, intensity: ArrayLike) -> Floats:
+    """(l,) the intensities, scaled so that the brightest point just reaches the end of the lights' part of the palette.
+
+    For one picture; in a movie keep those of the first frame, or it flickers. Degenerate: in the dark nothing changes.
+    Source: Glaeser, section 4.5.
+    """
+    given = np.asarray(intensity, dtype=np.float64)
+    brightest = float((given @ np.asarray(shares, dtype=np.float64)).max(initial=0.0))
+    return given / brightest if brightest > 0.0 else given
+
+
+def shade_numbers(shade: ArrayLike, size: int) -> NDArray[np.uint8]:
+    """(...) shades 0 to 1 as numbers 0 to size - 1 in a palette of so many, rounded once. Source: erratum G4-07."""
+    if not 1 <= size <= 256:
+        raise InputError(f"a palette of {size} shades: expected 1 to 256")
+    s = np.asarray(shade, dtype=np.float64) * size
+    return np.clip(np.floor(s + 0.5), 0, size - 1).astype(np.uint8)
