@@ -96,7 +96,7 @@ def test_outlines_that_touch_are_disjoint_and_one_on_itself_lies_inside():
     hinged = np.array([(0.0, 0, 0), (2, 0, 0), (2, 1, 3), (0, 1, 3)])
     assert relative_position(SQUARE, hinged) == relative_position(SQUARE, hinged[::-1])
     assert relative_position(SQUARE, hinged).second_depth == 3.0
-    crossing = relative_position(SQUARE, np.array([(1.0, -1, 1), (3, 1, 1), (1, 3, 1), (-1, 1, 1)]))
+    crossing = relative_position(SQUARE, np.array([(1.0, -0.5, 1), (2.5, 1, 1), (1, 2.5, 1), (-0.5, 1, 1)]))
     assert crossing.position is Position.CROSSING
     assert (crossing.first_depth, crossing.second_depth) == (0.0, 1.0)
 
