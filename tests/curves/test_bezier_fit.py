@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -237,3 +238,27 @@ def test_bad_input_is_refused():
         fitted(line, line[:2], tolerance=0.1)
     with pytest.raises(InputError, match="offsets"):
         fitted_paths(line, np.array([0, 2]), np.array([False]), tolerance=0.1)
+
+
+def test_a_blunt_corner_beside_a_long_chord_stays_a_corner():
+    t = np.linspace(0.0, 0.5, 40)
+    arc = np.column_stack((20.0 * np.sin(t), 20.0 * np.cos(t)))
+    # A straight side of 30, met at 35 degrees, as a ruling is by the border it ends on.
+    turn = np.radians(-0.5 / np.pi * 180.0 + 35.0)
+    side = arc[-1] + np.outer(np.array([1.0]), 30.0 * np.array([np.cos(turn), np.sin(turn)]))
+    line = np.concatenate((arc, side))
+    path = fitted_paths(line, np.array([0, len(line)]), np.array([False]), tolerance=0.01, sag=0.01)
+    s = np.linspace(0.0, 1.0, 200)[:, None]
+    c = path.control[:, :, None]
+    points = (1 - s) ** 3 * c[:, 0] + 3 * s * (1 - s) ** 2 * c[:, 1] + 3 * s * s * (1 - s) * c[:, 2] + s**3 * c[:, 3]
+    apart = shapely.distance(shapely.points(points.reshape(-1, 2)), shapely.linestrings(line))
+    assert apart.max() < 0.02
+
+
+def test_a_chord_whose_tangents_would_lead_far_away_is_straight():
+    line = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.3], [40.0, 0.3]])
+    path = fitted_paths(line, np.array([0, 4]), np.array([False]), tolerance=0.01, corner_angle=np.pi, sag=0.4)
+    s = np.linspace(0.0, 1.0, 200)[:, None]
+    c = path.control[:, :, None]
+    points = (1 - s) ** 3 * c[:, 0] + 3 * s * (1 - s) ** 2 * c[:, 1] + 3 * s * s * (1 - s) * c[:, 2] + s**3 * c[:, 3]
+    assert shapely.distance(shapely.points(points.reshape(-1, 2)), shapely.linestrings(line)).max() < 0.42

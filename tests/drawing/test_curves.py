@@ -201,8 +201,8 @@ def chords(curve, start, end, count, order=None):
 
 
 def test_ink_joins_the_chords_of_a_curve_and_fits_it_once():
-    order = np.random.default_rng(4).permutation(300)
-    layers = (Layer("visible", Pen(), (chords(wave, 0.0, 2.0, 300, order),)),)
+    order = np.random.default_rng(4).permutation(1200)
+    layers = (Layer("visible", Pen(), (chords(wave, 0.0, 2.0, 1200, order),)),)
     (layer,) = inked(layers, "none", np.eye(4), TOLERANCE)
     (mark,) = layer.marks
     assert isinstance(mark, Curves) and len(mark) == 1

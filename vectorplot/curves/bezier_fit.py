@@ -51,6 +51,7 @@ def fitted_paths(
     *,
     tolerance: float,
     corner_angle: float = CORNER_ANGLE,
+    sag: float = np.inf,
 ) -> BezierPaths:
     """Smooth paths within tolerance of polylines, all fitted at once; one path for each.
 
@@ -58,8 +59,9 @@ def fitted_paths(
     may be). tangents (p,d): of any length, forwards; zero where the curve has a corner.
     Every point lies within tolerance of its path, as the paths' error says; between two points the path keeps within
     tolerance, plus c/2 tan(a), of their chord c, where a is the angle between chord and tangents: the room a smooth
-    curve through the points takes. The direction is continuous except at corners: where the polyline turns by more than
-    corner_angle at one point, and at ends.
+    curve through the points takes, at most sag: how far the polylines are off the curves that they sample. The
+    direction is continuous except at ends and corners: where the polyline turns by more than corner_angle at one point,
+    or by more than that of a smooth curve with chords so near; and where a chord has to stay straight to be so near.
     Errors: InputError for wrong shapes, points that are not finite, a tolerance that is not positive.
     Degenerate: repeated points count once; two points, or points on a straight line, give one straight segment; a
     single point a segment of length 0; a line without points a path without segments.
@@ -71,7 +73,7 @@ def fitted_paths(
     if not len(lines.first):
         none = np.zeros((0, 4, points.shape[1]))
         return BezierPaths(none, np.zeros(len(closed) + 1, dtype=np.intp), closed.copy(), np.zeros(len(closed)))
-    fit = _Fit.of(lines, given, tolerance, corner_angle)
+    fit = _Fit.of(lines, given, tolerance, corner_angle, sag)
     spans = fit.merged(fit.divided(fit.first_knots()))
     count = np.zeros(len(closed), dtype=np.intp)
     error = np.zeros(len(closed))
@@ -111,16 +113,16 @@ class _Fit:
     tolerance: float
 
     @classmethod
-    def of(cls, lines: Lines, given: Floats | None, tolerance: float, corner_angle: float) -> _Fit:
+    def of(cls, lines: Lines, given: Floats | None, tolerance: float, corner_angle: float, sag: float = np.inf) -> _Fit:
         total = lines.length[lines.last] - lines.length[lines.first]
-        tangent = directions(lines, given, np.minimum(_WINDOW * tolerance, total / 8.0), corner_angle)
+        tangent = directions(lines, given, np.minimum(_WINDOW * tolerance, total / 8.0), corner_angle, sag)
         chord = np.diff(lines.points, axis=1, append=lines.points[:, -1:])
         size = np.sqrt((chord * chord).sum(axis=0))
         chord /= np.where(size > 0.0, size, 1.0)
         ahead = np.roll(tangent.arriving, -1, axis=1)
         cosine = np.minimum((tangent.leaving * chord).sum(axis=0), (ahead * chord).sum(axis=0))
         room = size / 2.0 * np.tan(np.arccos(np.clip(cosine, 0.5, 1.0)))
-        return cls(lines, tangent, room, tolerance)
+        return cls(lines, tangent, np.minimum(room, sag), tolerance)
 
     def first_knots(self) -> Bools:
         """(n,) ends and corners, and the quarters of smooth loops."""
@@ -195,6 +197,10 @@ class _Fit:
         start, end = self.lines.points[:, spans.first], self.lines.points[:, spans.last]
         one = start + spans.handles[0] * self.tangent.leaving[:, spans.first]
         two = end - spans.handles[1] * self.tangent.arriving[:, spans.last]
+        # Between two points nothing is known of the curve but that it is near the chord.
+        straight = (spans.last - spans.first <= 1) & (spans.excess > self.tolerance)
+        one = np.where(straight, start + (end - start) / 3.0, one)
+        two = np.where(straight, end - (end - start) / 3.0, two)
         return np.stack((start, one, two, end)).transpose(2, 0, 1)
 
 

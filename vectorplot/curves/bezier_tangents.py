@@ -34,18 +34,28 @@ class Directions:
     corner: Bools
 
 
-def directions(lines: Lines, given: Floats | None, window: Floats, corner_angle: float) -> Directions:
+BEND = 24.0
+"""At a point of a smooth curve the product of turn and shorter chord is eight times how far chords are off the curve,
+if both are equally far off; so many times that far it is a corner."""
+
+
+def directions(
+    lines: Lines, given: Floats | None, window: Floats, corner_angle: float, sag: float = np.inf
+) -> Directions:
     """Corners and tangents of lines.
 
     given (d,n) tangents, or None: then each is that of the circle through the point and its neighbours at the distance
     window (m,) of its line, so that noise below the tolerance does not turn it. A point is a corner if the line turns
-    by more than corner_angle there, and still within the window; with tangents given, if moreover they turn away by
-    a third of that from the circle's, or where one is zero or not finite.
+    by more than corner_angle there, and still within the window, or by more than chords allow that are no farther than
+    sag off their curve; with tangents given, if moreover they turn away by
+    a third of corner_angle from the circle's, or where one is zero or not finite.
     """
     ends = _ends(lines)
     before, after = _next_chords(lines)
     wide_before, wide_after = _chords(lines, window, ends)
-    corner = (_cosine(before, after) < np.cos(corner_angle)) & (_cosine(wide_before, wide_after) < np.cos(corner_angle))
+    pairs = ((before, after), (wide_before, wide_after))
+    corner = np.all([_cosine(*pair) < np.cos(corner_angle) for pair in pairs], axis=0)
+    corner |= np.all([_bend(*pair) > BEND * sag for pair in pairs], axis=0)
     if given is not None:
         given = _unit(given)
         away = _cosine(given, _through(before, after)) < np.cos(corner_angle / 3.0)
@@ -64,6 +74,12 @@ def directions(lines: Lines, given: Floats | None, window: Floats, corner_angle:
         back[:, keep] = front[:, keep] = given[:, at[keep]]
     arriving[:, at], leaving[:, at] = back, front
     return Directions(arriving, leaving, stops)
+
+
+def _bend(before: Floats, after: Floats) -> Floats:
+    """(n,) the angles between vectors times the lengths of the shorter ones."""
+    shorter = np.sqrt(np.minimum((before * before).sum(axis=0), (after * after).sum(axis=0)))
+    return np.asarray(np.arccos(np.clip(_cosine(before, after), -1.0, 1.0)) * shorter)
 
 
 def _ends(lines: Lines) -> Bools:

@@ -14,6 +14,9 @@ from vectorplot.drawing.pieces import chosen, concatenated, offsets_of, ranges
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Ints
 
+CHORD_SHARE = 0.5
+"""The part of the tolerance that chords may be off their curves."""
+
 FIT_SHARE = 0.45
 """The part of the tolerance for the fit. Half of it is spent on the chords; the rest is for rounding in files."""
 
@@ -45,7 +48,14 @@ def with_curves(paths: Paths, tolerance_mm: float) -> Paths | Curves:
     round_ones = arc_segments(arcs, smooth.closed[arcs.stroke], tolerance=fit)
     others = np.setdiff1d(np.arange(len(smooth)), arcs.stroke, assume_unique=True)
     rest = chosen(smooth, others)
-    fitted = fitted_paths(rest.points, rest.offsets, rest.closed, tolerance=fit, corner_angle=CORNER_ANGLE)
+    fitted = fitted_paths(
+        rest.points,
+        rest.offsets,
+        rest.closed,
+        tolerance=fit,
+        corner_angle=CORNER_ANGLE,
+        sag=CHORD_SHARE * tolerance_mm,
+    )
     beziers = _in_places((round_ones, fitted), (which[arcs.stroke], which[others]), paths)
     return Curves(paths, beziers, replace(arcs, stroke=which[arcs.stroke]))
 
