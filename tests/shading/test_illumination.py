@@ -145,7 +145,7 @@ def test_four_finishes_shade_a_sphere_differently():
             assert np.abs(series[one] - series[other]).mean() > 0.02, (one, other)
     # A highlight is small and bright: plastic has one, wood has none.
     spot = il.light_shares(normals, normals, (0, -9, 3, 1), lights, FINISHES["plastic"])[0]
-    assert 0.001 < (spot > 0.7).mean() < 0.1
+    assert spot.max() > 0.9 and (spot > 0.7).mean() < 0.1
     assert il.light_shares(normals, normals, (0, -9, 3, 1), lights, FINISHES["wood"])[0].max() <= 0.9
 
 

@@ -114,7 +114,7 @@ def decal_shades(view: View, items: Sequence[Item], lights: Sequence[Light], poi
 def point_shades(
     view: View, items: Sequence[Item], lights: Sequence[Light], points: Floats, normals: Floats, item: Ints
 ) -> Shades:
-    """The shades of points (n,3) with unit normals (n,3) on surfaces of items (n,); other arguments as of face_shades."""
+    """The shades of points (n,3) with unit normals (n,3), of surfaces of items (n,); the others as of face_shades."""
     eye = view_eye(view)
     words = list(dict.fromkeys(some.material.word for some in items))
     word = np.array([words.index(some.material.word) for some in items], dtype=np.intp)[item]

@@ -96,8 +96,9 @@ def dark_half(shades: Colours) -> Colours:
 
 
 def palette(name: str, count: int = SIZE) -> Colours:
-    """(count, 3) the shades of a palette by its name, from dark to bright: a parent, or its half as light... or dark...;
-    white, black, red and #rrggbb run from a fifth of that colour to the colour.
+    """(count, 3) the shades of a palette by its name, from dark to bright.
+
+    A parent, or its half as light... or dark...; white, black, red and #rrggbb run from a fifth of that colour to it.
 
     Errors: InputError for an unknown name and a wrong count.
     """
