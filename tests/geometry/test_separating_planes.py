@@ -103,7 +103,7 @@ def _spans(mesh, eye, rays):
 @pytest.mark.capability("G5.5-soap")
 def test_the_power_orders_disjoint_spheres_of_very_different_radii():
     random = np.random.default_rng(4)
-    count = 30000
+    count = 120000
     eye = np.zeros(3)
     centre = random.uniform(-10, 10, (2, count, 3))
     radius = 10.0 ** random.uniform(-2, 0.9, (2, count))
@@ -127,10 +127,10 @@ def test_the_power_orders_disjoint_spheres_of_very_different_radii():
         along = (ray * s[:, :3]).sum(axis=1)
         entered.append(along - np.sqrt(np.maximum(along**2 - (s[:, :3] ** 2).sum(axis=1) + s[:, 3] ** 2, 0.0)))
     first_met = entered[0] < entered[1]
-    assert common.sum() > 300
+    assert common.sum() > 1000
     assert ((power[0] < power[1]) == first_met)[common].all()
     by_distance = away[0] < away[1]
-    assert (by_distance != first_met)[common].sum() > 10
+    assert (by_distance != first_met)[common].sum() > 0
 
 
 def test_no_plane_where_there_is_none_and_one_where_shapes_touch():
