@@ -66,6 +66,22 @@ def test_slivers_have_few_strips(thin):
     assert len(strips_of(corners, colours).triangle) <= 150
 
 
+@pytest.mark.parametrize("far", [1e7, 1e8, 1e9])
+def test_slivers_too_thin_for_a_slope_across_keep_their_ends(far):
+    corners = np.array([[(0, 0), (far, far - 1), (far / 2, far / 2)], [(0, 0), (far, 0), (far, 1)]])
+    colours = np.array([[(200, 0, 0), (0, 0, 100), (100, 0, 50)], [(200, 0, 0), (0, 0, 100), (0, 9, 100)]], dtype=float)
+    found = strips_of(corners, colours)
+    assert set(found.triangle.tolist()) <= {0, 1} and len(found.triangle) < 20
+    for ends, shown in zip(found.ends, found.colours, strict=True):
+        # Which end comes first is open.
+        first, last = shown if ends[0].sum() < ends[1].sum() else shown[::-1]
+        if np.abs(ends[1] - ends[0]).max() > far / 2:
+            assert (
+                np.abs(first - np.array((200.0, 0, 0))).max() <= 12
+                and np.abs(last - np.array((0.0, 0, 100))).max() <= 12
+            )
+
+
 def test_nothing_is_no_strips():
     found = strips_of(np.zeros((0, 3, 2)), np.zeros((0, 3, 3)))
     assert len(found.triangle) == 0 and found.offsets.tolist() == [0] and found.ends.shape == (0, 2, 2)

@@ -17,6 +17,9 @@ from vectorplot.drawing.pieces import ranges
 from vectorplot.geometry.convex_clipping import clipped
 from vectorplot.geometry.mesh import Floats, Ints
 
+THINNEST = 1e-6
+"""Triangles narrower than this part of their length have colours along it only."""
+
 
 @dataclass(frozen=True, eq=False)
 class Strips:
@@ -37,8 +40,7 @@ def strips_of(corners: Floats, colours: Floats) -> Strips:
     The linear map from places to colours is, by its singular values, a change along one direction and a smaller one
     across it. A strip has the colours of its middle line.
     """
-    sides, changes = corners[:, 1:] - corners[:, :1], colours[:, 1:] - colours[:, :1]
-    slopes = np.linalg.solve(sides, changes)  # (t,2,3): a way on the page times it is the change of colour
+    slopes = _slopes(corners, colours)
     directions, sizes, _ = np.linalg.svd(slopes, full_matrices=False)
     local = (corners - corners[:, :1]) @ directions
     low, high = local.min(axis=1), local.max(axis=1)
@@ -53,27 +55,34 @@ def strips_of(corners: Floats, colours: Floats) -> Strips:
     reach = (high - low).max(axis=1)[owner]
     slabs = _rectangles(low[owner, 0] - reach, high[owner, 0] + reach, middle - before, middle + behind)
     quads = corners[owner, :1] + slabs @ directions[owner].transpose(0, 2, 1)
-    points, offsets, strip = clipped(
-        corners[owner].reshape(-1, 2).T,
-        np.arange(0, 3 * len(owner) + 1, 3),
-        quads.reshape(-1, 2).T,
-        np.arange(0, 4 * len(owner) + 1, 4),
-    )
-    blank = np.zeros((points.shape[1], 3), dtype=np.uint8)
-    microns, offsets, _, kept = rounded(Polygons(points.T / 1000.0, offsets, blank, strip))
-    strip = strip[kept]
+    microns, offsets, strip = _cut(corners[owner], quads)
     owner, middle = owner[strip], middle[strip]
-    along = np.einsum(
-        "pi,pi->p",
-        microns - np.repeat(corners[owner, 0], np.diff(offsets), axis=0),
-        np.repeat(directions[owner, :, 0], np.diff(offsets), axis=0),
-    )
+    size = np.diff(offsets)
+    from_first = microns - np.repeat(corners[owner, 0], size, axis=0)
+    along = np.einsum("pi,pi->p", from_first, np.repeat(directions[owner, :, 0], size, axis=0))
     ways = np.stack([np.stack((end, middle), axis=-1) for end in _extremes(along, offsets)], axis=1)
     ways = ways @ directions[owner].transpose(0, 2, 1)
-    values = colours[owner, :1] + ways @ slopes[owner]
-    return Strips(
-        microns, offsets, owner, corners[owner, :1] + ways, np.rint(np.clip(values, 0.0, 255.0)).astype(np.uint8)
+    values = np.rint(np.clip(colours[owner, :1] + ways @ slopes[owner], 0.0, 255.0)).astype(np.uint8)
+    return Strips(microns, offsets, owner, corners[owner, :1] + ways, values)
+
+
+def _slopes(corners: Floats, colours: Floats) -> Floats:
+    """(t,2,3): a way on the page times it is the change of colour. Across triangles too thin for that there is none."""
+    sides, changes = corners[:, 1:] - corners[:, :1], colours[:, 1:] - colours[:, :1]
+    return np.asarray(np.linalg.pinv(sides, rcond=THINNEST) @ changes)
+
+
+def _cut(triangles: Floats, quads: Floats) -> tuple[Ints, Ints, Ints]:
+    """Triangles (s,3,2) clipped by quadrilaterals (s,4,2): corners, offsets, and which ones are left."""
+    points, offsets, which = clipped(
+        triangles.reshape(-1, 2).T,
+        np.arange(0, 3 * len(triangles) + 1, 3),
+        quads.reshape(-1, 2).T,
+        np.arange(0, 4 * len(quads) + 1, 4),
     )
+    blank = np.zeros((points.shape[1], 3), dtype=np.uint8)
+    microns, offsets, _, kept = rounded(Polygons(points.T / 1000.0, offsets, blank, which))
+    return microns, offsets, which[kept]
 
 
 def _rectangles(left: Floats, right: Floats, low: Floats, high: Floats) -> Floats:
