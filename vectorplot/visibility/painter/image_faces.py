@@ -123,6 +123,17 @@ def mapped(view: View, points: Floats) -> Floats:
     return np.concatenate([view.image_of(points), height[None]])
 
 
+def unmapped(view: View, points: Floats) -> Floats:
+    """(3,n) the points of the view of which points (3,n) are the images and heights: the inverse of mapped.
+
+    Source: Glaeser, section 2.4 (the transformation T2).
+    """
+    if view.eye is None:
+        return np.concatenate([points[:2] + view.target[:2, None], points[2:]])
+    depth = view.focus * view.focus / (points[2] + view.focus)
+    return np.concatenate([points[:2] * (depth / view.focus) + view.eye[:2, None], view.eye[2] - depth[None]])
+
+
 def polygons_of(points: Floats, offsets: Ints, source: Ints, tolerance: float) -> ImageFaces:
     """Polygons of mapped corners (3,c), all turned counter-clockwise; those narrower than the tolerance left out.
 

@@ -1,0 +1,237 @@
+"""Decisions about whole objects against rays, their tables, and the orders made of them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from painted import nearest, sample_points, top_polygon
+from strewn import STREWN, placed
+
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.camera import Camera
+from vectorplot.scene.view import look
+from vectorplot.testing.shapes import (
+    box,
+    cyclic_bars,
+    interpenetrating_boxes,
+    numbered,
+    random_convex_solids,
+    rotated_boxes,
+    scene_of,
+)
+from vectorplot.testing.surfaces import torus_mesh
+from vectorplot.visibility.painter.bodies import convex_bodies, outlined_items
+from vectorplot.visibility.painter.face_pairs import APART, BEHIND, IN_FRONT, STRADDLING
+from vectorplot.visibility.painter.groups import gordian_knots, grouped_order, knot_report, object_order
+from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
+from vectorplot.visibility.painter.mikado import component_ranks, mikado
+from vectorplot.visibility.painter.priorities import demands, priorities, view_objects, which_first
+from vectorplot.visibility.painter.sphere_order import sphere_order
+from vectorplot.visibility.projected_faces import project_faces
+
+EYE = Camera((9.0, 7.0, 6.0), (0, 0, 0))
+
+
+def seen_pairs(view, objects, samples=3000):
+    """(k,k) whether the row is met before the column by some ray."""
+    x, y = sample_points(view, samples)
+    count = len(objects)
+    heights = np.full((count, samples), -np.inf)
+    sure = np.ones(samples, dtype=bool)
+    for k in range(count):
+        faces = np.flatnonzero(view.face_item == k)
+        positions = np.concatenate([np.arange(view.offsets[f], view.offsets[f + 1]) for f in faces])
+        offsets = np.concatenate([[0], np.cumsum(view.face_sizes[faces])])
+        alone = type("One", (), {})()
+        for name in ("points", "eye", "target", "focus", "near"):
+            setattr(alone, name, getattr(view, name))
+        alone.corners, alone.offsets, alone.face_sizes = view.corners[positions], offsets, np.diff(offsets)
+        depth, clear = nearest(alone, x, y)
+        heights[k] = np.where(depth == (-np.inf if view.eye is None else 0.0), -np.inf, depth)
+        sure &= clear
+    there = np.isfinite(heights)
+    apart = np.where(there, heights, 0.0)[:, None] - np.where(there, heights, 0.0)[None]
+    return ((apart > 1e-6) & there[:, None] & there[None] & sure).any(axis=2)
+
+
+@pytest.mark.capability("G5.5-rect", "G5.5-depth", "G5.5-outlines", "G5.5-which-first", "G5.6-priorities")
+@pytest.mark.parametrize("critical", [False, True])
+@pytest.mark.parametrize("seed", range(8))
+def test_tables_agree_with_rays(seed, critical):
+    random = np.random.default_rng(seed)
+    mixed = numbered([placed(torus_mesh(12, 7, 1.0, 0.3), random), *(i.shape for i in rotated_boxes(7, seed).items)])
+    for scene in (random_convex_solids(9, seed), mixed, STREWN["aligned_boxes"](random)):
+        view = look(scene, Camera((9, 7, 6), tuple(scene.bounds.mean(axis=0)), parallel=seed % 2 == 1))
+        objects = view_objects(view)
+        table = priorities(objects, critical=critical)
+        met = seen_pairs(view, objects)
+        opposite = np.select([table == IN_FRONT, table == BEHIND], [BEHIND, IN_FRONT], table)
+        assert (table.T == opposite).all()
+        assert np.isin(table[met & ~met.T], (IN_FRONT, STRADDLING)).all()
+        assert (table[met & met.T] == STRADDLING).all()
+        if critical:
+            assert met.sum() > 0.5 * np.isin(table, (IN_FRONT, STRADDLING)).sum(), "no priority without an overlap"
+
+
+def test_critical_decisions_are_made_only_where_images_overlap():
+    scene = scene_of(
+        NEAR=box((0, -5, 0), (1, -4, 1)), FAR=box((1.2, 4, 0), (2.2, 5, 1)), HIGH=box((0, 0, 3), (2.2, 1, 4))
+    )
+    view = look(scene, Camera.view("front", (1, 0, 1), 40.0))
+    objects = view_objects(view)
+    assert (priorities(objects) == APART).all()
+    tilted = look(scene, Camera((30, -30, 5), (1, 0, 1)))
+    quick, slow = (priorities(view_objects(tilted), critical=c) for c in (False, True))
+    assert (quick[slow != APART] == slow[slow != APART]).all()
+
+
+def test_a_subset_and_the_light_s_system():
+    scene = scene_of(A=box((0, 0, 0), (1, 1, 1)), B=box((0, 0, 2), (1, 1, 3)), C=box((0, 0, 4), (1, 1, 5)))
+    lamp = look(scene, Camera((0.4, 0.6, 30.0), (0.5, 0.5, 0)))
+    table = priorities(view_objects(lamp))
+    assert table.tolist() == [[0, BEHIND, BEHIND], [IN_FRONT, 0, BEHIND], [IN_FRONT, IN_FRONT, 0]]
+    assert priorities(view_objects(lamp), [2, 0]).tolist() == [[0, IN_FRONT], [BEHIND, 0]]
+    assert which_first(view_objects(lamp), np.array([2]), np.array([1])).tolist() == [IN_FRONT]
+    both = view_objects(lamp, [0, -1, 0])
+    assert (len(both), priorities(both).tolist()) == (1, [[0]])
+    with pytest.raises(InputError, match="as many"):
+        view_objects(lamp, [0, 1])
+
+
+@pytest.mark.capability("G5.6-mikado")
+def test_a_circle_of_three_is_isolated_from_fifty():
+    random = np.random.default_rng(0)
+    order = random.permutation(50)
+    first, second = np.triu_indices(50, 1)
+    kept = random.random(len(first)) < 0.1
+    before, after = order[first[kept]], order[second[kept]]
+    plain = mikado(50, before, after)
+    place = np.argsort(plain.order)
+    assert (place[before] < place[after]).all()
+    assert len(plain.knot) == 0
+    low, middle, high = order[[20, 24, 28]]
+    before = np.append(before, [low, middle, high])
+    after = np.append(after, [middle, high, low])
+    knots = gordian_knots(50, before, after)
+    assert len(knots) == 1
+    assert {low, middle, high} <= set(knots[0].tolist())
+    rank = component_ranks(50, before, after)
+    assert (rank[before] <= rank[after]).all()
+    only = gordian_knots(50, np.array([7, 8, 9, 1]), np.array([8, 9, 7, 7]))
+    assert [k.tolist() for k in only] == [[7, 8, 9]]
+    isolated = mikado(50, np.array([7, 8, 9, 1]), np.array([8, 9, 7, 7]))
+    assert isolated.knot.tolist() == [7, 8, 9]
+    assert sorted(isolated.order.tolist()) == list(range(50))
+
+
+@pytest.mark.capability("G5.6-mikado")
+def test_knots_are_reported_by_name():
+    view = look(cyclic_bars(), Camera.view("top", (0, 0, 0), 8.0))
+    names = [item.name for item in cyclic_bars().items]
+    with pytest.warns(InputWarning, match="circle") as caught:
+        result = object_order(view, names)
+    assert [k.tolist() for k in result.knots] == [[0, 1, 2]]
+    assert all(name in str(caught[0].message) for name in names)
+    assert knot_report(result.knots, "XYZ") == ("X, Y and Z lie on one another in a circle, or pierce each other",)
+
+
+@pytest.mark.capability("G5.6-two-pass")
+def test_the_second_pass_undoes_knots_that_only_quick_decisions_make():
+    row = numbered([box((k, 0, 0), (k + 0.9, 1, 1)) for k in range(6)])
+    plain = object_order(look(row, EYE), [str(k) for k in range(6)])
+    assert plain.order.tolist() == list(range(6))
+    assert (len(plain.knots), plain.critical) == (0, False)
+    needed = 0
+    for seed in range(60):
+        random = np.random.default_rng(seed)
+        bars = [placed(box((-2, -0.1, -0.1), (2, 0.1, 0.1)), random, 1.5) for _ in range(8)]
+        view = look(numbered(bars), EYE)
+        quick = priorities(view_objects(view))
+        knotted = len(gordian_knots(8, *demands(quick))) > 0
+        slow = priorities(view_objects(view), critical=True)
+        if knotted and not gordian_knots(8, *demands(slow)):
+            needed += 1
+            result = object_order(view, [str(k) for k in range(8)])
+            assert result.critical
+            place = np.argsort(result.order)
+            assert all(place[a] < place[b] for a, b in zip(*demands(slow), strict=True))
+    assert needed > 0
+
+
+def test_boxes_through_each_other_are_a_knot():
+    view = look(interpenetrating_boxes(), EYE)
+    with pytest.warns(InputWarning, match="pierce"):
+        assert len(object_order(view, ["A", "B"]).knots) == 1
+
+
+@pytest.mark.capability("G5.7-groups")
+def test_groups_give_the_same_picture():
+    random = np.random.default_rng(1)
+    houses = []
+    for x in range(3):
+        for y in range(3):
+            houses += [
+                box((3 * x, 3 * y, 0), (3 * x + 2, 3 * y + 2, 1)),
+                box((3 * x + 0.5, 3 * y + 0.5, 1), (3 * x + 1, 3 * y + 1, 2)),
+            ]
+    order = random.permutation(len(houses))
+    view = look(numbered([houses[k] for k in order]), Camera((-5, -9, 7), (4, 4, 0)))
+    objects = view_objects(view)
+    before, after = demands(priorities(objects, critical=True))
+    group = order // 2
+    result = grouped_order(len(houses), before, after, group)
+    assert (result.undone, result.knots) == ((), ())
+    along = group[result.order]
+    assert (np.diff(np.flatnonzero(np.diff(along, prepend=-1))) == 2).all(), "groups stay together"
+    place = np.argsort(result.order)
+    assert (place[before] < place[after]).all()
+    pictures = []
+    for ranks in (place, np.argsort(mikado(len(houses), before, after).order)):
+        faces = objects.faces.some(np.argsort(ranks[objects.owner], kind="stable"))
+        x, y = sample_points(view, 1500)
+        top = top_polygon(faces, x, y)
+        pictures.append(np.append(faces.source, -1)[top])
+    assert (pictures[0] == pictures[1]).all()
+
+
+@pytest.mark.capability("G5.7-groups")
+def test_a_group_that_makes_a_knot_is_undone():
+    # 0 and 2 are a group, with 1 between them; 3 and 4 another one.
+    result = grouped_order(5, np.array([0, 1, 3]), np.array([1, 2, 4]), np.array([7, -1, 7, 4, 4]))
+    assert result.undone == (7,)
+    place = np.argsort(result.order)
+    assert place[0] < place[1] < place[2]
+    assert abs(place[3] - place[4]) == 1
+    assert result.knots == ()
+    circle = grouped_order(3, np.array([0, 1, 2]), np.array([1, 2, 0]), np.array([-1, -1, -1]))
+    assert [k.tolist() for k in circle.knots] == [[0, 1, 2]]
+    assert grouped_order(0, np.zeros(0, int), np.zeros(0, int), np.zeros(0, int)).order.tolist() == []
+    with pytest.raises(InputError, match="as many groups"):
+        grouped_order(2, np.zeros(0, int), np.zeros(0, int), np.zeros(3, int))
+
+
+@pytest.mark.capability("G5.5-soap")
+@pytest.mark.parametrize("parallel", [False, True])
+def test_the_order_of_spheres_is_right_or_refused(parallel):
+    def ordered(scene):
+        view = look(scene, Camera((30.0, 22.0, 18.0), tuple(scene.bounds.mean(axis=0)), parallel=parallel))
+        projected = project_faces(view)
+        faces = image_faces(view, drawn_faces(view, projected))
+        bodies = convex_bodies(view, faces, np.flatnonzero(outlined_items(view, projected)))
+        return view, sphere_order(view, faces, bodies)
+
+    random = np.random.default_rng(2)
+    lattice = np.stack(np.meshgrid(*[np.arange(5)] * 3, indexing="ij"), axis=-1).reshape(-1, 3) * 2.0
+    sizes = random.uniform(0.1, 1.1, (125, 3))
+    view, order = ordered(numbered([box(p, p + s) for p, s in zip(lattice, sizes, strict=True)]))
+    assert order is not None
+    place = np.argsort(order)
+    table = priorities(view_objects(view), critical=True)
+    before, after = demands(table)
+    assert len(before) > 80
+    assert (place[before] < place[after]).all()
+    flat = scene_of(
+        FLOOR=box((-5, -5, -0.1), (5, 5, 0)), BOX=box((3, 3, 0), (4, 4, 1)), LOW=box((-4, -4, 0), (-3, -3, 1))
+    )
+    assert ordered(flat)[1] is None or parallel
+    assert ordered(interpenetrating_boxes())[1] is None

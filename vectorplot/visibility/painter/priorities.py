@@ -1,0 +1,146 @@
+"""Which of two objects is in front of the other, in the system of an eye or of a lamp: tables of decisions.
+
+The painter itself compares only what overlaps, and cuts where nothing else helps; these are the decisions one by one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.separating_planes import Surroundings, separations
+from vectorplot.scene.view import View
+from vectorplot.visibility.painter.candidates import box_pairs
+from vectorplot.visibility.painter.face_pairs import APART, BEHIND, IN_FRONT, STRADDLING, Codes, face_relations
+from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, drawn_faces, image_faces
+from vectorplot.visibility.projected_faces import project_faces
+
+
+@dataclass(frozen=True, eq=False)
+class Objects:
+    """Items, or groups of them, as an eye or a lamp sees them: faces, those drawn; owner (n,) the object of each, -1
+    for none; box (6,k) smallest and largest x, y and height of each object in the image (inside out where nothing of it
+    is drawn); around: boxes and spheres in the view."""
+
+    view: View
+    faces: ImageFaces
+    owner: Ints
+    box: Floats
+    around: Surroundings
+
+    def __len__(self) -> int:
+        return int(self.box.shape[1])
+
+
+def view_objects(view: View, object_of: ArrayLike | None = None) -> Objects:
+    """The objects of a view; object_of (i,): the object that each item belongs to, from 0 on, or -1 for none; None:
+    every item is an object.
+
+    The view of a lamp makes the system of a lamp: there in front means nearer to the lamp.
+    Errors: InputError for a table of another length, or an object without points.
+    """
+    items = len(view.item_vertices) - 1
+    of = np.arange(items) if object_of is None else np.asarray(object_of, dtype=np.intp)
+    if of.shape != (items,) or (of < -1).any():
+        raise InputError(f"{items} items need as many numbers of objects, from -1 on")
+    faces = image_faces(view, drawn_faces(view, project_faces(view)))
+    owner = of[view.face_item[faces.source]]
+    count = int(of.max(initial=-1)) + 1
+    box = np.tile(np.array([[np.inf], [-np.inf]] * 3), count)
+    drawn = owner >= 0
+    for row in range(6):
+        (np.maximum if row % 2 else np.minimum).at(box[row], owner[drawn], faces.box[row, drawn])
+    return Objects(
+        view, faces, owner, box, Surroundings.of([_mesh(view, np.flatnonzero(of == k)) for k in range(count)])
+    )
+
+
+def _mesh(view: View, items: Ints) -> Mesh:
+    """Some items of the view as one mesh, in its coordinates."""
+    vertex, _ = corner_positions(view.item_vertices, items)
+    number = np.full(view.points.shape[1], -1, dtype=np.intp)
+    number[vertex] = np.arange(len(vertex))
+    position, offsets = corner_positions(view.offsets, np.flatnonzero(np.isin(view.face_item, items)))
+    return Mesh(view.points[:, vertex].T, number[view.corners[position]], offsets)
+
+
+def which_first(objects: Objects, first: Ints, second: Ints, *, critical: bool = False) -> Codes:
+    """(p,) codes of pairs of objects, as of face_relations: APART where neither hides anything of the other, IN_FRONT
+    where the first has to be drawn later, BEHIND where the second has, STRADDLING where both would have to.
+
+    Boxes in the image that do not overlap decide nothing; then depths that do not, spheres and planes that keep apart;
+    what is left open the outlines of the faces decide. critical: always the outlines, so that no priority is given
+    where nothing overlaps.
+    Source: Glaeser, section 5.5; errata G5-02, G5-03, G5-05.
+    """
+    box = objects.box
+    codes = np.full(len(first), APART, dtype=np.int8)
+    left = np.flatnonzero(_overlap(box[0:2], first, second) & _overlap(box[2:4], first, second))
+    if not critical:
+        a, b = first[left], second[left]
+        apart = ~_overlap(box[4:6], a, b)
+        told = np.where(apart, np.where(box[4, a] >= box[5, b], IN_FRONT, BEHIND), APART)
+        eye = (0.0, 0.0, 1.0, 0.0) if objects.view.eye is None else objects.view.eye
+        nearer = separations(objects.around, a, b).nearer(eye)
+        told = np.where(apart | (nearer == 0), told, np.where(nearer > 0, IN_FRONT, BEHIND))
+        codes[left] = told
+        left = left[told == APART]
+    codes[left] = _by_outlines(objects, first[left], second[left])
+    return codes
+
+
+def _overlap(span: Floats, first: Ints, second: Ints) -> Bools:
+    return np.asarray(np.minimum(span[1, first], span[1, second]) > np.maximum(span[0, first], span[0, second]))
+
+
+def _by_outlines(objects: Objects, first: Ints, second: Ints) -> Codes:
+    """(p,) codes of pairs from those of all their faces."""
+    count = len(objects)
+    key = np.minimum(first, second) * count + np.maximum(first, second)
+    asked, pair = np.unique(key, return_inverse=True)
+    # For every pair asked: whether the smaller number is in front somewhere, and behind somewhere.
+    front, behind = np.zeros((2, len(asked)), dtype=np.bool_)
+    wanted = np.zeros(count + 1, dtype=np.bool_)
+    wanted[np.concatenate([first, second])] = True
+    faces = np.flatnonzero(wanted[objects.owner])
+    some, owner = objects.faces.some(faces), objects.owner[faces]
+    for a, b in box_pairs(some.box, objects.view.tolerance):
+        keys = np.minimum(owner[a], owner[b]) * count + np.maximum(owner[a], owner[b])
+        place = np.minimum(np.searchsorted(asked, keys), max(len(asked) - 1, 0))
+        use = np.flatnonzero((asked[place] == keys) & (owner[a] != owner[b])) if len(asked) else place[:0]
+        codes = face_relations(some, a[use], b[use], objects.view.tolerance)
+        turned = owner[a[use]] > owner[b[use]]
+        for code, here, there in ((IN_FRONT, front, behind), (BEHIND, behind, front)):
+            met = (codes == code) | (codes == STRADDLING)
+            here[place[use[met & ~turned]]] = True
+            there[place[use[met & turned]]] = True
+    swapped = first > second
+    hides = np.where(swapped, behind[pair], front[pair])
+    hidden = np.where(swapped, front[pair], behind[pair])
+    return np.select([hides & hidden, hides, hidden], [STRADDLING, IN_FRONT, BEHIND], APART).astype(np.int8)
+
+
+def priorities(objects: Objects, subset: ArrayLike | None = None, *, critical: bool = False) -> Codes:
+    """(k,k) the codes of which_first for all pairs of objects, or of some of them: row against column.
+
+    Opposite places say the same of each other. The table has as many places as there are pairs: for thousands of
+    objects painters_order, which compares only what overlaps, is the way.
+    Source: Glaeser, section 5.6.
+    """
+    chosen = np.arange(len(objects)) if subset is None else np.asarray(subset, dtype=np.intp)
+    row, column = np.triu_indices(len(chosen), 1)
+    table = np.full((len(chosen), len(chosen)), APART, dtype=np.int8)
+    codes = which_first(objects, chosen[row], chosen[column], critical=critical)
+    table[row, column] = codes
+    table[column, row] = np.select([codes == IN_FRONT, codes == BEHIND], [BEHIND, IN_FRONT], codes)
+    return table
+
+
+def demands(table: Codes) -> tuple[Ints, Ints]:
+    """A table of priorities as demands: (d,) objects to be drawn before the objects (d,)."""
+    before, after = np.nonzero((table == BEHIND) | (table == STRADDLING))
+    return before, after
