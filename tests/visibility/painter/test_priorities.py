@@ -141,21 +141,16 @@ def test_the_second_pass_undoes_knots_that_only_quick_decisions_make():
     plain = object_order(look(row, EYE), [str(k) for k in range(6)])
     assert plain.order.tolist() == list(range(6))
     assert (len(plain.knots), plain.critical) == (0, False)
-    needed = 0
-    for seed in range(60):
+    for seed in (9, 25, 31):
         random = np.random.default_rng(seed)
-        bars = [placed(box((-2, -0.1, -0.1), (2, 0.1, 0.1)), random, 1.5) for _ in range(8)]
-        view = look(numbered(bars), EYE)
-        quick = priorities(view_objects(view))
-        knotted = len(gordian_knots(8, *demands(quick))) > 0
-        slow = priorities(view_objects(view), critical=True)
-        if knotted and not gordian_knots(8, *demands(slow)):
-            needed += 1
-            result = object_order(view, [str(k) for k in range(8)])
-            assert result.critical
-            place = np.argsort(result.order)
-            assert all(place[a] < place[b] for a, b in zip(*demands(slow), strict=True))
-    assert needed > 0
+        bars = numbered([placed(box((-2, -0.01, -0.01), (2, 0.01, 0.01)), random, 1.5) for _ in range(6)])
+        view = look(bars, EYE)
+        quick, slow = (priorities(view_objects(view), critical=c) for c in (False, True))
+        assert len(gordian_knots(6, *demands(quick))) > 0
+        result = object_order(view, [str(k) for k in range(6)])
+        assert result.critical
+        place = np.argsort(result.order)
+        assert all(place[a] < place[b] for a, b in zip(*demands(slow), strict=True))
 
 
 def test_boxes_through_each_other_are_a_knot():
