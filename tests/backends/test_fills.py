@@ -95,9 +95,9 @@ def test_the_seam_test_would_see_a_seam(tmp_path):
 
 
 def test_a_polygon_grows_by_half_a_seam():
-    picture = rgb(png_bytes(page_of(flat([SQUARE], [DARK])), dpi=2540))  # 100 pixels a mm
-    row = picture[2500, :, 0] < 128
-    assert row.sum() == pytest.approx((20 + SEAM_MM) * 100, abs=2)
+    picture = rgb(png_bytes(page_of(flat([SQUARE], [DARK])), dpi=1270))  # 50 pixels a mm
+    row = picture[1250, :, 0] < 128
+    assert row.sum() == pytest.approx((20 + SEAM_MM) * 50, abs=2)
 
 
 def test_marks_are_drawn_in_their_order(tmp_path):
@@ -262,3 +262,30 @@ def test_hard_55_no_polygons_are_a_valid_page(format, tmp_path):
 def test_layers_without_fills_are_what_they_were():
     drawing = Drawing(60.0, 40.0, (Layer("visible", Pen(), (paths_of([(1, 1), (9, 9)]),)),))
     assert "<path" not in svg_text(drawing) and '<polyline points="1,39 9,31"/>' in svg_text(drawing)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_any_polygons_make_files_that_can_be_read(seed, tmp_path):
+    """Of no to seven corners, crossing themselves, tiny, huge, far away, clear, of any colours."""
+    rng = np.random.default_rng(seed)
+    sizes = rng.integers(0, 8, 60)
+    total = int(sizes.sum())
+    points = rng.uniform(-20, 80, (total, 2)) * np.where(
+        rng.random((total, 1)) < 0.05, 10.0 ** rng.integers(-9, 12), 1.0
+    )
+    colours = rng.integers(0, 256, (total, 3)).astype(np.uint8)
+    offsets = np.concatenate(([0], np.cumsum(sizes)))
+    alike = np.repeat(rng.random(60) < 0.5, sizes)
+    colours[alike] = colours[np.minimum(np.repeat(offsets[:-1], sizes), total - 1)][alike]
+    opacity = np.where(rng.random(60) < 0.3, rng.random(60), 1.0)
+    none = np.zeros(60, dtype=np.intp)
+    fills = Fills(points, offsets, colours, opacity, none, np.column_stack((points, points[:, 0])), none)
+    drawing = page_of(fills, items=("x",))
+    root = ET.fromstring(svg_bytes(drawing))
+    for path in root.iter(f"{SVG}path"):
+        numbers = np.array(re.findall(r"-?[\d.]+", path.get("d")), dtype=float)
+        assert numbers.min() >= -SEAM_MM - 1e-9 and numbers.max() <= 60 + SEAM_MM + 1e-9
+    save(drawing, tmp_path / "a.json")
+    assert np.array_equal(read_drawing(tmp_path / "a.json").layers[0].fills[0].points, fills.points)
+    if seed < 3:
+        assert len({picture.shape[1] // 8 for picture in pictures(drawing, tmp_path, dpi=100).values()}) == 1

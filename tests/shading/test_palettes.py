@@ -117,6 +117,7 @@ def test_colours_of_many_faces_at_once():
     assert palettes.shaded_colours([], np.zeros(0, dtype=int), np.zeros(0)).shape == (0, 3)
 
 
+@pytest.mark.capability("G8.5-coloured-light")
 def test_a_coloured_light_changes_the_bright_end():
     body = ramp(*LIMITS["blue"])
     mixed = palettes.mixed(body, (1.0, 0.9, 0.2), 20)
