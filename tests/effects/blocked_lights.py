@@ -7,11 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.effects.decals import Decals
-from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Bools, Floats, Ints
-from vectorplot.scene.scene import Light, Scene
+from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
-from vectorplot.testing.sight import visible_by_rays
 from vectorplot.visibility.projected_faces import newell
 
 
@@ -57,50 +55,78 @@ def highest_grade(view: View, decals: Decals, at: FacePoints) -> tuple[Ints, Flo
     return grade, clear
 
 
-def light_camera(light: Light, scene: Scene) -> Camera:
-    """A camera in the place of a light."""
-    x, y, z = light.position
-    if light.parallel:
-        return Camera((x, y, z), (0.0, 0.0, 0.0), parallel=True, height=1.0)
-    middle = scene.bounds.mean(axis=0)
-    a, b, c = (middle if np.abs(middle - light.position).max() > 0 else middle + 1.0).tolist()
-    return Camera((x, y, z), (a, b, c))
+def scene_triangles(view: View) -> Floats:
+    """(t,3,3) the triangles, corner by corner, of all faces that occlude."""
+    face = np.repeat(np.arange(view.face_count), view.face_sizes - 2)
+    face_start = np.repeat(np.cumsum(view.face_sizes - 2) - (view.face_sizes - 2), view.face_sizes - 2)
+    step = np.arange(len(face)) - face_start
+    kept = view.occludes[view.face_item[face]]
+    start, step = view.offsets[face[kept]], step[kept]
+    corners = np.stack([view.corners[start], view.corners[start + step + 1], view.corners[start + step + 2]], axis=1)
+    return view.points.T[corners]
 
 
-def lights_blocked(
-    scene: Scene, view: View, lights: tuple[Light, ...], at: FacePoints, lit: Bools
-) -> tuple[Ints, Floats]:
-    """(n,) how many of the lights that a face is turned to, lit (l,n), do not reach each point, and how sure that is."""
-    blocked = np.zeros(len(at.face), dtype=np.intp)
-    clear = np.full(len(at.face), np.inf)
-    world = view.world_of(at.points)
-    for light, mine in zip(lights, lit, strict=True):
-        sight = visible_by_rays(scene, light_camera(light, scene), world)
-        blocked += (sight.hidden_by > 0) & mine
-        clear = np.minimum(clear, np.where(mine, sight.clearance, np.inf))
-    return blocked, clear
+def blocked(points: Floats, rays: Floats, triangles: Floats) -> tuple[Bools, Floats]:
+    """(n,) whether a triangle lies across the rays (n,3) from points (n,3), and how sure that is.
+
+    A triangle that touches a point is not across its ray.
+    """
+    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
+    normal = np.cross(b - a, c - a)
+    normal /= np.maximum(np.sqrt((normal * normal).sum(axis=1)), 1e-300)[:, None]
+    length = np.sqrt((rays * rays).sum(axis=1))[:, None]
+    height = (normal * a).sum(axis=1) - points @ normal.T
+    slope = rays @ normal.T
+    across = (np.abs(slope) > 1e-9 * length) & (np.abs(height) > 1e-9)
+    share = np.where(across, height / np.where(across, slope, 1.0), -1.0)
+    ray, triangle = np.nonzero((share * length > -1e-5) & ((share - 1.0) * length < 1e-5) & across)
+    share, reach = share[ray, triangle], length[ray, 0]
+    hit = points[ray] + share[:, None] * rays[ray]
+    inside = np.full(len(ray), np.inf)
+    for start, end in ((a, b), (b, c), (c, a)):
+        along = (end - start)[triangle]
+        inward = np.cross(normal[triangle], along) / np.sqrt((along * along).sum(axis=1))[:, None]
+        inside = np.minimum(inside, (inward * (hit - start[triangle])).sum(axis=1))
+    before = np.minimum(share, 1.0 - share) * reach
+    met = (inside > 0.0) & (before > 0.0)
+    # A small step of the point turns the answer where a side of the triangle or one of its ends is near the ray.
+    doubtful = np.where(met, np.minimum(inside, before), -np.minimum(inside, before))
+    result = np.zeros(len(points), dtype=np.bool_)
+    result[ray[met]] = True
+    sure = np.full(len(points), np.inf)
+    np.minimum.at(sure, ray, np.abs(doubtful))
+    return result, sure
 
 
-def lit_faces(view: View, lights: tuple[Light, ...]) -> Bools:
-    """(l,f) the faces that turn the same side to a light and to the eye."""
-    normal, _, first = newell(view, np.arange(view.face_count))
-    corner = view.points[:, first]
-    eye = np.array([[0.0], [0.0], [1.0]]) if view.eye is None else view.eye[:, None] - corner
+def lights_blocked(view: View, lights: tuple[Light, ...], at: FacePoints) -> tuple[Ints, Floats]:
+    """(n,) how many of the lights that a face turns its visible side to do not reach each point, and how sure that
+    is."""
+    count = np.zeros(len(at.face), dtype=np.intp)
+    sure = np.full(len(at.face), np.inf)
+    normal, _, _ = newell(view, at.face)
+    eye = np.array([[0.0], [0.0], [1.0]]) if view.eye is None else view.eye[:, None] - at.points
     to_eye = (normal * eye).sum(axis=0)
-    rows = []
+    triangles = scene_triangles(view)
     for light in lights:
-        place = np.array(light.position)
-        ray = (view.axes @ place)[:, None] if light.parallel else view.points_of(place[None]) - corner
-        rows.append((normal * ray).sum(axis=0) * to_eye > 0.0)
-    return np.array(rows).reshape(len(lights), view.face_count)
+        place = np.array(light.position, dtype=np.float64)
+        if light.parallel:
+            rays = np.broadcast_to((view.axes @ place * 5.0 / np.linalg.norm(place))[:, None], at.points.shape)
+        else:
+            rays = view.points_of(place[None]) - at.points
+        lit = (normal * rays).sum(axis=0) * to_eye > 0.0
+        dark, clear = blocked(at.points[:, lit].T, rays[:, lit].T, triangles)
+        count[lit] += dark
+        sure[lit] = np.minimum(sure[lit], clear)
+    return count, sure
 
 
 def wrong_points(
-    scene: Scene, view: View, lights: tuple[Light, ...], decals: Decals, faces: Ints, count: int, seed: int = 0
+    view: View, lights: tuple[Light, ...], decals: Decals, faces: Ints, count: int, seed: int = 0
 ) -> tuple[int, int]:
-    """How many sample points of faces have a wrong grade, and how many have an answer at all."""
+    """How many sample points of faces have a wrong grade, and how many have an answer at all: no side of a shadow or
+    of what casts it within a millionth of the extent."""
     at = face_points(view, faces, count, np.random.default_rng(seed))
     grade, clear = highest_grade(view, decals, at)
-    blocked, sure = lights_blocked(scene, view, lights, at, lit_faces(view, lights)[:, at.face])
+    dark, sure = lights_blocked(view, lights, at)
     answered = (clear > 1e-6) & (sure > 1e-6)
-    return int((grade != blocked)[answered].sum()), int(answered.sum())
+    return int((grade != dark)[answered].sum()), int(answered.sum())

@@ -36,7 +36,8 @@ class Decals:
     of DecalKind; grade (m,) how many lights it lacks (0 for decals that are no shadows); light (m,) which light of the
     scene, -1 for several or none; colour (m,) index into colours, or -1: the face's own; level (m,) the order on one
     face, smaller first, equal ones in any order; colours: names of palettes and colours; lacking (m,): the lights that
-    do not get there at all, bit k for light k (None: as far as light says).
+    do not get there at all, bit k for light k (None: as far as light says); opacity (m,) how much of the face they
+    cover (None: all of it).
     """
 
     points: Floats
@@ -49,6 +50,7 @@ class Decals:
     level: Ints
     colours: tuple[str, ...] = ()
     lacking: Ints | None = None
+    opacity: Floats | None = None
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
@@ -72,6 +74,7 @@ class Decals:
             self.level[decals],
             self.colours,
             None if self.lacking is None else self.lacking[decals],
+            None if self.opacity is None else self.opacity[decals],
         )
 
     @property
@@ -80,6 +83,11 @@ class Decals:
         if self.lacking is not None:
             return self.lacking
         return np.where(self.light >= 0, np.left_shift(1, np.maximum(self.light, 0)), 0)
+
+    @property
+    def opacities(self) -> Floats:
+        """(m,) how much of the face each covers, 0 to 1."""
+        return np.ones(len(self)) if self.opacity is None else self.opacity
 
     @property
     def painting_order(self) -> Ints:
@@ -114,4 +122,5 @@ def joined_decals(*decals: Decals) -> Decals:
         np.concatenate([d.level for d in decals]),
         colours,
         np.concatenate([d.lights_lacking for d in decals]),
+        np.concatenate([d.opacities for d in decals]),
     )

@@ -114,7 +114,7 @@ def graded(view: View, shadows: Shadows, lights: int) -> Shadows:
     grades = [single]
     if lights < 2 or not len(shadows):
         return single
-    tree, borders = _FaceTree.of(view, single), _borders(view, single)
+    tree, borders = _FaceTree.of(view, single), upright_planes(view, single)
     while len(grades) < lights and len(grades[-1]):
         grades.append(_next_grade(view, grades[-1], single, tree, borders).without_needless())
     return joined_shadows(grades)
@@ -127,7 +127,7 @@ def without_covered(view: View, shadows: Shadows) -> Shadows:
     """
     if not len(shadows):
         return shadows
-    tree, borders = _FaceTree.of(view, shadows), _borders(view, shadows)
+    tree, borders = _FaceTree.of(view, shadows), upright_planes(view, shadows)
     covered = np.zeros(len(shadows), dtype=np.bool_)
     for low in range(0, len(shadows), POLYGONS_AT_ONCE):
         lot = shadows.some(np.arange(low, min(low + POLYGONS_AT_ONCE, len(shadows))))
@@ -170,7 +170,7 @@ def _next_grade(view: View, shadows: Shadows, single: Shadows, tree: _FaceTree, 
     return joined_shadows(found)
 
 
-def _borders(view: View, shadows: Shadows) -> PlaneBundles:
+def upright_planes(view: View, shadows: Shadows) -> PlaneBundles:
     """The planes upright on the faces through the sides of shadows, positive inside."""
     normal, _ = polygon_areas(shadows.points, shadows.offsets)
     sizes = np.diff(shadows.offsets)

@@ -20,7 +20,7 @@ from vectorplot.visibility.occluders import solid_items
 from vectorplot.visibility.painter.image_faces import corner_positions, drawn_faces
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 
-MOST_LIGHTS = 62
+MOST_LIGHTS = 52
 """So many lights have each a bit of a number."""
 
 CASTERS_AT_ONCE = 1 << 10

@@ -1,0 +1,58 @@
+"""Shadows of transparent items."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from vectorplot.effects.clear_shadows import clear_shadows
+from vectorplot.effects.decals import DecalKind, joined_decals
+from vectorplot.effects.shadows import shadow_decals
+from vectorplot.geometry.camera import Camera
+from vectorplot.scene.scene import Item, Light, Material, Scene
+from vectorplot.scene.view import look
+from vectorplot.testing.shapes import box
+
+LIGHTS = (Light((0.3, 0.0, 1.0), parallel=True), Light((0.0, 0.0, 8.0)))
+
+
+def glass(name: str, x: float, colour: str, opacity: float) -> Item:
+    material = Material("transparent", opacity)
+    return Item(name, box((x, 0, 1), (x + 1, 1, 1.5)), colour, material, occludes=False)
+
+
+def scene() -> Scene:
+    floor = Item("floor", box((-5, -5, -1), (5, 5, 0)))
+    brick = Item("brick", box((-3, -3, 1), (-2, -2, 2)))
+    return Scene((floor, glass("a", 0, "blue", 0.3), brick, glass("b", 2, "green", 0.5), glass("c", -2, "blue", 0.3)))
+
+
+@pytest.mark.capability("G6.6-transparent-shadow")
+def test_they_have_the_colours_of_the_items_and_come_last() -> None:
+    view = look(scene(), Camera((3, -9, 15), (0, 0, 0)))
+    clear = clear_shadows(view, scene(), LIGHTS)
+    on_floor = np.flatnonzero(view.face_item[clear.face] == 0)
+    names = [clear.colours[k] for k in clear.colour[on_floor]]
+    assert sorted(names) == ["blue"] * 4 + ["green"] * 2
+    assert np.allclose(clear.opacities[on_floor], [0.3 if name == "blue" else 0.5 for name in names])
+    assert sorted(clear.light[on_floor].tolist()) == [0, 0, 0, 1, 1, 1]
+    assert (clear.kind == DecalKind.CLEAR_SHADOW).all() and not clear.lights_lacking.any()
+    dark = shadow_decals(view, LIGHTS)
+    both = joined_decals(clear, dark)
+    on_one = [k for k in both.painting_order if both.face[k] == clear.face[on_floor[0]]]
+    assert both.kind[on_one].tolist() == sorted(both.kind[on_one].tolist())
+
+
+def test_a_scene_without_glass_has_none() -> None:
+    solid = Scene(tuple(item for item in scene().items if item.occludes))
+    view = look(solid, Camera((3, -9, 15), (0, 0, 0)))
+    assert len(clear_shadows(view, solid, LIGHTS)) == 0
+
+
+def test_what_is_wholly_clear_or_occludes_casts_none() -> None:
+    milky = replace(glass("b", 2, "blue", 0.5), occludes=True)
+    items = (scene().items[0], glass("a", 0, "blue", 0.0), milky)
+    view = look(Scene(items), Camera((3, -9, 15), (0, 0, 0)))
+    assert len(clear_shadows(view, Scene(items), LIGHTS)) == 0
