@@ -61,5 +61,5 @@ def topmost(points: Floats, offsets: Ints, samples: Floats) -> Ints:
         along = np.roll(ring, -1, axis=1) - ring
         turn = np.sign((ring[0] * np.roll(ring[1], -1) - ring[1] * np.roll(ring[0], -1)).sum())
         side = along[0][:, None] * (samples[1] - ring[1][:, None]) - along[1][:, None] * (samples[0] - ring[0][:, None])
-        found[(turn * side >= 0.0).all(axis=0)] = k
+        found[(turn != 0.0) & (turn * side >= 0.0).all(axis=0)] = k
     return found

@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.geometry.convex_clipping import clipped, contained
 from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.plane_cuts import polygon_areas
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions
 from vectorplot.visibility.projected_faces import Floats32
@@ -54,9 +55,19 @@ def seen_through(faces: ImageFaces, painted: ImageFaces, windows: Ints, toleranc
     window, face = tree.query(shapely.box(left, bottom, right, top))
     order = np.lexsort((face, window))
     window, face = windows[window[order]], face[order]
-    points, offsets, pair = _clipped_pairs(faces, painted, face, window, tolerance)
+    points, offsets, pair = _wide(*_clipped_pairs(faces, painted, face, window, tolerance), tolerance)
     window, source = window[pair], faces.source[face[pair]]
     return sorted_by_window(SeenThrough(points, offsets, source, window, painted.source[window]))
+
+
+def _wide(points: Floats, offsets: Ints, pair: Ints, tolerance: float) -> tuple[Floats, Ints, Ints]:
+    """The polygons that are not narrower than a tolerance in the image."""
+    if not len(pair):
+        return points, offsets, pair
+    normal, spread = polygon_areas(points * [[1.0], [1.0], [0.0]], offsets)
+    kept = np.flatnonzero(np.abs(normal[2]) > tolerance * spread)
+    position, offsets = corner_positions(offsets, kept)
+    return points[:, position], offsets, pair[kept]
 
 
 def sorted_by_window(seen: SeenThrough) -> SeenThrough:
