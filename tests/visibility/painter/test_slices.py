@@ -13,10 +13,11 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.view import look
-from vectorplot.testing.shapes import numbered, scene_of
+from vectorplot.testing.shapes import box, numbered, scene_of
 from vectorplot.testing.surfaces import torus_mesh
 from vectorplot.visibility.painter.graphs import graph_order, graph_triangles
 from vectorplot.visibility.painter.image_faces import image_faces, mapped, polygons_of
+from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.painter.rings import ring_order, sliced_meridian
 from vectorplot.visibility.painter.slices import cut_into_slices, eye_coordinate, slice_order, sliced_order
 
@@ -211,3 +212,22 @@ def test_a_meridian_that_is_not_sliced_is_refused():
         sliced_meridian([(1, 0), (np.nan, 1)])
     sliced = sliced_meridian(MERIDIANS["goblet"])
     assert sliced_meridian(sliced).tolist() == sliced.tolist()
+
+
+def test_a_known_order_is_used_where_nothing_else_overlaps_the_item():
+    graph, eye = graph_mesh(X, Y, HEIGHTS), (3.0, -4.0, 3.0)
+    order = graph_order(X, Y, eye)
+    beside, within = box((3, 3, 0), (3.5, 3.5, 0.5)), box((-0.2, -0.2, -0.6), (0.2, 0.2, 1.4))
+    for shapes, used in (([graph, beside], True), ([graph, within], False), ([within, graph], False)):
+        scene = numbered(shapes)
+        view = look(scene, Camera(eye, (0.5, 0.5, 0)))
+        number = next(k for k, shape in enumerate(shapes) if shape is graph)
+        known = {number: order + int(np.flatnonzero(view.face_item == number)[0])}
+        painted = painters_order(view, known=known)
+        assert wrong_points(view, painted.faces) == 0
+        own = painted.faces.source[view.face_item[painted.faces.source] == number]
+        assert (own.tolist() == [f for f in known[number].tolist() if f in set(own.tolist())]) == used
+        plain = painters_order(view)
+        assert (painted.uncut, painted.knots.tolist()) == (plain.uncut, plain.knots.tolist())
+    with pytest.raises(InputError, match="each of its faces once"):
+        painters_order(view, known={1: order[1:]})

@@ -36,11 +36,8 @@ class ImageFaces:
     @cached_property
     def box(self) -> Floats:
         """(6,n) smallest and largest x, y and height."""
-        rows = []
-        for row in self.points:
-            for extreme in (np.minimum, np.maximum):
-                rows.append(extreme.reduceat(row, self.offsets[:-1]) if len(self) else row[:0])
-        return np.stack(rows)
+        extremes = (np.minimum, np.maximum)
+        return np.stack([over_corners(extreme, row, self.offsets) for row in self.points for extreme in extremes])
 
     def some(self, which: Ints) -> ImageFaces:
         """Some of the polygons, in the order asked for."""
@@ -78,6 +75,19 @@ def corner_positions(offsets: Ints, which: Ints) -> tuple[Ints, Ints]:
     return np.repeat(offsets[which] - ends[:-1], sizes) + np.arange(int(ends[-1])), ends
 
 
+def over_corners(reduce: np.ufunc, row: Floats, offsets: Ints) -> Floats:
+    """(n,) sums, or smallest or largest values, of a row (c,) over the corners of each polygon; none is empty."""
+    count = len(offsets) - 1
+    size = len(row) // count if count else 0
+    if not count or (offsets != np.arange(0, len(row) + 1, size)[: count + 1]).any():
+        return np.asarray(reduce.reduceat(row, offsets[:-1]) if count else row[:0], dtype=np.float64)
+    # All of one size: corner by corner, several times as fast.
+    result = row[::size].copy()
+    for corner in range(1, size):
+        reduce(result, row[corner::size], out=result)
+    return result
+
+
 def drawn_faces(view: View, faces: ProjectedFaces) -> Ints:
     """The faces that can be seen at all: not edge-on, not behind the near plane, and of closed bodies only those that
     show their outside.
@@ -89,8 +99,9 @@ def drawn_faces(view: View, faces: ProjectedFaces) -> Ints:
     through_near = ~np.isfinite(faces.nearest) | (faces.box[1] >= EVERYWHERE)
     culled = closed_items(view)
     culled[view.face_item[through_near]] = False
-    area, _, first = newell(view, np.arange(view.face_count))
-    sixfold = np.bincount(view.face_item, (area * view.points[:, first]).sum(axis=0), minlength=len(culled))
+    face = np.flatnonzero(culled[view.face_item])
+    area, _, first = newell(view, face)
+    sixfold = np.bincount(view.face_item[face], (area * view.points[:, first]).sum(axis=0), minlength=len(culled))
     outside = np.where(sixfold[view.face_item] < 0.0, -faces.facing, faces.facing) > 0
     kept = (faces.facing != 0) & np.isfinite(faces.nearest)
     return np.flatnonzero(kept & (outside | ~culled[view.face_item]))
@@ -103,22 +114,23 @@ def image_faces(view: View, which: Ints) -> ImageFaces:
     projection it is f - d itself. Source: Glaeser, section 2.4 (the transformation T2).
     """
     position, offsets = corner_positions(view.offsets, which)
-    points, source = view.points[:, view.corners[position]], which
-    if view.eye is not None:
-        beyond = view.depth_of(points) - view.near
-        if beyond.min(initial=0.0) < 0.0:
-            cut, _ = cut_polygons(Polygons(points.T, offsets), beyond)
-            full = np.flatnonzero(np.diff(cut.offsets))
-            points, offsets, source = cut.points.T, np.append(cut.offsets[full], len(cut.points)), which[full]
-    return polygons_of(mapped(view, points), offsets, source, view.tolerance)
+    corner = view.corners[position]
+    if view.eye is None or not (view.depth[corner] < view.near).any():
+        return polygons_of(mapped(view, view.points)[:, corner], offsets, which, view.tolerance)
+    points = view.points[:, corner]
+    cut, _ = cut_polygons(Polygons(points.T, offsets), view.depth_of(points) - view.near)
+    full = np.flatnonzero(np.diff(cut.offsets))
+    offsets = np.append(cut.offsets[full], len(cut.points))
+    return polygons_of(mapped(view, cut.points.T), offsets, which[full], view.tolerance)
 
 
 def mapped(view: View, points: Floats) -> Floats:
-    """(3,n) points (3,n) of the view, beyond the near plane, after the projective map."""
+    """(3,n) points (3,n) of the view after the projective map; without meaning where they are nearer than the near
+    plane."""
     if view.eye is None:
         height = points[2]
     else:
-        depth = view.depth_of(points)
+        depth = np.maximum(view.depth_of(points), view.near)
         height = view.focus * (view.focus - depth) / depth
     return np.concatenate([view.image_of(points), height[None]])
 
@@ -145,7 +157,7 @@ def polygons_of(points: Floats, offsets: Ints, source: Ints, tolerance: float) -
     normal, middle = _area_vectors(points, offsets)
     sizes = np.diff(offsets)
     spread = np.maximum(
-        *(np.maximum.reduceat(row, offsets[:-1]) - np.minimum.reduceat(row, offsets[:-1]) for row in points[:2])
+        *(over_corners(np.maximum, row, offsets) - over_corners(np.minimum, row, offsets) for row in points[:2])
     )
     wide = np.flatnonzero(np.abs(normal[2]) > tolerance * spread)
     position, ends = corner_positions(offsets, wide)
@@ -155,10 +167,20 @@ def polygons_of(points: Floats, offsets: Ints, source: Ints, tolerance: float) -
     normal, middle = normal[:, wide], middle[:, wide]
     slopes = -normal[:2] / normal[2]
     planes = np.concatenate([middle, slopes])
-    order = np.lexsort((middle[1], middle[0], middle[2], -np.abs(normal[2])))
-    rank = np.empty(len(wide), dtype=np.intp)
-    rank[order] = np.arange(len(wide))
-    return ImageFaces(corners, ends, planes, source[wide], rank)
+    return ImageFaces(corners, ends, planes, source[wide], _ranks(-np.abs(normal[2]), middle))
+
+
+def _ranks(key: Floats, middle: Floats) -> Ints:
+    """(n,) ranks by a key; of equal ones by height, x and y of their middles."""
+    order = np.argsort(key, kind="stable")
+    new = np.append(True, key[order][1:] != key[order][:-1])[: len(order)]
+    tied = np.flatnonzero(~(new & np.append(new[1:], True)))
+    if len(tied):
+        some = order[tied]
+        order[tied] = some[np.lexsort((middle[1, some], middle[0, some], middle[2, some], np.cumsum(new)[tied]))]
+    rank = np.empty(len(order), dtype=np.intp)
+    rank[order] = np.arange(len(order))
+    return rank
 
 
 def _area_vectors(points: Floats, offsets: Ints) -> tuple[Floats, Floats]:
@@ -168,11 +190,11 @@ def _area_vectors(points: Floats, offsets: Ints) -> tuple[Floats, Floats]:
     after = arm[:, next_positions(offsets, np.arange(points.shape[1]))]
     normal = np.stack(
         [
-            np.add.reduceat(arm[(k + 1) % 3] * after[(k + 2) % 3] - arm[(k + 2) % 3] * after[(k + 1) % 3], starts)
+            over_corners(np.add, arm[(k + 1) % 3] * after[(k + 2) % 3] - arm[(k + 2) % 3] * after[(k + 1) % 3], offsets)
             for k in range(3)
         ]
     )
-    return normal, points[:, starts] + np.add.reduceat(arm, starts, axis=1) / sizes
+    return normal, points[:, starts] + np.stack([over_corners(np.add, row, offsets) for row in arm]) / sizes
 
 
 def closed_items(view: View) -> Bools:

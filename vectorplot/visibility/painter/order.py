@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.bodies import Bodies, convex_bodies, outlined_items
@@ -48,18 +50,53 @@ class Painted:
         return len(self.faces)
 
 
-def painters_order(view: View, projected: ProjectedFaces | None = None) -> Painted:
+def painters_order(
+    view: View, projected: ProjectedFaces | None = None, *, known: Mapping[int, Ints] | None = None
+) -> Painted:
     """The faces that can be seen, in an order in which each may be painted over those before it.
 
     Convex bodies are compared as wholes; only where they pierce one another, or lie on one another in circles, their
     faces are, and cut where there is no other way. Faces whose images do not overlap may stand in any order; of faces
     that overlap in one plane the larger one comes first. Nothing depends on the order of the items, except which of
     two faces in the same place is seen.
+    known: for items whose structure tells the order (graph_order, ring_order) all faces of the view that each has, back
+    to front. It is used where nothing else overlaps the item in the image; then none of its faces is compared.
+    Errors: InputError where a known order is not one of the item's faces.
     Degenerate: faces seen edge-on are left out.
     Source: Glaeser, sections 5.1, 5.5 and 5.6; Newell, Newell and Sancha (1972).
     """
     projected = project_faces(view) if projected is None else projected
     faces = image_faces(view, drawn_faces(view, projected))
+    if known:
+        lone, faces = _known_apart(view, faces, known)
+        rest = _ordered(view, projected, faces)
+        return Painted(joined(lone, rest.faces), len(lone) + rest.uncut, rest.knots)
+    return _ordered(view, projected, faces)
+
+
+def _known_apart(view: View, faces: ImageFaces, known: Mapping[int, Ints]) -> tuple[ImageFaces, ImageFaces]:
+    """The faces whose order is known, in this order, of items that no other item overlaps in the image; and the rest."""
+    item = view.face_item[faces.source]
+    place = np.full(view.face_count, -1, dtype=np.intp)
+    lone = np.zeros(len(view.item_vertices) - 1, dtype=np.bool_)
+    for number, order in known.items():
+        own = np.flatnonzero(view.face_item == number)
+        if not np.array_equal(np.sort(order), own):
+            raise InputError(f"the known order of item {number} does not name each of its faces once")
+        place[order], lone[number] = np.arange(len(order)), True
+    box = np.tile(np.array([[np.inf], [-np.inf], [np.inf], [-np.inf]]), len(lone))
+    for row in range(4):
+        (np.maximum if row % 2 else np.minimum).at(box[row], item, faces.box[row])
+    drawn = np.flatnonzero(box[0] <= box[1])
+    for first, second in box_pairs(box[:, drawn], view.tolerance):
+        lone[drawn[first]] = lone[drawn[second]] = False
+    apart = np.flatnonzero(lone[item])
+    in_order = np.lexsort((place[faces.source[apart]], item[apart]))
+    return faces.some(apart[in_order]), faces.some(np.flatnonzero(~lone[item]))
+
+
+def _ordered(view: View, projected: ProjectedFaces, faces: ImageFaces) -> Painted:
+    """The painter's order of some faces of a view."""
     things = _things(view, projected, faces)
     before, after = _demands(view, faces, things)
     rank = _ranks(faces, things, before, after)
