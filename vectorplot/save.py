@@ -1,4 +1,4 @@
-"""Saving a drawing under a name whose suffix says the format."""
+"""Saving a drawing or a picture of pixels under a name whose suffix says the format."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from pathlib import Path
 
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
+from vectorplot.shading.image import Image
 
 # Module and function of each format; a backend is imported when it is called for.
 _BACKENDS = {
@@ -25,8 +26,8 @@ FORMATS = tuple(_BACKENDS)
 """The formats that write knows."""
 
 
-def save(drawing: Drawing, path: str | os.PathLike[str]) -> None:
-    """Write the drawing in the format of the suffix: svg, ps, eps, pdf, png or json.
+def save(drawing: Drawing | Image, path: str | os.PathLike[str]) -> None:
+    """Write the drawing in the format of the suffix: svg, ps, eps, pdf, png or json; a picture of pixels as png.
 
     The file is written whole or not at all; an old one stays until the new one is complete.
     Errors: InputError for an unknown suffix and for what vectorplot.backends.sheet refuses; OSError.
@@ -37,13 +38,17 @@ def save(drawing: Drawing, path: str | os.PathLike[str]) -> None:
     write_whole(path, write(drawing, suffix[1:]))
 
 
-def write(drawing: Drawing, format: str) -> bytes:
-    """The drawing as the content of a file: svg, ps, eps, pdf, png (at 150 dpi) or json.
+def write(drawing: Drawing | Image, format: str) -> bytes:
+    """The drawing as the content of a file: svg, ps, eps, pdf, png (at 150 dpi) or json; a picture of pixels as png.
 
     Same drawing, same bytes. Errors: InputError for an unknown format and for what vectorplot.backends.sheet refuses.
     """
     if format.lower() not in _BACKENDS:
         raise InputError(f"unknown format {format!r}; known are {', '.join(FORMATS)}")
+    if isinstance(drawing, Image):
+        if format.lower() != "png":
+            raise InputError(f"a picture of pixels is written as png, not as {format}")
+        return drawing.png()
     module, function = _BACKENDS[format.lower()]
     backend: Callable[[Drawing], bytes] = getattr(import_module(f"vectorplot.backends.{module}"), function)
     return backend(drawing)

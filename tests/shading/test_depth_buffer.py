@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from rays import beside_edges, first_triangles, pixel_rays
-from scenes import COLUMNS, ROWS, camera_of, floor, sample, triangles_of
+from pixel_rays import beside_edges, first_triangles, pixel_rays
+from shaded_scenes import COLUMNS, ROWS, camera_of, floor, sample, triangles_of
 
 from vectorplot.draw import default_camera
 from vectorplot.errors import InputError

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from rays import beside_edges, intersector
-from scenes import COLUMNS, ROWS, camera_of, floor, sample, triangles_of
+from pixel_rays import beside_edges, intersector
+from shaded_scenes import COLUMNS, ROWS, camera_of, floor, sample, triangles_of
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera

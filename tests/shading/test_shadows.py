@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from rays import stopped
-from scenes import COLUMNS, FIELD_CAMERA, ROWS, box, camera_of, field, floor, sample, triangles_of, visible
+from pixel_rays import stopped
+from shaded_scenes import COLUMNS, FIELD_CAMERA, ROWS, box, camera_of, field, floor, sample, triangles_of, visible
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.projection import CoordinateSystem
 from vectorplot.scene.scene import Light
 from vectorplot.shading import shadow_map as maps
-from vectorplot.shading.screen import front_facing
+from vectorplot.shading.screen import front_facing, raster_system
 from vectorplot.shading.seen_region import seen_region
 from vectorplot.shading.shadow_buffer import is_inside, light_system, shadow_buffer
 from vectorplot.shading.shadow_map import light_plane, shadow_map, standard_frame, texels_per_unit, trapezoid_frame
@@ -157,7 +157,7 @@ def test_the_lamps_plane_of_sun_and_lamp():
 @pytest.mark.parametrize("light", [SUN, Light((60.0, -90.0, 150.0))], ids=["sun", "lamp"])
 def test_depths_of_a_tapered_map_are_the_lamps_own(light):
     points, corners = field()
-    region = seen_region(FIELD_CAMERA, COLUMNS, ROWS, bounds(points))
+    region = seen_region(raster_system(FIELD_CAMERA, COLUMNS, ROWS), COLUMNS, ROWS, bounds(points))
     system = light_system(light, points)
     tapered = shadow_map(system, trapezoid_frame(system, region, 0.8), points, corners, 700, 700)
     assert np.ptp(tapered.texel_from_light[2, :2]) > 0.0, "it has a taper"
@@ -188,7 +188,7 @@ def unscaled(system, depth):
 def test_the_trapezoid_shows_more_of_what_is_near_and_the_same_shadows(light):
     points, corners = field()
     found, places, normals = visible(points, corners, FIELD_CAMERA, 480, 360)
-    region = seen_region(FIELD_CAMERA, 480, 360, bounds(points))
+    region = seen_region(raster_system(FIELD_CAMERA, 480, 360), 480, 360, bounds(points))
     exact = blocked_exactly(light, places, found.triangle, points, corners)
     _, facing = stopped(points, corners, places, normals, light)
     distance = np.linalg.norm(places - FIELD_CAMERA.eye, axis=1)
@@ -216,7 +216,7 @@ def test_a_light_that_faces_the_eye_has_the_right_shadows(angle):
     found, places, normals = visible(points, corners, camera)
     exact = blocked_exactly(light, places, found.triangle, points, corners)
     _, facing = stopped(points, corners, places, normals, light)
-    region = seen_region(camera, COLUMNS, ROWS, bounds(points))
+    region = seen_region(raster_system(camera, COLUMNS, ROWS), COLUMNS, ROWS, bounds(points))
     buffer = shadow_buffer(light, points, corners, size=1024, frame="trapezoid", region=region)
     assert np.isfinite(buffer.maps[0].texel_from_light).all()
     assert (buffer.blocks(places, normals) != exact)[facing].mean() < 0.02
@@ -245,7 +245,7 @@ def test_a_lamp_in_the_scene_casts_shadows_away_from_itself_on_all_sides():
 def test_a_frustum_without_taper_falls_to_the_rectangle():
     points, corners = sample(2)
     camera = Camera((0, -1e7, 3e6), (0, 0, 0), fov_deg=1e-4)
-    region = seen_region(camera, COLUMNS, ROWS, bounds(points))
+    region = seen_region(raster_system(camera, COLUMNS, ROWS), COLUMNS, ROWS, bounds(points))
     system = light_system(SUN, points)
     matrix = trapezoid_frame(system, region, 0.8)
     assert np.isfinite(matrix).all()
@@ -277,18 +277,21 @@ def test_nothing_casts_no_shadow_and_impossible_maps_are_refused():
         with pytest.raises(InputError):
             shadow_buffer(SUN, points, corners, **options)
     with pytest.raises(InputError, match="focus"):
-        seen_region(FIELD_CAMERA, 10, 10, bounds(points), 1.5)
+        seen_region(raster_system(FIELD_CAMERA, 10, 10), 10, 10, bounds(points), 1.5)
 
 
 def test_the_seen_region_is_the_frustum_within_the_box():
     camera = Camera((0, -10, 0), (0, 0, 0), fov_deg=90.0)
-    region = seen_region(camera, 200, 100, [(-1, -1, -1), (1, 1, 1)], 0.25)
+    region = seen_region(raster_system(camera, 200, 100), 200, 100, [(-1, -1, -1), (1, 1, 1)], 0.25)
     assert np.allclose(bounds(region.points), [(-1, -1, -1), (1, 1, 1)], atol=1e-7), "all of a small box"
     assert np.allclose([region.near, region.far, region.focus], [(0, -1, 0), (0, 1, 0), (0, -0.5, 0)], atol=1e-7)
     assert np.allclose(bounds(region.focus_points)[1], (1, -0.5, 1), atol=1e-7)
-    wide = seen_region(camera, 200, 100, [(-99, -5, -99), (99, 5, 99)])
+    wide = seen_region(raster_system(camera, 200, 100), 200, 100, [(-99, -5, -99), (99, 5, 99)])
     assert np.allclose(bounds(wide.points), [(-30, -5, -15), (30, 5, 15)], atol=1e-4)
-    parallel = seen_region(Camera((0, -10, 0), parallel=True, height=4.0), 200, 100, [(-9, -9, -9), (9, 9, 9)])
+    camera = Camera((0, -10, 0), parallel=True, height=4.0)
+    parallel = seen_region(raster_system(camera, 200, 100), 200, 100, [(-9, -9, -9), (9, 9, 9)])
+    assert np.allclose([parallel.near, parallel.far], [(0, -9, 0), (0, 9, 0)], atol=1e-7)
+    camera = Camera((0, -10, 0), (0, 0, 0), fov_deg=90.0)
     assert np.allclose(bounds(parallel.points), [(-4, -9, -2), (4, 9, 2)], atol=1e-6)
-    behind = seen_region(camera, 200, 100, [(-1, -20, -1), (1, -15, 1)])
+    behind = seen_region(raster_system(camera, 200, 100), 200, 100, [(-1, -20, -1), (1, -15, 1)])
     assert not len(behind.points)

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import click
 
 from vectorplot.errors import InputError
+
+if TYPE_CHECKING:
+    from vectorplot.scene.scene import Light
 
 Value = TypeVar("Value")
 
@@ -86,6 +89,19 @@ def sheet(text: str) -> tuple[float, float]:
         raise click.BadParameter(str(error)) from None
 
 
+def pixels(text: str) -> tuple[int, int]:
+    """Columns and rows of a picture, WIDTHxHEIGHT."""
+    from vectorplot.shading.screen import raster_size
+
+    sides = text.lower().split("x")
+    if len(sides) != 2 or not all(side.strip().isdigit() for side in sides):
+        raise click.BadParameter(f"{text!r} is not WIDTHxHEIGHT in pixels")
+    try:
+        return raster_size(int(sides[0]), int(sides[1]))
+    except InputError as error:
+        raise click.BadParameter(str(error)) from None
+
+
 def kinds(text: str) -> tuple[str, ...]:
     """Kinds of lines with commas between them, each once."""
     words = [word.strip().lower() for word in text.split(",")]
@@ -93,6 +109,24 @@ def kinds(text: str) -> tuple[str, ...]:
         if word not in KINDS:
             raise click.BadParameter(f"{word!r} is none of {', '.join(KINDS)}")
     return tuple(dict.fromkeys(words))
+
+
+def kinds_or_none(text: str) -> tuple[str, ...]:
+    """Kinds of lines with commas between them, each once; nothing for ``none``."""
+    return () if text.strip().lower() == "none" else kinds(text)
+
+
+def light(text: str) -> Light:
+    """A lamp at X,Y,Z, and after a fourth comma its intensity."""
+    from vectorplot.scene.scene import Light
+
+    parts = [number(part.strip()) for part in text.split(",")]
+    if len(parts) not in (3, 4):
+        raise click.BadParameter(f"{text!r} is not a lamp X,Y,Z or X,Y,Z,INTENSITY")
+    if len(parts) == 4 and not 0.0 <= parts[3] <= 1.0:
+        raise click.BadParameter(f"an intensity of {parts[3]:g} is not between 0 and 1")
+    x, y, z = parts[:3]
+    return Light((x, y, z), intensity=parts[3] if len(parts) == 4 else None)
 
 
 def exclusive(given: Iterable[tuple[str, object]]) -> None:

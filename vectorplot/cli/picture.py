@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Drawing
     from vectorplot.plan import StageReport
     from vectorplot.scene.scene import Scene
+    from vectorplot.shading.image import Image
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,7 @@ def make_picture(
     scene_file: str,
     out: str,
     format_: str,
-    picture: Callable[[Scene, Report], Drawing],
+    picture: Callable[[Scene, Report], Drawing | Image],
     *,
     quiet: bool,
     explain: bool,
@@ -54,11 +55,20 @@ def make_picture(
         with progress_bar(quiet=quiet) as progress:
             scene = walk.run("read", read, scene_file)
             made = picture(scene, Report(progress, reports.append))
-            if not any(len(mark) for layer in made.layers for mark in layer.marks):
+            if is_empty(made):
                 warnings.warn(f"{scene_file}: nothing to draw: the picture is empty", InputWarning, stacklevel=2)
             write_out(out, walk.run("write", write, made, format_))
     if explain:
         click.echo(table(reports), err=True)
+
+
+def is_empty(made: Drawing | Image) -> bool:
+    """Whether a picture shows nothing: no marks, or a single colour."""
+    from vectorplot.shading.image import Image
+
+    if isinstance(made, Image):
+        return bool((made.pixels == made.pixels[0, 0]).all())
+    return not any(len(mark) for layer in made.layers for mark in layer.marks)
 
 
 def check_place(out: str) -> None:

@@ -16,7 +16,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.shading import coverage
 from vectorplot.shading.depth_code import DepthCode
-from vectorplot.shading.depth_keys import KEY_BITS, front_keys
+from vectorplot.shading.depth_keys import KEY_BITS, Task, front_keys, keys_before
 from vectorplot.shading.screen import ScreenTriangles, raster_size
 
 FINEST_BITS = 48
@@ -86,25 +86,61 @@ def strips(
 
 
 def strip(
-    triangles: ScreenTriangles, columns: int, rows: int, top: int, bottom: int, *, depth_code: DepthCode | None = None
+    triangles: ScreenTriangles,
+    columns: int,
+    rows: int,
+    top: int,
+    bottom: int,
+    *,
+    depth_code: DepthCode | None = None,
+    chosen: Bools | None = None,
 ) -> DepthBuffer:
-    """The depth buffer of the rows top to bottom (exclusive) of a picture."""
+    """The depth buffer of the rows top to bottom (exclusive) of a picture; chosen (t,): only some of the triangles."""
     columns, rows = raster_size(columns, rows)
     if not 0 <= top < bottom <= rows:
         raise InputError(f"rows {top} to {bottom} are no strip of a picture of {rows} rows")
-    number_bits = len(triangles).bit_length()
-    if depth_code is None:
-        bits = min(KEY_BITS - number_bits, FINEST_BITS)
-        depth_code = DepthCode.fine(*depth_range(triangles), bits)
+    code = _finest_code(triangles) if depth_code is None else depth_code
+    task = _task(triangles, code, columns, top, bottom)
+    keys = front_keys(task, np.arange(len(triangles)) if chosen is None else np.flatnonzero(chosen))
+    return DepthBuffer(keys >> task.number_bits, _numbers(keys, task.number_bits), code, triangles, top)
+
+
+def depth_codes(triangles: ScreenTriangles, columns: int, rows: int) -> tuple[NDArray[np.int64], DepthCode]:
+    """(rows, columns) the codes of a depth buffer alone, 0 where there is nothing, and what they mean."""
+    columns, rows = raster_size(columns, rows)
+    code = _finest_code(triangles)
+    task = _task(triangles, code, columns, 0, rows)
+    return front_keys(task, np.arange(len(triangles))) >> task.number_bits, code
+
+
+def layers_before(buffer: DepthBuffer, chosen: Bools) -> tuple[Ints, Ints, NDArray[np.int64]]:
+    """What one can see through before a buffer: for every pixel of every chosen triangle (t,) that is closer than what
+    the buffer holds there pixel, triangle and code of the depth, each (f,). Within a pixel the farthest come first."""
+    rows, columns = buffer.code.shape
+    task = _task(buffer.triangles, buffer.depth_code, columns, buffer.top, buffer.top + rows)
+    mask = (1 << task.number_bits) - 1
+    opaque = np.where(buffer.code > 0, (buffer.code << task.number_bits) + mask, 0)
+    pixel, key = keys_before(task, np.flatnonzero(chosen), opaque)
+    order = np.lexsort((key, pixel))
+    pixel, key = pixel[order], key[order]
+    return pixel, np.asarray(mask - (key & mask), dtype=np.intp), key >> task.number_bits
+
+
+def _finest_code(triangles: ScreenTriangles) -> DepthCode:
+    return DepthCode.fine(*depth_range(triangles), min(KEY_BITS - len(triangles).bit_length(), FINEST_BITS))
+
+
+def _task(triangles: ScreenTriangles, depth_code: DepthCode, columns: int, top: int, bottom: int) -> Task:
     used = _used(triangles)
     depths = np.zeros(len(used))
     depths[used] = depth_code.scaled(triangles.points[used, 2])
     grid = coverage.snap(triangles.points)
     grid[1] -= top << coverage.SUBPIXEL_BITS
-    keys = front_keys(grid, depths, triangles.corners, number_bits, columns, bottom - top)
-    return DepthBuffer(keys >> number_bits, _numbers(keys, number_bits), depth_code, triangles, top)
+    return Task(grid, depths, triangles.corners, len(triangles).bit_length(), columns, bottom - top)
 
 
 def _numbers(keys: NDArray[np.int64], bits: int) -> NDArray[np.int32]:
     mask = (1 << bits) - 1
-    return np.asarray(np.where(keys > 0, mask - (keys & mask), -1), dtype=np.int32)
+    numbers = (~keys & mask).astype(np.int32)
+    numbers[keys == 0] = -1
+    return numbers

@@ -1,11 +1,13 @@
 """The key in front in every pixel: a triangle's depth there above its number.
 
 Every covered pixel of every triangle offers its key, and the largest of a pixel stays. So the result does not depend on
-the order of the triangles, except that of equally deep ones the first is kept.
+the order of the triangles, except that of equally deep ones the first is kept. For what one can see through all keys in
+front of the others are kept.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +18,9 @@ from vectorplot.shading import coverage
 from vectorplot.shading.coverage import Boxes, Fragments, Snapped
 
 Keys = NDArray[np.int64]
+
+Take = Callable[[Ints, Keys], None]
+"""What is done with pixels and the keys that are offered for them."""
 
 KEY_BITS = 62
 
@@ -67,24 +72,49 @@ class Planes:
     other_rise: Floats
 
 
-def front_keys(
-    grid: NDArray[np.int32], depths: Floats, corners: Ints, number_bits: int, columns: int, rows: int
-) -> Keys:
-    """(rows, columns) the largest keys, 0 where no triangle is.
+def front_keys(task: Task, number: Ints) -> Keys:
+    """(rows, columns) the largest keys of the triangles with some numbers, 0 where none of them is.
 
     A key is the code of the depth, shifted by number_bits, plus 2^number_bits - 1 - triangle.
     """
-    task = Task(grid, depths, corners, number_bits, columns, rows)
     keys = np.zeros(task.padded_rows * task.stride, dtype=np.int64)
+
+    def keep_largest(pixel: Ints, key: Keys) -> None:
+        np.maximum.at(keys, pixel, key)
+
+    _cover(keys, task, number, keep_largest)
+    return keys.reshape(-1, task.stride)[: task.rows, : task.columns]
+
+
+def keys_before(task: Task, number: Ints, opaque: Keys) -> tuple[Ints, Keys]:
+    """Every pixel of every triangle with one of some numbers that is closer than what is opaque (rows, columns) there:
+    pixel = row * columns + column, and key, each (f,)."""
+    padded = np.zeros((task.padded_rows, task.stride), dtype=np.int64)
+    padded[: task.rows, : task.columns] = opaque
+    keys = padded.reshape(-1)
+    pixels, found = [np.zeros(0, dtype=np.intp)], [np.zeros(0, dtype=np.int64)]
+
+    def collect(pixel: Ints, key: Keys) -> None:
+        row, column = np.divmod(pixel, task.stride)
+        closer = (key >> task.number_bits > keys[pixel] >> task.number_bits) & (column < task.columns)
+        closer &= row < task.rows
+        pixels.append((row * task.columns + column)[closer])
+        found.append(key[closer])
+
+    _cover(keys, task, number, collect)
+    return np.concatenate(pixels), np.concatenate(found)
+
+
+def _cover(keys: Keys, task: Task, number: Ints, take: Take) -> None:
+    """Offer the keys of the triangles with some numbers; keys: those that are in front so far."""
     others = [np.zeros(0, dtype=np.intp)]
-    for begin in range(0, len(corners), SETUP_AT_ONCE):
-        planes = _planes(task, np.arange(begin, min(begin + SETUP_AT_ONCE, len(corners))))
+    for begin in range(0, len(number), SETUP_AT_ONCE):
+        planes = _planes(task, number[begin : begin + SETUP_AT_ONCE])
         others.append(planes.number[~planes.box.small])
         small = np.flatnonzero(planes.box.small)
         for fragments in coverage.small_fragments(planes.triangles, planes.box, small, task.stride):
-            _offer(keys, task, planes, fragments)
-    _cover_by_tiles(keys, task, np.concatenate(others))
-    return keys.reshape(-1, task.stride)[:rows, :columns]
+            take(fragments.pixel, _keys(task, planes, fragments))
+    _cover_by_tiles(keys, task, np.concatenate(others), take)
 
 
 def _planes(task: Task, number: Ints) -> Planes:
@@ -104,29 +134,29 @@ def _planes(task: Task, number: Ints) -> Planes:
     return Planes(triangles, box[kept], number[kept], base, rise, other)
 
 
-def _offer(keys: Keys, task: Task, planes: Planes, found: Fragments) -> None:
-    """Let fragments compete for their pixels: changes keys."""
+def _keys(task: Task, planes: Planes, found: Fragments) -> Keys:
+    """(f,) the keys of fragments."""
     t = found.triangle
     depth = planes.base[t] + found.second * planes.rise[t] + found.third * planes.other_rise[t]
     key = depth.astype(np.int64)
     key <<= task.number_bits
     key += ((1 << task.number_bits) - 1 - planes.number)[t]
-    np.maximum.at(keys, found.pixel, key)
+    return key
 
 
-def _cover_by_tiles(keys: Keys, task: Task, number: Ints) -> None:
-    """Cover pixels by triangles that are not small, the nearest first: changes keys."""
+def _cover_by_tiles(keys: Keys, task: Task, number: Ints, take: Take) -> None:
+    """Offer the keys of triangles that are not small, the nearest first."""
     nearest = task.depths[task.corners[number]].max(axis=1)
     number = number[np.argsort(-nearest, kind="stable")]
     for begin in range(0, len(number), SETUP_AT_ONCE):
         planes = _planes(task, number[begin : begin + SETUP_AT_ONCE])
         side = np.maximum(planes.box.right - planes.box.left, planes.box.bottom - planes.box.top)
-        _tiles(keys, task, planes, np.flatnonzero(side >= LARGE_SIDE), TILE)
-        _tiles(keys, task, planes, np.flatnonzero(side < LARGE_SIDE), SMALL_TILE)
+        _tiles(keys, task, planes, np.flatnonzero(side >= LARGE_SIDE), TILE, take)
+        _tiles(keys, task, planes, np.flatnonzero(side < LARGE_SIDE), SMALL_TILE, take)
 
 
-def _tiles(keys: Keys, task: Task, planes: Planes, chosen: Ints, side: int) -> None:
-    """Cover pixels by some triangles, tile by tile: changes keys."""
+def _tiles(keys: Keys, task: Task, planes: Planes, chosen: Ints, side: int, take: Take) -> None:
+    """Offer the keys of some triangles, tile by tile; tiles in which everything is closer are passed over."""
     ends = np.cumsum(coverage.tile_counts(planes.box, chosen, side))
     across = task.stride // side
     farthest = keys.reshape(-1, side, across, side).min(axis=(1, 3)).reshape(-1)
@@ -149,7 +179,7 @@ def _tiles(keys: Keys, task: Task, planes: Planes, chosen: Ints, side: int) -> N
             found = coverage.covered(
                 planes.triangles, index[part], left[part], top[part], (side, side), task.stride, np.int64
             )
-            _offer(keys, task, planes, found)
+            take(found.pixel, _keys(task, planes, found))
         touched = np.unique(tile)
         blocks = keys.reshape(-1, side, across, side)[touched // across, :, touched % across]
         farthest[touched] = blocks.min(axis=(1, 2))

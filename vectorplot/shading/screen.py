@@ -12,10 +12,17 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.projection import CoordinateSystem, PixelWindow
+from vectorplot.geometry.tolerance import INFINITE
 from vectorplot.shading.coverage import GUARD_BAND
 
 NEAR = 1e-4
 """The near plane, as a part of the distance between eye and image plane."""
+
+BORDER = 0.03
+"""Part of each side that a fitted picture leaves free."""
+
+WIDEST_SLOPE = float(np.tan(np.radians(60.0)))
+"""A picture is not fitted to what lies farther off the principal ray."""
 
 LARGEST_SIDE_PIXELS = 32767
 """The limit of backends.cairo, well inside the guard band."""
@@ -67,8 +74,33 @@ def raster_system(camera: Camera, columns: int, rows: int) -> CoordinateSystem:
     return replace(system, middle=((columns - 1) / 2.0, (rows - 1) / 2.0))
 
 
+def fitted(system: CoordinateSystem, points: ArrayLike, columns: int, rows: int) -> CoordinateSystem:
+    """A system in pixels, enlarged and moved so that points (n, 3) fill the raster but for a border.
+
+    Degenerate: without points, and where one of them lies behind the eye or more than 60 degrees off the principal ray,
+    the system as it is; points in one place are moved to the middle only.
+    """
+    p = system.homogeneous(points)
+    if not len(p) or p[:, 3].min() < NEAR:
+        return system
+    image = p[:, :2] / p[:, 3:]
+    middle, scale = np.array(system.middle), np.array(system.scale)
+    # The principal ray meets the image plane at a distance from the eye that is known in its units.
+    if system.distance != INFINITE and (np.abs((image - middle) / scale).max() > WIDEST_SLOPE * system.distance):
+        return system
+    low, high = image.min(axis=0), image.max(axis=0)
+    room = np.array([columns, rows]) * (1.0 - 2.0 * BORDER)
+    extent = high - low
+    factor = min((r / e for r, e in zip(room.tolist(), extent.tolist(), strict=True) if e > 0.0), default=1.0)
+    centre = np.array([columns - 1, rows - 1]) / 2.0
+    x, y = (centre + factor * (middle - (low + high) / 2.0)).tolist()
+    return replace(system, scale=(factor * system.scale[0], factor * system.scale[1]), middle=(x, y))
+
+
 def fans(corners: Ints, offsets: Ints) -> tuple[Ints, Ints]:
     """Triangles (t, 3) around the first corner of each convex polygon, and (t,) the polygon each belongs to."""
+    if len(corners) == 3 * (len(offsets) - 1) and (np.diff(offsets) == 3).all():
+        return corners.reshape(-1, 3), np.arange(len(offsets) - 1)
     count = np.maximum(np.diff(offsets) - 2, 0)
     polygon = np.repeat(np.arange(len(count)), count)
     step = np.arange(len(polygon)) - np.repeat(np.cumsum(count) - count, count)

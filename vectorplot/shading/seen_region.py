@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+from vectorplot.geometry.projection import CoordinateSystem
+from vectorplot.geometry.tolerance import INFINITE, ZERO_OF_EXTENT
 from vectorplot.shading.screen import NEAR
 
 FOCUS = 0.3
@@ -30,8 +30,10 @@ class SeenRegion:
     focus_points: Floats
 
 
-def seen_region(camera: Camera, columns: int, rows: int, bounds: ArrayLike, focus: float = FOCUS) -> SeenRegion:
-    """What a picture of so many pixels can show of the box bounds (2, 3).
+def seen_region(
+    system: CoordinateSystem, columns: int, rows: int, bounds: ArrayLike, focus: float = FOCUS
+) -> SeenRegion:
+    """What a picture of so many pixels can show of the box bounds (2, 3). system: a camera's, in pixels.
 
     The near and the far plane touch the box; the focus plane lies a part ``focus`` of the way from one to the other.
     Errors: InputError for a focus that is not between 0 and 1.
@@ -41,27 +43,49 @@ def seen_region(camera: Camera, columns: int, rows: int, bounds: ArrayLike, focu
         raise InputError(f"a focus at {focus:g} of the depth: expected a part between 0 and 1")
     low, high = np.asarray(bounds, dtype=np.float64)
     middle = (low + high) / 2.0
-    size = float((high - low).max()) or camera.distance
-    eye = (np.asarray(camera.eye) - middle) / size
-    right, up, back = camera.axes
+    size = float((high - low).max()) or 1.0
     box = np.concatenate([np.eye(3), -np.eye(3)]), np.concatenate([high - middle, middle - low]) / size
-    depth = -_box_corners(box[1]) @ back + eye @ back
-    least = -np.inf if camera.parallel else NEAR * camera.distance / size
+    back = system.rotation[:, 2]
+    parallel = system.distance == INFINITE
+    # In a parallel projection depths count from the target.
+    eye = ((system.target if parallel else system.centre) - middle) / size
+    depth = eye @ back - _box_corners(box[1]) @ back
+    least = -np.inf if parallel else NEAR * system.distance / size
     near, far = max(float(depth.min()), least), max(float(depth.max()), least)
-    half = 0.5 * camera.picture_height / size
-    rows_of, limits = [np.array(row) for row in box[0]], list(box[1])
-    for way, reach in ((right, half * columns / rows), (up, half)):
-        for sign in (1.0, -1.0):
-            # Straight ahead in a parallel projection, else through the eye and the border of the picture.
-            slope = 0.0 if camera.parallel else reach / (camera.distance / size)
-            normal = sign * way + slope * back
-            rows_of.append(normal)
-            limits.append(float(normal @ eye) + (reach if camera.parallel else 0.0))
+    normals, limits = _window_sides(system, columns, rows, middle, size)
+    normals, limits = np.concatenate([box[0], normals]), np.concatenate([box[1], limits])
     at_focus = near + focus * (far - near)
-    corners = _cut_at(rows_of, limits, back, eye, near, far)
-    centres = [middle + size * (eye - distance * back) for distance in (near, far, at_focus)]
-    focus_corners = _cut_at(rows_of, limits, back, eye, near, at_focus)
+    corners = _cut_at(normals, limits, back, eye, near, far)
+    focus_corners = _cut_at(normals, limits, back, eye, near, at_focus)
+    ray = _principal_ray(system, columns, rows)
+    centres = [middle + size * eye + size * distance * ray for distance in (near, far, at_focus)]
+    if parallel:
+        shift = system.to_world(np.array([(columns - 1) / 2.0, (rows - 1) / 2.0, 0.0])) - system.target
+        centres = [centre + shift for centre in centres]
     return SeenRegion(middle + size * corners, centres[0], centres[1], centres[2], middle + size * focus_corners)
+
+
+def _principal_ray(system: CoordinateSystem, columns: int, rows: int) -> Floats:
+    """(3,) the way through the middle of the picture, of length 1 along the view."""
+    if system.distance == INFINITE:
+        return np.asarray(-system.rotation[:, 2])
+    there = system.to_world(np.array([(columns - 1) / 2.0, (rows - 1) / 2.0, 0.0]))
+    return np.asarray((there - system.centre) / system.distance)
+
+
+def _window_sides(
+    system: CoordinateSystem, columns: int, rows: int, middle: Floats, size: float
+) -> tuple[Floats, Floats]:
+    """Normals (4, 3) and limits (4,) of the half-spaces of the picture's borders, scaled to a box of size 1."""
+    origin = system.homogeneous(middle)
+    steps = system.homogeneous(middle + size * np.eye(3)) - origin
+    normals, limits = [], []
+    for axis, count in ((0, columns), (1, rows)):
+        for sign, border in ((1.0, -0.5), (-1.0, count - 0.5)):
+            plane = sign * (steps[:, axis] - border * steps[:, 3])
+            normals.append(-plane)
+            limits.append(sign * (origin[axis] - border * origin[3]))
+    return np.array(normals), np.array(limits)
 
 
 def _box_corners(halves: Floats) -> Floats:
@@ -69,10 +93,11 @@ def _box_corners(halves: Floats) -> Floats:
     return np.asarray(signs * halves[:3])
 
 
-def _cut_at(normals: list[Floats], limits: list[float], back: Floats, eye: Floats, near: float, far: float) -> Floats:
+def _cut_at(normals: Floats, limits: Floats, back: Floats, eye: Floats, near: float, far: float) -> Floats:
     """Corners of the half-spaces between two depths before the eye."""
     ahead = float(back @ eye)
-    return half_space_corners(np.stack([*normals, back, -back]), np.array([*limits, ahead - near, far - ahead]))
+    planes = np.concatenate([normals, back[None], -back[None]])
+    return half_space_corners(planes, np.append(limits, [ahead - near, far - ahead]))
 
 
 def half_space_corners(normals: Floats, limits: Floats) -> Floats:

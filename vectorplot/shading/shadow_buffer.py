@@ -5,7 +5,9 @@ Source: Glaeser, section 8.6; for the tapered maps Ressler, and Martin and Tan.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -28,6 +30,8 @@ from vectorplot.shading.shadow_map import (
 from vectorplot.shading.trapezoid import searched_line
 
 Frame = Literal["standard", "box", "trapezoid"]
+
+Blocks = Callable[[Floats, Floats, Ints], Bools]
 
 WIDEST_COSINE = 0.5
 """A lamp that sees a corner of the scene more than 60 degrees off its middle needs six maps."""
@@ -85,6 +89,20 @@ def shadow_buffer(
     system = light_system(light, p)
     matrix = _frame(system, p, frame, region)
     return ShadowBuffer((shadow_map(system, matrix, p, corners, size, down, bits=bits),))
+
+
+def shadow_buffers(
+    lights: Sequence[Light], points: Floats, corners: Ints, size: int, bits: int, region: SeenRegion | None
+) -> tuple[Blocks, ...]:
+    """For every light the function of places (m, 3), normals of their faces (m, 3), and triangles (m,), which it does
+    not need, that tells which of them it does not reach; with a region maps are trapezoids around it."""
+    frame: Frame = "standard" if region is None else "trapezoid"
+
+    def blocks(buffer: ShadowBuffer, places: Floats, normals: Floats, triangle: Ints) -> Bools:
+        return buffer.blocks(places, normals)
+
+    made = (shadow_buffer(one, points, corners, size=size, bits=bits, frame=frame, region=region) for one in lights)
+    return tuple(partial(blocks, buffer) for buffer in made)
 
 
 def light_system(light: Light, points: Floats) -> CoordinateSystem:

@@ -9,6 +9,7 @@ Sources: Glaeser, section 8.6; Martin and Tan, TSM recipe, polygon offset.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -18,11 +19,12 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.projection import CoordinateSystem
 from vectorplot.geometry.tolerance import INFINITE, ZERO_OF_EXTENT
-from vectorplot.shading.depth_buffer import depth_buffer
+from vectorplot.shading.depth_buffer import depth_codes
 from vectorplot.shading.depth_code import DepthCode
 from vectorplot.shading.screen import NEAR, HalfSpace, screen_triangles
 from vectorplot.shading.seen_region import SeenRegion
 from vectorplot.shading.trapezoid import Axis, line_of_sight, taper_of_focus, tapered_map
+from vectorplot.shading.trapezoid_matrix import four_by_four
 
 STEEPEST = 0.5
 """Casters are cut where the map's weight is half of that at its top line: nearer its pole depths lose their digits."""
@@ -56,12 +58,12 @@ class ShadowMap:
     code: NDArray[np.unsignedinteger[Any]]
     depth_code: DepthCode
 
-    @property
+    @cached_property
     def light_from_texel(self) -> Floats:
         """(3, 3) the inverse of texel_from_light."""
         return np.asarray(np.linalg.inv(self.texel_from_light))
 
-    @property
+    @cached_property
     def depth(self) -> Floats:
         """(rows, columns) depths in the lamp's system, -inf where it sees nothing."""
         return np.asarray(np.where(self.code > 0, self.depth_code.depth(self.code), -np.inf))
@@ -137,17 +139,14 @@ def shadow_map(
         raise InputError(f"depths of {bits} bits: expected {', '.join(map(str, BITS))}")
     matrix = in_texels(frame, columns, rows)
     inverse = np.asarray(np.linalg.inv(matrix), dtype=np.float64)
-    light = system.homogeneous(points)
-    texels = np.empty_like(light)
-    texels[:, [0, 1, 3]] = light[:, [0, 1, 3]] @ matrix.T
-    texels[:, 2] = light[:, 2]
+    texels = system.homogeneous(points) @ four_by_four(matrix).T
     weight = np.array([inverse[2, 0], inverse[2, 1], 0.0, inverse[2, 2]])
     steep = np.array([0.0, 0.0, 0.0, 1.0]) - STEEPEST * weight
     sides = [HalfSpace((*weight.tolist(),), near), HalfSpace((*steep.tolist(),))]
     flat = screen_triangles(texels, corners, near=STEEPEST * near / 2.0, sides=sides)
-    buffer = depth_buffer(flat, columns, rows)
-    seen = buffer.code > 0
-    depth = _own_depth(inverse, seen, buffer.depth[seen])
+    codes, fine = depth_codes(flat, columns, rows)
+    seen = codes > 0
+    depth = _own_depth(inverse, seen, fine.depth(codes[seen]))
     code = np.zeros((rows, columns), dtype=f"uint{bits}")
     depth_code = _code(depth, bits)
     code[seen] = depth_code.code(depth)
@@ -156,6 +155,8 @@ def shadow_map(
 
 def _own_depth(inverse: Floats, seen: Bools, depth: ArrayLike) -> Floats:
     """(k,) the lamp's own depths at the texels that see something, from those of the tapered map."""
+    if not inverse[2, :2].any():
+        return np.asarray(np.asarray(depth) / inverse[2, 2])
     row, column = np.nonzero(seen)
     return np.asarray(np.asarray(depth) / (inverse[2, 0] * column + inverse[2, 1] * row + inverse[2, 2]))
 

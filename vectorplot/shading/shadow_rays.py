@@ -6,8 +6,9 @@ nothing to do with each other.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,6 +20,8 @@ from vectorplot.scene.scene import Light
 from vectorplot.shading.screen import ScreenTriangles, screen_triangles
 from vectorplot.shading.shadow_buffer import SIDES, is_inside, light_system
 from vectorplot.shading.shadow_map import standard_frame
+
+Blocks = Callable[[Floats, Floats, Ints], Bools]
 
 POINTS_OF_CELL = 8
 """Mean number of points in a cell of the grid."""
@@ -52,6 +55,16 @@ def blocked_exactly(light: Light, points: ArrayLike, triangle: Ints, vertices: A
         system = CoordinateSystem.of_light(place, place + extent * way)
         result |= _blocked(system, extent, p, triangle, v, corners, extent)
     return result
+
+
+def exact_shadows(lights: Sequence[Light], vertices: Floats, corners: Ints, number: Ints) -> tuple[Blocks, ...]:
+    """For every light the function of places (m, 3), normals of their faces (m, 3), and triangles (m,) that tells which
+    of them it does not reach. number: of each of those triangles among the ones that cast shadows (t, 3), or -1."""
+
+    def blocks(light: Light, places: Floats, normals: Floats, triangle: Ints) -> Bools:
+        return blocked_exactly(light, places, number[triangle], vertices, corners)
+
+    return tuple(partial(blocks, light) for light in lights)
 
 
 @dataclass(frozen=True, eq=False)

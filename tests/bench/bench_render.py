@@ -1,0 +1,77 @@
+"""Pixels: run with ``pytest tests/bench/bench_render.py -m bench -s``.
+
+Each case runs in a process of its own, so that its peak memory is its own.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+pytestmark = pytest.mark.bench
+
+SCRIPT = """
+import time
+import numpy as np
+from vectorplot.draw import default_camera
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.render import render
+from vectorplot.scene.scene import Item, Light, Material, Scene
+from vectorplot.testing.surfaces import bumpy_icosphere
+
+levels, shadows, lights, samples = {levels}, {shadows!r}, {lights}, {samples}
+sun = [(1.0, -1.5, 2.0), (-1.0, -1.0, 1.0), (2.0, 0.5, 1.0)]
+item = Item("BUMPY", bumpy_icosphere(levels), "orange", Material("plastic"))
+scene = Scene((item,), tuple(Light(way, parallel=True) for way in sun[:lights]))
+stages = {{}}
+def report(stage):
+    stages[stage.name] = stages.get(stage.name, 0.0) + stage.seconds
+warm = Scene((Item("SMALL", bumpy_icosphere(2)),), scene.lights)
+render(warm, default_camera(warm), size=(64, 64), shadows=shadows, shadow_size=64)
+start = time.perf_counter()
+image = render(scene, default_camera(scene), size={size}, shadows=shadows, shadow_size={map}, samples=samples, explain=report)
+seconds = time.perf_counter() - start
+with open("/proc/self/status") as status:
+    peak = next(int(line.split()[1]) / 1024.0 for line in status if line.startswith("VmHWM"))
+seen = (image.pixels != 255).any(axis=2).sum()
+print(f"{{item.shape.face_count}} triangles, {{seen}} pixels: {{seconds:.2f}} s, {{peak:.0f}} MB;",
+      ", ".join(f"{{name}} {{s:.2f}}" for name, s in stages.items()))
+print(seconds, peak)
+"""
+
+
+def measured(**case) -> tuple[float, float]:
+    """Seconds and MB of a render."""
+    # One core: the threads of a BLAS that wait for each other would be measured instead.
+    alone = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+    code = SCRIPT.format(**case)
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=alone)
+    text, numbers = run.stdout.strip().rsplit("\n", 1)
+    print(text)
+    seconds, peak = map(float, numbers.split())
+    return seconds, peak
+
+
+def test_a_million_triangles_with_a_large_shadow_map():
+    case = {"levels": 8, "lights": 1, "samples": 1, "size": (1920, 1080), "map": 2048}
+    measured(**case, shadows="none")
+    seconds, peak = measured(**case, shadows="buffer")
+    assert seconds < 3.0
+    assert peak < 1024.0
+
+
+def test_many_triangles_with_a_shadow_map():
+    seconds, _ = measured(levels=6, lights=1, samples=1, size=(1280, 720), map=1024, shadows="buffer")
+    assert seconds < 1.0
+
+
+def test_three_lights_trapezoids_exact_shadows_and_supersampling():
+    case = {"levels": 8, "size": (1920, 1080), "map": 1024}
+    measured(**case, lights=3, samples=1, shadows="buffer")
+    measured(**case, lights=1, samples=1, shadows="trapezoid")
+    measured(**case, lights=1, samples=1, shadows="exact")
+    _, peak = measured(**case, lights=1, samples=2, shadows="buffer")
+    assert peak < 1500.0

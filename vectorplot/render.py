@@ -1,0 +1,220 @@
+"""The verb render: a scene becomes pixels, hidden parts found by a depth buffer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from vectorplot.draw import default_camera
+from vectorplot.errors import InputError
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.projection import CoordinateSystem
+from vectorplot.geometry.strokes import LineKind
+from vectorplot.plan import StageReport, Walk, plan_render
+from vectorplot.scene.scene import Light, Page, Scene
+from vectorplot.scene.view import View, look
+from vectorplot.shading.face_shades import view_lights
+from vectorplot.shading.faceted import FacetedScene, faceted
+from vectorplot.shading.image import Image
+from vectorplot.shading.lighting import Blocked, lighting_of
+from vectorplot.shading.palettes import palette
+from vectorplot.shading.picture import Picture, opaque_buffer, picture_of, shaded, with_glass, with_mirrors
+from vectorplot.shading.png import Bytes
+from vectorplot.shading.scene_triangles import SceneTriangles, camera_in_view, scene_triangles
+from vectorplot.shading.screen import fitted, raster_size, raster_system
+from vectorplot.shading.supersampling import averaged
+
+if TYPE_CHECKING:
+    from vectorplot.drawing.drawing import Drawing
+
+SIZE = (800, 600)
+"""Columns and rows of a picture if nobody says otherwise."""
+
+MOST_SAMPLES = 8
+"""Along each side of a pixel."""
+
+FACET_PIXELS = 0.2
+"""Triangles are off a smooth surface by no more than this part of a pixel."""
+
+BAND_PIXELS = 1 << 22
+"""So many pixels are in memory at a time."""
+
+EXACT_POINTS_AT_ONCE = 1 << 20
+"""Exact shadows look at all triangles for every portion of points."""
+
+BACKGROUND = "white"
+"""The colour behind the scene where neither the scene nor the user names one."""
+
+
+def render(
+    scene: Scene,
+    camera: Camera | None = None,
+    *,
+    size: tuple[int, int] = SIZE,
+    fit: bool = True,
+    shadows: Literal["none", "buffer", "trapezoid", "exact"] = "none",
+    shadow_size: int = 1024,
+    shadow_bits: int = 32,
+    samples: int = 1,
+    crease_angle_deg: float = 25.0,
+    lines: Iterable[str] = (),
+    background: str | None = None,
+    progress: Callable[[str, float], None] | None = None,
+    explain: Callable[[StageReport], None] | None = None,
+) -> Image:
+    """The scene as a picture of pixels: shaded faces, and smooth surfaces with their true normals.
+
+    camera: that of the scene where None, else default_camera. size: columns and rows. fit: the picture fills the
+    raster, otherwise the camera's field of vision is its height. shadows: cast by the scene's lights, found with shadow
+    buffers of shadow_size x shadow_size texels of shadow_bits bits, plain ones or such that show most of what is near
+    the eye, or exactly. samples: every pixel is the mean of samples x samples ones. crease_angle_deg: faces that meet
+    at less look round. lines: words of LineKind, drawn over the picture with exact hidden lines. background: a
+    palette, a plain colour or #rrggbb. progress(stage, fraction) and explain(report) are called while it works.
+    Errors: InputError for unknown words and colours, impossible cameras, and sizes out of range.
+    Degenerate: an empty scene gives the background. Where the scene reaches behind the eye, or more than 60 degrees off
+    the principal ray, a fitted picture shows the camera's field of vision. A scene without lights is lit from the eye's
+    upper left, which casts no shadows; nor do transparent items and those that do not occlude.
+    Source: Glaeser, sections 4.5, 6.4, 7.3, 8.5 and 8.6; Martin and Tan; Ressler.
+    """
+    kinds = tuple(dict.fromkeys(lines))
+    _check(size, shadows, samples, crease_angle_deg, kinds)
+    camera = camera or scene.camera or default_camera(scene)
+    walk = Walk(plan_render(scene, shadows, bool(kinds)), explain, progress)
+    fine = (size[0] * samples, size[1] * samples)
+    facets = FacetedScene(scene, (None,) * len(scene.items))
+    if walk.calls_for("facets"):
+        facets = walk.run("facets", faceted, scene, partial(_allowed, camera, fine[1]))
+    view = walk.run("look", look, facets.scene, camera)
+    triangles = walk.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
+    system = raster_system(camera_in_view(view, camera), *fine)
+    if fit:
+        system = fitted(system, triangles.points, *fine)
+    lights = view_lights(view, scene.lights)
+    blocked = _blocked(walk, scene, triangles, lights, system, fine, shadows, shadow_size, shadow_bits)
+    lighting = lighting_of(view, scene.items, lights, blocked)
+    opacity = np.array([item.material.opacity for item in scene.items])
+    mirror = np.array([item.material.word == "mirror" for item in scene.items], dtype=np.bool_)
+    paper = palette(background or scene.background or BACKGROUND)[-1].astype(np.float64)
+    picture = picture_of(triangles, system, fine, lighting, opacity, mirror, paper)
+    if shadows == "exact":
+        picture = replace(picture, points_at_once=EXACT_POINTS_AT_ONCE)
+    pixels = _pixels(walk, picture, samples)
+    if walk.calls_for("lines"):
+        pixels = walk.run("lines", _with_lines, pixels, scene, camera, view, system, kinds, crease_angle_deg, samples)
+    return Image(walk.run("average", _averaged, pixels, samples), scene.title)
+
+
+def _check(size: tuple[int, int], shadows: str, samples: int, crease_angle_deg: float, kinds: tuple[str, ...]) -> None:
+    if shadows not in ("none", "buffer", "trapezoid", "exact"):
+        raise InputError(f"shadows {shadows!r}: expected none, buffer, trapezoid or exact")
+    if not 1 <= samples <= MOST_SAMPLES:
+        raise InputError(f"{samples} samples: expected 1 to {MOST_SAMPLES}")
+    if not 0.0 <= crease_angle_deg <= 180.0:
+        raise InputError(f"a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
+    raster_size(*size)
+    raster_size(size[0] * samples, size[1] * samples)
+    for kind in kinds:
+        LineKind.from_word(kind)
+
+
+def _allowed(camera: Camera, rows: int, points: Floats) -> Floats:
+    """(...) how far triangles may be off at points (..., 3) of the world."""
+    pixel = FACET_PIXELS * camera.picture_height / rows
+    if camera.parallel:
+        return np.full(points.shape[:-1], pixel)
+    ahead = (np.asarray(camera.eye) - points) @ camera.direction / camera.distance
+    return np.asarray(pixel * np.maximum(ahead, 0.05))
+
+
+def _blocked(
+    walk: Walk,
+    scene: Scene,
+    triangles: SceneTriangles,
+    lights: tuple[Light, ...],
+    system: CoordinateSystem,
+    size: tuple[int, int],
+    shadows: str,
+    shadow_size: int,
+    bits: int,
+) -> tuple[Blocked, ...]:
+    """For every light what it does not reach; nothing where the plan has no shadows."""
+    if not walk.calls_for("shadows"):
+        return ()
+    casts = np.array([item.occludes and item.material.opacity >= 1.0 for item in scene.items], dtype=np.bool_)
+    corners = triangles.corners[casts[triangles.item]]
+    if shadows == "exact":
+        from vectorplot.shading.shadow_rays import exact_shadows
+
+        shown = casts[triangles.item]
+        number = np.where(shown, np.cumsum(shown) - 1, -1)
+        return walk.run("shadows", exact_shadows, lights, triangles.points, corners, number)
+    from vectorplot.shading.seen_region import seen_region
+    from vectorplot.shading.shadow_buffer import shadow_buffers
+
+    points = triangles.points
+    low = points.min(axis=0) if len(points) else np.zeros(3)
+    high = points.max(axis=0) if len(points) else np.zeros(3)
+    region = seen_region(system, *size, [low, high]) if shadows == "trapezoid" else None
+    return walk.run("shadows", shadow_buffers, lights, points, corners, shadow_size, bits, region)
+
+
+def _pixels(walk: Walk, picture: Picture, samples: int) -> Bytes:
+    """(rows, columns, 3) the finer picture, made in bands."""
+    result = np.zeros((picture.rows, picture.columns, 3), dtype=np.uint8)
+    step = max(1, BAND_PIXELS // (picture.columns * samples)) * samples
+    for top in range(0, picture.rows, step):
+        bottom = min(top + step, picture.rows)
+        buffer = walk.run("depth", opaque_buffer, picture, top, bottom)
+        colours = walk.run("shading", shaded, picture, buffer)
+        if walk.calls_for("mirrors"):
+            colours = walk.run("mirrors", with_mirrors, picture, buffer, colours)
+        if walk.calls_for("transparency"):
+            colours = walk.run("transparency", with_glass, picture, buffer, colours)
+        result[top:bottom] = np.rint(colours)
+    return result
+
+
+def _with_lines(
+    pixels: Bytes,
+    scene: Scene,
+    camera: Camera,
+    view: View,
+    system: CoordinateSystem,
+    kinds: tuple[str, ...],
+    crease_angle_deg: float,
+    samples: int,
+) -> Bytes:
+    """The picture with the scene's lines over it, a pixel of the averaged picture wide."""
+    from vectorplot.backends.raster import painted
+    from vectorplot.draw import draw
+
+    rows, columns = pixels.shape[:2]
+    # A millimetre of this page is a pixel, about.
+    drawing = draw(
+        scene, camera, page=Page(columns, rows, 0.0), lines=kinds, crease_angle_deg=crease_angle_deg, curves="polyline"
+    )
+    return painted(pixels, _placed(drawing, view, system, columns, rows, float(samples)))
+
+
+def _placed(drawing: Drawing, view: View, system: CoordinateSystem, columns: int, rows: int, width: float) -> Drawing:
+    """The drawing's strokes where the picture has their points of space, on a page whose millimetres are pixels."""
+    from vectorplot.drawing.drawing import Layer
+
+    layers: list[Layer] = []
+    for layer in drawing.layers:
+        marks = []
+        for paths in layer.strokes:
+            h = system.homogeneous(view.points_of(paths.points3d).T)
+            flat = h[:, :2] / h[:, 3:]
+            marks.append(replace(paths, points=np.stack([flat[:, 0] + 0.5, rows - 0.5 - flat[:, 1]], axis=1)))
+        layers.append(Layer(layer.name, replace(layer.pen, width_mm=width), tuple(marks)))
+    return replace(drawing, width_mm=float(columns), height_mm=float(rows), layers=tuple(layers))
+
+
+def _averaged(pixels: Bytes, samples: int) -> Bytes:
+    return pixels if samples == 1 else np.rint(averaged(pixels, samples)).astype(np.uint8)

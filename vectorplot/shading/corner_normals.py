@@ -1,0 +1,102 @@
+"""Normals at the corners of triangles: faces that meet at a small angle share them, and so look round.
+
+Source: Glaeser, section 8.4, figure 12 (average normals).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.tolerance import ROUNDING
+
+
+@dataclass(frozen=True, eq=False)
+class CornerNormals:
+    """normals (m, 3) unit vectors; index (t, 3): which of them each corner of each triangle has."""
+
+    normals: Floats
+    index: Ints
+
+
+def face_normals(points: Floats, triangles: Ints) -> Floats:
+    """(t, 3) normals of triangles (t, 3) of points (n, 3), as long as twice their area."""
+    a, b, c = (np.take(points, triangles[:, k], axis=0) for k in range(3))
+    return product(b - a, c - a)
+
+
+def product(u: Floats, v: Floats) -> Floats:
+    """(n, 3) the cross products of vectors (n, 3)."""
+    result = np.empty(u.shape)
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        np.multiply(u[:, i], v[:, j], out=result[:, k])
+        result[:, k] -= u[:, j] * v[:, i]
+    return result
+
+
+def unit(vectors: Floats) -> Floats:
+    """(n, 3) vectors of length 1; zeros stay zeros."""
+    length = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    return np.asarray(vectors / np.where(length > 0.0, length, 1.0)[:, None])
+
+
+def corner_normals(
+    points: Floats, triangles: Ints, crease_angle_deg: float, given: Floats, known: Bools
+) -> CornerNormals:
+    """The normals at the corners of triangles (t, 3) of points (n, 3).
+
+    Each is the mean, by area, of the normals of those triangles around the vertex that differ from its own by no more
+    than the crease angle. given (n, 3), known (n,): vertices of true surfaces have their true normals.
+    Degenerate: triangles without area have no say; alone they get zeros.
+    """
+    faces = face_normals(points, triangles)
+    mean = np.stack([_sum_at(triangles, faces[:, k], len(points)) for k in range(3)], axis=1)
+    mean = unit(mean)
+    mean[known] = given[known]
+    own = unit(faces)
+    # Where all triangles lie within half of the angle from the mean, they lie within the angle from each other.
+    least = np.cos(np.radians(min(crease_angle_deg, 180.0)) / 2.0)
+    sharp = np.zeros(len(points), dtype=np.bool_)
+    for k in range(3):
+        vertex = triangles[:, k]
+        cosine = np.einsum("ij,ij->i", own, np.take(mean, vertex, axis=0))
+        sharp[vertex[cosine < least]] = True
+    sharp &= ~known
+    if not sharp.any():
+        return CornerNormals(mean, triangles)
+    return _with_creases(faces, own, triangles, sharp, mean, crease_angle_deg)
+
+
+def _sum_at(triangles: Ints, values: Floats, count: int) -> Floats:
+    """(count,) for each vertex the sum of values (t,) of the triangles around it."""
+    total = np.zeros(count)
+    for k in range(3):
+        total += np.bincount(triangles[:, k], weights=values, minlength=count)
+    return total
+
+
+def _with_creases(
+    faces: Floats, own: Floats, triangles: Ints, sharp: Bools, mean: Floats, angle_deg: float
+) -> CornerNormals:
+    """The corners at sharp vertices with normals of their own."""
+    corner = np.flatnonzero(sharp[triangles.ravel()])
+    vertex, triangle = triangles.ravel()[corner], corner // 3
+    order = np.argsort(vertex, kind="stable")
+    vertex, triangle, corner = vertex[order], triangle[order], corner[order]
+    starts = np.flatnonzero(np.diff(vertex, prepend=-1))
+    count = np.diff(np.append(starts, len(vertex)))
+    run = np.repeat(np.arange(len(starts)), count)
+    # Every corner beside every other one at its vertex.
+    one = np.repeat(np.arange(len(corner)), count[run])
+    other = np.arange(len(one)) - np.repeat(np.cumsum(count[run]) - count[run], count[run]) + starts[run[one]]
+    alike = np.einsum("ij,ij->i", own[triangle[one]], own[triangle[other]]) >= np.cos(np.radians(angle_deg)) - ROUNDING
+    one, other = one[alike], other[alike]
+    sums = np.zeros((len(corner), 3))
+    for k in range(3):
+        sums[:, k] = np.bincount(one, weights=faces[triangle[other], k], minlength=len(corner))
+    index = triangles.copy()
+    index.ravel()[corner] = len(mean) + np.arange(len(corner))
+    return CornerNormals(np.concatenate([mean, unit(sums)]), index)

@@ -1,0 +1,146 @@
+"""The colours of visible points: every light's share by the material, shadows, and what is near a little brighter.
+
+Source: Glaeser, sections 4.5, 8.5 and 8.6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.scene.scene import Item, Light
+from vectorplot.scene.view import View
+from vectorplot.shading.barycentrics import VisiblePoints
+from vectorplot.shading.corner_normals import face_normals, unit
+from vectorplot.shading.face_shades import depth_limits, view_eye
+from vectorplot.shading.illumination import (
+    FINISHES,
+    Finish,
+    brightness,
+    depth_cue,
+    homogeneous_light,
+    intensities,
+    lambert,
+    shades,
+    towards,
+)
+from vectorplot.shading.palettes import COLOUR_MAP, Colours, palette
+from vectorplot.shading.scene_triangles import SceneTriangles
+
+Blocked = Callable[[Floats, Floats, Ints], Bools]
+"""Which of points (m, 3) on faces with normals (m, 3), parts of triangles (m,), a light does not reach."""
+
+
+@dataclass(frozen=True, eq=False)
+class Lighting:
+    """What colours depend on besides the points.
+
+    lights, and for each which points it does not reach (none: it reaches all); eye: (x, y, z, 1), or (x, y, z, 0) for
+    parallel rays to there; palette (i,), finish (i,) of every item, in palettes (k, 256, 3) and finishes; depths: the
+    limits of what is brighter because it is near.
+    """
+
+    lights: tuple[Light, ...]
+    blocked: tuple[Blocked, ...]
+    eye: tuple[float, float, float, float]
+    palette: Ints
+    palettes: Colours
+    finish: Ints
+    finishes: tuple[Finish, ...]
+    depths: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class ShadedPoints:
+    """Visible points with what shading them made known: places (m, 3); faces (m, 3): unit normals of their faces, on
+    the eye's side; colours (m, 3): red, green and blue."""
+
+    places: Floats
+    faces: Floats
+    colours: Colours
+
+
+def lighting_of(view: View, items: Sequence[Item], lights: tuple[Light, ...], blocked: tuple[Blocked, ...]) -> Lighting:
+    """The lighting of a view of some items; lights, in its coordinates, and what each of them does not reach.
+
+    Errors: InputError for a colour that is none.
+    """
+    words = list(dict.fromkeys(item.material.word for item in items))
+    finish = np.array([words.index(item.material.word) for item in items], dtype=np.intp)
+    names = list(dict.fromkeys(item.colour for item in items))
+    number = np.array([names.index(item.colour) for item in items], dtype=np.intp)
+    palettes = np.array([palette(name, COLOUR_MAP) for name in names], dtype=np.uint8).reshape(-1, COLOUR_MAP, 3)
+    finishes = tuple(FINISHES.get(word, Finish()) for word in words)
+    return Lighting(lights, blocked, view_eye(view), number, palettes, finish, finishes, depth_limits(view))
+
+
+def shaded_points(triangles: SceneTriangles, found: VisiblePoints, lighting: Lighting) -> ShadedPoints:
+    """The colours of visible points of a scene.
+
+    What a light does not reach gets of it what a face gets that turns away at the same angle.
+    Source: Glaeser, sections 4.5, equations 2 to 7, 8.5, equations 30 to 33, and 8.6.
+    """
+    places = found.interpolated(triangles.points)
+    to_eye = towards(places, lighting.eye)
+    faces, normals = _normals(triangles, found, to_eye)
+    item = triangles.item[found.triangle]
+    strength = intensities(lighting.lights)
+    total = np.zeros(len(found))
+    for number, light in enumerate(lighting.lights):
+        to_light = towards(places, homogeneous_light(light))
+        alpha = np.einsum("ij,ij->i", normals, to_light)
+        share = _shares(lighting, item, alpha, normals, to_light, to_eye)
+        if lighting.blocked:
+            dark = lighting.blocked[number](places, faces, found.triangle)
+            share[dark] = _dark_shares(lighting, item[dark], alpha[dark])
+        total += strength[number] * share
+    low, high = lighting.depths
+    shade = shades(total[None], [1.0], depth_cue(places[:, 2], low, high - low))
+    level = np.rint(shade * (COLOUR_MAP - 1)).astype(np.intp)
+    return ShadedPoints(places, faces, lighting.palettes[lighting.palette[item], level])
+
+
+def _normals(triangles: SceneTriangles, found: VisiblePoints, to_eye: Floats) -> tuple[Floats, Floats]:
+    """(m, 3) unit normals of faces and of the surface they stand for, both on the eye's side."""
+    faces = unit(face_normals(triangles.points, found.corners))
+    away = np.einsum("ij,ij->i", faces, to_eye) < 0.0
+    faces[away] *= -1.0
+    smooth = replace(found, corners=np.take(triangles.normals.index, found.triangle, axis=0)).interpolated(
+        triangles.normals.normals
+    )
+    smooth = unit(smooth)
+    smooth[np.einsum("ij,ij->i", smooth, faces) < 0.0] *= -1.0
+    lost = ~smooth.any(axis=1)
+    smooth[lost] = faces[lost]
+    return faces, smooth
+
+
+def _shares(lighting: Lighting, item: Ints, alpha: Floats, normals: Floats, to_light: Floats, to_eye: Floats) -> Floats:
+    """(m,) what points make of a light of intensity 1, each by the material of its item."""
+    share = np.zeros(len(item))
+    finish = lighting.finish[item]
+    for number, made in enumerate(lighting.finishes):
+        own = np.flatnonzero(finish == number)
+        if not len(own):
+            continue
+        a = alpha[own]
+        beta = np.zeros(len(own))
+        if made.highlight:
+            # The reflected ray against the direction to the eye, without the ray itself.
+            eye = to_eye[own]
+            beta = 2.0 * a * np.einsum("ij,ij->i", normals[own], eye) - np.einsum("ij,ij->i", to_light[own], eye)
+        share[own] = brightness(a, beta, made)
+    return share
+
+
+def _dark_shares(lighting: Lighting, item: Ints, alpha: Floats) -> Floats:
+    """(m,) what points in the shadow make of a light of intensity 1."""
+    share = np.zeros(len(item))
+    finish = lighting.finish[item]
+    for number, made in enumerate(lighting.finishes):
+        own = finish == number
+        share[own] = made.diffuse * lambert(-np.abs(alpha[own]), made.exponent)
+    return share
