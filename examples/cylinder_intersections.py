@@ -34,7 +34,7 @@ def main(folder: Path) -> None:
         points = [curve.points(np.linspace(curve.start, curve.end, 2000)) for curve in curves]
         assert len(curves) == count
         assert_closed(points)
-        for found, tolerance in ((points, 1e-12), (curves_in_space(drawing, kind="intersection"), 1e-3)):
+        for found, tolerance in ((points, 1e-12), (curves_in_space(drawing, kind="intersection"), 1e-9)):
             x, y, z = np.concatenate(found).T
             assert np.abs(np.hypot(x, y) - r).max() < tolerance and np.abs(np.hypot(x - a, z) - s).max() < tolerance
 

@@ -54,7 +54,7 @@ def main(folder: Path) -> None:
     u, v, z = np.concatenate(curves_in_space(level, kind="section")).T
     assert_on_surface(HYPERBOLOID.points(u, v), EQUATION, tolerance=1e-9)
     assert np.allclose(z, 0, atol=1e-9), "the zero lines of the graph"
-    assert_on_both(curves_in_space(drawing, kind="intersection"), EQUATION, HYPERBOLOID, tolerance=1e-3)
+    assert_on_both(curves_in_space(drawing, kind="intersection"), EQUATION, HYPERBOLOID, tolerance=1e-9)
 
 
 if __name__ == "__main__":

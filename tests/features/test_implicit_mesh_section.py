@@ -22,7 +22,7 @@ FINE = 1e-5
 
 
 def curves(shape, mesh):
-    found = implicit_mesh_section(shape, mesh, tracing=ImplicitTracing(tolerance=FINE))
+    found = implicit_mesh_section(shape, mesh, tracing=ImplicitTracing(tolerance=FINE)).curves
     assert found.doubts == ()
     return found
 
@@ -70,7 +70,7 @@ def test_size_and_place_change_nothing(scale: float, offset: float) -> None:
         moved,
         Mesh(scale * block.vertices + offset, block.corners, block.offsets),
         tracing=ImplicitTracing(tolerance=FINE * scale),
-    )
+    ).curves
     back = [(there[k] - offset) / scale for k in range(len(there))]
     assert hausdorff([here[k] for k in range(len(here))], back) < 10.0 * FINE
 

@@ -113,9 +113,21 @@ class ImplicitPatch:
         return x
 
 
+@dataclass(frozen=True, eq=False)
+class ImplicitMeshSection:
+    """curves: on the surface; normals (n,3): the unit normal of the face of the mesh in which the segment from every
+    point to the next runs; the last point of an open curve has that of the segment before."""
+
+    curves: ImplicitCurves
+    normals: Floats
+
+    def __len__(self) -> int:
+        return len(self.curves)
+
+
 def implicit_mesh_section(
     surface: ImplicitSurface, mesh: Mesh, *, tracing: ImplicitTracing = DEFAULT
-) -> ImplicitCurves:
+) -> ImplicitMeshSection:
     """The curves in which an implicit surface meets the faces of a mesh, within its box.
 
     In a face a curve is the section of the surface with the plane of the face; it goes on over edges, and every edge it
@@ -127,7 +139,7 @@ def implicit_mesh_section(
     own, doubts = mesh_of(surface, tracing)
     two = MeshSheet(mesh)
     if not own.face_count or not len(two.faces):
-        return no_curves(doubts)
+        return ImplicitMeshSection(no_curves(doubts), np.zeros((0, 3)))
     one = ImplicitPatch(surface, own)
     found = piercings(one.tessellation, two.tessellation, overlapping_triangles(one.tessellation, two.tessellation))
     # What happens where a plane goes on beside its face has nothing to do with the face.
@@ -135,7 +147,7 @@ def implicit_mesh_section(
     plain = Tracing(tolerance=tracing.tolerance, picture=tracing.picture)
     all_ = joined(one, two, found, touching.of(two.holds(touching.two)), plain, same=False)
     kept, offsets, closed = repeats_dropped(all_)
-    return ImplicitCurves(
+    curves = ImplicitCurves(
         one.points(all_.points.one[kept]),
         offsets,
         closed,
@@ -144,3 +156,4 @@ def implicit_mesh_section(
         all_.nodes.points,
         (*doubts, *doubts_about(all_)),
     )
+    return ImplicitMeshSection(curves, two.normals(all_.points.two[kept]))

@@ -29,10 +29,12 @@ MOST_BORDERS = 1000
 @dataclass(frozen=True, eq=False)
 class MeshSection:
     """curves: on the surface; faces (n,): the face of the mesh in which the segment from every point to the next runs;
-    the last point of an open curve has that of the segment before."""
+    the last point of an open curve has that of the segment before; normals (n,3): its unit normal there, that of one
+    of its triangles where it is not planar."""
 
     curves: SurfaceCurves
     faces: Ints
+    normals: Floats
 
     def __len__(self) -> int:
         return len(self.curves)
@@ -55,7 +57,7 @@ def mesh_section(surface: Surface, mesh: Mesh, *, tracing: Tracing = DEFAULT) ->
     for columns, rows in finer_grids(tracing.columns, tracing.rows):
         one = SurfaceSheet(surface, columns, rows)
         if not len(two.faces) or not len(one.tessellation.triangles):
-            return MeshSection(no_curves(), np.zeros(0, dtype=np.intp))
+            return MeshSection(no_curves(), np.zeros(0, dtype=np.intp), np.zeros((0, 3)))
         pairs = overlapping_triangles(one.tessellation, two.tessellation)
         found = piercings(one.tessellation, two.tessellation, pairs)
         # What happens where a plane goes on beside its face has nothing to do with the face.
@@ -113,7 +115,7 @@ def _section(one: SurfaceSheet, two: MeshSheet, all_: Joined, faults: int) -> Me
         touching,
         doubts_about(all_) + doubts,
     )
-    return MeshSection(curves, two.faces[triangle])
+    return MeshSection(curves, two.faces[triangle], two.normals(points[kept]))
 
 
 def _both(one: SurfaceSheet, places: Floats, points: Floats) -> Floats:

@@ -12,7 +12,7 @@ from vectorplot.scene.view import View, look
 from vectorplot.surfaces.ellipsoid import Sphere
 from vectorplot.surfaces.quadric import Quadric, implicit_sphere
 from vectorplot.surfaces.surface import ImplicitSurface
-from vectorplot.visibility.smooth.family import NearChords, SpatialCurves
+from vectorplot.visibility.smooth.family import Chords, NearChords, SpatialCurves
 from vectorplot.visibility.smooth.implicit_meetings import implicit_with_implicit, parametrised_with_implicit
 from vectorplot.visibility.smooth.implicit_sheet import ImplicitSheet, implicit_sheet
 from vectorplot.visibility.smooth.parametric_items import sheet_of_parametrised
@@ -38,13 +38,19 @@ def chord(radius: float, height: float, step: float) -> tuple[np.ndarray, np.nda
     return ends[0], ends[1]
 
 
+def chords_of(start: np.ndarray, end: np.ndarray, level: float) -> Chords:
+    """Chords whose places are their points."""
+    none = np.full_like(start, np.nan)
+    return Chords((start, end), (start, end), (none, none), np.full(len(start), level))
+
+
 def test_a_section_between_its_points_is_the_circle() -> None:
     sheet, radius = unit_sphere()
     start, end = chord(radius, 0.4 * radius, 0.3)
     curve = SpatialCurves(sheet, 0, MeetsPlane((0.0, 0.0, 1.0), 0.0))
     part = np.array([-0.1, 0.0, 0.37, 0.5, 1.0, 1.2])
     ends = tuple(np.repeat(p, len(part), axis=0) for p in (start, end))
-    along = curve.between(ends, ends, part, np.full(len(part), 0.4 * radius))
+    along = curve.between(chords_of(*ends, 0.4 * radius), part)
     assert np.abs(np.linalg.norm(along.points, axis=1) - radius).max() < 1e-12
     assert np.abs(along.points[:, 2] - 0.4 * radius).max() < 1e-12
     # In the plane across the chord.
@@ -54,7 +60,7 @@ def test_a_section_between_its_points_is_the_circle() -> None:
     assert np.abs((along.slopes * along.points).sum(axis=1)).max() < 1e-9
     assert np.abs(along.slopes[:, 2]).max() < 1e-12
     step = 1e-6
-    ahead = curve.between(ends, ends, part + step, np.full(len(part), 0.4 * radius))
+    ahead = curve.between(chords_of(*ends, 0.4 * radius), part + step)
     assert np.allclose((ahead.points - along.points) / step, along.slopes, atol=1e-5)
 
 
@@ -62,7 +68,7 @@ def test_an_isophote_has_the_level_of_its_curve() -> None:
     sheet, radius = unit_sphere()
     start, end = chord(radius, 0.6 * radius, 0.2)
     curve = SpatialCurves(sheet, 0, ImplicitIsophote(sheet.surface, (0.0, 0.0, 1.0), 0.0))
-    along = curve.between((start, end), (start, end), np.array([0.4]), np.array([0.6]))
+    along = curve.between(chords_of(start, end, 0.6), np.array([0.4]))
     assert np.allclose(along.points[:, 2], 0.6 * radius, atol=1e-12)
 
 
@@ -70,7 +76,7 @@ def test_where_no_curve_is_the_chord_stays() -> None:
     sheet, radius = unit_sphere()
     curve = SpatialCurves(sheet, 0, MeetsPlane((0.0, 0.0, 1.0), 0.0))
     start, end = np.array([[0.0, 0.0, radius]]), np.array([[1e-3, 0.0, radius]])
-    along = curve.between((start, end), (start, end), np.array([0.5]), np.array([0.0]))
+    along = curve.between(chords_of(start, end, 0.0), np.array([0.5]))
     assert np.isfinite(along.points).all() and np.isfinite(along.slopes).all()
     assert np.linalg.norm(along.points - start) < 2e-3
 
@@ -78,7 +84,7 @@ def test_where_no_curve_is_the_chord_stays() -> None:
 def test_curves_near_chords_lie_on_the_surface() -> None:
     sheet, radius = unit_sphere()
     start, end = chord(radius, 0.4 * radius, 0.1)
-    along = NearChords(sheet, 0).between((start, end), (start, end), np.array([0.5]), np.array([0.0]))
+    along = NearChords(sheet, 0).between(chords_of(start, end, 0.0), np.array([0.5]))
     assert np.isclose(np.linalg.norm(along.points), radius, rtol=0.0, atol=1e-14)
     assert np.abs((along.slopes * along.points).sum()) < 1e-14
 

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.geometry.mesh import Bools, Floats, Ints
-from vectorplot.visibility.smooth.family import Along, Family
+from vectorplot.visibility.smooth.family import Along, Chords, Family
 
 
 @dataclass(frozen=True, eq=False)
@@ -17,7 +17,8 @@ class Curves:
     """Polylines in the view's coordinates.
 
     points (n,3); places (n,3) of them on their sheets; second_places (n,3) those on a second sheet, of curves in which
-    two sheets meet, else NaN; offsets (m+1,); closed (m,): the last point is the first again, its place whole periods
+    two sheets meet; of those in faces of a mesh the normal of the face in which the chord from the point lies; else
+    NaN; offsets (m+1,); closed (m,): the last point is the first again, its place whole periods
     away; kind (m,) LineKind values; item (m,); family (m,) indices into families; level (m,) the value that the
     condition of its family has along a curve.
     """
@@ -67,18 +68,20 @@ class Curves:
         A part a little below 0 or above 1 lies on the curve too, beyond the ends of the chord.
         """
         places, points, slopes = (np.empty((len(chord), 3)) for _ in range(3))
+        second = np.full((len(chord), 3), np.nan)
         family = self.family[self.owner[chord]]
         for number in np.unique(family).tolist():
             which = np.flatnonzero(family == number)
-            begin = chord[which]
-            found = self.families[number].between(
-                (self.places[begin], self.places[begin + 1]),
-                (self.points[begin], self.points[begin + 1]),
-                part[which],
-                self.level[self.owner[begin]],
-            )
+            found = self.families[number].between(self._chords(chord[which]), part[which])
             places[which], points[which], slopes[which] = found.places, found.points, found.slopes
-        return Along(places, points, slopes)
+            if self.families[number].second >= 0:
+                second[which] = found.second_places
+        return Along(places, points, slopes, second)
+
+    def _chords(self, begin: Ints) -> Chords:
+        """The chords that begin at these points."""
+        places, points, second = ((x[begin], x[begin + 1]) for x in (self.places, self.points, self.second_places))
+        return Chords(places, points, second, self.level[self.owner[begin]])
 
     def some(self, which: Ints) -> Curves:
         """Some of the curves."""

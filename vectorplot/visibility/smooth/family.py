@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
@@ -25,12 +25,25 @@ FARTHEST = 0.5
 
 
 @dataclass(frozen=True, eq=False)
+class Chords:
+    """Chords of curves of one family: places, points and second places (k,3) at both of their ends; level (k,): of the
+    curves."""
+
+    places: tuple[Floats, Floats]
+    points: tuple[Floats, Floats]
+    second_places: tuple[Floats, Floats]
+    level: Floats
+
+
+@dataclass(frozen=True, eq=False)
 class Along:
-    """Points of curves: places and points (k,3); slopes (k,3): derivatives by the part of the chord."""
+    """Points of curves: places and points (k,3); slopes (k,3): derivatives by the part of the chord; second_places
+    (k,3), none unless the curves lie on a second sheet."""
 
     places: Floats
     points: Floats
     slopes: Floats
+    second_places: Floats = field(default_factory=lambda: np.zeros((0, 3)))
 
 
 class Family(Protocol):
@@ -46,11 +59,8 @@ class Family(Protocol):
         """Another sheet they lie on, or -1."""
         ...
 
-    def between(
-        self, places: tuple[Floats, Floats], points: tuple[Floats, Floats], part: Floats, level: Floats
-    ) -> Along:
-        """The curves at a part (k,) of chords from one place (k,3) and point (k,3) to another; level (k,): of each
-        curve."""
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The curves at a part (k,) of chords (k,)."""
         ...
 
 
@@ -61,12 +71,11 @@ class StraightLines:
     sheet: int = -1
     second: int = -1
 
-    def between(
-        self, places: tuple[Floats, Floats], points: tuple[Floats, Floats], part: Floats, level: Floats
-    ) -> Along:
+    def between(self, chords: Chords, part: Floats) -> Along:
         """The curves at a part of their chords."""
-        slopes = points[1] - points[0]
-        middle = points[0] + part[:, None] * slopes
+        start, end = chords.points
+        slopes = end - start
+        middle = start + part[:, None] * slopes
         return Along(middle, middle, slopes)
 
 
@@ -78,32 +87,31 @@ class ParameterCurves:
     sheet: int
     second: int = -1
 
-    def between(
-        self, places: tuple[Floats, Floats], points: tuple[Floats, Floats], part: Floats, level: Floats
-    ) -> Along:
+    def between(self, chords: Chords, part: Floats) -> Along:
         """The curves at a part of their chords."""
-        way = places[1] - places[0]
-        at = places[0] + part[:, None] * way
+        start, end = chords.places
+        way = end - start
+        at = start + part[:, None] * way
         along_u, along_v = self.surface.partials(at)
         return Along(at, self.surface.points(at), way[:, :1] * along_u + way[:, 1:2] * along_v)
 
 
 @dataclass(frozen=True, eq=False)
 class ConditionCurves:
-    """Curves of a parametrised surface along which a condition has the value of their level."""
+    """Curves of a parametrised surface along which a condition has the value of their level; it holds on the second
+    sheet, if there is one, whose places are points."""
 
     surface: ParametricSheet
     sheet: int
     condition: Condition
     second: int = -1
 
-    def between(
-        self, places: tuple[Floats, Floats], points: tuple[Floats, Floats], part: Floats, level: Floats
-    ) -> Along:
+    def between(self, chords: Chords, part: Floats) -> Along:
         """The curves at a part of their chords: from the chord straight across to where the condition holds."""
         size = np.array(self.surface.surface.domain.size)
-        way = (places[1] - places[0])[:, :2] / size
-        base = places[0][:, :2] / size + part[:, None] * way
+        start, end = chords.places
+        way = (end - start)[:, :2] / size
+        base = start[:, :2] / size + part[:, None] * way
         across = np.stack([-way[:, 1], way[:, 0]], axis=1)
         off = np.zeros(len(part))
         for again in range(ROUNDS):
@@ -112,7 +120,7 @@ class ConditionCurves:
             if again in (0, RENEWED):
                 slopes = np.stack(self.condition.slopes(u, v), axis=1) * size
             with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-                step = (self.condition.values(u, v) - level) / (slopes * across).sum(axis=1)
+                step = (self.condition.values(u, v) - chords.level) / (slopes * across).sum(axis=1)
             step = np.clip(np.where(np.isfinite(step), step, 0.0), -FARTHEST, FARTHEST)
             off = np.clip(off - step, -FARTHEST, FARTHEST)
             if not (np.abs(step) > SETTLED).any():
@@ -126,24 +134,26 @@ class ConditionCurves:
         places_at = np.concatenate([at * size, np.zeros((len(at), 1))], axis=1)
         along_u, along_v = self.surface.partials(places_at)
         moved = tangent * size
-        return Along(places_at, self.surface.points(places_at), moved[:, :1] * along_u + moved[:, 1:] * along_v)
+        points = self.surface.points(places_at)
+        second = points[: len(points) if self.second >= 0 else 0]
+        return Along(places_at, points, moved[:, :1] * along_u + moved[:, 1:] * along_v, second)
 
 
 @dataclass(frozen=True, eq=False)
 class SpatialCurves:
-    """Curves of an implicit surface along which a condition in space has the value of their level."""
+    """Curves of an implicit surface along which a condition in space has the value of their level; it holds on the
+    second sheet, if there is one, whose places are points."""
 
     surface: ImplicitSheet
     sheet: int
     condition: SpatialCondition
     second: int = -1
 
-    def between(
-        self, places: tuple[Floats, Floats], points: tuple[Floats, Floats], part: Floats, level: Floats
-    ) -> Along:
+    def between(self, chords: Chords, part: Floats) -> Along:
         """The curves at a part of their chords: in the plane across the chord to where surface and condition meet."""
-        way = points[1] - points[0]
-        base = points[0] + part[:, None] * way
+        start, end = chords.points
+        way = end - start
+        base = start + part[:, None] * way
         farthest = FARTHEST * np.sqrt(dot(way, way))
         off = np.zeros_like(base)
         placed = self.surface.surface
@@ -154,16 +164,17 @@ class SpatialCurves:
                     one, two = placed.gradients(at), self.condition.gradients(at)
                     across_one, across_two = np.cross(two, way), np.cross(way, one)
                     volume = dot(one, across_one)
-                f, g = placed.values(at), self.condition.values(at) - level
+                f, g = placed.values(at), self.condition.values(at) - chords.level
                 step = -(f[:, None] * across_one + g[:, None] * across_two) / volume[:, None]
-                step = _no_longer(step, farthest)
-                off = _no_longer(off + step, farthest)
+                step = no_longer(step, farthest)
+                off = no_longer(off + step, farthest)
                 if not (np.sqrt(dot(step, step)) > SETTLED * farthest).any():
                     break
             tangent = np.cross(one, two)
             tangent = tangent * (dot(way, way) / dot(tangent, way))[:, None]
         at = base + off
-        return Along(at, at, np.where(np.isfinite(tangent.sum(axis=1, keepdims=True)), tangent, way))
+        slopes = np.where(np.isfinite(tangent.sum(axis=1, keepdims=True)), tangent, way)
+        return Along(at, at, slopes, at[: len(at) if self.second >= 0 else 0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,12 +185,11 @@ class NearChords:
     sheet: int
     second: int = -1
 
-    def between(
-        self, places: tuple[Floats, Floats], points: tuple[Floats, Floats], part: Floats, level: Floats
-    ) -> Along:
+    def between(self, chords: Chords, part: Floats) -> Along:
         """The curves at a part of their chords."""
-        way = points[1] - points[0]
-        at = points[0] + part[:, None] * way
+        start, end = chords.points
+        way = end - start
+        at = start + part[:, None] * way
         for _ in range(ROUNDS):
             at = self.surface.points(at)
         normal = self.surface.normals(at)
@@ -187,7 +197,7 @@ class NearChords:
         return Along(at, at, np.where(np.isfinite(slopes), slopes, way))
 
 
-def _no_longer(steps: Floats, longest: Floats) -> Floats:
+def no_longer(steps: Floats, longest: Floats) -> Floats:
     """(k,3) the steps, those longer than this (k,) shortened; none where they are not finite."""
     steps = np.where(np.isfinite(steps.sum(axis=1, keepdims=True)), steps, 0.0)
     long = np.sqrt(dot(steps, steps))

@@ -68,8 +68,11 @@ def tracing_in_world(sheet: ImplicitSheet, tracing: Tracing) -> ImplicitTracing:
     return ImplicitTracing(mesh=sheet.mesh, resolution=tracing.resolution, tolerance=tolerance, picture=image)
 
 
-def as_spatial_curves(found: ImplicitCurves, kind: LineKind, sheet: ImplicitSheet, family: Family) -> Curves:
-    """Curves of the world in the view's coordinates, closed ones led back to their first point."""
+def as_spatial_curves(
+    found: ImplicitCurves, kind: LineKind, sheet: ImplicitSheet, family: Family, second_places: Floats | None = None
+) -> Curves:
+    """Curves of the world in the view's coordinates, closed ones led back to their first point; second_places (n,3) of
+    the points found, in the view's coordinates."""
     view = sheet.view
     counts = np.diff(found.offsets) + found.closed
     offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.intp)
@@ -79,7 +82,7 @@ def as_spatial_curves(found: ImplicitCurves, kind: LineKind, sheet: ImplicitShee
     return Curves(
         points,
         points,
-        np.full_like(points, np.nan),
+        np.full_like(points, np.nan) if second_places is None else second_places[index],
         offsets,
         found.closed,
         np.full(len(found), int(kind)),

@@ -15,9 +15,10 @@ from vectorplot.features.sections import intersection
 from vectorplot.geometry.mesh import Floats, Ints, Mesh
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.visibility.smooth.curves import Curves
-from vectorplot.visibility.smooth.family import Along, ConditionCurves, NearChords, SpatialCurves
+from vectorplot.visibility.smooth.family import Along, ConditionCurves, SpatialCurves
 from vectorplot.visibility.smooth.implicit_items import as_spatial_curves, tracing_in_world
 from vectorplot.visibility.smooth.implicit_sheet import BEYOND, ImplicitSheet
+from vectorplot.visibility.smooth.meeting_families import ImplicitFaceCurves
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.roots import roots_along
 from vectorplot.visibility.smooth.surface_curves import as_curves
@@ -52,9 +53,10 @@ def implicit_with_mesh(
     """The curves in which a sheet meets the faces of a mesh in the view's coordinates; and doubts."""
     view, world = sheet.view, tracing_in_world(sheet, tracing)
     placed = Mesh(view.world_of(mesh.vertices.T), mesh.corners, mesh.offsets, mesh.present)
-    found = implicit_mesh_section(sheet.home, placed, tracing=world)
-    curves = as_spatial_curves(found, LineKind.INTERSECTION, sheet, NearChords(sheet, number))
-    return replace(curves, item=np.full(len(curves), item)), found.doubts
+    section = implicit_mesh_section(sheet.home, placed, tracing=world)
+    family, normals = ImplicitFaceCurves(sheet, number), section.normals @ view.axes.T
+    curves = as_spatial_curves(section.curves, LineKind.INTERSECTION, sheet, family, normals)
+    return replace(curves, item=np.full(len(curves), item)), section.curves.doubts
 
 
 def within_box(curves: Curves, sheet: ImplicitSheet) -> Curves:

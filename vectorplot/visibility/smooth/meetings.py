@@ -18,13 +18,13 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.surface import Domain
 from vectorplot.visibility.smooth.curves import Curves, together
-from vectorplot.visibility.smooth.family import ParameterCurves
 from vectorplot.visibility.smooth.implicit_meetings import (
     implicit_with_implicit,
     implicit_with_mesh,
     parametrised_with_implicit,
 )
 from vectorplot.visibility.smooth.implicit_sheet import ImplicitSheet
+from vectorplot.visibility.smooth.meeting_families import FaceCurves, SheetsMeet
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.surface_curves import as_curves
 
@@ -96,8 +96,9 @@ def _with_mesh(
     """The curves of a sheet and a mesh in the view's coordinates."""
     if isinstance(sheet, ImplicitSheet):
         return implicit_with_mesh(sheet, number, mesh, item, tracing)
-    found = mesh_section(sheet.surface, mesh, tracing=tracing).curves
-    return as_curves(found, LineKind.INTERSECTION, item, ParameterCurves(sheet, number)), found.doubts
+    section = mesh_section(sheet.surface, mesh, tracing=tracing)
+    family, found = FaceCurves(sheet, number), section.curves
+    return as_curves(found, LineKind.INTERSECTION, item, family, section.normals), found.doubts
 
 
 def _box(points: Floats) -> Floats:
@@ -147,7 +148,7 @@ def _double(
         np.full(many, item, dtype=np.intp),
         np.zeros(many, dtype=np.intp),
         np.zeros(many),
-        (ParameterCurves(one, first, second),),
+        (SheetsMeet(one, first, two, second),),
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from vectorplot.geometry.mesh import Bools, Floats, Ints
@@ -48,42 +50,44 @@ def own_events(view: View, sheets: tuple[Sheet, ...], curves: Curves, edge_on: B
         if not sheet.hides:
             continue
         first = (curves.sheet == number) & ~edge_on
-        parts.append(_passings(view, sheet, curves.some(np.flatnonzero(first)), np.flatnonzero(first), curves))
+        numbers = np.flatnonzero(first)
+        parts.append(_passings(view, sheet, curves.some(numbers), numbers, curves, _first_places))
         contours = (curves.sheet == number) & edge_on
         parts.append(_cusps(view, sheet, curves.some(np.flatnonzero(contours)), np.flatnonzero(contours), curves))
         second = curves.second_sheet == number
-        parts.append(_second_passings(view, sheet, curves.some(np.flatnonzero(second)), np.flatnonzero(second), curves))
+        numbers = np.flatnonzero(second)
+        parts.append(_passings(view, sheet, curves.some(numbers), numbers, curves, _second_places))
     return all_events(parts)
 
 
-def _passings(view: View, sheet: Sheet, own: Curves, numbers: Ints, curves: Curves) -> Events:
-    """Where a curve goes over from a part of its sheet that it sees to one that the sheet itself hides, or back."""
+def _first_places(of: Curves | Along) -> Floats:
+    return of.places
+
+
+def _second_places(of: Curves | Along) -> Floats:
+    return of.second_places
+
+
+def _passings(
+    view: View,
+    sheet: Sheet,
+    own: Curves,
+    numbers: Ints,
+    curves: Curves,
+    places: Callable[[Curves | Along], Floats],
+) -> Events:
+    """Where a curve goes over from a part of a sheet that it sees to one that the sheet itself hides, or back.
+
+    places: of curves on that sheet.
+    """
 
     def facing(_: Ints, at: Along) -> Floats:
-        return _facing(view, sheet, at.points, at.places)
+        return _facing(view, sheet, at.points, places(at))
 
-    roots = roots_along(own, facing, _facing(view, sheet, own.points, own.places))
+    roots = roots_along(own, facing, _facing(view, sheet, own.points, places(own)))
     at = own.at(roots.chord, roots.part)
-    return _passed(
-        view, sheet, at.points, at.places, roots.falls, _chords(own, numbers, curves, roots.chord), roots.part
-    )
-
-
-def _second_passings(view: View, sheet: Sheet, own: Curves, numbers: Ints, curves: Curves) -> Events:
-    """The same for the other sheet of curves in which two meet; between points its places are known roughly."""
-
-    def places(chord: Ints, part: Floats) -> Floats:
-        a, b = own.second_places[chord], own.second_places[chord + 1]
-        return np.asarray(a + part[:, None] * (b - a))
-
-    values = _facing(view, sheet, own.points, own.second_places)
-    chord = own.chords
-    with np.errstate(invalid="ignore"):
-        a, b = values[chord], values[chord + 1]
-        crossing = np.isfinite(a) & np.isfinite(b) & ((a < 0.0) != (b < 0.0))
-    chord, part = chord[crossing], (a / (a - b))[crossing]
-    at = places(chord, part)
-    return _passed(view, sheet, sheet.points(at), at, values[chord] >= 0.0, _chords(own, numbers, curves, chord), part)
+    chord = _chords(own, numbers, curves, roots.chord)
+    return _passed(view, sheet, at.points, places(at), roots.falls, chord, roots.part)
 
 
 def _chords(own: Curves, numbers: Ints, curves: Curves, chord: Ints) -> Ints:

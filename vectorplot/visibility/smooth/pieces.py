@@ -124,9 +124,9 @@ def _safest(view: View, curves: Curves, edges: Curves, edge_on: Bools, pieces: P
 def samples_at(curves: Curves, edge_on: Bools, chord: Ints, part: Floats) -> Samples:
     """Points of curves, to look from."""
     found, curve = curves.at(chord, part), curves.owner[chord]
-    a, b = curves.second_places[chord], curves.second_places[chord + 1]
-    second = a + part[:, None] * (b - a)
-    return Samples(found.points, curves.sheet[curve], found.places, curves.second_sheet[curve], second, edge_on[curve])
+    return Samples(
+        found.points, curves.sheet[curve], found.places, curves.second_sheet[curve], found.second_places, edge_on[curve]
+    )
 
 
 def _ends(pieces: Pieces) -> list[tuple[Ints, Floats]]:

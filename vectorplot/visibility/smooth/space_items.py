@@ -13,7 +13,7 @@ from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.curves import Curves
-from vectorplot.visibility.smooth.family import Along
+from vectorplot.visibility.smooth.family import Along, Chords
 from vectorplot.visibility.smooth.meetings import SmoothSheet
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.sheet import dot
@@ -40,17 +40,16 @@ class SpaceCurve:
     sheet: int
     second: int = -1
 
-    def between(
-        self, places: tuple[Floats, Floats], points: tuple[Floats, Floats], part: Floats, level: Floats
-    ) -> Along:
+    def between(self, chords: Chords, part: Floats) -> Along:
         """The curve at a part of its chords."""
-        at = places[0] + part[:, None] * (places[1] - places[0])
+        start, end = chords.places
+        at = start + part[:, None] * (end - start)
         t = np.clip(at[:, 2], self.curve.start, self.curve.end)
         here = self.view.points_of(self.curve.points(t)).T
         slopes = self.curve.tangents(t) @ (self.view.axes / self.view.scale).T
         if self.surface is not None:
             at[:, :2] = _onto(self.surface, here, at)[0][:, :2]
-        return Along(at, here, slopes * (places[1] - places[0])[:, 2:])
+        return Along(at, here, slopes * (end - start)[:, 2:])
 
 
 def space_curve(view: View, curve: Curve, item: int, sheets: tuple[SmoothSheet, ...], tracing: Tracing) -> Curves:

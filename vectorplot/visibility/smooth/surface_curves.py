@@ -5,13 +5,19 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.features.surface_curves import SurfaceCurves
+from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.family import ConditionCurves, ParameterCurves
+from vectorplot.visibility.smooth.meeting_families import FaceCurves
+
+OnSurface = ConditionCurves | ParameterCurves | FaceCurves
 
 
-def as_curves(found: SurfaceCurves, kind: LineKind, item: int, family: ConditionCurves | ParameterCurves) -> Curves:
-    """Curves of a surface with closed ones led back to their first point."""
+def as_curves(
+    found: SurfaceCurves, kind: LineKind, item: int, family: OnSurface, second_places: Floats | None = None
+) -> Curves:
+    """Curves of a surface with closed ones led back to their first point; second_places (n,3) of the points found."""
     counts = np.diff(found.offsets) + found.closed
     offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.intp)
     index = np.arange(offsets[-1]) - np.repeat(offsets[:-1] - found.offsets[:-1], counts)
@@ -25,7 +31,7 @@ def as_curves(found: SurfaceCurves, kind: LineKind, item: int, family: Condition
     return Curves(
         found.points[index],
         places,
-        np.full_like(places, np.nan),
+        np.full_like(places, np.nan) if second_places is None else second_places[index],
         offsets,
         found.closed,
         np.full(many, int(kind)),
