@@ -67,6 +67,28 @@ def plan_draw(scene: Scene, kinds: frozenset[LineKind], hidden: str, halo_mm: fl
     return tuple(stages)
 
 
+def plan_render(scene: Scene, shadows: str, lines: bool) -> tuple[Stage, ...]:
+    """The stages that rendering this scene calls for, in their order; nothing else runs."""
+    stages = []
+    if any(not isinstance(item.shape, Mesh) for item in scene.items):
+        stages.append(Stage("facets", "smooth surfaces become triangles smaller than pixels can show"))
+    stages.append(Stage("look", "the scene in the camera's axes, in the unit box"))
+    stages.append(Stage("triangles", "all faces, with the normals at their corners"))
+    if shadows != "none" and scene.lights:
+        how = {"buffer": "shadow buffers", "trapezoid": "trapezoidal shadow maps", "exact": "exactly"}[shadows]
+        stages.append(Stage("shadows", f"{len(scene.lights)} lights cast them: {how}"))
+    stages.append(Stage("depth", "which triangle is in front in every pixel"))
+    stages.append(Stage("shading", "every visible point once"))
+    if any(item.material.word == "mirror" for item in scene.items):
+        stages.append(Stage("mirrors", "what mirrors show"))
+    if any(item.material.opacity < 1.0 for item in scene.items):
+        stages.append(Stage("transparency", "what one sees through"))
+    if lines:
+        stages.append(Stage("lines", "drawn over the picture, with exact hidden lines"))
+    stages.append(Stage("average", "the pixels of the picture"))
+    return tuple(stages)
+
+
 def _has_mesh_lines(item: Item) -> bool:
     """Whether an item is a polyhedron with lines of a smooth one."""
     return isinstance(item.shape, Mesh) and bool(item.curves.isophotes or item.curves.sections)
@@ -127,3 +149,30 @@ def peak_mb() -> float:
             return next((int(line.split()[1]) / 1024.0 for line in status if line.startswith("VmHWM")), 0.0)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return peak / (1024.0 * 1024.0 if sys.platform == "darwin" else 1024.0)
+
+
+def plan_paint(scene: Scene, shadows: str) -> tuple[Stage, ...]:
+    """The stages that painting this scene calls for, in their order; nothing else runs."""
+    stages = []
+    if any(not isinstance(item.shape, Mesh) for item in scene.items):
+        stages.append(Stage("facets", "smooth surfaces become triangles within the tolerance"))
+    stages.append(Stage("look", "the scene in the camera's axes, in the unit box"))
+    stages.append(Stage("faces", "the faces in the image, and which side they show"))
+    stages.append(Stage("order", "back to front; what pierces or overlaps in circles is cut"))
+    stages.append(
+        Stage("shades", f"{len(scene.lights)} lights" if scene.lights else "no light: one from the eye's left")
+    )
+    casts = shadows == "auto" and bool(scene.lights)
+    clear = any(item.material.opacity < 1.0 for item in scene.items)
+    if casts:
+        stages.append(Stage("shadows", f"{len(scene.lights)} lights cast them"))
+    if any(item.patterns for item in scene.items):
+        stages.append(Stage("patterns", "faces carry patterns"))
+    if casts and clear:
+        stages.append(Stage("clear shadows", "items are transparent"))
+    if any(item.material.word == "mirror" for item in scene.items):
+        stages.append(Stage("reflections", "items are mirrors"))
+    if clear and any(item.material.refraction != 1.0 for item in scene.items):
+        stages.append(Stage("refraction", "items refract light"))
+    stages.append(Stage("fills", "polygons on the page"))
+    return tuple(stages)
