@@ -18,15 +18,18 @@ if TYPE_CHECKING:
     from vectorplot.geometry.mesh import Mesh
     from vectorplot.geometry.strokes import LineKind, Strokes
     from vectorplot.io.read import read
+    from vectorplot.render import render
     from vectorplot.save import save
     from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
     from vectorplot.scene.surface_lines import Section, SurfaceLines
+    from vectorplot.shading.image import Image
 
 __version__ = "0.1.0"
 
 __all__ = [
     "Camera",
     "Drawing",
+    "Image",
     "InputError",
     "InputWarning",
     "Item",
@@ -45,12 +48,14 @@ __all__ = [
     "SurfaceLines",
     "draw",
     "read",
+    "render",
     "save",
 ]
 
 _HOME = {
     "Camera": "geometry.camera",
     "Drawing": "drawing.drawing",
+    "Image": "shading.image",
     "InputError": "errors",
     "InputWarning": "errors",
     "Item": "scene.scene",
@@ -69,6 +74,7 @@ _HOME = {
     "SurfaceLines": "scene.surface_lines",
     "draw": "draw",
     "read": "io.read",
+    "render": "render",
     "save": "save",
 }
 

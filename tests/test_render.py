@@ -1,0 +1,403 @@
+"""Rendered pictures against closed forms: spheres, shadows, mirrors, glass; and what the plan runs and loads."""
+
+from __future__ import annotations
+
+import io
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import vectorplot as vp
+from vectorplot import render as render_verb
+from vectorplot.draw import default_camera
+from vectorplot.errors import InputError
+from vectorplot.plan import plan_render
+from vectorplot.render import render
+from vectorplot.shading import picture
+from vectorplot.shading.illumination import AMBIENT, DARK_SIDE, FINISHES, REDUCED
+from vectorplot.shading.palettes import LIMITS, palette
+from vectorplot.surfaces.ellipsoid import Sphere
+from vectorplot.surfaces.torus import Torus
+from vectorplot.testing.shapes import box
+
+SUN = vp.Light((-1.0, -2.0, 2.5), parallel=True, intensity=1.0)
+SIZE = (240, 180)
+
+
+def sphere(colour="gray", word="normal", radius=1.0):
+    return vp.Item("BALL", Sphere(radius), colour, vp.Material(word))
+
+
+def levels(image):
+    """(rows, columns) the level of gray."""
+    return image.pixels[..., 0].astype(np.float64)
+
+
+def sphere_rays(camera, size):
+    """Points of the unit sphere seen through the centres of pixels, and which pixels see it, well inside."""
+    columns, rows = size
+    row, column = np.indices((rows, columns))
+    half = np.tan(np.radians(camera.fov_deg) / 2.0)
+    x = (column - (columns - 1) / 2.0) * 2.0 * half / rows
+    y = -(row - (rows - 1) / 2.0) * 2.0 * half / rows
+    right, up, back = camera.axes
+    way = x[..., None] * right + y[..., None] * up - back
+    way /= np.linalg.norm(way, axis=-1)[..., None]
+    eye = np.asarray(camera.eye)
+    along = way @ eye
+    root = along**2 - eye @ eye + 1.0
+    inside = root > 0.05
+    t = -along - np.sqrt(np.where(inside, root, 0.0))
+    return eye + t[..., None] * way, inside
+
+
+CAMERA = vp.Camera((3.0, -6.0, 2.0), fov_deg=25.0)
+
+
+@pytest.mark.capability("G8.5-phong", "G4.5-lambert")
+@pytest.mark.parametrize("word", ["normal", "metallic", "plastic", "wood"])
+def test_a_sphere_has_the_shades_of_its_true_normals(word):
+    image = render(vp.Scene((sphere(word=word),), (SUN,)), CAMERA, size=SIZE, fit=False)
+    normal, inside = sphere_rays(CAMERA, SIZE)
+    light = np.array(SUN.position) / np.linalg.norm(SUN.position)
+    cosine = normal @ light
+    finish = FINISHES[word]
+    lambert = np.where(cosine > 0.0, np.abs(cosine), 0.0) ** finish.exponent
+    lambert = np.where(cosine > 0.0, lambert, DARK_SIDE * np.abs(cosine) ** finish.exponent)
+    to_eye = np.asarray(CAMERA.eye) - normal
+    to_eye /= np.linalg.norm(to_eye, axis=-1)[..., None]
+    mirrored = 2.0 * cosine[..., None] * normal - light
+    beta = np.maximum((mirrored * to_eye).sum(axis=-1), 0.0) * (cosine > 0.0)
+    total = finish.diffuse * lambert + finish.highlight * 0.1 * beta**finish.sharpness
+    depth = normal @ CAMERA.direction
+    # The box about the sphere is what depths run over; its corners are in view coordinates those of the mesh.
+    cue = AMBIENT * (depth + 1.0) / 2.0
+    expected = 255.0 * np.clip(REDUCED * np.minimum(total, 1.0) + cue, 0.0, 1.0)
+    off = np.abs(levels(image) - expected)[inside]
+    assert inside.mean() > 0.1
+    # A sharp highlight is as wide as a few facets.
+    assert np.quantile(off, 0.99) < (4.0 if finish.sharpness < 50.0 else 12.0)
+
+
+@pytest.mark.capability("G8.5-fig18")
+def test_four_materials_make_four_pictures():
+    images = {
+        word: render(vp.Scene((sphere(word=word),), (SUN,)), CAMERA, size=(120, 90), background="black")
+        for word in ("plastic", "metallic", "wood", "normal")
+    }
+    names = list(images)
+    for number, one in enumerate(names):
+        for other in names[number + 1 :]:
+            assert np.abs(levels(images[one]) - levels(images[other])).mean() > 1.0
+    bright = {word: (levels(image) > 235).mean() for word, image in images.items()}
+    assert bright["plastic"] < bright["normal"], "a highlight is small"
+
+
+def floor_scene(lights):
+    """A ball over a square floor."""
+    plate = vp.Item("FLOOR", box((-6, -6, -1.2), (6, 6, -1.0)), "gray")
+    return vp.Scene((sphere(), plate), lights)
+
+
+@pytest.mark.capability("G8.6-shadow-buffer", "RN-in-B8.6")
+@pytest.mark.parametrize("shadows", ["buffer", "trapezoid", "exact"])
+@pytest.mark.parametrize("light", [SUN, vp.Light((-2.0, -4.0, 5.0), intensity=1.0)], ids=["sun", "lamp"])
+def test_the_shadow_of_a_ball_is_where_geometry_puts_it(shadows, light):
+    camera = vp.Camera((2.0, -9.0, 8.0), (0, 0, -1), fov_deg=35.0)
+    scene = floor_scene((light,))
+    with_, without = (
+        levels(render(scene, camera, size=SIZE, fit=False, shadows=how, shadow_size=1024)) for how in (shadows, "none")
+    )
+    columns, rows = SIZE
+    row, column = np.indices((rows, columns))
+    half = np.tan(np.radians(35.0) / 2.0)
+    right, up, back = camera.axes
+    x, y = (column - (columns - 1) / 2.0) * 2 * half / rows, -(row - (rows - 1) / 2.0) * 2 * half / rows
+    way = x[..., None] * right + y[..., None] * up - back
+    eye = np.asarray(camera.eye)
+    place = eye + way * ((-1.0 - eye[2]) / way[..., 2])[..., None]
+    # Distance of the ball's middle from the ray to the light, and of the sight ray.
+    to_light = np.broadcast_to(light.position, place.shape) if light.parallel else np.array(light.position) - place
+    to_light = to_light / np.linalg.norm(to_light, axis=-1)[..., None]
+    miss = np.linalg.norm(np.cross(place, to_light), axis=-1)
+    unit = way / np.linalg.norm(way, axis=-1)[..., None]
+    hidden = np.linalg.norm(np.cross(eye, unit), axis=-1) < 1.02
+    floor = ~hidden & (np.abs(place[..., :2]).max(axis=-1) < 5.9)
+    dark, lit = floor & (miss < 0.95), floor & (miss > 1.05)
+    assert dark.sum() > 300
+    assert (with_[dark] < 0.6 * without[dark]).all()
+    assert (with_ == without)[lit].mean() > 0.999
+
+
+def test_every_light_casts_its_own_shadow():
+    lights = tuple(vp.Light(way, parallel=True, intensity=0.5) for way in ((-2, -0.5, 3), (2, -0.5, 3)))
+    camera = vp.Camera((0.0, -9.0, 9.0), (0, 0, -1), fov_deg=35.0)
+    image = levels(render(floor_scene(lights), camera, size=SIZE, shadows="exact"))
+    one = levels(render(floor_scene(lights), camera, size=SIZE))
+    share = image / np.maximum(one, 1.0)
+    counts = [(np.abs(share - s) < 0.06).sum() for s in (1.0, 0.68)]
+    assert min(counts) > 200, "lit by both, by one"
+
+
+@pytest.mark.parametrize("shadows", ["none", "exact"])
+def test_lines_over_the_picture_agree_with_the_depth_buffer(shadows):
+    items = (
+        vp.Item("A", box((-1, -1, -1), (1, 1, 1)), "yellow"),
+        vp.Item("B", box((0, -2, -0.5), (2, 0.5, 2)), "cyan"),
+    )
+    scene = vp.Scene(items, (SUN,))
+    camera = vp.Camera((5, -9, 6), fov_deg=30)
+    plain = render(scene, camera, size=SIZE, shadows=shadows).pixels.astype(int)
+    drawn = render(scene, camera, size=SIZE, shadows=shadows, lines=("contour", "crease", "intersection")).pixels
+    line = (drawn == 0).all(axis=2)
+    assert line.sum() > 300
+    assert (drawn[~line] == plain[~line]).all()
+    # Where the visible item or the shade jumps there is a line, and there alone.
+    jump = np.zeros(line.shape, dtype=bool)
+    for axis in (0, 1):
+        step = np.abs(np.diff(plain, axis=axis)).max(axis=2) > 12
+        jump[(slice(1, None), slice(None))[:: 1 - 2 * axis]] |= step
+        jump[(slice(None, -1), slice(None))[:: 1 - 2 * axis]] |= step
+    if shadows == "none":
+        near_line, near_jump = grown(line), grown(jump)
+        assert (jump & ~near_line).sum() < 0.01 * jump.sum()
+        assert (line & ~near_jump).sum() < 0.03 * line.sum()
+
+
+def grown(mask):
+    padded = np.pad(mask, 1)
+    rows, columns = mask.shape
+    return np.logical_or.reduce([padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)])
+
+
+def coloured_boxes():
+    """Boxes in plain colours before, beside and behind a mirror in the plane x = 0, which faces +x."""
+    mirror = vp.Item("GLASS", box((-0.1, -3, -3), (0, 3, 3)), "gray", vp.Material("mirror"))
+    boxes = [
+        vp.Item("RED", box((1, -1, -1), (2, 0, 0)), "#ff0000"),
+        vp.Item("GREEN", box((2.5, 0.5, -1), (3.5, 1.5, 1)), "#00ff00"),
+        vp.Item("BLUE", box((-3, -1, -1), (-2, 1, 1)), "#0000ff"),
+    ]
+    return vp.Scene((mirror, *boxes))
+
+
+def test_a_mirror_shows_what_mirrored_rays_meet():
+    scene = coloured_boxes()
+    camera = vp.Camera((7.0, -5.0, 2.5), (0, 0, 0), fov_deg=40.0)
+    image = render(scene, camera, size=SIZE, fit=False).pixels.astype(int)
+    columns, rows = SIZE
+    row, column = np.indices((rows, columns))
+    half = np.tan(np.radians(40.0) / 2.0)
+    right, up, back = camera.axes
+    x, y = (column - (columns - 1) / 2.0) * 2 * half / rows, -(row - (rows - 1) / 2.0) * 2 * half / rows
+    way = x[..., None] * right + y[..., None] * up - back
+    eye = np.asarray(camera.eye)
+    boxes = [((1, -1, -1), (2, 0, 0)), ((2.5, 0.5, -1), (3.5, 1.5, 1))]
+
+    def met(origin, way):
+        """The box that a ray meets first, 0 or 1, or -1."""
+        best, number = np.full(way.shape[:-1], np.inf), np.full(way.shape[:-1], -1)
+        for index, (low, high) in enumerate(boxes):
+            with np.errstate(divide="ignore"):
+                a, b = (low - origin) / way, (high - origin) / way
+            enter, leave = np.minimum(a, b).max(axis=-1), np.maximum(a, b).min(axis=-1)
+            hit = (enter < leave) & (leave > 0) & (enter < best)
+            best, number = np.where(hit, enter, best), np.where(hit, index, number)
+        return number
+
+    direct = met(eye, way)
+    place = eye + way * (-eye[0] / way[..., 0])[..., None]
+    on = (direct < 0) & (np.abs(place[..., 1]) < 2.95) & (np.abs(place[..., 2]) < 2.95)
+    seen = met(place, way * (-1, 1, 1))
+    strongest = image.argmax(axis=2)
+    shows = np.where(image.max(axis=2) > image.min(axis=2) + 20, strongest, -1)
+    right_pixels = (shows == seen)[on]
+    assert on.sum() > 4000
+    assert (seen[on] >= 0).sum() > 500
+    assert right_pixels.mean() > 0.97
+    inner = ~grown(np.abs(np.diff(np.pad(seen, ((0, 0), (1, 0)), mode="edge"), axis=1)) > 0)
+    assert (shows == seen)[on & inner].mean() > 0.985
+    assert not (shows == 2)[on].any(), "what is behind the mirror is not in it"
+
+
+def test_glass_is_a_veil_before_what_is_behind_it():
+    back = vp.Item("BACK", box((-2, 2, -2), (2, 2.1, 2)), "#ffffff")
+    panes = [
+        vp.Item(
+            f"PANE{k}",
+            box((-1, -k, -1), (1, 0.01 - k, 1)),
+            "#000000",
+            vp.Material("normal", opacity=0.5),
+            occludes=False,
+        )
+        for k in range(2)
+    ]
+    camera = vp.Camera((0, -12, 0), (0, 0, 0), fov_deg=20.0)
+    light = vp.Light((0, -1, 0), parallel=True, intensity=1.0)
+    veiled = levels(render(vp.Scene((back, *panes), (light,)), camera, size=SIZE, fit=False))
+    middle, rim = (90, 120), (90, 60)
+    # Two panes of two faces each halve the light four times.
+    assert veiled[rim] > 200.0
+    assert veiled[middle] == pytest.approx(veiled[rim] / 16.0, abs=4.0)
+    turned = levels(render(vp.Scene((*panes[::-1], back), (light,)), camera, size=SIZE, fit=False))
+    assert np.abs(turned - veiled).max() <= 1.0, "whatever their order"
+
+
+@pytest.mark.capability("G7.3-strips")
+def test_pictures_in_bands_are_the_whole_ones(monkeypatch):
+    scene = replace(coloured_boxes(), lights=(SUN,))
+    options = {"size": (97, 61), "samples": 3, "shadows": "buffer"}
+    whole = render(scene, **options)
+    monkeypatch.setattr(sys.modules["vectorplot.render"], "BAND_PIXELS", 97 * 9 * 4)
+    monkeypatch.setattr(picture, "POINTS_AT_ONCE", 500)
+    bands = render(scene, **options)
+    assert (whole.pixels == bands.pixels).all()
+
+
+def test_samples_are_averaged_and_edges_get_softer():
+    scene = vp.Scene((vp.Item("A", box((-1, -1, -1), (1, 1, 1)), "#000000"),))
+    coarse, fine = (levels(render(scene, size=(60, 45), samples=n)) for n in (1, 4))
+    assert len(np.unique(fine)) > len(np.unique(coarse))
+    assert np.abs(coarse - fine).mean() < 10.0
+
+
+@pytest.mark.hard(18, 19)
+@pytest.mark.parametrize(("scale", "shift"), [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e6)])
+def test_scale_and_place_change_nothing(scale, shift):
+    def picture_of(scale, shift):
+        place = np.diag([scale, scale, scale, 1.0])
+        place[:3, 3] = shift
+        items = (
+            vp.Item("A", box((-1, -1, -1), (1, 1, 1)).transformed(place), "yellow"),
+            vp.Item("B", box((0.5, -2, -1), (0.8, -1.5, 1)).transformed(place), "cyan"),
+        )
+        lamp = vp.Light(tuple(scale * np.array((-3.0, -6.0, 5.0)) + shift), intensity=0.8)
+        camera = vp.Camera(tuple(scale * np.array((4.0, -7.0, 5.0)) + shift), (shift, shift, shift))
+        return render(vp.Scene(items, (lamp,)), camera, size=SIZE, shadows="exact").pixels.astype(int)
+
+    assert (np.abs(picture_of(scale, shift) - picture_of(1.0, 0.0)).max(axis=2) > 2).mean() < 2e-3
+
+
+def test_the_order_of_items_changes_nothing():
+    scene = replace(coloured_boxes(), lights=(SUN,))
+    turned = replace(scene, items=scene.items[::-1])
+    one, other = (render(s, size=SIZE, shadows="buffer").pixels.astype(int) for s in (scene, turned))
+    assert (np.abs(one - other).max(axis=2) > 1).mean() < 1e-3
+
+
+@pytest.mark.hard(2, 3, 4, 5)
+@pytest.mark.parametrize("eye", [(0.0, 0.0, 0.0), (0.9, 0.9, 0.9), (1.0, 0.2, 0.1), (1.0, 1.0, 1.0), (1.0, 1.0, 3.0)])
+def test_the_eye_may_be_anywhere(eye):
+    room = vp.Scene(
+        (vp.Item("ROOM", box((-1, -1, -1), (1, 1, 1)), "orange"), vp.Item("SEA", box((-9, -9, -3), (9, 9, -2))))
+    )
+    image = render(room, vp.Camera(eye, (0.1, -3, 0.2), fov_deg=80), size=SIZE, shadows="exact", samples=2)
+    assert image.pixels.shape == (180, 240, 3)
+    if max(map(abs, eye)) < 1.0:
+        assert (image.pixels.reshape(-1, 3) != 255).any(axis=1).all(), "walls all around"
+
+
+def test_smooth_surfaces_show_no_facets():
+    scene = vp.Scene((vp.Item("RING", Torus(3.0, 1.2), "gray"),), (SUN,))
+    image = levels(render(scene, vp.Camera((0, -12, 9), fov_deg=40), size=(400, 300)))
+    inside = image < 255
+    inner = ~grown(~inside) & ~grown(grown(np.abs(np.diff(image, axis=1, prepend=image[:, :1])) > 40))
+    across = np.abs(np.diff(image, n=2, axis=1))[:, :-1]
+    assert np.quantile(across[inner[:, 1:-2]], 0.99) < 8.0
+
+
+def test_meshes_look_round_up_to_the_crease_angle():
+    from vectorplot.testing.surfaces import torus_mesh
+
+    scene = vp.Scene((vp.Item("RING", torus_mesh(36, 18), "gray"),), (SUN,))
+    camera = default_camera(scene)
+    round_, flat = (render(scene, camera, size=SIZE, crease_angle_deg=angle).pixels for angle in (30.0, 0.0))
+    assert len(np.unique(round_.reshape(-1, 3), axis=0)) > 1.3 * len(np.unique(flat.reshape(-1, 3), axis=0)) or (
+        np.abs(np.diff(levels(vp.Image(round_)), axis=1)).max() <= np.abs(np.diff(levels(vp.Image(flat)), axis=1)).max()
+    )
+    assert (round_ != flat).any()
+
+
+def test_the_background_is_the_scenes_or_the_users():
+    scene = vp.Scene((sphere("blue"),), background="yellow")
+    assert render(scene, size=(20, 20)).pixels[0, 0].tolist() == palette("yellow")[-1].tolist()
+    assert render(scene, size=(20, 20), background="#102030").pixels[0, 0].tolist() == [16, 32, 48]
+    assert render(replace(scene, background=None), size=(20, 20)).pixels[0, 0].tolist() == [255, 255, 255]
+    assert "blue" in LIMITS
+    with pytest.raises(InputError, match="colour"):
+        render(scene, background="mauve")
+
+
+def test_an_empty_scene_is_a_blank_picture():
+    image = render(vp.Scene(()), vp.Camera((0, -1, 0)), size=(7, 5), shadows="buffer", lines=("contour",), samples=2)
+    assert (image.pixels == 255).all()
+    assert image.pixels.shape == (5, 7, 3)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"size": (0, 5)},
+        {"size": (40_000, 5)},
+        {"samples": 0},
+        {"samples": 99},
+        {"shadows": "soft"},
+        {"lines": ("wobble",)},
+        {"crease_angle_deg": -1.0},
+        {"shadows": "buffer", "shadow_bits": 7},
+        {"shadows": "buffer", "shadow_size": 10**6},
+        {"size": (20_000, 20_000)},
+    ],
+)
+def test_what_makes_no_picture_is_refused(options):
+    with pytest.raises(InputError):
+        render(vp.Scene((sphere(),), (SUN,)), **({"size": (20, 20)} | options))
+
+
+def test_the_picture_saves_and_shows_itself(tmp_path):
+    pillow = pytest.importorskip("PIL.Image")
+    scene = vp.Scene((sphere("green"),), (SUN,), title="A ball")
+    image = vp.render(scene, size=(60, 40))
+    vp.save(image, tmp_path / "ball.png")
+    read = np.asarray(pillow.open(tmp_path / "ball.png").convert("RGB"))
+    assert (read == image.pixels).all()
+    assert (np.asarray(pillow.open(io.BytesIO(image._repr_png_()))) == image.pixels).all()
+    assert "60 x 40" in repr(image)
+    assert vp.render(scene, size=(60, 40)).png() == image.png(), "the same bytes"
+    with pytest.raises(InputError, match="png"):
+        vp.save(image, tmp_path / "ball.svg")
+    assert callable(render_verb)
+
+
+def stage_names(scene, *, shadows="none", lines=False):
+    return [stage.name for stage in plan_render(scene, shadows, lines)]
+
+
+def test_only_the_stages_that_the_scene_calls_for_run():
+    plain = vp.Scene((vp.Item("A", box((-1, -1, -1), (1, 1, 1))),))
+    assert stage_names(plain) == ["look", "triangles", "depth", "shading", "average"]
+    assert "shadows" not in stage_names(plain, shadows="exact"), "no light that casts"
+    assert "facets" in stage_names(vp.Scene((sphere(),)))
+    assert "mirrors" in stage_names(coloured_boxes())
+    reports = []
+    render(replace(plain, lights=(SUN,)), size=(20, 20), shadows="buffer", lines=("crease",), explain=reports.append)
+    assert [report.name for report in reports] == [
+        *("look", "triangles", "shadows", "depth", "shading", "lines", "average")
+    ]
+
+
+def test_a_plain_picture_loads_no_effect_and_nothing_heavy():
+    script = """
+import sys
+import vectorplot as vp
+from vectorplot.testing.shapes import box
+vp.render(vp.Scene((vp.Item("A", box((0, 0, 0), (1, 1, 1))),), (vp.Light((1, -2, 3)),)), size=(20, 20))
+print(*(name for name in sys.modules if name.split(".")[0] in ("cairo", "scipy", "shapely", "svgwrite", "skimage")
+        or name.startswith(("vectorplot.effects", "vectorplot.backends", "vectorplot.shading.shadow",
+                            "vectorplot.shading.trapezoid", "vectorplot.shading.seen"))))
+"""
+    result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert result.stdout.split() == []
