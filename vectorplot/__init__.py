@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from vectorplot.geometry.mesh import Mesh
     from vectorplot.geometry.strokes import LineKind, Strokes
     from vectorplot.io.read import read
+    from vectorplot.paint import paint
     from vectorplot.render import render
     from vectorplot.save import save
     from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
@@ -47,6 +48,7 @@ __all__ = [
     "Strokes",
     "SurfaceLines",
     "draw",
+    "paint",
     "read",
     "render",
     "save",
@@ -73,6 +75,7 @@ _HOME = {
     "Strokes": "geometry.strokes",
     "SurfaceLines": "scene.surface_lines",
     "draw": "draw",
+    "paint": "paint",
     "read": "io.read",
     "render": "render",
     "save": "save",

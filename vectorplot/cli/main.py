@@ -12,6 +12,7 @@ import click
 from vectorplot import __version__
 from vectorplot.cli.draw import draw
 from vectorplot.cli.info import info
+from vectorplot.cli.paint import paint
 from vectorplot.cli.render import render
 from vectorplot.errors import InputError
 
@@ -26,6 +27,7 @@ def vectorplot() -> None:
 
 
 vectorplot.add_command(draw)
+vectorplot.add_command(paint)
 vectorplot.add_command(info)
 vectorplot.add_command(render)
 

@@ -23,8 +23,11 @@ from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 MOST_LIGHTS = 52
 """So many lights have each a bit of a number."""
 
-CASTERS_AT_ONCE = 1 << 10
-"""Casters whose partners are looked up at once."""
+CASTERS_FIRST = 1 << 8
+"""Casters whose partners are looked up first: how many they have says how many casters come next."""
+
+PAIRS_AT_ONCE = 1 << 20
+"""About so many pairs of casters and receivers are handled at once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,8 +116,10 @@ def candidates(view: View, system: LightSystem, casters: Casters, receivers: Rec
     givers = [boxes.grouped(casters.caster) for boxes in light_boxes(view, system, casters.face)]
     takers = light_boxes(view, system, receivers.face)
     trees = [_Tree.of(boxes, view.tolerance) for boxes in takers]
-    for low in range(0, len(casters), CASTERS_AT_ONCE):
-        lot = [tree.partners(boxes, low, low + CASTERS_AT_ONCE) for tree, boxes in zip(trees, givers, strict=True)]
+    low, count = 0, CASTERS_FIRST
+    while low < len(casters):
+        lot = [tree.partners(boxes, low, low + count) for tree, boxes in zip(trees, givers, strict=True)]
+        low += count
         caster, receiver = (np.concatenate([pairs[k] for pairs in lot]) for k in (0, 1))
         if len(lot) > 1:
             key = np.unique(caster * len(receivers.face) + receiver)
@@ -125,6 +130,7 @@ def candidates(view: View, system: LightSystem, casters: Casters, receivers: Rec
         first = np.searchsorted(casters.caster, caster)
         own |= ~casters.solid[caster] & (casters.face[first] == face)
         yield caster[~own], receiver[~own]
+        count = int(np.clip(count * PAIRS_AT_ONCE / max(len(caster), 1), 1, 8 * count))
 
 
 @dataclass(frozen=True, eq=False)

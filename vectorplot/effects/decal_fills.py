@@ -1,0 +1,76 @@
+"""Decals as filled polygons on the page, each painted after the polygon it lies on."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.drawing.fills import FillKind
+from vectorplot.drawing.painted import Overlay, Placed, fills_on_page
+from vectorplot.effects.decals import DecalKind, Decals
+from vectorplot.effects.laying import Laid, laid
+from vectorplot.effects.shadow_shades import shadow_shades
+from vectorplot.effects.windows import SeenThrough
+from vectorplot.geometry.mesh import Floats
+from vectorplot.scene.view import View
+from vectorplot.shading.face_shades import Shades
+from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of
+from vectorplot.shading.palettes import Colours, shaded_colours
+from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
+
+KINDS = {
+    DecalKind.SHADOW: FillKind.SHADOW,
+    DecalKind.SHADOW_BORDER: FillKind.SHADOW_BORDER,
+    DecalKind.CLEAR_SHADOW: FillKind.CLEAR_SHADOW,
+    DecalKind.PATTERN: FillKind.PATTERN,
+    DecalKind.REFLECTION: FillKind.REFLECTION,
+    DecalKind.LIGHT: FillKind.FACE,
+}
+"""What decals are as filled polygons."""
+
+
+def decal_fills(
+    view: View, lighting: Lighting, decals: Decals, faces: ImageFaces | SeenThrough, placed: Placed
+) -> Overlay:
+    """Decals on what is painted of their faces, in the shades of their faces, those that lack lights darker.
+
+    faces: the painted polygons.
+    Source: Glaeser, sections 6.3 and 6.5.
+    """
+    parts = laid(view, decals, faces.points, faces.offsets, faces.source)
+    points = unmapped(view, parts.points)
+    shades = corner_shades_of(view, lighting, points, parts.offsets, decals.face[parts.decal])
+    shade = _shades(decals, parts, shades)
+    words = np.zeros(max(DecalKind) + 1, dtype=np.intp)
+    words[list(KINDS)] = list(KINDS.values())
+    fills = fills_on_page(
+        view,
+        parts.points,
+        parts.offsets,
+        placed,
+        colours=_colours(view, lighting, decals, parts, shade),
+        opacity=decals.opacities[parts.decal],
+        item=view.face_item[decals.face[parts.decal]],
+        kind=words[decals.kind[parts.decal]],
+    )
+    return Overlay(fills, parts.piece)
+
+
+def _shades(decals: Decals, parts: Laid, shades: Shades) -> Floats:
+    """(c,) the shades at the corners of parts of decals."""
+    sizes = np.diff(parts.offsets)
+    lacking = np.repeat(decals.lights_lacking[parts.decal], sizes)
+    border = decals.kind[parts.decal] == DecalKind.SHADOW_BORDER
+    dimmed = np.repeat(np.where(border, decals.light[parts.decal], -1), sizes)
+    dark = shadow_shades(shades.shares, shades.intensity, lacking, shades.cue, dimmed=dimmed)
+    return np.where((lacking > 0) | (dimmed >= 0), dark, shades.total)
+
+
+def _colours(view: View, lighting: Lighting, decals: Decals, parts: Laid, shade: Floats) -> Colours:
+    """(c,3) the colours at the corners of parts of decals: their own, or those of their faces."""
+    sizes = np.diff(parts.offsets)
+    colour = np.repeat(decals.colour[parts.decal], sizes)
+    found = colours_of(view, lighting, np.repeat(decals.face[parts.decal], sizes), shade)
+    own = np.flatnonzero(colour >= 0)
+    if len(own):
+        found[own] = shaded_colours(decals.colours, colour[own], shade[own], lighting.size)
+    return found

@@ -1,0 +1,74 @@
+"""What is seen in and behind transparent solids, as filled polygons on the page."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.drawing.fills import FillKind, Fills
+from vectorplot.drawing.painted import Overlay, Placed, fills_on_page
+from vectorplot.effects.glass import seen_in_glass
+from vectorplot.geometry.mesh import Bools, Floats
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import View
+from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
+from vectorplot.shading.palettes import Colours
+from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
+from vectorplot.visibility.projected_faces import ProjectedFaces
+
+
+def glass_fills(
+    scene: Scene,
+    view: View,
+    projected: ProjectedFaces,
+    lighting: Lighting,
+    faces: ImageFaces,
+    placed: Placed,
+    tolerance_mm: float,
+) -> Overlay:
+    """What refracting solids show, after the painted polygons of their front faces.
+
+    tolerance_mm: how far sides of refracted polygons may be off the curves that they stand for.
+    Source: Glaeser, section 6.6, figure 12.
+    """
+    seen = seen_in_glass(scene, view, projected, faces, tolerance_mm / placed.page_from_image[0, 0])
+    shades = corner_shades_of(view, lighting, unmapped(view, seen.points), seen.offsets, seen.source)
+    source = np.repeat(seen.source, np.diff(seen.offsets))
+    fills = fills_on_page(
+        view,
+        seen.points,
+        seen.offsets,
+        placed,
+        colours=colours_of(view, lighting, source, shades.total),
+        opacity=opacities(scene.items)[view.face_item[seen.source]],
+        item=view.face_item[seen.source],
+        kind=np.full(len(seen), int(FillKind.GLASS)),
+    )
+    return Overlay(fills, seen.window)
+
+
+def tinted(fills: Fills, clear: Bools, opacity: Floats, paper: Colours) -> tuple[Fills, Overlay]:
+    """Painted polygons with those of refracting solids (m,) in the colour of the paper, and their tints (m,) after all
+    that is seen through them."""
+    which = np.flatnonzero(clear)
+    tint = fills.some(which)
+    tint = Fills(
+        tint.points,
+        tint.offsets,
+        tint.colours,
+        opacity[which],
+        tint.item,
+        tint.points3d,
+        np.full(len(which), int(FillKind.GLASS)),
+    )
+    corner = np.repeat(clear, np.diff(fills.offsets))
+    colours = np.where(corner[:, None], paper, fills.colours).astype(np.uint8)
+    base = Fills(
+        fills.points,
+        fills.offsets,
+        colours,
+        np.where(clear, 1.0, fills.opacity),
+        fills.item,
+        fills.points3d,
+        fills.kind,
+    )
+    return base, Overlay(tint, which)

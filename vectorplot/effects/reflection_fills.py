@@ -1,0 +1,90 @@
+"""What mirrors show, as filled polygons on the page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from vectorplot.drawing.fills import FillKind, Fills
+from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, overlaid
+from vectorplot.effects.decal_fills import decal_fills
+from vectorplot.effects.decals import Decals
+from vectorplot.effects.reflections import DIMMED, Mirrors, doubled, reflections
+from vectorplot.effects.windows import SeenThrough
+from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.scene.scene import Light
+from vectorplot.scene.view import View
+from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
+from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, unmapped
+
+
+def reflection_fills(
+    view: View, lighting: Lighting, mirrors: Mirrors, decals: Sequence[Decals], faces: ImageFaces, placed: Placed
+) -> Overlay:
+    """The doubles of all faces in mirrors, with the decals that lie on them, dimmed.
+
+    The doubles are the faces of a mirrored scene in mirrored light: what holds for the scene holds for them.
+    Source: Glaeser, section 6.4, figures 7 and 8.
+    """
+    seen = reflections(view, mirrors, faces)
+    plane_of = np.full(view.face_count, -1, dtype=np.intp)
+    plane_of[mirrors.face] = mirrors.plane
+    parts = []
+    for number in range(len(mirrors)):
+        here = _some(seen, np.flatnonzero(plane_of[seen.pane] == number))
+        if len(here):
+            mirrored = doubled(view, mirrors, number)
+            doubles = [replace(d, points=mirrors.reflected(number, d.points)) for d in decals]
+            parts.append(_of_double(mirrored, _mirrored_light(lighting, mirrors, number), doubles, here, placed))
+    if not parts:
+        return Overlay(Fills.empty(), np.zeros(0, dtype=np.intp))
+    return Overlay(Fills.joined(*(part.fills for part in parts)), np.concatenate([part.after for part in parts]))
+
+
+def _of_double(
+    mirrored: View, lighting: Lighting, decals: Sequence[Decals], seen: SeenThrough, placed: Placed
+) -> Overlay:
+    points = unmapped(mirrored, seen.points)
+    shades = corner_shades_of(mirrored, lighting, points, seen.offsets, seen.source)
+    source = np.repeat(seen.source, np.diff(seen.offsets))
+    fills = fills_on_page(
+        mirrored,
+        seen.points,
+        seen.offsets,
+        placed,
+        colours=colours_of(mirrored, lighting, source, shades.total),
+        opacity=opacities(lighting.items)[mirrored.face_item[seen.source]],
+        item=mirrored.face_item[seen.source],
+        kind=np.full(len(seen), int(FillKind.REFLECTION)),
+    )
+    overlays = [decal_fills(mirrored, lighting, some, seen, placed) for some in decals]
+    whole = overlaid(Overlay(fills, seen.window), overlays)
+    count = len(whole.fills)
+    dimmed = np.rint(DIMMED * whole.fills.colours).astype(np.uint8)
+    return replace(whole, fills=replace(whole.fills, colours=dimmed, kind=np.full(count, int(FillKind.REFLECTION))))
+
+
+def _some(seen: SeenThrough, which: Ints) -> SeenThrough:
+    corner, offsets = corner_positions(seen.offsets, which)
+    return SeenThrough(seen.points[:, corner], offsets, seen.source[which], seen.window[which], seen.pane[which])
+
+
+def _mirrored_light(lighting: Lighting, mirrors: Mirrors, number: int) -> Lighting:
+    """Lights and normals as they are in the mirror."""
+    lights = tuple(replace(light, position=_reflected(light, mirrors, number)) for light in lighting.lights)
+    return replace(lighting, lights=lights, normals=_turned(lighting.normals, mirrors, number))
+
+
+def _reflected(light: Light, mirrors: Mirrors, number: int) -> tuple[float, float, float]:
+    place = np.array(light.position, dtype=np.float64)[:, None]
+    found = _turned(place, mirrors, number) if light.parallel else mirrors.reflected(number, place)
+    x, y, z = found[:, 0].tolist()
+    return (x, y, z)
+
+
+def _turned(directions: Floats, mirrors: Mirrors, number: int) -> Floats:
+    """(3,n) directions as they are in the mirror."""
+    normal = mirrors.normal[:, number]
+    return np.asarray(directions - 2.0 * normal[:, None] * (normal @ directions))

@@ -1,0 +1,35 @@
+"""The polygons that lie on the faces of a scene: shadows with their borders, patterns, light by way of mirrors."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from vectorplot.effects.decals import DecalKind, Decals, joined_decals
+from vectorplot.effects.patterns import pattern_decals, patterns_in_shadows
+from vectorplot.geometry.mesh import Bools
+from vectorplot.scene.scene import Light, Scene
+from vectorplot.scene.view import View
+from vectorplot.shading.face_shades import face_shades
+from vectorplot.shading.painted_colours import Lighting
+from vectorplot.visibility.projected_faces import ProjectedFaces
+
+
+def scene_shadows(view: View, lights: Sequence[Light], projected: ProjectedFaces, aura: float) -> Decals:
+    """The shadows of opaque items, of every grade, with soft borders of some width in the image."""
+    from vectorplot.effects.shadow_borders import shadow_borders
+    from vectorplot.effects.shadow_grades import graded, shadow_decals_of
+    from vectorplot.effects.shadows import cast_shadows
+
+    shadows = graded(view, cast_shadows(view, lights, projected=projected), len(lights))
+    dark = shadow_decals_of(shadows, DecalKind.SHADOW)
+    return dark if aura == 0.0 else joined_decals(dark, shadow_borders(view, shadows, aura))
+
+
+def scene_patterns(scene: Scene, view: View, lighting: Lighting, shadows: Decals) -> Decals:
+    """The patterns of all items, dark where shadows fall on them."""
+    found = face_shades(view, lighting.items, lighting.lights)
+    lights = len(scene.lights)
+    dark: Bools = np.asarray(found.backlit.all(axis=0) & (lights > 0), dtype=np.bool_)
+    return patterns_in_shadows(view, pattern_decals(scene, view), shadows, dark, lights)

@@ -1,0 +1,234 @@
+"""The verb paint: a scene becomes filled polygons on a page, painted back to front."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from vectorplot.draw import default_camera
+from vectorplot.drawing.drawing import Drawing, Layer, Pen
+from vectorplot.drawing.fills import FillKind, Fills
+from vectorplot.drawing.page import mm_per_image, page_from_world
+from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, interleaved, placed_faces
+from vectorplot.errors import InputError
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Floats
+from vectorplot.plan import StageReport, Walk, plan_paint
+from vectorplot.scene.scene import Light, Page, Scene
+from vectorplot.scene.view import View, look
+from vectorplot.shading.face_shades import Shades, view_lights
+from vectorplot.shading.faceted import FacetedScene, faceted
+from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
+from vectorplot.shading.palettes import SIZE
+from vectorplot.shading.palettes import palette as shades_of
+from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
+from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
+
+if TYPE_CHECKING:
+    from vectorplot.effects.decals import Decals
+
+PAPER = "white"
+"""The colour of the paper where the scene names none."""
+
+
+def paint(
+    scene: Scene,
+    camera: Camera | None = None,
+    *,
+    page: Page | None = None,
+    fit: bool = True,
+    lights: Sequence[Light] | None = None,
+    shadows: Literal["auto", "none"] = "auto",
+    aura_mm: float = 0.0,
+    palette: int = SIZE,
+    smooth: bool = True,
+    tolerance_mm: float = 0.02,
+    progress: Callable[[str, float], None] | None = None,
+    explain: Callable[[StageReport], None] | None = None,
+) -> Drawing:
+    """The scene as filled polygons on a page, each painted over those behind it.
+
+    camera and page: those of the scene where None, else default_camera and A4. fit: the picture fills the page but for
+    its margin; otherwise the page centre is the target and the page height the camera's picture height. lights: in
+    place of those of the scene. shadows: whether lights cast any. aura_mm: the width of their soft borders. palette:
+    how many shades every colour has. smooth: smooth surfaces are shaded from corner to corner, not face by face.
+    tolerance_mm: how far the sides of polygons may be off smooth surfaces and refracted lines. progress(stage,
+    fraction) and explain(report) are called while it works.
+    Errors: InputError for unknown words and colours, impossible cameras, and widths and counts out of range.
+    Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off
+    the principal ray, a fitted picture shows the camera's field of vision. A scene without lights is lit from the eye's
+    upper left, which casts no shadows.
+    Source: Glaeser, chapters 4.5, 5 and 6.
+    """
+    _check_options(shadows, aura_mm, palette, tolerance_mm)
+    scene = scene if lights is None else replace(scene, lights=tuple(lights))
+    camera = camera or scene.camera or default_camera(scene)
+    page = page or scene.page or Page()
+    walk = Walk(plan_paint(scene, shadows), explain, progress)
+    facets = FacetedScene(scene, (None,) * len(scene.items))
+    if walk.calls_for("facets"):
+        facets = walk.run("facets", faceted, scene, _allowed(scene, camera, page, fit, tolerance_mm))
+    view = walk.run("look", look, facets.scene, camera)
+    projected = walk.run("faces", project_faces, view)
+    painted = walk.run("order", painters_order, view, projected)
+    placed = placed_faces(view, painted.faces, page, fit)
+    seen = _Seen(facets.scene, view, projected, placed.framed(painted.faces, page, view.tolerance), placed)
+    lighting = Lighting(scene.items, view_lights(view, scene.lights), _normals(view, facets, smooth), palette)
+    shades = walk.run("shades", _shades, seen, lighting)
+    decals = _decals(walk, seen, lighting, aura_mm)
+    overlays = _overlays(walk, seen, lighting, decals, tolerance_mm)
+    fills = walk.run("fills", _fills, walk, seen, lighting, shades, overlays, page)
+    world = page_from_world(view, placed.page_from_image)
+    layers = (Layer("fills", Pen(), (fills,)),)
+    return Drawing(page.width_mm, page.height_mm, layers, tuple(i.name for i in scene.items), scene.title, world)
+
+
+@dataclass(frozen=True, eq=False)
+class _Seen:
+    """What is painted: a scene without smooth surfaces, its view, its faces in the image, the polygons of the picture
+    back to front, and where the picture goes."""
+
+    scene: Scene
+    view: View
+    projected: ProjectedFaces
+    faces: ImageFaces
+    placed: Placed
+
+
+def _check_options(shadows: str, aura_mm: float, palette: int, tolerance_mm: float) -> None:
+    if shadows not in ("auto", "none"):
+        raise InputError(f"shadows {shadows!r}: expected auto or none")
+    if not 0.0 <= aura_mm < np.inf:
+        raise InputError(f"an aura of {aura_mm:g} mm: expected a width that is finite and not negative")
+    if not 2 <= palette <= 256:
+        raise InputError(f"a palette of {palette} shades: expected 2 to 256")
+    if not 0.0 < tolerance_mm < np.inf:
+        raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected a length that is finite and positive")
+
+
+def _allowed(scene: Scene, camera: Camera, page: Page, fit: bool, tolerance_mm: float) -> Callable[[Floats], Floats]:
+    """How far triangles may be off smooth surfaces at points of the world."""
+    view = look(scene, camera)
+    low, high = scene.bounds
+    corners = np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, high, low)
+    scale = mm_per_image(view, [view.points_of(corners).T], page, fit)
+
+    def allowed(points: Floats) -> Floats:
+        depth = view.depth_of(view.points_of(points.reshape(-1, 3))).reshape(points.shape[:-1])
+        ahead = np.ones_like(depth) if view.eye is None else np.maximum(depth, view.near) / view.focus
+        return np.asarray(tolerance_mm / scale * view.scale * ahead)
+
+    return allowed
+
+
+def _normals(view: View, facets: FacetedScene, smooth: bool) -> Floats:
+    """(3,v) the true normals at the vertices of the view, NaN for those of polyhedra."""
+    parts = [
+        normals if smooth and normals is not None else np.full((len(item.mesh.vertices), 3), np.nan)
+        for item, normals in zip(facets.scene.items, facets.normals, strict=True)
+    ]
+    return np.asarray(view.axes @ np.concatenate([np.zeros((0, 3)), *parts]).T)
+
+
+def _shades(seen: _Seen, lighting: Lighting) -> Shades:
+    faces = seen.faces
+    points = unmapped(seen.view, faces.points)
+    return corner_shades_of(seen.view, lighting, points, faces.offsets, faces.source)
+
+
+def _decals(walk: Walk, seen: _Seen, lighting: Lighting, aura_mm: float) -> tuple[Decals, ...]:
+    """The polygons that lie on faces, in the order in which they are painted."""
+    scene, view, projected = seen.scene, seen.view, seen.projected
+    found: list[Decals] = []
+    if walk.calls_for("shadows"):
+        from vectorplot.effects.scene_decals import scene_shadows
+
+        aura = aura_mm / float(seen.placed.page_from_image[0, 0])
+        found.append(walk.run("shadows", scene_shadows, view, scene.lights, projected, aura))
+    if walk.calls_for("patterns"):
+        from vectorplot.effects.decals import joined_decals
+        from vectorplot.effects.scene_decals import scene_patterns
+
+        found.append(walk.run("patterns", scene_patterns, scene, view, lighting, joined_decals(*found)))
+    if walk.calls_for("clear shadows"):
+        from vectorplot.effects.clear_shadows import clear_shadows
+
+        found.append(walk.run("clear shadows", partial(clear_shadows, projected=projected), view, scene, scene.lights))
+    return tuple(found)
+
+
+def _overlays(
+    walk: Walk, seen: _Seen, lighting: Lighting, decals: tuple[Decals, ...], tolerance_mm: float
+) -> tuple[Overlay, ...]:
+    """What is painted right after polygons of the picture: what lies on them, and what they show."""
+    found = []
+    if decals:
+        from vectorplot.effects.decal_fills import decal_fills
+
+        found += [decal_fills(seen.view, lighting, some, seen.faces, seen.placed) for some in decals]
+    if walk.calls_for("reflections"):
+        from vectorplot.effects.reflection_fills import reflection_fills
+        from vectorplot.effects.reflections import mirrors
+
+        shown = mirrors(seen.scene, seen.view, seen.projected)
+        found.append(
+            walk.run("reflections", reflection_fills, seen.view, lighting, shown, decals, seen.faces, seen.placed)
+        )
+    if walk.calls_for("refraction"):
+        from vectorplot.effects.glass_fills import glass_fills
+
+        found.append(
+            walk.run(
+                "refraction",
+                glass_fills,
+                seen.scene,
+                seen.view,
+                seen.projected,
+                lighting,
+                seen.faces,
+                seen.placed,
+                tolerance_mm,
+            )
+        )
+    return tuple(found)
+
+
+def _fills(
+    walk: Walk, seen: _Seen, lighting: Lighting, shades: Shades, overlays: tuple[Overlay, ...], page: Page
+) -> Fills:
+    """The polygons of the picture on the page, with all that is painted between them."""
+    view, faces = seen.view, seen.faces
+    item = view.face_item[faces.source]
+    opacity = opacities(seen.scene.items)[item]
+    fills = fills_on_page(
+        view,
+        faces.points,
+        faces.offsets,
+        seen.placed,
+        colours=colours_of(view, lighting, np.repeat(faces.source, np.diff(faces.offsets)), shades.total),
+        opacity=opacity,
+        item=item,
+        kind=np.where(opacity < 1.0, int(FillKind.GLASS), int(FillKind.FACE)),
+    )
+    if walk.calls_for("refraction"):
+        from vectorplot.effects.glass import refracting_items
+        from vectorplot.effects.glass_fills import tinted
+
+        clear = refracting_items(seen.scene, view, seen.projected)[item]
+        fills, tints = tinted(fills, clear, opacity, shades_of(seen.scene.background or PAPER)[-1])
+        overlays = (*overlays, tints)
+    return Fills.joined(*_background(seen.scene, page), interleaved(fills, overlays))
+
+
+def _background(scene: Scene, page: Page) -> tuple[Fills, ...]:
+    """A sheet of the scene's own colour, if it names one."""
+    if scene.background is None:
+        return ()
+    corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]) * (page.width_mm, page.height_mm)
+    colour = shades_of(scene.background)[-1:]
+    return (Fills.flat(corners, np.array([0, 4]), colour, kind=FillKind.BACKGROUND),)
