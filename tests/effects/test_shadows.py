@@ -13,6 +13,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats, Mesh
 from vectorplot.geometry.plane_cuts import parts_of, polygon_areas
+from vectorplot.geometry.revolution import revolution
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box, hard_shapes, numbered, random_convex_solids, rotated_boxes, rotation
@@ -158,6 +159,26 @@ def test_a_convex_body_casts_one_polygon_and_none_on_itself() -> None:
         assert view.face_item[decals.face].tolist() == [0]
 
 
+def ball(order: int) -> Mesh:
+    """A ball of radius 1 about (0, 0, 2), as a body of revolution."""
+    angle = np.pi * np.arange(order + 1) / order
+    meridian = np.c_[np.sin(angle), np.zeros(order + 1), 2.0 - np.cos(angle)]
+    meridian[[0, -1], 0] = 0.0
+    return revolution(meridian, 2 * order)
+
+
+@pytest.mark.capability("G6.3-convex-cast")
+@pytest.mark.parametrize("order", [6, 20])
+def test_a_ball_of_many_faces_casts_its_outline(order: int) -> None:
+    view = look(numbered([FLOOR, ball(order), box((1.2, -0.3, 0), (1.5, 0.4, 3.5))]), Camera((8, -9, 12), (0, 0, 0)))
+    lights = (Light((2.0, 0.4, 6.0)), Light((0.6, -0.2, 1.0), parallel=True))
+    decals = shadow_decals(view, lights)
+    on_floor = decals.of(np.flatnonzero((view.face_item[decals.face] == 0) & (decals.grade == 1)))
+    assert len(on_floor) == 4
+    wrong, answered = wrong_points(view, lights, decals, drawn(view), 1000)
+    assert wrong == 0 and answered > 900
+
+
 def test_a_box_on_the_floor_darkens_what_it_stands_on_too() -> None:
     view = look(numbered([FLOOR, box((0, 0, 0), (1, 1, 2))]), ABOVE)
     decals = shadow_decals(view, (Light((1.0, 0.0, 2.0), parallel=True),))
@@ -205,6 +226,37 @@ def test_a_light_in_a_convex_body_reaches_nothing_outside() -> None:
     assert len(top) and set(top.tolist()) <= set(decals.face.tolist())
 
 
+def moved(scene: Scene, lights: tuple[Light, ...], camera: Camera, size: float, shift: Floats):
+    """The same scene at another size and place."""
+    items = [Mesh(size * item.mesh.vertices + shift, item.mesh.corners, item.mesh.offsets) for item in scene.items]
+    there = [light if light.parallel else Light(tuple(size * np.array(light.position) + shift)) for light in lights]
+    eye, target = (tuple(size * np.array(p) + shift) for p in (camera.eye, camera.target))
+    return numbered(items), tuple(there), Camera(eye, target, parallel=camera.parallel, height=None)
+
+
+@pytest.mark.hard(19)
+@pytest.mark.parametrize("size", [2.0**-20, 2.0**20])
+def test_size_changes_nothing(size: float) -> None:
+    scene, camera = things_on_a_floor(4), Camera((14, 9, 11), (0, 0, 0))
+    lights = (Light((0.4, 0.1, 1.0), parallel=True), Light((1.0, 0.5, 3.0)))
+    plain = shadow_decals(look(scene, camera), lights)
+    other, lamps, eye = moved(scene, lights, camera, size, np.zeros(3))
+    decals = shadow_decals(look(other, eye), lamps)
+    assert np.array_equal(decals.points, plain.points) and np.array_equal(decals.lacking, plain.lacking)
+
+
+@pytest.mark.hard(18)
+@pytest.mark.parametrize("family", FAMILIES)
+def test_a_million_units_from_the_origin_shadows_are_as_right(family: str) -> None:
+    random = np.random.default_rng(7)
+    scene = FAMILIES[family](7)
+    lights = random_lights(scene, random)
+    there, lamps, camera = moved(scene, lights, random_camera(scene, random), 1.0, np.array([1e6, -1e6, 2e6]))
+    view = look(there, camera)
+    wrong, answered = wrong_points(view, lamps, shadow_decals(view, lamps), drawn(view), 1000)
+    assert wrong == 0 and answered > 900
+
+
 @pytest.mark.hard(32)
 def test_order_of_items_and_things_out_of_the_way_change_nothing() -> None:
     scene = rotated_boxes(12, 5)
@@ -248,7 +300,7 @@ def test_boxes_and_depths_in_the_light_system_lose_no_shadow(light: Light) -> No
 
 
 def test_sides_without_length_bound_nothing() -> None:
-    corners = [(0, 0, 1), (1, 0, 1), (1 + 1e-13, 1e-13, 1), (1, 1, 1), (0, 1, 1)]
+    corners = [(0, 0, 1), (1, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
     view = look(numbered([FLOOR, Mesh.from_polygons(corners, [[0, 1, 2, 3, 4]])]), ABOVE)
     decals = shadow_decals(view, (Light((0.2, 0.1, 1.0), parallel=True),))
     assert np.isclose(np.sqrt((polygon_areas(decals.points, decals.offsets)[0] ** 2).sum()) / 2 * view.scale**2, 1.0)

@@ -23,6 +23,9 @@ from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 MOST_LIGHTS = 52
 """So many lights have each a bit of a number."""
 
+MOST_FACES = 1024
+"""A convex solid with more faces casts shadows face by face: to see that it is convex would take longer."""
+
 CASTERS_FIRST = 1 << 8
 """Casters whose partners are looked up first: how many they have says how many casters come next."""
 
@@ -61,7 +64,7 @@ def cast_shadows(
         raise InputError(f"{len(lights)} lights cast shadows: at most {MOST_LIGHTS} can")
     projected = project_faces(view) if projected is None else projected
     items = view.occludes if casters is None else np.asarray(casters, dtype=np.bool_)
-    solids = solid_items(replace(view, occludes=items), projected)
+    solids = solid_items(replace(view, occludes=items), projected, most_faces=MOST_FACES)
     planes = FacePlanes.of(view)
     seen = drawn_faces(view, projected)
     found = []

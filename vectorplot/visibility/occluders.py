@@ -36,7 +36,7 @@ class Occluders:
         return len(self.behind)
 
 
-def solid_items(view: View, faces: ProjectedFaces) -> Bools:
+def solid_items(view: View, faces: ProjectedFaces, *, most_faces: int = MAX_SOLID_FACES) -> Bools:
     """(i,) the items that hide as convex solids: closed, convex, with few faces, seen from outside.
 
     Convexity is checked, not believed: every vertex of the item lies behind every face.
@@ -45,9 +45,7 @@ def solid_items(view: View, faces: ProjectedFaces) -> Bools:
     items = len(view.item_vertices) - 1
     face_counts = np.bincount(view.face_item, minlength=items)
     vertex_counts = np.diff(view.item_vertices)
-    chosen = (
-        view.occludes & (face_counts > 3) & (face_counts <= MAX_SOLID_FACES) & (vertex_counts <= 2 * MAX_SOLID_FACES)
-    )
+    chosen = view.occludes & (face_counts > 3) & (face_counts <= most_faces) & (vertex_counts <= 2 * most_faces)
     if not chosen.any():
         return chosen
     face = np.flatnonzero(chosen[view.face_item])
