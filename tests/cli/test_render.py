@@ -1,0 +1,102 @@
+"""``vectorplot render``: what it writes, what it says, and how it ends."""
+
+from __future__ import annotations
+
+import io
+import subprocess
+import sys
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from vectorplot.cli.main import run
+
+
+def size_of(png: bytes) -> tuple[int, int]:
+    return int.from_bytes(png[16:20], "big"), int.from_bytes(png[20:24], "big")
+
+
+@pytest.mark.parametrize("shadows", ["none", "buffer", "trapezoid", "exact"])
+def test_it_writes_a_picture_of_the_size_that_was_asked_for(cube, tmp_path, shadows, capsys):
+    out = tmp_path / "cube.png"
+    assert run(["render", str(cube), "-o", str(out), "--size", "64x48", "--shadows", shadows, "--samples", "2"]) == 0
+    assert size_of(out.read_bytes()) == (64, 48)
+    assert capsys.readouterr().err == ""
+
+
+def test_the_camera_is_that_of_the_options(cube, tmp_path):
+    image = pytest.importorskip("PIL.Image")
+    pictures = []
+    for number, options in enumerate((["--view", "front"], ["--view", "iso"], ["--eye", "-3,-4,5", "--no-fit"])):
+        out = tmp_path / f"{number}.png"
+        assert run(["render", str(cube), "-o", str(out), "--size", "80x60", *options]) == 0
+        pictures.append(np.asarray(image.open(io.BytesIO(out.read_bytes())).convert("L")).astype(int))
+    assert all((one != other).any() for one, other in pairwise(pictures))
+    front = pictures[0]
+    assert len(np.unique(front[front < 255])) < 4, "one face, straight on"
+
+
+def test_explain_tells_the_stages_that_ran(cube, tmp_path, capsys):
+    options = ["--explain", "--lines", "crease", "--size", "40x30", "--background", "#203040"]
+    assert run(["render", str(cube), "-o", str(tmp_path / "cube.png"), *options]) == 0
+    table = capsys.readouterr().err
+    names = [line.split("  ")[0] for line in table.splitlines()[1:-1]]
+    assert names == ["read", "look", "triangles", "depth", "shading", "lines", "average", "write"]
+
+
+def test_stdout_needs_a_format(cube, capfdbinary):
+    assert run(["render", str(cube), "-o", "-", "--format", "png", "--size", "20x20"]) == 0
+    assert capfdbinary.readouterr().out.startswith(b"\x89PNG")
+    assert run(["render", str(cube), "-o", "-"]) == 2
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ["-o", "x.svg"],
+        ["-o", "x.png", "--size", "20"],
+        ["-o", "x.png", "--size", "0x9"],
+        ["-o", "x.png", "--size", "-5x9"],
+        ["-o", "x.png", "--size", "99999x9"],
+        ["-o", "x.png", "--samples", "0"],
+        ["-o", "x.png", "--shadows", "soft"],
+        ["-o", "x.png", "--shadow-bits", "12"],
+        ["-o", "x.png", "--shadow-size", "1"],
+        ["-o", "x.png", "--lines", "wavy"],
+        ["-o", "x.png", "--fov", "0"],
+        ["-o", "x.png", "--page", "A4"],
+    ],
+)
+def test_bad_usage_exits_with_2(cube, options, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert run(["render", str(cube), *options]) == 2
+    assert "Error: " in capsys.readouterr().err
+    assert not list(tmp_path.glob("x.*"))
+
+
+def test_bad_input_exits_with_1_and_one_line(tmp_path, capsys):
+    broken = tmp_path / "broken.obj"
+    broken.write_text("v 0 0 nan\nf 1 1 1\n")
+    assert run(["render", str(broken), "-o", str(tmp_path / "x.png")]) == 1
+    assert len(capsys.readouterr().err.strip().splitlines()) == 1
+    assert run(["render", str(tmp_path / "none.obj"), "-o", str(tmp_path / "x.png")]) == 1
+    good = tmp_path / "scene.scene"
+    good.write_text("BOX box 2 2 2 solid\n")
+    assert run(["render", str(good), "-o", str(tmp_path / "no" / "x.png")]) == 1
+    assert run(["render", str(good), "-o", str(tmp_path / "x.png"), "--background", "mauve"]) == 1
+    assert not (tmp_path / "x.png").exists()
+
+
+def test_an_empty_picture_is_said(tmp_path, capsys):
+    empty = tmp_path / "empty.scene"
+    empty.write_text("# nothing\n")
+    assert run(["render", str(empty), "-o", str(tmp_path / "x.png"), "--size", "20x20"]) == 0
+    assert "empty" in capsys.readouterr().err
+
+
+def test_help_loads_nothing_heavy():
+    script = "import sys; from vectorplot.cli.main import run; run(['render', '--help']); print(*sys.modules)"
+    result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    loaded = {name.split(".")[0] for name in result.stdout.splitlines()[-1].split()}
+    assert not loaded & {"numpy", "cairo", "scipy", "shapely", "svgwrite", "trimesh", "tqdm"}
