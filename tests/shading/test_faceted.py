@@ -28,8 +28,6 @@ def test_smooth_items_become_meshes_with_their_true_normals():
 
 
 def test_a_curve_has_no_faces():
-    made = faceted(
-        Scene((Item("CIRCLE", Circle((0, 0, 0), (0, 0, 1), 1.0)),)), lambda points: np.ones(points.shape[:-1])
-    )
+    made = faceted(Scene((Item("CIRCLE", Circle()),)), lambda points: np.ones(points.shape[:-1]))
     assert made.scene.items[0].mesh.face_count == 0
     assert made.normals == (None,)
