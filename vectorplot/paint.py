@@ -47,6 +47,7 @@ def paint(
     aura_mm: float = 0.0,
     palette: int = SIZE,
     smooth: bool = True,
+    fills: Literal["painted", "visible"] = "painted",
     tolerance_mm: float = 0.02,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
@@ -57,6 +58,7 @@ def paint(
     its margin; otherwise the page centre is the target and the page height the camera's picture height. lights: in
     place of those of the scene. shadows: whether lights cast any. aura_mm: the width of their soft borders. palette:
     how many shades every colour has. smooth: smooth surfaces are shaded from corner to corner, not face by face.
+    fills: polygons painted one over the other, or only what is seen of each, for pens, which cannot paint over things.
     tolerance_mm: how far the sides of polygons may be off smooth surfaces and refracted lines. progress(stage,
     fraction) and explain(report) are called while it works.
     Errors: InputError for unknown words and colours, impossible cameras, and widths and counts out of range.
@@ -65,11 +67,11 @@ def paint(
     upper left, which casts no shadows.
     Source: Glaeser, chapters 4.5, 5 and 6.
     """
-    _check_options(shadows, aura_mm, palette, tolerance_mm)
+    _check_options(shadows, aura_mm, palette, fills, tolerance_mm)
     scene = scene if lights is None else replace(scene, lights=tuple(lights))
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
-    walk = Walk(plan_paint(scene, shadows), explain, progress)
+    walk = Walk(plan_paint(scene, shadows, fills), explain, progress)
     facets = FacetedScene(scene, (None,) * len(scene.items))
     if walk.calls_for("facets"):
         facets = walk.run("facets", faceted, scene, _allowed(scene, camera, page, fit, tolerance_mm))
@@ -82,9 +84,13 @@ def paint(
     shades = walk.run("shades", _shades, seen, lighting)
     decals = _decals(walk, seen, lighting, aura_mm)
     overlays = _overlays(walk, seen, lighting, decals, tolerance_mm)
-    fills = walk.run("fills", _fills, walk, seen, lighting, shades, overlays, page)
+    polygons = walk.run("fills", _fills, walk, seen, lighting, shades, overlays, page)
     world = page_from_world(view, placed.page_from_image)
-    layers = (Layer("fills", Pen(), (fills,)),)
+    if walk.calls_for("visible fills"):
+        from vectorplot.drawing.visible_fills import visible_fills
+
+        polygons = walk.run("visible fills", visible_fills, polygons, world)
+    layers = (Layer("fills", Pen(), (polygons,)),)
     return Drawing(page.width_mm, page.height_mm, layers, tuple(i.name for i in scene.items), scene.title, world)
 
 
@@ -100,9 +106,11 @@ class _Seen:
     placed: Placed
 
 
-def _check_options(shadows: str, aura_mm: float, palette: int, tolerance_mm: float) -> None:
+def _check_options(shadows: str, aura_mm: float, palette: int, fills: str, tolerance_mm: float) -> None:
     if shadows not in ("auto", "none"):
         raise InputError(f"shadows {shadows!r}: expected auto or none")
+    if fills not in ("painted", "visible"):
+        raise InputError(f"fills {fills!r}: expected painted or visible")
     if not 0.0 <= aura_mm < np.inf:
         raise InputError(f"an aura of {aura_mm:g} mm: expected a width that is finite and not negative")
     if not 2 <= palette <= 256:

@@ -5,14 +5,14 @@ import pytest
 from seen_rays import first_hits, sight_rays, topmost, triangles
 
 from vectorplot.effects.reflections import Mirrors, mirrored_view, mirrors, originals, reflections
-from vectorplot.effects.windows import SeenThrough, unmapped
+from vectorplot.effects.windows import SeenThrough
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.revolution import revolution
 from vectorplot.scene.scene import Item, Material, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box
-from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, mapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, mapped, unmapped
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.projected_faces import project_faces
 

@@ -35,6 +35,12 @@ FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
 @click.option("--aura", type=at_least(0.0), default=0.0, metavar="MM", help="Width of the soft border of shadows.")
 @click.option("--palette", type=click.IntRange(2, 256), default=32, metavar="N", help="Shades of every colour.")
 @click.option("--flat", is_flag=True, help="One shade for each face of smooth surfaces too.")
+@click.option(
+    "--fills",
+    type=click.Choice(["painted", "visible"]),
+    default="painted",
+    help="Painted one over the other, or only what is seen of each.",
+)
 @click.option("--tolerance", type=between(0.0, math.inf), default=0.02, metavar="MM", help="For approximations.")
 @click.option("--explain", is_flag=True, help="Print stages, times, counts and memory on stderr.")
 @click.option("-q", "--quiet", is_flag=True, help="No warnings, no progress bar.")
@@ -58,6 +64,7 @@ def paint(scene_file: str, out: str, format_: str | None, quiet: bool, explain: 
             aura_mm=options["aura"],
             palette=options["palette"],
             smooth=not options["flat"],
+            fills=options["fills"],
             tolerance_mm=options["tolerance"],
             progress=report.progress,
             explain=report.explain,

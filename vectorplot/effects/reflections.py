@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.effects.windows import SeenThrough, joined_seen, near_windows, seen_through, unmapped
+from vectorplot.effects.windows import SeenThrough, joined_seen, near_windows, seen_through
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.occluders import solid_items
-from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, drawn_faces
+from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, drawn_faces, unmapped
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.projected_faces import ProjectedFaces, newell, project_faces
 

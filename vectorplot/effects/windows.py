@@ -9,7 +9,6 @@ import numpy as np
 from vectorplot.geometry.convex_clipping import clipped, contained
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.plane_cuts import polygon_areas
-from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions
 from vectorplot.visibility.projected_faces import Floats32
 
@@ -115,17 +114,6 @@ def _clipped_pairs(
     offsets = np.concatenate([whole_ends, ends[1:] + whole_ends[-1]])
     position, offsets = corner_positions(offsets, order)
     return every[:, position], offsets, pair[order]
-
-
-def unmapped(view: View, points: Floats) -> Floats:
-    """(3,n) the points of the view of which points (3,n) are the images and heights: the inverse of mapped.
-
-    Source: Glaeser, section 2.4 (the transformation T2).
-    """
-    if view.eye is None:
-        return np.concatenate([points[:2] + view.target[:2, None], points[2:]])
-    depth = view.focus * view.focus / (points[2] + view.focus)
-    return np.concatenate([points[:2] * (depth / view.focus) + view.eye[:2, None], view.eye[2] - depth[None]])
 
 
 def near_windows(box: Floats | Floats32, windows: Floats) -> Bools:

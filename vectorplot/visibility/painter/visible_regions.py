@@ -9,6 +9,14 @@ import numpy as np
 
 from vectorplot.geometry.convex_clipping import clipped
 from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.regions import (
+    WIDTH_KEPT,
+    corners_of,
+    polygons_of,
+    unions,
+    without_holes,
+    without_splinters,
+)
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.bodies import convex_bodies, outlined_items
 from vectorplot.visibility.painter.candidates import boxes_over
@@ -16,9 +24,6 @@ from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positio
 from vectorplot.visibility.painter.order import Painted
 from vectorplot.visibility.painter.outlines import Outlines, overlapping
 from vectorplot.visibility.projected_faces import project_faces
-
-WIDTH_KEPT = 4.0
-"""Parts and holes of regions that are narrower than so many tolerances are left out, and filled."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,14 +53,14 @@ def visible_regions(view: View, painted: Painted) -> VisibleRegions:
     covers = _covers(view, painted)
     outlines = _Covers(faces.points, faces.offsets, np.arange(len(faces)))
     behind, front, hidden = _overlaps(outlines, covers, view.tolerance)
-    regions = _polygons(faces.points, faces.offsets)
+    regions = polygons_of(faces.points, faces.offsets)
     cut = np.unique(behind)
     if len(cut):
         regions[cut] = _uncovered(outlines, covers, behind, front, view.tolerance)
     seen = np.flatnonzero(~hidden)
     regions, first = _whole_faces(regions[seen], faces.source[seen], seen, view.tolerance)
-    parts, of = _clean_parts(regions, view.tolerance)
-    parts, of = _without_holes(parts, of)
+    parts, of = without_splinters(regions, view.tolerance)
+    parts, of = without_holes(parts, of)
     return _listed(faces, parts, first[of])
 
 
@@ -124,8 +129,8 @@ def _uncovered(faces: _Covers, covers: _Covers, behind: Ints, front: Ints, toler
     import shapely
 
     cut, of = np.unique(behind, return_inverse=True)
-    whole = _polygons(*_some(faces, cut))
-    above = _polygons(covers.points, covers.offsets)[front]
+    whole = polygons_of(*_some(faces, cut))
+    above = polygons_of(covers.points, covers.offsets)[front]
     # Without a grid this is three times faster, but where sides nearly coincide it fails, or loses a cover.
     try:
         left = shapely.set_precision(_difference(whole, above, of, None), tolerance)
@@ -142,8 +147,7 @@ def _difference(whole: Any, above: Any, of: Ints, grid: float | None) -> Any:
     """Polygons less the union of what lies above each of them."""
     import shapely
 
-    unions = shapely.union_all(shapely.geometrycollections(above, indices=of)[:, None], axis=1, grid_size=grid)
-    return shapely.difference(whole, unions, grid_size=grid)
+    return shapely.difference(whole, unions(above, of, grid), grid_size=grid)
 
 
 def _faulty(faces: _Covers, covers: _Covers, behind: Ints, front: Ints, of: Ints, left: Any, tolerance: float) -> Bools:
@@ -152,7 +156,7 @@ def _faulty(faces: _Covers, covers: _Covers, behind: Ints, front: Ints, of: Ints
 
     subject, starts = _some(faces, behind)
     points, offsets, pair = clipped(subject, starts, *_some(covers, front), tolerance=tolerance)
-    overlaps = _polygons(points, offsets)
+    overlaps = polygons_of(points, offsets)
     width = WIDTH_KEPT * tolerance
     wide = shapely.area(overlaps) > width * shapely.length(overlaps)
     middle = np.add.reduceat(points[:2], offsets[:-1], axis=1)[:, wide] / np.diff(offsets)[wide]
@@ -160,7 +164,7 @@ def _faulty(faces: _Covers, covers: _Covers, behind: Ints, front: Ints, of: Ints
     place = of[pair[wide]]
     wrong[place[shapely.contains_xy(left[place], middle[0], middle[1])]] = True
     covered = np.bincount(of[pair], shapely.area(overlaps), minlength=len(left))
-    whole = _polygons(*_some(faces, np.unique(behind)))
+    whole = polygons_of(*_some(faces, np.unique(behind)))
     too_small = shapely.area(left) < shapely.area(whole) - covered - width * shapely.length(whole)
     return np.asarray(wrong | too_small, dtype=np.bool_)
 
@@ -181,18 +185,8 @@ def _within(outlines: Outlines, inner: Ints, outer: Ints, tolerance: float) -> B
     return result
 
 
-def _polygons(points: Floats, offsets: Ints) -> Any:
-    """(n,) polygons of shapely."""
-    import shapely
-
-    position = np.insert(np.arange(points.shape[1]), offsets[1:], offsets[:-1])
-    of = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets) + 1)
-    return shapely.polygons(shapely.linearrings(points[:2, position].T, indices=of))
-
-
 def _whole_faces(regions: Any, source: Ints, place: Ints, tolerance: float) -> tuple[Any, Ints]:
     """One region for each face, joined from those of its pieces, in the order of the last pieces; and their places."""
-    import shapely
 
     order = np.lexsort((place, source))
     last = np.flatnonzero(np.append(source[order][1:] != source[order][:-1], True))
@@ -202,81 +196,14 @@ def _whole_faces(regions: Any, source: Ints, place: Ints, tolerance: float) -> t
     if len(joined):
         pieces = np.repeat(counts > 1, counts)
         of = np.repeat(np.arange(len(joined)), counts[joined])
-        several = shapely.geometrycollections(regions[order[pieces]], indices=of)
-        result[joined] = shapely.union_all(several[:, None], axis=1, grid_size=tolerance)
+        result[joined] = unions(regions[order[pieces]], of, tolerance)
     places = place[order[last]]
     by_place = np.argsort(places, kind="stable")
     return result[by_place], places[by_place]
 
 
-def _clean_parts(regions: Any, tolerance: float) -> tuple[Any, Ints]:
-    """The polygons that regions consist of, but for splinters, and the region of each."""
-    import shapely
-
-    parts, of = shapely.get_parts(regions, return_index=True)
-    kept = (shapely.get_type_id(parts) == 3) & (shapely.area(parts) > WIDTH_KEPT * tolerance * shapely.length(parts))
-    parts, of = parts[kept], of[kept]
-    pierced = np.flatnonzero(shapely.get_num_interior_rings(parts))
-    if len(pierced):
-        rings, owner = shapely.get_rings(parts[pierced], return_index=True)
-        outer = np.concatenate([[True], owner[1:] != owner[:-1]])
-        wide = shapely.area(shapely.polygons(rings)) > WIDTH_KEPT * tolerance * shapely.length(rings)
-        rings, owner = rings[outer | wide], owner[outer | wide]
-        parts[pierced] = _ringed(rings, owner)
-    return parts, of
-
-
-def _ringed(rings: Any, owner: Ints) -> Any:
-    """Polygons of rings, the outer one first for each owner."""
-    import shapely
-
-    outer = np.concatenate([[True], owner[1:] != owner[:-1]])
-    holes = np.flatnonzero(~outer)
-    result = shapely.polygons(rings[outer])
-    pierced = np.unique(owner[holes])
-    if len(pierced):
-        # A polygon less its holes, all at once for each polygon.
-        covers = shapely.multipolygons(shapely.polygons(rings[holes]), indices=np.searchsorted(pierced, owner[holes]))
-        result[pierced] = shapely.difference(result[pierced], covers)
-    return result
-
-
-def _without_holes(parts: Any, of: Ints) -> tuple[Any, Ints]:
-    """Polygons with holes cut in two through the middle of a hole, again and again."""
-    import shapely
-
-    done: list[tuple[Any, Ints]] = []
-    while True:
-        pierced = shapely.get_num_interior_rings(parts) > 0
-        done.append((parts[~pierced], of[~pierced]))
-        parts, of = parts[pierced], of[pierced]
-        if not len(parts):
-            break
-        middle = shapely.get_num_interior_rings(parts) // 2
-        hole = shapely.bounds(shapely.get_interior_ring(parts, middle))
-        x = (hole[:, 0] + hole[:, 2]) / 2.0
-        left, bottom, right, top = shapely.bounds(parts).T
-        sides = shapely.box(left, bottom, x, top), shapely.box(x, bottom, right, top)
-        halves, number = shapely.get_parts(
-            np.concatenate([shapely.intersection(parts, side) for side in sides]), return_index=True
-        )
-        of = np.concatenate([of, of])[number]
-        polygon = shapely.get_type_id(halves) == 3
-        parts, of = halves[polygon], of[polygon]
-    parts, of = np.concatenate([d[0] for d in done]), np.concatenate([d[1] for d in done])
-    order = np.argsort(of, kind="stable")
-    return parts[order], of[order]
-
-
 def _listed(faces: ImageFaces, parts: Any, place: Ints) -> VisibleRegions:
     """Polygons of shapely, without holes, as regions, counter-clockwise; place: of the image face each belongs to."""
-    import shapely
-
-    rings = shapely.get_exterior_ring(shapely.orient_polygons(parts))
-    xy, of = shapely.get_coordinates(rings, return_index=True)
-    last = np.append(of[1:] != of[:-1], True)[: len(of)]
-    xy, of = xy[~last], of[~last]
-    x, y = np.ascontiguousarray(xy.T)
-    height = faces.heights(place[of], x, y)
-    offsets = np.searchsorted(of, np.arange(len(parts) + 1))
+    (x, y), offsets = corners_of(parts)
+    height = faces.heights(np.repeat(place, np.diff(offsets)), x, y)
     return VisibleRegions(np.stack([x, y, height]), offsets, faces.source[place])

@@ -1,0 +1,89 @@
+"""What is seen of filled polygons: the same picture without overlaps."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+
+import vectorplot as vp
+from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.visible_fills import visible_fills
+from vectorplot.geometry.regions import polygons_of
+from vectorplot.paint import paint
+
+DATA = Path(__file__).resolve().parents[2] / "data"
+FLAT = np.array([[1.0, 0, 0, 0], [0, 1.0, 0, 0], [0, 0, 1.0, 0], [0, 0, 0, 1.0]])
+
+
+def squares(*places: tuple[float, float, float], opacity: float | list[float] = 1.0) -> Fills:
+    """Squares x, y, side, each in a colour of its own."""
+    ring = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    points = np.concatenate([ring * side + (x, y) for x, y, side in places])
+    colours = np.array([[10 * k, 0, 0] for k in range(len(places))], dtype=np.uint8)
+    return Fills.flat(
+        points, np.arange(0, 4 * len(places) + 1, 4), colours, item=np.arange(len(places)), opacity=opacity
+    )
+
+
+def areas(fills: Fills) -> dict[int, float]:
+    area = shapely.area(polygons_of(fills.points.T, fills.offsets))
+    return {int(k): float(area[fills.item == k].sum()) for k in np.unique(fills.item)}
+
+
+def colours_at(fills: Fills, points: np.ndarray) -> np.ndarray:
+    """The colour of the last polygon that contains each point, white where none does."""
+    found = np.full((len(points), 3), 255, dtype=np.uint8)
+    polygons = polygons_of(fills.points.T, fills.offsets)
+    inside, which = shapely.STRtree(polygons).query(shapely.points(points), predicate="within")
+    order = np.lexsort((which, inside))
+    found[inside[order]] = fills.colours[fills.offsets[:-1]][which[order]]
+    return found
+
+
+def test_what_is_painted_over_is_taken_away() -> None:
+    seen = visible_fills(squares((0, 0, 4), (2, 2, 4)), FLAT)
+    assert areas(seen) == pytest.approx({0: 12.0, 1: 16.0})
+
+
+def test_what_is_hidden_vanishes_and_a_hole_is_cut_open() -> None:
+    seen = visible_fills(squares((1, 1, 1), (0, 0, 4), (1, 1, 2)), FLAT)
+    assert areas(seen) == pytest.approx({1: 12.0, 2: 4.0})
+    assert shapely.is_valid(polygons_of(seen.points.T, seen.offsets)).all()
+
+
+def test_glass_takes_nothing_away() -> None:
+    seen = visible_fills(squares((0, 0, 4), (2, 2, 4), opacity=[1.0, 0.5]), FLAT)
+    assert areas(seen) == pytest.approx({0: 16.0, 1: 16.0})
+    assert seen.opacity[seen.item == 1].tolist() == [0.5]
+
+
+def test_neighbours_lose_nothing_to_each_other() -> None:
+    seen = visible_fills(squares((0, 0, 1), (1, 0, 1), (2, 0, 1)), FLAT)
+    assert areas(seen) == pytest.approx({0: 1.0, 1: 1.0, 2: 1.0})
+    assert len(seen) == 3
+
+
+def test_nothing_and_lines_only() -> None:
+    assert len(visible_fills(Fills.empty(), FLAT)) == 0
+    line = Fills.flat(np.array([[0.0, 0], [1, 1]]), np.array([0, 2]), np.zeros((1, 3), dtype=np.uint8))
+    assert len(visible_fills(line, FLAT)) == 1
+
+
+@pytest.mark.parametrize("name", ["town", "table", "interpenetrating", "patterns"])
+def test_the_picture_stays_the_same_and_nothing_overlaps(name: str) -> None:
+    scene = vp.read(DATA / f"{name}.scene")
+    painted, seen = paint(scene), paint(scene, fills="visible")
+    before, after = painted.layers[0].fills[0], seen.layers[0].fills[0]
+    points = np.random.default_rng(3).uniform([0, 0], [painted.width_mm, painted.height_mm], (4000, 2))
+    edges = shapely.linearrings(before.points, indices=np.repeat(np.arange(len(before)), np.diff(before.offsets)))
+    _, away = shapely.STRtree(edges).query_nearest(shapely.points(points), return_distance=True, all_matches=False)
+    points = points[away > 1e-3]
+    assert np.array_equal(colours_at(before, points), colours_at(after, points))
+    opaque = after.some(np.flatnonzero(after.opacity >= 1.0))
+    polygons = polygons_of(opaque.points.T, opaque.offsets)
+    assert shapely.area(polygons).sum() == pytest.approx(shapely.union_all(polygons, grid_size=1e-4).area, rel=1e-5)
+    flat = np.c_[after.points3d, np.ones(len(after.points3d))] @ seen.page_from_world.T
+    assert np.abs(flat[:, :2] / flat[:, 3:] - after.points).max() < 1e-9

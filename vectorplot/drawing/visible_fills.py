@@ -1,0 +1,119 @@
+"""What is seen of filled polygons, as polygons that do not overlap: for pens, which cannot paint over anything."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from vectorplot.drawing.fills import Fills
+from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+from vectorplot.geometry.regions import corners_of, polygons_of, unions, without_holes, without_splinters
+
+GRID_MM = 1e-4
+"""Corners of regions lie on a grid of so many mm; the scene's own have digits to spare."""
+
+AREA_MM2 = GRID_MM * GRID_MM
+"""Smaller polygons have no inside."""
+
+
+EDGE_ON = 1e-9
+"""Sine of the angle between sight line and plane below which the plane is seen edge-on."""
+
+
+def visible_fills(fills: Fills, page_from_world: Floats) -> Fills:
+    """Polygons without common inner points that make the same picture: each without what is painted over it.
+
+    Polygons that one can see through take nothing from what lies behind them. A shaded polygon has the mean colour of
+    its corners; lines (two corners) stay as they are, on top. page_from_world (4,4) as in Drawing: points3d of new
+    corners lie on the planes of their polygons.
+    Error: corners move by GRID_MM at most, parts narrower than a few of these are left out.
+    Source: Weiler and Atherton, Hidden surface removal using polygon area sorting (1977).
+    """
+    import shapely
+
+    sizes = np.diff(fills.offsets)
+    solid, lines = fills.some(np.flatnonzero(sizes > 2)), fills.some(np.flatnonzero(sizes == 2))
+    regions = shapely.make_valid(polygons_of(solid.points.T, solid.offsets)) if len(solid) else np.zeros(0, object)
+    below, above, hidden = _overlaps(regions, solid.opacity >= 1.0)
+    cut, of = np.unique(below, return_inverse=True)
+    if len(cut):
+        covers = unions(regions[above], of, GRID_MM)
+        regions[cut] = shapely.difference(regions[cut], covers, grid_size=GRID_MM)
+    left = np.flatnonzero(~hidden)
+    parts, number = without_splinters(regions[left], GRID_MM)
+    parts, number = without_holes(parts, number)
+    return Fills.joined(_listed(solid, parts, left[number], page_from_world), lines)
+
+
+def _overlaps(regions: Any, opaque: Bools) -> tuple[Ints, Ints, Bools]:
+    """Pairs of regions and opaque ones painted over them that have inner points in common; and (n,) those that a single
+    one hides, which are in no pair, neither of the two."""
+    import shapely
+
+    none = np.zeros(0, dtype=np.intp)
+    if not len(regions):
+        return none, none, np.zeros(0, dtype=np.bool_)
+    over = np.flatnonzero(opaque)
+    below, above = shapely.STRtree(regions[over]).query(regions)
+    above = over[above]
+    later = above > below
+    below, above = below[later], above[later]
+    common = shapely.intersects(regions[below], regions[above]) & ~shapely.touches(regions[below], regions[above])
+    below, above = below[common], above[common]
+    hidden = np.zeros(len(regions), dtype=np.bool_)
+    hidden[below[shapely.covers(regions[above], regions[below])]] = True
+    hidden |= shapely.area(regions) <= AREA_MM2
+    # What hides a hidden one hides whatever that one would.
+    needed = ~hidden[below] & ~hidden[above]
+    return below[needed], above[needed], hidden
+
+
+def _listed(fills: Fills, parts: Any, source: Ints, page_from_world: Floats) -> Fills:
+    """Polygons of shapely, without holes, in the colours of the fills they are parts of."""
+    flat, offsets = corners_of(parts)
+    sizes = np.diff(offsets)
+    total = np.add.reduceat(fills.colours.astype(np.float64), fills.offsets[:-1]) if len(fills) else fills.colours
+    mean = np.rint(total / np.diff(fills.offsets)[:, None]).astype(np.uint8) if len(fills) else fills.colours
+    corner = np.repeat(source, sizes)
+    return Fills(
+        np.ascontiguousarray(flat.T),
+        offsets,
+        mean[corner],
+        fills.opacity[source],
+        fills.item[source],
+        _in_space(fills, flat.T, corner, page_from_world),
+        fills.kind[source],
+    )
+
+
+def _in_space(fills: Fills, points: Floats, source: Ints, page_from_world: Floats) -> Floats:
+    """(c,3) where the sight lines of points (c,2) of the page meet the planes of fills (c,).
+
+    Degenerate: of a fill that is seen edge-on its first corner.
+    """
+    if not len(points):
+        return np.zeros((0, 3))
+    normal, place = _planes(fills)
+    rows = page_from_world[:2, None] - points.T[:, :, None] * page_from_world[3]
+    system = np.stack([rows[0, :, :3], rows[1, :, :3], normal[source]], axis=1)
+    # From the first corner of the fill, so that digits are kept far from the origin.
+    first = place[source]
+    right = np.stack([-(rows[k, :, :3] * first).sum(axis=1) - rows[k, :, 3] for k in (0, 1)], axis=1)
+    system[:, :2] /= (size := np.linalg.norm(system[:, :2], axis=2, keepdims=True))
+    right = np.concatenate([right / size[..., 0], np.zeros((len(points), 1))], axis=1)
+    steep = np.abs(np.linalg.det(system)) > EDGE_ON
+    found = first.copy()
+    found[steep] += np.linalg.solve(system[steep], right[steep][..., None])[..., 0]
+    return found
+
+
+def _planes(fills: Fills) -> tuple[Floats, Floats]:
+    """(m,3) unit normals of polygons in space, zero for those without area, and (m,3) their first corners."""
+    start, sizes = fills.offsets[:-1], np.diff(fills.offsets)
+    first = fills.points3d[start]
+    arm = fills.points3d - np.repeat(first, sizes, axis=0)
+    after = arm[next_positions(fills.offsets, np.arange(len(arm)))]
+    area = np.add.reduceat(np.cross(arm, after), start)
+    length = np.linalg.norm(area, axis=1, keepdims=True)
+    return area / np.where(length > 0.0, length, 1.0), first

@@ -1,0 +1,114 @@
+"""Regions of the plane, many at once: unions without splinters, and simple polygons without holes made of them.
+
+Regions are shapely's geometries, in arrays; shapely is loaded when one of these functions is called.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from vectorplot.geometry.mesh import Floats, Ints
+
+POLYGON = 3
+"""The number of shapely's type."""
+
+WIDTH_KEPT = 4.0
+"""Parts and holes of regions that are narrower than so many tolerances are splinters."""
+
+
+def polygons_of(points: Floats, offsets: Ints) -> Any:
+    """(n,) simple polygons with the corners points (2 or more, c), offsets (n+1,), of three corners or more each."""
+    import shapely
+
+    position = np.insert(np.arange(points.shape[1]), offsets[1:], offsets[:-1])
+    of = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets) + 1)
+    return shapely.polygons(shapely.linearrings(points[:2, position].T, indices=of))
+
+
+def unions(polygons: Any, group: Ints, grid: float | None) -> Any:
+    """(g,) the unions of groups 0, 1, ... of polygons, on a grid: sides that nearly coincide leave no splinters."""
+    import shapely
+
+    order = np.argsort(group, kind="stable")
+    several = shapely.geometrycollections(polygons[order], indices=group[order])
+    return shapely.union_all(several[:, None], axis=1, grid_size=grid)
+
+
+def without_splinters(regions: Any, tolerance: float) -> tuple[Any, Ints]:
+    """The polygons that regions (n,) consist of, and the region of each; parts narrower than a few tolerances are left
+    out, and holes that narrow filled."""
+    import shapely
+
+    parts, of = shapely.get_parts(regions, return_index=True)
+    kept = (shapely.get_type_id(parts) == POLYGON) & _wide(parts, tolerance)
+    parts, of = parts[kept], of[kept]
+    pierced = np.flatnonzero(shapely.get_num_interior_rings(parts))
+    if len(pierced):
+        rings, owner = shapely.get_rings(parts[pierced], return_index=True)
+        outer = np.concatenate([[True], owner[1:] != owner[:-1]])
+        wide = outer | _wide(shapely.polygons(rings), tolerance)
+        parts[pierced] = _ringed(rings[wide], owner[wide])
+    return parts, of
+
+
+def without_holes(parts: Any, of: Ints) -> tuple[Any, Ints]:
+    """Polygons without holes in place of polygons (n,) with numbers of (n,): those with holes are cut in two through
+    the middle of one, again and again."""
+    import shapely
+
+    done: list[tuple[Any, Ints]] = []
+    while True:
+        pierced = shapely.get_num_interior_rings(parts) > 0
+        done.append((parts[~pierced], of[~pierced]))
+        parts, of = parts[pierced], of[pierced]
+        if not len(parts):
+            break
+        middle = shapely.get_num_interior_rings(parts) // 2
+        hole = shapely.bounds(shapely.get_interior_ring(parts, middle))
+        x = (hole[:, 0] + hole[:, 2]) / 2.0
+        left, bottom, right, top = shapely.bounds(parts).T
+        sides = shapely.box(left, bottom, x, top), shapely.box(x, bottom, right, top)
+        halves = np.concatenate([shapely.intersection(parts, side) for side in sides])
+        halves, number = shapely.get_parts(halves, return_index=True)
+        of = np.concatenate([of, of])[number]
+        polygon = shapely.get_type_id(halves) == POLYGON
+        parts, of = halves[polygon], of[polygon]
+    parts, of = (np.concatenate([some[k] for some in done]) for k in (0, 1))
+    order = np.argsort(of, kind="stable")
+    return parts[order], of[order]
+
+
+def corners_of(parts: Any) -> tuple[Floats, Ints]:
+    """Corners (2,c) and offsets (n+1,) of polygons (n,) without holes, counter-clockwise."""
+    import shapely
+
+    rings = shapely.get_exterior_ring(shapely.orient_polygons(parts))
+    xy, of = shapely.get_coordinates(rings, return_index=True)
+    # A ring of shapely repeats its first point at its end.
+    last = np.append(of[1:] != of[:-1], True)[: len(of)]
+    xy, of = xy[~last], of[~last]
+    return np.ascontiguousarray(xy.T), np.searchsorted(of, np.arange(len(parts) + 1)).astype(np.intp)
+
+
+def _wide(polygons: Any, tolerance: float) -> Any:
+    """(n,) which polygons are wider than a splinter."""
+    import shapely
+
+    return shapely.area(polygons) > WIDTH_KEPT * tolerance * shapely.length(polygons)
+
+
+def _ringed(rings: Any, owner: Ints) -> Any:
+    """Polygons of rings, the outer one first for each owner."""
+    import shapely
+
+    outer = np.concatenate([[True], owner[1:] != owner[:-1]])
+    holes = np.flatnonzero(~outer)
+    result = shapely.polygons(rings[outer])
+    pierced = np.unique(owner[holes])
+    if len(pierced):
+        # A polygon less its holes, all at once for each polygon.
+        covers = shapely.multipolygons(shapely.polygons(rings[holes]), indices=np.searchsorted(pierced, owner[holes]))
+        result[pierced] = shapely.difference(result[pierced], covers)
+    return result
