@@ -1,0 +1,67 @@
+"""Three shadow maps of one size for one view: the whole scene, the box about what is seen, the trapezoid around it.
+
+The trapezoid gives most of the map to what is near the eye. Above the pictures, below the maps; the light falls in from
+the left. Sources: Martin and Tan, Trapezoidal shadow maps, recipe; Ressler, Notes on implementation.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import vectorplot as vp
+from vectorplot.geometry.solids import box
+from vectorplot.shading.seen_region import seen_region
+from vectorplot.shading.screen import fans, raster_system
+from vectorplot.shading.shadow_buffer import shadow_buffer
+from vectorplot.shading.shadow_map import texels_per_unit
+
+SIZE, MAP = (300, 200), 200
+LIGHT = vp.Light((-2.0, -0.6, 1.6), parallel=True, intensity=1.0)
+CAMERA = vp.Camera(eye=(0, -62, 5), target=(0, -40, 1.5), fov_deg=38)
+
+
+def field() -> list[vp.Mesh]:
+    """A plate with blocks, some of them close to the eye."""
+    rng = np.random.default_rng(5)
+    meshes = [box((120, 120, 1))]
+    moves = [(-60.0, -60.0, -1.0)]
+    for number in range(130):
+        x, y = rng.uniform(-55, 55, 2) if number % 3 else (rng.uniform(-6, 6), rng.uniform(-54, -38))
+        meshes.append(box((*rng.uniform(0.4, 1.2, 2), rng.uniform(0.8, 4))))
+        moves.append((float(x), float(y), 0.0))
+    places = np.tile(np.eye(4), (len(moves), 1, 1))
+    places[:, :3, 3] = moves
+    return [mesh.transformed(place) for mesh, place in zip(meshes, places, strict=True)]
+
+
+def main(folder: Path) -> None:
+    meshes = field()
+    colours = ["lightgray", *["orange", "cyan", "yellow"] * 50]
+    items = tuple(vp.Item(f"B{k}", mesh, colours[k]) for k, mesh in enumerate(meshes))
+    scene = vp.Scene(items, (LIGHT,), title="Shadow maps")
+    options = {"size": SIZE, "fit": False, "samples": 2, "shadow_size": MAP}
+    plain, tapered = (vp.render(scene, CAMERA, shadows=how, **options).pixels for how in ("buffer", "trapezoid"))
+
+    first = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
+    points = np.concatenate([mesh.vertices for mesh in meshes])
+    corners = np.concatenate([fans(m.corners, m.offsets)[0] + k for m, k in zip(meshes, first[:-1], strict=True)])
+    region = seen_region(raster_system(CAMERA, *SIZE), *SIZE, [points.min(axis=0), points.max(axis=0)])
+    maps = {
+        frame: shadow_buffer(LIGHT, points, corners, size=MAP, frame=frame, region=region).maps[0]
+        for frame in ("standard", "box", "trapezoid")
+    }
+    grays = [np.where(m.code > 0, 60 + 190.0 * (m.code / m.code.max()) ** 4, 255) for m in maps.values()]
+    below = np.concatenate(grays, axis=1).astype(np.uint8)[..., None].repeat(3, axis=2)
+    vp.save(
+        vp.Image(np.concatenate([np.concatenate([plain, tapered], axis=1), below]), "Maps"), folder / "shadow_maps.png"
+    )
+
+    near = np.array([(x, y, 0.0) for x in (-2, 0, 2) for y in (-55, -52, -49)])
+    texels = {frame: texels_per_unit(found, near).mean() for frame, found in maps.items()}
+    assert texels["trapezoid"] > 8 * texels["standard"], "texels for the same ground before the eye"
+    assert texels["trapezoid"] > 5 * texels["box"] > 5 * texels["standard"]
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1] if len(sys.argv) > 1 else "docs/gallery"))
