@@ -1,6 +1,7 @@
-"""Draws the gallery: every scene in data/, every script in examples/, and the page that shows them.
+"""Draws the gallery: every scene in data/, some of them painted too, every script in examples/, and the page that shows
+them.
 
-``python docs/gallery.py`` writes docs/gallery/*.svg, docs/gallery/pencil.png and docs/gallery/README.md. A test
+``python docs/gallery.py`` writes docs/gallery/*.svg, docs/gallery/*.png and docs/gallery/README.md. A test
 compares what it would write with what is stored.
 """
 
@@ -28,22 +29,31 @@ LOOK_AT = {
     "implicit": "Surfaces by their equations alone: level lines on a rounded cube, isophotes on a pretzel.",
     "interpenetrating": "Beams driven through one another; the tips that come out of the die are small and complete.",
     "intersections": "Two cubes, a cylinder and a cube, a ring and a slab: only what each pair has in common is drawn.",
+    "mirror": "The painted mirror shows backs, patterns and shadows of things; drawn it is a board like any other.",
     "mixed": "A polyhedron and smooth surfaces pierce one another; each hides what is behind it.",
     "patterns": "Each polygon lies in the coordinates of its face; what is on a face that turns away is not drawn.",
     "pencil": "A cone of order 45 on a cylinder, cut with a hexagonal prism: the sides end in arcs of hyperbolas.",
+    "pool": "The floor seems raised by the water, and the pole bent; drawn, both are where they are.",
     "pyramid": "The book's example of an object with a convex outline; it is open above, and one looks inside.",
     "removed_faces": "Two walls of the house and the lid of the crate are gone: one looks in, and through.",
     "revolutions": "The same meridian solid, hollow with a bottom, and cut off after three quarters of a turn.",
     "rotsweep": "Half a turn of a meridian; the first and the last one bound a single flat face.",
     "ruled": "Straight lines turned, screwed and moved: hyperboloid, helicoid and saddle, with all their lines.",
+    "shadows": "Where shadows of several lamps lie on one another it is darker: polygons like everything else.",
     "table": "Things stand on a table: their lower edges lie in its top, and stay visible there.",
     "three_bars": "Each lies above the next: no order of painting is right, geometry has no such trouble.",
     "torus": "Columns and rows of parameter lines; the contour ends in cusps where it turns away behind the surface.",
-    "town": "Thirty blocks on a plate: houses, flats, towers, a church, a gasometer; each edge as far as it is seen.",
+    "town": "Thirty blocks on a plate, each edge as far as it is seen; painted, with shadows of the sun and of a lamp.",
     "translational_sweep": "A plane polygon moved along a vector.",
     "tube": "Nothing closes the ends: one looks through, on what is behind.",
 }
 """What a scene shows, in a sentence."""
+
+PAINTED = frozenset("cubes interpenetrating mirror patterns pencil pool shadows table three_bars town".split())
+"""The scenes that are painted as well."""
+
+TOLERANCE_MM = 0.2
+"""How far painted pictures may be off curves: they are small, and so are their files."""
 
 
 def scenes() -> list[Path]:
@@ -57,10 +67,13 @@ def examples() -> list[Path]:
 
 
 def draw_scene(path: Path, folder: Path) -> list[Path]:
-    """Draw a scene file into a folder; the files it made."""
-    out = folder / f"{path.stem}.svg"
-    vp.save(vp.draw(vp.read(path)), out)
-    return [out]
+    """Draw a scene file into a folder, and paint it if it is one of those; the files it made."""
+    scene, drawn, painted = vp.read(path), folder / f"{path.stem}.svg", folder / f"{path.stem}_painted.svg"
+    vp.save(vp.draw(scene), drawn)
+    if path.stem not in PAINTED:
+        return [drawn]
+    vp.save(vp.paint(scene, tolerance_mm=TOLERANCE_MM), painted)
+    return [drawn, painted]
 
 
 def run_example(path: Path, folder: Path) -> list[Path]:
@@ -98,10 +111,16 @@ def entry(title: str, source: Path, pictures: list[str], text: str) -> list[str]
 def page(pictures: dict[Path, list[str]]) -> str:
     """The text of docs/gallery/README.md."""
     lines = ["# Gallery", "", "Written by docs/gallery.py. Every picture comes from the file named below it.", ""]
-    lines += ["## Scenes", "", "`vectorplot draw data/NAME.scene -o NAME.svg` draws each of them.", ""]
+    lines += ["## Scenes", "", "`vectorplot draw data/NAME.scene -o NAME.svg` draws each of them,"]
+    lines += ["`vectorplot paint data/NAME.scene -o NAME.svg` paints those with a second picture.", ""]
     for path in scenes():
         lines += entry(vp.read(path).title, path, pictures[path], LOOK_AT[path.stem])
-    lines += ["## Scripts", "", "`python examples/NAME.py FOLDER` draws each of them, and checks what it claims.", ""]
+    lines += [
+        "## Scripts",
+        "",
+        "`python examples/NAME.py FOLDER` makes each of them, and checks what it claims.",
+        "",
+    ]
     for path in examples():
         title, text = text_of(path)
         lines += entry(title.rstrip("."), path, pictures[path], text)
@@ -119,7 +138,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as desk:
         made = draw_all(Path(desk))
         GALLERY.mkdir(exist_ok=True)
-        for old in GALLERY.glob("*.svg"):
+        for old in (*GALLERY.glob("*.svg"), *GALLERY.glob("*.png")):
             old.unlink()
         for files in made.values():
             for file in files:

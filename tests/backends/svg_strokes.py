@@ -17,10 +17,13 @@ _NUMBER = re.compile(r"-?[\d.]+")
 
 
 def strokes_by_layer(root: ElementTree.Element) -> dict[str, list[np.ndarray]]:
-    """For each layer, under its label, the points (n,2) of its strokes; closed ones end where they begin."""
+    """For each layer, under its label, the points (n,2) of its strokes; closed ones end where they begin. Filled
+    polygons, which are in groups of their own, are left out."""
+    others = (f"{SVG}title", f"{SVG}g")
     return {
-        layer.get(LABEL): [polyline(node) for node in layer if node.tag != f"{SVG}title"]
+        layer.get(LABEL): [polyline(node) for node in layer if node.tag not in others]
         for layer in root.iter(f"{SVG}g")
+        if layer.get(LABEL) is not None
     }
 
 
