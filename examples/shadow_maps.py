@@ -11,8 +11,8 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.geometry.solids import box
-from vectorplot.shading.seen_region import seen_region
 from vectorplot.shading.screen import fans, raster_system
+from vectorplot.shading.seen_region import seen_region
 from vectorplot.shading.shadow_buffer import shadow_buffer
 from vectorplot.shading.shadow_map import texels_per_unit
 

@@ -14,6 +14,7 @@ import vectorplot as vp
 from vectorplot.cli.draw import draw
 from vectorplot.cli.info import info
 from vectorplot.cli.main import run
+from vectorplot.cli.render import render
 
 ROOT = Path(__file__).resolve().parent.parent
 DOCS = ROOT / "docs"
@@ -58,7 +59,7 @@ def test_the_commands_of_the_pages_work(command, checkout, capfdbinary):
         assert out
 
 
-@pytest.mark.parametrize("command", [draw, info], ids=lambda command: command.name)
+@pytest.mark.parametrize("command", [draw, info, render], ids=lambda command: command.name)
 def test_every_option_is_on_the_page_of_the_command(command):
     page = (DOCS / "command.md").read_text(encoding="utf-8")
     for parameter in command.params:

@@ -47,8 +47,9 @@ def test_the_python_of_the_readme_runs(tmp_path, monkeypatch):
 
 def test_every_option_of_the_command_is_in_the_readme():
     from vectorplot.cli.draw import draw
+    from vectorplot.cli.render import render
 
-    for parameter in draw.params:
+    for parameter in (*draw.params, *render.params):
         for option in (*parameter.opts, *parameter.secondary_opts):
             if option.startswith("--") and option != "--out":
                 assert option in README, option
