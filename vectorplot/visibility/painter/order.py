@@ -75,7 +75,7 @@ def painters_order(
 
 
 def _known_apart(view: View, faces: ImageFaces, known: Mapping[int, Ints]) -> tuple[ImageFaces, ImageFaces]:
-    """The faces whose order is known, in this order, of items that no other item overlaps in the image; and the rest."""
+    """The faces of known order, in this order, of items that no other item overlaps in the image; and the rest."""
     item = view.face_item[faces.source]
     place = np.full(view.face_count, -1, dtype=np.intp)
     lone = np.zeros(len(view.item_vertices) - 1, dtype=np.bool_)

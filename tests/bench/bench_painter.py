@@ -1,0 +1,160 @@
+"""The painter's order: run with ``pytest tests/bench/bench_painter.py -m bench -s``."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from vectorplot.draw import default_camera
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.convex_clipping import clipped
+from vectorplot.geometry.convex_hulls import hull_mesh
+from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.view import View, look
+from vectorplot.testing.shapes import box, numbered, rotated_boxes, rotation
+from vectorplot.testing.surfaces import bumpy_icosphere
+from vectorplot.visibility.painter.bodies import convex_bodies, outlined_items
+from vectorplot.visibility.painter.graphs import graph_order, graph_triangles
+from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
+from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.painter.rings import ring_order, sliced_meridian
+from vectorplot.visibility.painter.sphere_order import sphere_order
+from vectorplot.visibility.painter.visible_regions import visible_regions
+from vectorplot.visibility.projected_faces import project_faces
+
+pytestmark = pytest.mark.bench
+
+
+def view_of(scene: Scene) -> View:
+    return look(scene, default_camera(scene))
+
+
+def seconds(action: Callable[[], object], repeat: int = 3) -> float:
+    """The shortest of a few times, of the processor."""
+    times = []
+    for _ in range(repeat):
+        start = time.process_time()
+        action()
+        times.append(time.process_time() - start)
+    return min(times)
+
+
+def growth(sizes: list[int], times: list[float]) -> str:
+    slope = np.polyfit(np.log(sizes), np.log(times), 1)[0]
+    last = np.log(times[-1] / times[-2]) / np.log(sizes[-1] / sizes[-2])
+    return f"  growth exponent {slope:.2f} over all, {last:.2f} at the end"
+
+
+def ordered(name: str, views: dict[int, View], beat: str) -> None:
+    print(f"\n{name} (to beat: {beat})")
+    times = []
+    for size, view in views.items():
+        painted = painters_order(view)
+        times.append(seconds(lambda v=view: painters_order(v)))
+        print(f"  {size:>9,}: {painted.uncut:>9,} faces drawn as {len(painted):>9,}: {times[-1]:7.3f} s")
+    print(growth(list(views), times))
+
+
+def test_boxes_as_wholes() -> None:
+    views = {count: view_of(rotated_boxes(count)) for count in (1000, 5000, 20000)}
+    ordered("rotated boxes", views, "2 s at 20,000, exponent 1.3")
+
+
+def test_convex_bodies_of_many_faces() -> None:
+    views = {}
+    for side in (10, 17, 27):
+        random = np.random.default_rng(0)
+        place = np.stack(np.meshgrid(*[np.arange(side)] * 3), axis=-1).reshape(-1, 3) * 1.2
+        points = random.normal(size=(len(place), 12, 3))
+        points *= 0.5 / np.linalg.norm(points, axis=2)[..., None]
+        views[side**3] = view_of(numbered([hull_mesh(p + q) for p, q in zip(points, place, strict=True)]))
+    ordered("convex hulls of 20 faces", views, "2.9 s at 20,000")
+
+
+def test_faces_of_a_mesh() -> None:
+    views = {20 * 4**level: view_of(Scene((Item("S", bumpy_icosphere(level)),))) for level in (5, 6, 7)}
+    ordered("bumpy sphere, triangles", views, "4 s at 320,000, exponent 1.1")
+
+
+def test_boxes_through_one_another() -> None:
+    random = np.random.default_rng(1)
+    shapes = []
+    for _ in range(500):
+        place = np.eye(4)
+        place[:3, :3], place[:3, 3] = rotation(random), random.uniform(-5.0, 5.0, 3)
+        shapes.append(box((0, 0, 0), random.uniform(0.3, 1.3, 3)).transformed(place))
+    view = view_of(numbered(shapes))
+    painted = painters_order(view)
+    print(f"\n500 boxes through one another: {painted.uncut} faces drawn as {len(painted)}: ", end="")
+    print(f"{seconds(lambda: painters_order(view)):.3f} s (to beat: 1.7 s, 1,482 to 3,096)")
+
+
+def test_solids_by_the_power_of_their_spheres() -> None:
+    print("\nsolids by power of spheres, checked (to beat: .44 s at 20,000)")
+    sizes, times = [], []
+    for side in (10, 17, 27):
+        random = np.random.default_rng(0)
+        place = np.stack(np.meshgrid(*[np.arange(side)] * 3), axis=-1).reshape(-1, 3) * 2.0
+        view = view_of(
+            numbered([box(p, p + s) for p, s in zip(place, random.uniform(0.2, 1.1, place.shape), strict=True)])
+        )
+        projected = project_faces(view)
+        faces = image_faces(view, drawn_faces(view, projected))
+        bodies = convex_bodies(view, faces, np.flatnonzero(outlined_items(view, projected)))
+        assert sphere_order(view, faces, bodies) is not None
+        sizes.append(len(bodies))
+        times.append(seconds(lambda v=view, f=faces, b=bodies: sphere_order(v, f, b)))
+        print(f"  {sizes[-1]:>9,}: {times[-1]:7.3f} s")
+    print(growth(sizes, times))
+
+
+def test_graphs_and_rings_without_a_comparison() -> None:
+    print("\ngraphs: triangles and their order (to beat: .5 s at 1000 x 1000)")
+    sizes, times = [], []
+    for cells in (250, 500, 1000):
+        line = np.linspace(-1.0, 1.0, cells + 1)
+        sizes.append(2 * cells * cells)
+        times.append(seconds(lambda x=line, n=cells: (graph_triangles(n, n), graph_order(x, x, (0.3, -3.0, 2.0)))))
+        print(f"  {sizes[-1]:>9,}: {times[-1]:7.3f} s")
+    print(growth(sizes, times))
+    meridian = sliced_meridian(np.stack([2.0 + np.sin(np.linspace(0, 20, 600)), np.linspace(0, 5, 600)], axis=1))
+    took = seconds(lambda: ring_order(meridian, 1000, (5.0, 4.0, 3.0)))
+    print(f"  {1000 * (len(meridian) - 1):>9,} faces in rings: {took:7.3f} s")
+
+
+def test_visible_regions() -> None:
+    print("\nvisible regions of rotated boxes (to beat: .61 s and 3.7 s at 5,058 and 19,967 faces, exponent 1.3)")
+    sizes, times = [], []
+    for count in (425, 1700, 6700):
+        view = view_of(rotated_boxes(count))
+        painted = painters_order(view)
+        regions = visible_regions(view, painted)
+        sizes.append(painted.uncut)
+        times.append(seconds(lambda v=view, p=painted: visible_regions(v, p), 1))
+        print(f"  {painted.uncut:>9,} faces, {len(regions):>9,} regions: {times[-1]:7.3f} s")
+    print(growth(sizes, times))
+
+
+def test_polygons_clipped_in_pairs() -> None:
+    print("\nquadrilaterals clipped by hexagons, pair by pair")
+    sizes, times = [], []
+    for count in (20000, 140000):
+        random = np.random.default_rng(0)
+        corners = []
+        for size in (4, 6):
+            angle = np.linspace(0.0, 2.0 * np.pi, size, endpoint=False)
+            circle = np.stack([np.cos(angle), np.sin(angle)])[:, None]
+            corners += [(circle + random.uniform(-1, 1, (2, count, 1))).reshape(2, -1), np.arange(count + 1) * size]
+        sizes.append(count)
+        times.append(seconds(lambda c=corners: clipped(*c)))
+        print(f"  {count:>9,}: {times[-1]:7.3f} s")
+    print(growth(sizes, times))
+
+
+def test_a_camera_within_a_crowd() -> None:
+    scene = rotated_boxes(20000)
+    view = look(scene, Camera(tuple(scene.bounds.mean(axis=0)), tuple(scene.bounds[1])))
+    print(f"\n20,000 boxes seen from among them: {seconds(lambda: painters_order(view)):7.3f} s")
