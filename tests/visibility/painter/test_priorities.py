@@ -25,7 +25,8 @@ from vectorplot.visibility.painter.face_pairs import APART, BEHIND, IN_FRONT, ST
 from vectorplot.visibility.painter.groups import gordian_knots, grouped_order, knot_report, object_order
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.mikado import component_ranks, mikado
-from vectorplot.visibility.painter.priorities import demands, priorities, view_objects, which_first
+from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.painter.priorities import demands, priorities, view_objects, which_first, wholly_hidden
 from vectorplot.visibility.painter.sphere_order import sphere_order
 from vectorplot.visibility.projected_faces import project_faces
 
@@ -96,6 +97,38 @@ def test_a_subset_and_the_light_s_system():
     assert (len(both), priorities(both).tolist()) == (1, [[0]])
     with pytest.raises(InputError, match="as many"):
         view_objects(lamp, [0, 1])
+
+
+@pytest.mark.hard(22)
+@pytest.mark.capability("G5.5-outlines")
+@pytest.mark.parametrize("seed", range(6))
+def test_what_one_convex_body_hides_needs_no_drawing(seed):
+    random = np.random.default_rng(seed)
+    small = [placed(box((0, 0, 0), random.uniform(0.1, 0.5, 3)), random, 2.5) for _ in range(30)]
+    scene = numbered([*small, placed(box((-1.5, -1.5, -1.5), (1.5, 1.5, 1.5)), random, 0.5)])
+    view = look(scene, EYE)
+    hidden = wholly_hidden(view_objects(view))
+    faces = painters_order(view).faces
+    x, y = sample_points(view, 6000)
+    shown = set(view.face_item[faces.source[top_polygon(faces, x, y)]].tolist())
+    assert 3 < hidden.sum() < 28
+    assert not shown & set(np.flatnonzero(hidden).tolist())
+    # Left out, they are not missed.
+    kept = faces.some(np.flatnonzero(~hidden[view.face_item[faces.source]]))
+    assert (
+        np.append(kept.source, -1)[top_polygon(kept, x, y)] == np.append(faces.source, -1)[top_polygon(faces, x, y)]
+    ).all()
+
+
+def test_nothing_is_hidden_by_what_is_not_convex_nor_by_two_together():
+    back = box((-0.4, 3, -0.4), (0.4, 3.5, 0.4))
+    ring = torus_mesh(16, 8, 3.0, 2.5)
+    halves = [box((-2, 0, -2), (0, 0.1, 2)), box((0, 0, -2), (2, 0.1, 2))]
+    front = Camera.view("front", (0, 0, 0), 20.0)
+    for shapes, expected in (([back, ring], 0), ([back, *halves], 0), ([back, box((-2, 0, -2), (2, 0.1, 2))], 1)):
+        assert wholly_hidden(view_objects(look(numbered(shapes), front))).sum() == expected
+    away = view_objects(look(numbered([back, box((0, -90, 0), (1, -80, 1))]), Camera((0, -20, 0), (0, 0, 0))))
+    assert wholly_hidden(away).tolist() == [False, True]
 
 
 @pytest.mark.capability("G5.6-mikado")

@@ -11,9 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError
+from vectorplot.geometry.convex_clipping import contained
+from vectorplot.geometry.convex_hulls import convex_hulls
 from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
 from vectorplot.geometry.separating_planes import Surroundings, separations
 from vectorplot.scene.view import View
+from vectorplot.visibility.painter.bodies import outlined_items
 from vectorplot.visibility.painter.candidates import box_pairs
 from vectorplot.visibility.painter.face_pairs import APART, BEHIND, IN_FRONT, STRADDLING, Codes, face_relations
 from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, drawn_faces, image_faces
@@ -144,3 +147,46 @@ def demands(table: Codes) -> tuple[Ints, Ints]:
     """A table of priorities as demands: (d,) objects to be drawn before the objects (d,)."""
     before, after = np.nonzero((table == BEHIND) | (table == STRADDLING))
     return before, after
+
+
+def wholly_hidden(objects: Objects) -> Bools:
+    """(k,) the objects of which nothing is seen, because their outline lies inside that of one convex body in front of
+    them: they need not be drawn. Objects of which nothing is drawn anyway count as hidden.
+
+    Source: Glaeser, section 5.5, case 3; errata G5-02, G6-05.
+    """
+    view, faces, count = objects.view, objects.faces, len(objects)
+    corner_owner = np.repeat(objects.owner, np.diff(faces.offsets))
+    order = np.argsort(corner_owner, kind="stable")
+    order = order[np.searchsorted(corner_owner[order], 0) :]
+    first = np.searchsorted(corner_owner[order], np.arange(count + 1))
+    points = faces.points[:, order]
+    corner, starts = convex_hulls(points[:2].T, first)
+    outlines = points[:, corner]
+    hidden = np.diff(starts) == 0
+    convex = _convex(objects)
+    for one, two in box_pairs(objects.box, view.tolerance):
+        behind, front = np.concatenate([one, two]), np.concatenate([two, one])
+        use = convex[front]
+        behind, front = behind[use], front[use]
+        (inner, outer), ends = zip(*(_some(outlines, starts, which) for which in (behind, front)), strict=True)
+        within = np.flatnonzero(contained(inner, ends[0], outer, ends[1], tolerance=view.tolerance))
+        codes = which_first(objects, behind[within], front[within], critical=True)
+        hidden[behind[within[codes == BEHIND]]] = True
+    return np.asarray(hidden, dtype=np.bool_)
+
+
+def _convex(objects: Objects) -> Bools:
+    """(k,) the objects that are one closed convex item each, and hide."""
+    item = objects.view.face_item[objects.faces.source]
+    solid = outlined_items(objects.view, project_faces(objects.view))
+    least, most = np.full(len(objects), len(solid)), np.full(len(objects), -1)
+    owned = objects.owner >= 0
+    np.minimum.at(least, objects.owner[owned], item[owned])
+    np.maximum.at(most, objects.owner[owned], item[owned])
+    return np.asarray((least == most) & np.append(solid, False)[least])
+
+
+def _some(points: Floats, offsets: Ints, which: Ints) -> tuple[Floats, Ints]:
+    position, ends = corner_positions(offsets, which)
+    return points[:2, position], ends
