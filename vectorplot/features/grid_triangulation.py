@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.vectors import cross
 
 
 def average_normals(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = False) -> Floats:
@@ -38,16 +39,8 @@ def normals_among(points: Floats, around: Floats) -> Floats:
     arms = around - points
     total = np.zeros_like(points)
     for k in range(4):
-        total += _unit(_product(arms[k], arms[(k + 1) % 4]))
+        total += _unit(cross(arms[k], arms[(k + 1) % 4]))
     return _unit(total)
-
-
-def _product(a: Floats, b: Floats) -> Floats:
-    """(..., 3) vector products, without the overhead that numpy's own has on small arrays."""
-    result = np.empty_like(a)
-    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
-        result[..., k] = a[..., i] * b[..., j] - a[..., j] * b[..., i]
-    return result
 
 
 def _unit(vectors: Floats) -> Floats:
@@ -94,7 +87,7 @@ def other_diagonal(points: Floats, normals: Floats) -> Bools:
 def _deviation(points: Floats, normals: Floats, corners: tuple[int, int, int]) -> Floats:
     """(k,) sum of the angles between a triangle's normal and the normals at its corners."""
     a, b, c = (points[k] for k in corners)
-    face = _unit(_product(b - a, c - a))
+    face = _unit(cross(b - a, c - a))
     total = np.zeros(points.shape[1])
     for k in corners:
         total += np.arccos(np.clip(np.abs((face * normals[k]).sum(axis=-1)), 0.0, 1.0))

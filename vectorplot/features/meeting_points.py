@@ -10,6 +10,7 @@ from vectorplot.features.sheets import Sheet
 from vectorplot.features.tessellation import FREE
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.tolerance import ROUNDING
+from vectorplot.geometry.vectors import cross
 
 RESIDUAL = 1e-12
 """Part of the extent that the two points of a meeting may be apart."""
@@ -109,20 +110,20 @@ def _steps(one: Sheet, two: Sheet, a: Floats, b: Floats, points: tuple[Floats, F
     p, q = points
     n, m = one.normals(a), two.normals(b)
     middle = 0.5 * (p + q)
-    held = np.cross(n, m)
+    held = cross(n, m)
     origin = middle.copy()
     in_plane = bound.normal.any(axis=1)
     held[in_plane], origin[in_plane] = bound.normal[in_plane], bound.origin[in_plane]
     for sheet, at, normal, point, rails in ((one, a, n, p, bound.rail_one), (two, b, m, q, bound.rail_two)):
         on = np.flatnonzero(rails != FREE)
         if len(on):
-            held[on] = np.cross(normal[on], sheet.along_rails(at[on], rails[on]))
+            held[on] = cross(normal[on], sheet.along_rails(at[on], rails[on]))
             origin[on] = point[on]
     with np.errstate(all="ignore"):
         held /= np.sqrt((held * held).sum(axis=1, keepdims=True))
-        volume = (np.cross(n, m) * held).sum(axis=1)
+        volume = (cross(n, m) * held).sum(axis=1)
         heights = [((x - middle) * y).sum(axis=1, keepdims=True) for x, y in ((p, n), (q, m), (origin, held))]
-        x = heights[0] * np.cross(m, held) + heights[1] * np.cross(held, n) + heights[2] * np.cross(n, m)
+        x = heights[0] * cross(m, held) + heights[1] * cross(held, n) + heights[2] * cross(n, m)
         x = x / volume[:, None]
     # Where the planes are one there is no such point: the middle has to do.
     flat = ~(np.abs(volume) > TANGENT)
@@ -133,4 +134,4 @@ def _steps(one: Sheet, two: Sheet, a: Floats, b: Floats, points: tuple[Floats, F
 
 def sines(one: Sheet, two: Sheet, at_one: Floats, at_two: Floats) -> Floats:
     """(k,) sines of the angles between the tangent planes at places of both; NaN where there is none."""
-    return np.asarray(np.linalg.norm(np.cross(one.normals(at_one), two.normals(at_two)), axis=1))
+    return np.asarray(np.linalg.norm(cross(one.normals(at_one), two.normals(at_two)), axis=1))

@@ -13,6 +13,7 @@ from vectorplot.features.tessellation import FREE, Tessellation, edges_of, surfa
 from vectorplot.geometry.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+from vectorplot.geometry.vectors import cross
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Surface
 
@@ -135,7 +136,7 @@ class SurfaceSheet:
         along_u, along_v = self.surface.partials(*at)
         uu, uv, vv = self.surface.second_partials(*at)
         with np.errstate(all="ignore"):
-            product = np.cross(along_u, along_v)
+            product = cross(along_u, along_v)
             height = product / (product * frames[:, 2]).sum(axis=1, keepdims=True)
             bend = np.stack([(d * height).sum(axis=1) for d in (uu, uv, uv, vv)], axis=1).reshape(-1, 2, 2)
             flat = np.stack([np.einsum("kij,kj->ki", frames[:, :2], d) for d in (along_u, along_v)], axis=2)
@@ -247,7 +248,7 @@ class MeshSheet:
         for step in range(int(count.max(initial=0))):
             corners = own.points[own.triangles[by_face[first + np.minimum(step, count - 1)]]]
             sides = np.roll(corners, -1, axis=1) - corners
-            heights = (np.cross(sides, places[:, None, :3] - corners) * normal[:, None]).sum(axis=2)
+            heights = (cross(sides, places[:, None, :3] - corners) * normal[:, None]).sum(axis=2)
             zero = ZERO_OF_EXTENT * self.size[0] * np.linalg.norm(sides, axis=2)
             inside |= (heights >= -zero).all(axis=1) | (heights <= zero).all(axis=1)
         return inside
@@ -278,7 +279,7 @@ class MeshSheet:
         triangles = parts.corners[np.stack([first, first + step + 1, first + step + 2], axis=1)]
         face = parts.source[part]
         a, b, c = (mesh.vertices[triangles[:, k]] for k in range(3))
-        good = (np.cross(b - a, c - a) != 0.0).any(axis=1)
+        good = (cross(b - a, c - a) != 0.0).any(axis=1)
         if mesh.present is not None:
             good &= mesh.present[face]
         return triangles[good], face[good]
@@ -299,7 +300,7 @@ class MeshSheet:
         """Unit normals and points (t,3) of the planes: of the face where it is planar, else of the triangle."""
         triangles, faces = self._cut
         a, b, c = (self.mesh.vertices[triangles[:, k]] for k in range(3))
-        own = np.cross(b - a, c - a)
+        own = cross(b - a, c - a)
         own /= np.linalg.norm(own, axis=1, keepdims=True)
         origin = self.mesh.vertices[self.mesh.corners[self.mesh.offsets[faces]]]
         bent = self._is_bent[:, None]

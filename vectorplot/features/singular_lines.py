@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.features.curve_tracing import Tracing, curves_where_zero, samples, wrapped
 from vectorplot.features.surface_curves import SurfaceCurves, no_curves
 from vectorplot.geometry.mesh import Bools, Floats, Ints
-from vectorplot.geometry.vectors import dot
+from vectorplot.geometry.vectors import cross, dot
 from vectorplot.surfaces.surface import Domain, Surface, normals
 
 DEFAULT = Tracing()
@@ -88,8 +88,8 @@ class _SignedArea:
         n = self._normals(u, v)
         along_u, along_v = self.surface.partials(*home)
         uu, uv, vv = self.surface.second_partials(*home)
-        by_u = np.cross(uu, along_v) + np.cross(along_u, uv)
-        by_v = np.cross(uv, along_v) + np.cross(along_u, vv)
+        by_u = cross(uu, along_v) + cross(along_u, uv)
+        by_v = cross(uv, along_v) + cross(along_u, vv)
         return dot(by_u, n), dot(by_v, n)
 
     def _normals(self, u: Floats, v: Floats) -> Floats:

@@ -21,10 +21,16 @@ def dot(a: ArrayLike, b: ArrayLike) -> Floats:
 
 def cross(a: ArrayLike, b: ArrayLike) -> Floats:
     """The vector products (..., 3) of vectors in space; of vectors in the plane their third component (...)."""
-    a, b = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
-    if a.shape[-1] == 2:
-        return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
-    return np.asarray(np.cross(a, b), dtype=np.float64)
+    u, v = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
+    if u.shape[-1] == 2:
+        return np.asarray(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
+    # On small arrays numpy's own takes six times as long.
+    first = u[..., 1] * v[..., 2] - u[..., 2] * v[..., 1]
+    result = np.empty((*first.shape, 3))
+    result[..., 0] = first
+    result[..., 1] = u[..., 2] * v[..., 0] - u[..., 0] * v[..., 2]
+    result[..., 2] = u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
+    return result
 
 
 def length(vectors: ArrayLike) -> Floats:

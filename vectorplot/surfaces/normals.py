@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.geometry.mesh import Bools, Floats
+from vectorplot.geometry.vectors import cross
 from vectorplot.surfaces.surface import Domain, Surface
 
 # A cross product below this part of what the second derivatives allow is that of a pole.
@@ -27,7 +28,7 @@ def unit_normals(surface: Surface, u: Floats, v: Floats) -> Floats:
     """
     u, v = np.broadcast_arrays(np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64))
     along_u, along_v = surface.partials(u, v)
-    product = np.asarray(np.cross(along_u, along_v), dtype=np.float64)
+    product = np.asarray(cross(along_u, along_v), dtype=np.float64)
     suspect = _small(product, along_u, along_v, surface.domain)
     if suspect.any():
         product[suspect] = _with_limits(surface, u[suspect], v[suspect], product[suspect])
@@ -60,14 +61,14 @@ def _turning(surface: Surface, u: Floats, v: Floats, unit: Floats) -> tuple[Floa
     """Derivatives (..., 3) of the unit normals by u and by v, and (...,) where they are lost at a pole."""
     along_u, along_v = surface.partials(u, v)
     uu, uv, vv = surface.second_partials(u, v)
-    product = np.cross(along_u, along_v)
+    product = cross(along_u, along_v)
     vanished = _length(product) <= _POLE * _bound(surface.domain, (along_u, along_v), (uu, uv, vv))
     size = np.abs(product).max(axis=-1, keepdims=True, initial=0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
         inverse = 1.0 / (np.linalg.norm(product / size, axis=-1, keepdims=True) * size)
         turned = [
             np.asarray((d - (d * unit).sum(axis=-1, keepdims=True) * unit) * inverse)
-            for d in (np.cross(uu, along_v) + np.cross(along_u, uv), np.cross(uv, along_v) + np.cross(along_u, vv))
+            for d in (cross(uu, along_v) + cross(along_u, uv), cross(uv, along_v) + cross(along_u, vv))
         ]
     return turned[0], turned[1], np.asarray(vanished, dtype=np.bool_)
 
@@ -88,7 +89,7 @@ def _with_limits(surface: Surface, u: Floats, v: Floats, product: Floats) -> Flo
     a = _inwards(u, domain.u_start, domain.u_end)
     b = _inwards(v, domain.v_start, domain.v_end)
     towards_u, towards_v = a * width * uu + b * height * uv, a * width * uv + b * height * vv
-    limit = np.cross(towards_u, along_v) + np.cross(along_u, towards_v)
+    limit = cross(towards_u, along_v) + cross(along_u, towards_v)
     bound = _bound(domain, (along_u, along_v), (uu, uv, vv))
     vanished = _length(product) <= _POLE * bound
     gone = vanished & (_length(limit) <= _POLE * bound)

@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats
+from vectorplot.geometry.vectors import cross
 
 
 @dataclass(frozen=True)
@@ -84,7 +85,7 @@ class ImplicitSurface(Protocol):
 def normals(surface: Surface, u: Floats, v: Floats) -> Floats:
     """(..., 3) cross products of the partials, not normalised; zero at poles and singular points."""
     along_u, along_v = surface.partials(u, v)
-    return np.cross(along_u, along_v)
+    return cross(along_u, along_v)
 
 
 def is_hole(points: Floats) -> Bools:

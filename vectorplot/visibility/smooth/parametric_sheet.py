@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.features.curve_tracing import wrapped
 from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.vectors import cross
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.visibility.smooth.sheet import dot, solved
@@ -66,7 +67,7 @@ class ParametricSheet:
         """(k,3) the places that small tangential steps lead to."""
         u, v = self.parameters(places)
         along_u, along_v = self.surface.partials(u, v)
-        step = solved(along_u, along_v, np.cross(along_u, along_v), steps)
+        step = solved(along_u, along_v, cross(along_u, along_v), steps)
         step[:, 2] = 0.0
         return places + step
 

@@ -7,6 +7,7 @@ from typing import Protocol
 import numpy as np
 
 from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.vectors import cross
 
 
 class Sheet(Protocol):
@@ -91,9 +92,9 @@ def dot(a: Floats, b: Floats) -> Floats:
 
 def solved(a: Floats, b: Floats, c: Floats, right: Floats) -> Floats:
     """(k,3) the x with x0 a + x1 b + x2 c = right, for rows of vectors (k,3); not finite where they lie in a plane."""
-    bc = np.cross(b, c)
+    bc = cross(b, c)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         factor = 1.0 / dot(a, bc)
         return np.stack(
-            [dot(right, bc) * factor, dot(right, np.cross(c, a)) * factor, dot(right, np.cross(a, b)) * factor], axis=1
+            [dot(right, bc) * factor, dot(right, cross(c, a)) * factor, dot(right, cross(a, b)) * factor], axis=1
         )
