@@ -401,3 +401,20 @@ print(*(name for name in sys.modules if name.split(".")[0] in ("cairo", "scipy",
 """
     result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert result.stdout.split() == []
+
+
+@pytest.mark.capability("G8.5-coloured-light")
+def test_coloured_light_colours_what_it_falls_on_and_its_highlights():
+    red, cyan = (replace(SUN, colour=colour, intensity=1.0) for colour in ("#ff0000", "#00ffff"))
+    item = sphere("gray", "plastic")
+    white = render(vp.Scene((item,), (SUN,)), CAMERA, size=SIZE).pixels.astype(int)
+    in_red = render(vp.Scene((item,), (red,)), CAMERA, size=SIZE).pixels.astype(int)
+    both = render(vp.Scene((item,), (red, cyan)), CAMERA, size=SIZE).pixels.astype(int)
+    ball = (white != 255).any(axis=2)
+    assert (in_red[..., 0] == white[..., 0])[ball].all()
+    assert (in_red[..., 1] <= white[..., 1])[ball].all()
+    brightest = np.unravel_index(np.where(ball, white[..., 0], 0).argmax(), ball.shape)
+    assert in_red[brightest][0] > in_red[brightest][1] + 100, "the highlight has the light's colour"
+    assert (both == white)[ball].all(), "red and cyan make white"
+    with pytest.raises(InputError, match="mauve"):
+        render(vp.Scene((item,), (replace(SUN, colour="mauve"),)), CAMERA, size=SIZE)

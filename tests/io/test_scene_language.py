@@ -255,14 +255,14 @@ def test_what_is_said_about_the_scene():
         page A3 landscape margin 12.5
         camera eye 1, -2, 3 target 0 0 1 up 0 1 1 twist 10 field_of_vision 40
         light SUN direction 3 -6 8
-        light LAMP position 1 2 3 intensity 0.75
+        light LAMP position 1 2 3 intensity 0.75 colour lightyellow
         light position 0 0 9""")
     assert scene.title == 'A town, "seen" from the hill' and scene.background == "lightblue"
     assert scene.page == Page(420, 297, 12.5)
     assert scene.camera == Camera((1, -2, 3), (0, 0, 1), up=(0, 1, 1), twist_deg=10, fov_deg=40)
     assert scene.lights == (
         Light((3, -6, 8), parallel=True, name="SUN"),
-        Light((1, 2, 3), intensity=0.75, name="LAMP"),
+        Light((1, 2, 3), intensity=0.75, name="LAMP", colour="lightyellow"),
         Light((0, 0, 9)),
     )
 
@@ -432,6 +432,7 @@ CONE = "CONE green revolution solid meridian 4 0 0 , 0 0 7 order 30"
         ("page 0x10", "page '0x10': expected"),
         ("light SUN 1 2 3", "light SUN: expected 'position' or 'direction', got '1'"),
         ("light SUN direction 0 0 0", "light SUN: the direction is zero"),
+        ("light SUN position 0 0 9 colour mauve", "light SUN: expected a colour, got 'mauve'"),
         ("light SUN position 0 0 9 intensity 3", "light SUN: intensity 3 must lie between 0 and 1"),
         ("title Town", "expected a string in quotes after 'title', got 'Town'"),
         ('title "Town', 'a string lacks its closing "'),

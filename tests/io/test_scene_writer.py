@@ -94,6 +94,7 @@ lights = st.builds(
     parallel=st.booleans(),
     intensity=st.one_of(st.none(), st.floats(0, 1)),
     name=name,
+    colour=st.sampled_from(["white", "red", "lightcyan", "#102030"]),
 )
 pages = st.builds(Page, st.floats(30, 2000), st.floats(30, 2000), st.floats(0, 14))
 scenes = st.builds(

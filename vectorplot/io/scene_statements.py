@@ -7,7 +7,7 @@ from typing import Any
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import VIEWS, Camera
-from vectorplot.io.scene_words import Words
+from vectorplot.io.scene_words import COLOURS, Words
 from vectorplot.scene.paper import sheet_size
 from vectorplot.scene.scene import Light, Page
 
@@ -50,19 +50,26 @@ def read_camera(words: Words, at: int) -> tuple[Camera, int]:
         words.fail(start, error.cause)
 
 
+_LIGHT_WORDS = ("position", "direction", "intensity", "colour")
+
+
 def read_light(words: Words, at: int) -> tuple[Light, int]:
     """The light that the words from ``light`` on describe, and the word behind them."""
     start = at
     at += 1
     name, owner = "", "light: "
-    if words.words[at] not in ("position", "direction", "intensity", ""):
+    if words.words[at] not in (*_LIGHT_WORDS, ""):
         name = words.string(at)
         owner = f"light {name}: "
         at += 1
     place: tuple[float, float, float] | None = None
     parallel = False
     intensity: float | None = None
-    while (word := words.words[at]) in ("position", "direction", "intensity"):
+    colour = "white"
+    while (word := words.words[at]) in _LIGHT_WORDS:
+        if word == "colour":
+            colour, at = _light_colour(words, at + 1, owner)
+            continue
         if word == "intensity":
             intensity = words.number(at + 1, owner, word)
             if not 0.0 <= intensity <= 1.0:
@@ -77,7 +84,15 @@ def read_light(words: Words, at: int) -> tuple[Light, int]:
             words.fail(start, f"{owner}the direction is zero")
     if place is None:
         words.fail(at, f"{owner}expected 'position' or 'direction', got {words.shown(at)}")
-    return Light(place, parallel, intensity, name), at
+    return Light(place, parallel, intensity, name, colour), at
+
+
+def _light_colour(words: Words, at: int, owner: str) -> tuple[str, int]:
+    """The colour at a word, a known one or one in quotes, and the word behind it."""
+    word = words.words[at]
+    if word not in COLOURS and not word.startswith('"'):
+        words.fail(at, f"{owner}expected a colour, got {words.shown(at)}")
+    return words.string(at), at + 1
 
 
 def read_page(words: Words, at: int) -> tuple[Page, int]:

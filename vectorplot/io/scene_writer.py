@@ -79,6 +79,8 @@ def _light(light: Light) -> str:
     words.append(f"{'direction' if light.parallel else 'position'} {_numbers(light.position)}")
     if light.intensity is not None:
         words.append(f"intensity {float(light.intensity)!r}")
+    if light.colour != "white":
+        words.append(f"colour {_colour(light.colour)}")
     return " ".join(words)
 
 

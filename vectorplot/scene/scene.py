@@ -28,12 +28,14 @@ class Material:
 
 @dataclass(frozen=True)
 class Light:
-    """A light source at a point, or with parallel rays coming from the direction ``position``; intensity 0 to 1."""
+    """A light source at a point, or with parallel rays coming from the direction ``position``; intensity 0 to 1; colour:
+    white, a palette or #rrggbb."""
 
     position: tuple[float, float, float]
     parallel: bool = False
     intensity: float | None = None
     name: str = ""
+    colour: str = "white"
 
 
 @dataclass(frozen=True, eq=False)

@@ -87,8 +87,9 @@ def shaded_points(triangles: SceneTriangles, found: VisiblePoints, lighting: Lig
     to_eye = towards(places, lighting.eye)
     faces, normals = _normals(triangles, found, to_eye)
     item = triangles.item[found.triangle]
-    strength = intensities(lighting.lights)
-    total = np.zeros(len(found))
+    strength = light_colours(lighting.lights)
+    # White light needs one number, coloured light one for red, green and blue each.
+    total = np.zeros((strength.shape[1], len(found)))
     for number, light in enumerate(lighting.lights):
         to_light = towards(places, homogeneous_light(light))
         alpha = np.einsum("ij,ij->i", normals, to_light)
@@ -96,11 +97,28 @@ def shaded_points(triangles: SceneTriangles, found: VisiblePoints, lighting: Lig
         if lighting.blocked:
             dark = lighting.blocked[number](places, faces, found.triangle)
             share[dark] = _dark_shares(lighting, item[dark], alpha[dark])
-        total += strength[number] * share
+        total += strength[number][:, None] * share
     low, high = lighting.depths
-    shade = shades(total[None], [1.0], depth_cue(places[:, 2], low, high - low))
-    level = np.rint(shade * (COLOUR_MAP - 1)).astype(np.intp)
-    return ShadedPoints(places, faces, lighting.palettes[lighting.palette[item], level])
+    cue = depth_cue(places[:, 2], low, high - low)
+    colours = np.empty((len(found), 3), dtype=np.uint8)
+    for channel in range(3):
+        if channel < len(total):
+            shade = shades(total[channel : channel + 1], [1.0], cue)
+            level = np.rint(shade * (COLOUR_MAP - 1)).astype(np.intp)
+        colours[:, channel] = lighting.palettes[lighting.palette[item], level, channel]
+    return ShadedPoints(places, faces, colours)
+
+
+def light_colours(lights: Sequence[Light]) -> Floats:
+    """(l, 3) how much red, green and blue the lights send, their intensities included; (l, 1) where all are white.
+
+    Errors: InputError for a colour that is none. Source: Glaeser, sections 4.5 and 8.5, note on coloured light sources.
+    """
+    strength = intensities(lights)
+    if all(light.colour == "white" for light in lights):
+        return strength[:, None]
+    sent = np.array([palette(light.colour, COLOUR_MAP)[-1] for light in lights]) / 255.0
+    return np.asarray(strength[:, None] * sent)
 
 
 def _normals(triangles: SceneTriangles, found: VisiblePoints, to_eye: Floats) -> tuple[Floats, Floats]:
