@@ -34,7 +34,7 @@ MOST_ROUNDS = 7
 """Bent polygons are halved at most so many times in each direction; what then still reaches beyond the border of total
 reflection is left out."""
 
-MOST_TRIANGLES = 1 << 19
+MOST_TRIANGLES = 1 << 17
 """No bent polygons are halved any more when there are so many pieces."""
 
 
@@ -142,27 +142,29 @@ def _behind_faces(
         here = np.array([0, view.face_sizes[solid.face[back]]], dtype=np.intp)
         position, _ = corner_positions(view.offsets, solid.face[[back]])
         outline = Soup(view.points[:, view.corners[position]], here, solid.face[[back]])
-        beam = _cut(rest, _beam(view, solid, front, back, outline.points), view.tolerance)
+        planes, leaves = _beam(view, solid, front, back, outline.points)
+        beam = _cut(rest, planes, view.tolerance)
         if len(beam):
             panes, window = _panes(view, _passage(solid, [front]), outline, painted, windows, tolerance)
-            seen = _ordered(view, _passage(solid, [front, back]), beam, panes, np.arange(len(panes)), tolerance)
+            seen = _ordered(view, leaves, beam, panes, np.arange(len(panes)), tolerance)
             which = window[seen.window]
             parts.append(replace(seen, window=which, pane=painted.source[which]))
     return parts
 
 
-def _beam(view: View, solid: Solid, front: int, back: int, outline: Floats) -> Floats:
-    """(4,k) planes about all that rays may meet that leave by the face with some outline (3,k).
+def _beam(view: View, solid: Solid, front: int, back: int, outline: Floats) -> tuple[Floats, Passage]:
+    """(4,k) planes about all that rays may meet that leave by the face with some outline (3,k), and their way there.
 
     Towards total reflection rays leave along the face: they are followed up to the last one of a grid of rays that
     leaves at all.
     """
     points = _grid(outline)
     virtual, seen = virtual_points(view, _passage(solid, [front]), points)
-    rays = traced(view, _passage(solid, [front, back]), view.image_of(virtual))
+    leaves, image = _passage(solid, [front, back]), view.image_of(virtual)
+    rays = traced(view, leaves, image)
     good = seen & rays.passes
     if not good.any():
-        return np.array([[0.0], [0.0], [0.0], [1.0]])
+        return np.array([[0.0], [0.0], [0.0], [1.0]]), leaves
     normal, constant = solid.planes[:3, back], solid.planes[3, back]
     beyond = np.append(normal, constant + TOUCHING * view.tolerance)[:, None]
     along = np.roll(outline, -1, axis=1) - outline
@@ -175,7 +177,7 @@ def _beam(view: View, solid: Solid, front: int, back: int, outline: Floats) -> F
     lean += LOOSE * (1.0 + np.abs(lean))
     sides = planes_of(lean * normal[:, None] - outwards, outline)
     sides[3] -= TOUCHING * view.tolerance
-    return np.concatenate([beyond, sides], axis=1)
+    return np.concatenate([beyond, sides], axis=1), replace(leaves, guides=image[:, good])
 
 
 def _grid(outline: Floats) -> Floats:
@@ -242,12 +244,12 @@ def _bent(view: View, passage: Passage, soup: Soup, windows: Floats, tolerance: 
         sides = 0.5 * (triangles + np.roll(triangles, -1, axis=1))
         points, seen = virtual_points(view, passage, np.concatenate([triangles, sides], axis=1).reshape(3, -1))
         points, seen = points.reshape(3, 6, -1), seen.reshape(6, -1)
-        off, near = _bends(view, points, windows)
+        off, near = _bends(view, points, seen, windows)
         partly = ~seen.all(axis=0)
         hopeful = seen.any(axis=0) | (number < BLIND_ROUNDS)
-        halved = (partly & hopeful) | (~partly & near & (off > tolerance))
+        halved = near & ((partly & hopeful) | (~partly & (off > tolerance)))
         halved &= (number < MOST_ROUNDS) & (4 * len(source) <= MOST_TRIANGLES)
-        fine = ~halved & seen[:3].all(axis=0) & (near | partly)
+        fine = ~halved & seen[:3].all(axis=0) & near
         done.append((points[:, :3, fine], source[fine]))
         triangles, source = _quartered(triangles[:, :, halved], sides[:, :, halved]), np.tile(source[halved], 4)
         if not len(source):
@@ -258,14 +260,20 @@ def _bent(view: View, passage: Passage, soup: Soup, windows: Floats, tolerance: 
     return Soup(corners.transpose(0, 2, 1).reshape(3, -1), np.arange(0, 3 * count + 1, 3), sources)
 
 
-def _bends(view: View, points: Floats, windows: Floats) -> tuple[Floats, Bools]:
+def _bends(view: View, points: Floats, seen: Bools, windows: Floats) -> tuple[Floats, Bools]:
     """How far the middles of the sides of triangles (3,6,n), corners and then middles, are off the straight lines in
-    the image, and whether the triangles may be seen in windows (4,w)."""
+    the image, and whether the triangles may be seen in windows (4,w).
+
+    Of triangles that are seen (6,n) only partly, what is not is taken to be no farther off than they are wide.
+    """
     image = view.image_of(points.reshape(3, -1)).reshape(2, 6, -1)
     off = image[:, 3:] - 0.5 * (image[:, :3] + np.roll(image[:, :3], -1, axis=1))
     bend = np.sqrt((off * off).sum(axis=0)).max(axis=0)
-    low, high = image.min(axis=1) - bend, image.max(axis=1) + bend
-    return bend, near_windows(np.stack([low[0], high[0], low[1], high[1]]), windows)
+    low = np.where(seen, image, np.inf).min(axis=1)
+    high = np.where(seen, image, -np.inf).max(axis=1)
+    margin = np.where(seen.all(axis=0), bend, (high - low).max(axis=0))
+    box = np.stack([low[0] - margin, high[0] + margin, low[1] - margin, high[1] + margin])
+    return bend, near_windows(box, windows) | ~seen.any(axis=0)
 
 
 def _fans(soup: Soup) -> tuple[Floats, Ints]:

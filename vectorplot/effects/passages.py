@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from vectorplot.effects.refraction import refracted
+from vectorplot.effects.refraction import seen_in_surface
 from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.viewing import basis_of
 from vectorplot.scene.view import View
@@ -32,6 +32,9 @@ LONGEST_STEP = 0.3
 TOUCHING = 2.0
 """Points up to so many tolerances before the last surface count as behind it."""
 
+PAIRS_AT_ONCE = 1 << 20
+"""Pairs of points and guides compared at once."""
+
 MET = 1e-10
 """A ray that misses its point by less than this part of the extent meets it."""
 
@@ -39,11 +42,13 @@ MET = 1e-10
 @dataclass(frozen=True, eq=False)
 class Passage:
     """Plane surfaces that sight rays pass one after the other: normal, point (3,s), the normals pointing the way the
-    rays go, constant (s,) of the refraction at each, for rays in that direction."""
+    rays go, constant (s,) of the refraction at each, for rays in that direction; guides (2,g): images of rays that pass
+    them, at which the search for others may begin."""
 
     normal: Floats
     point: Floats
     constant: Floats
+    guides: Floats = field(default_factory=lambda: np.zeros((2, 0)))
 
     def __len__(self) -> int:
         return len(self.constant)
@@ -63,12 +68,13 @@ class Rays:
 
 
 def sight_rays(view: View, image: Floats) -> tuple[Floats, Floats]:
-    """Starting points and directions (3,n) of the rays through points (2,n) of the image, one unit of depth long."""
+    """Starting points and unit directions (3,n) of the rays through points (2,n) of the image."""
     if view.eye is None:
         start = np.concatenate([image + view.target[:2, None], np.zeros((1, image.shape[1]))])
         return start, np.tile([[0.0], [0.0], [-1.0]], image.shape[1])
-    direction = np.concatenate([image / view.focus, -np.ones((1, image.shape[1]))])
-    return np.tile(view.eye[:, None], image.shape[1]), direction
+    x, y = image / view.focus
+    away = -1.0 / np.sqrt(1.0 + x * x + y * y)
+    return np.tile(view.eye[:, None], image.shape[1]), np.stack([-x * away, -y * away, away])
 
 
 def traced(view: View, passage: Passage, image: Floats) -> Rays:
@@ -93,11 +99,18 @@ def traced(view: View, passage: Passage, image: Floats) -> Rays:
             path = path + step / index
         else:
             entry = place
-        turned, total = refracted(direction.T, normal, passage.constant[number])
-        direction = turned.T
+        direction, total = _refracted(direction, normal, float(passage.constant[number]))
         passes &= ~total
         index *= float(passage.constant[number])
     return Rays(entry, place, direction, path, passes)
+
+
+def _refracted(direction: Floats, normal: Floats, constant: float) -> tuple[Floats, Bools]:
+    """What refraction.refracted does, for unit directions (3,n) towards the side of one unit normal (3,), many times
+    as fast; directions of totally reflected rays mean nothing."""
+    along = (direction - (normal @ direction) * normal[:, None]) / constant
+    square = 1.0 - (along[0] * along[0] + along[1] * along[1] + along[2] * along[2])
+    return along + np.sqrt(np.maximum(square, 0.0)) * normal[:, None], square < 0.0
 
 
 def virtual_points(view: View, passage: Passage, points: Floats) -> tuple[Floats, Bools]:
@@ -110,17 +123,17 @@ def virtual_points(view: View, passage: Passage, points: Floats) -> tuple[Floats
     Source: Glaeser, section 6.6, equations 4 and 5 for one plane surface and for plates.
     """
     axes = basis_of(passage.normal[:, -1])
-    image = view.image_of(points)
+    image = _guesses(view, passage, axes, points)
     miss, rays, _ = _missed(view, passage, axes, points, image)
     off = np.where(rays.passes, np.hypot(*miss), np.inf)
     share = np.ones(points.shape[1])
     going = np.arange(points.shape[1])
     for _ in range(MOST_STEPS):
         here, there = image[:, going], points[:, going]
-        miss, _, _ = _missed(view, passage, axes, there, here)
+        off_here = miss[:, going]
         across, _, _ = _missed(view, passage, axes, there, here + ACROSS)
         along, _, _ = _missed(view, passage, axes, there, here + ALONG)
-        step = _solved((across - miss) / DIFFERENCE, (along - miss) / DIFFERENCE, -miss)
+        step = _solved((across - off_here) / DIFFERENCE, (along - off_here) / DIFFERENCE, -off_here)
         length = np.sqrt((step * step).sum(axis=0))
         longest = np.inf if view.eye is None else LONGEST_STEP
         tried = here + step * np.minimum(share[going], longest / np.maximum(length, LONGEST_STEP))
@@ -128,7 +141,7 @@ def virtual_points(view: View, passage: Passage, points: Floats) -> tuple[Floats
         # A step that leads farther off, or beyond total reflection, is halved.
         reached = np.where(rays.passes, np.hypot(*after), np.inf)
         better = (reached < off[going]) | np.isinf(off[going]) | (length <= SETTLED)
-        image[:, going] = np.where(better, tried, here)
+        image[:, going], miss[:, going] = np.where(better, tried, here), np.where(better, after, off_here)
         off[going] = np.where(better, reached, off[going])
         share[going] = np.where(better, np.minimum(2.0 * share[going], 1.0), 0.5 * share[going])
         going = going[(length > SETTLED) & (share[going] > SMALLEST_SHARE)]
@@ -138,8 +151,31 @@ def virtual_points(view: View, passage: Passage, points: Floats) -> tuple[Floats
     behind = left * (passage.normal[:, -1] @ rays.direction) >= -TOUCHING * view.tolerance
     seen = rays.passes & (np.abs(miss).max(axis=0) <= MET) & behind
     sight = sight_rays(view, image)[1]
-    sight = sight / np.sqrt((sight * sight).sum(axis=0))
     return rays.entry + (rays.path + left / float(np.prod(passage.constant))) * sight, seen
+
+
+def _guesses(view: View, passage: Passage, axes: Floats, points: Floats) -> Floats:
+    """(2,n) images of rays that come near to points, or meet them: through one surface the rays are known; otherwise of
+    the nearest guides, and of the straight line where there are none."""
+    count = passage.guides.shape[1]
+    if view.eye is not None and len(passage) == 1:
+        normal, corner = passage.normal[:, 0], passage.point[:, 0]
+        below = points - np.minimum(normal @ (points - corner[:, None]), 0.0) * normal[:, None]
+        return view.image_of(seen_in_surface(view.eye, below.T, -normal, corner, float(passage.constant[0])).T)
+    if not count or view.eye is None:
+        return view.image_of(points)
+    rays = traced(view, passage, passage.guides)
+    normal = passage.normal[:, -1]
+    rate = axes[:2] @ (rays.direction / (normal @ rays.direction))
+    start, height = axes[:2] @ rays.place, normal @ rays.place
+    nearest = np.empty(points.shape[1], dtype=np.intp)
+    for low in range(0, points.shape[1], PAIRS_AT_ONCE // count + 1):
+        some = slice(low, low + PAIRS_AT_ONCE // count + 1)
+        rise = (normal @ points[:, some])[:, None] - height
+        place = axes[:2] @ points[:, some]
+        off = [start[k] + rate[k] * rise - place[k][:, None] for k in (0, 1)]
+        nearest[some] = (off[0] * off[0] + off[1] * off[1]).argmin(axis=1)
+    return np.asarray(passage.guides[:, nearest])
 
 
 def _missed(view: View, passage: Passage, axes: Floats, points: Floats, image: Floats) -> tuple[Floats, Rays, Floats]:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats
+from vectorplot.geometry.tolerance import ROUNDING
 from vectorplot.geometry.vectors import normalize
 
 MOST_STEPS = 100
@@ -113,12 +114,14 @@ def seen_in_surface(eye: ArrayLike, points: ArrayLike, normal: ArrayLike, on_sur
     normal (3,) points to the eye's side; on_surface (3,): a point of the plane; c: of rays from the eye into the
     material.
     Errors: as of tangents_of_rays.
-    Degenerate: as there.
+    Degenerate: as there; points above the surface by no more than rounding are in it.
     Source: Glaeser, section 6.6, figure 12 (the swimming pool).
     """
     n = normalize(normal)
     e, p, origin = (np.asarray(x, dtype=np.float64) for x in (eye, points, on_surface))
     high, deep = (e - origin) @ n, -((p - origin) @ n)
+    noise = ROUNDING * max(float(np.abs(x).max(initial=0.0)) for x in (e, p, origin))
+    deep = np.where((deep < 0.0) & (deep >= -noise), 0.0, deep)
     arm = p - e
     along = arm + (high + deep)[:, None] * n
     far = np.sqrt((along * along).sum(axis=1))
