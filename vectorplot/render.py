@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Literal
@@ -57,6 +57,7 @@ def render(
     *,
     size: tuple[int, int] = SIZE,
     fit: bool = True,
+    lights: Sequence[Light] | None = None,
     shadows: Literal["none", "buffer", "trapezoid", "exact"] = "none",
     shadow_size: int = 1024,
     shadow_bits: int = 32,
@@ -70,11 +71,12 @@ def render(
     """The scene as a picture of pixels: shaded faces, and smooth surfaces with their true normals.
 
     camera: that of the scene where None, else default_camera. size: columns and rows. fit: the picture fills the
-    raster, otherwise the camera's field of vision is its height. shadows: cast by the scene's lights, found with shadow
-    buffers of shadow_size x shadow_size texels of shadow_bits bits, plain ones or such that show most of what is near
-    the eye, or exactly. samples: every pixel is the mean of samples x samples ones. crease_angle_deg: faces that meet
-    at less look round. lines: words of LineKind, drawn over the picture with exact hidden lines. background: a
-    palette, a plain colour or #rrggbb. progress(stage, fraction) and explain(report) are called while it works.
+    raster, otherwise the camera's field of vision is its height. lights: in place of those of the scene. shadows: of
+    these lights, found with shadow buffers of shadow_size x shadow_size texels of shadow_bits bits, plain ones or such
+    that show most of what is near the eye, or exactly. samples: every pixel is the mean of samples x samples ones.
+    crease_angle_deg: faces that meet at less look round. lines: words of LineKind, drawn over the picture with exact
+    hidden lines. background: a palette, a plain colour or #rrggbb. progress(stage, fraction) and explain(report) are
+    called while it works.
     Errors: InputError for unknown words and colours, impossible cameras, and sizes out of range.
     Degenerate: an empty scene gives the background. Where the scene reaches behind the eye, or more than 60 degrees off
     the principal ray, a fitted picture shows the camera's field of vision. A scene without lights is lit from the eye's
@@ -83,6 +85,7 @@ def render(
     """
     kinds = tuple(dict.fromkeys(lines))
     _check(size, shadows, samples, crease_angle_deg, kinds)
+    scene = scene if lights is None else replace(scene, lights=tuple(lights))
     camera = camera or scene.camera or default_camera(scene)
     walk = Walk(plan_render(scene, shadows, bool(kinds)), explain, progress)
     fine = (size[0] * samples, size[1] * samples)
@@ -94,9 +97,9 @@ def render(
     system = raster_system(camera_in_view(view, camera), *fine)
     if fit:
         system = fitted(system, triangles.points, *fine)
-    lights = view_lights(view, scene.lights)
-    blocked = _blocked(walk, scene, triangles, lights, system, fine, shadows, shadow_size, shadow_bits)
-    lighting = lighting_of(view, scene.items, lights, blocked)
+    here = view_lights(view, scene.lights)
+    blocked = _blocked(walk, scene, triangles, here, system, fine, shadows, shadow_size, shadow_bits)
+    lighting = lighting_of(view, scene.items, here, blocked)
     opacity = np.array([item.material.opacity for item in scene.items])
     mirror = np.array([item.material.word == "mirror" for item in scene.items], dtype=np.bool_)
     paper = palette(background or scene.background or BACKGROUND)[-1].astype(np.float64)

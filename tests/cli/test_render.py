@@ -37,6 +37,15 @@ def test_the_camera_is_that_of_the_options(cube, tmp_path):
     assert len(np.unique(front[front < 255])) < 4, "one face, straight on"
 
 
+def test_lamps_of_the_user_replace_those_of_the_scene(cube, tmp_path):
+    pictures = []
+    for number, options in enumerate(([], ["--lights", "5,-9,9"], ["--lights", "-5,-9,9,0.4", "--shadows", "buffer"])):
+        out = tmp_path / f"{number}.png"
+        assert run(["render", str(cube), "-o", str(out), "--size", "80x60", *options]) == 0
+        pictures.append(out.read_bytes())
+    assert len(set(pictures)) == 3
+
+
 def test_explain_tells_the_stages_that_ran(cube, tmp_path, capsys):
     options = ["--explain", "--lines", "crease", "--size", "40x30", "--background", "#203040"]
     assert run(["render", str(cube), "-o", str(tmp_path / "cube.png"), *options]) == 0

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.options import KINDS, at_least, format_of, kinds, pixels
+from vectorplot.cli.options import KINDS, at_least, format_of, kinds, light, pixels
 from vectorplot.cli.picture import make_picture
 from vectorplot.cli.view import CAMERA_OPTIONS, CameraOptions, camera_from, with_options
 
@@ -26,6 +26,13 @@ SHADOWS = ("none", "buffer", "trapezoid", "exact")
 @with_options(*CAMERA_OPTIONS)
 @click.option("--size", type=pixels, default="800x600", metavar="WxH", help="Columns and rows of pixels.")
 @click.option("--fit/--no-fit", default=True, help="Fill the picture, or keep the camera's scale.")
+@click.option(
+    "--lights",
+    type=light,
+    multiple=True,
+    metavar="X,Y,Z[,I]",
+    help="Lamp at a point, with an intensity from 0 to 1, in place of the lights of the scene; repeat it for more.",
+)
 @click.option("--shadows", type=click.Choice(SHADOWS), default="none", help="How shadows are found.")
 @click.option("--shadow-size", type=click.IntRange(8, 16384), default=1024, metavar="N", help="Texels along a map.")
 @click.option("--shadow-bits", type=click.Choice(["8", "16", "32"]), default="32", help="Of a depth in a shadow map.")
@@ -52,6 +59,7 @@ def render(scene_file: str, out: str, format_: str | None, quiet: bool, explain:
             camera_from(look, scene),
             size=options["size"],
             fit=options["fit"],
+            lights=options["lights"] or None,
             shadows=options["shadows"],
             shadow_size=options["shadow_size"],
             shadow_bits=int(options["shadow_bits"]),
