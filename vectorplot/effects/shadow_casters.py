@@ -19,14 +19,13 @@ class Casters:
     """Convex things that cast shadows.
 
     volumes: the planes of what each keeps dark: the cone of rays through its outline, as far as it lies behind all its
-    faces; item (k,); solid (k,): a convex solid, which never shadows itself; face (g,): the faces of the view it shows
-    the light, caster (g,), ascending: whose they are.
+    faces; item (k,): of the scene; face (g,): the faces of the view that they show the light, caster (g,), ascending:
+    whose they are. No face of a convex body lies behind all others that are lit: the body never shadows its outside.
     Source: Glaeser, section 6.3, figure 5.
     """
 
     volumes: PlaneBundles
     item: Ints
-    solid: Bools
     face: Ints
     caster: Ints
 
@@ -54,10 +53,8 @@ def shadow_casters(
     item, owner = np.unique(view.face_item[of_solid], return_inverse=True)
     face = np.concatenate([of_solid, alone])
     caster = np.concatenate([owner, len(item) + np.arange(len(alone))])
-    count = len(item) + len(alone)
-    solid = np.arange(count) < len(item)
     volumes = _volumes(view, planes, system, facing, of_solid, alone, caster)
-    return Casters(volumes, np.concatenate([item, view.face_item[alone]]), solid, face, caster)
+    return Casters(volumes, np.concatenate([item, view.face_item[alone]]), face, caster)
 
 
 def _near_light(view: View, system: LightSystem) -> Bools:

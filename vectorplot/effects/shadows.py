@@ -49,12 +49,18 @@ class Receivers:
 
 
 def cast_shadows(
-    view: View, lights: Sequence[Light], *, casters: Bools | None = None, projected: ProjectedFaces | None = None
+    view: View,
+    lights: Sequence[Light],
+    *,
+    casters: Bools | None = None,
+    receivers: Bools | None = None,
+    projected: ProjectedFaces | None = None,
 ) -> Shadows:
     """The shadows of grade 1, light by light, on the faces that can be seen and are lit on the side that is seen.
 
-    casters (i,): the items that cast shadows (None: those that occlude). Where every point of a face is in the shadow
-    of one thing, the others that shadow it from this light are left out.
+    casters (i,): the items that cast shadows (None: those that occlude); receivers (f,): the faces that they may fall
+    on (None: all). Where every point of a face is in the shadow of one thing, the others that shadow it from this light
+    are left out.
     Errors: InputError for lights out of range, or more than MOST_LIGHTS of them.
     Degenerate: faces that the light grazes, and dark sides, have no shadows; what touches a face or lies in its plane
     casts none on it.
@@ -67,6 +73,7 @@ def cast_shadows(
     solids = solid_items(replace(view, occludes=items), projected, most_faces=MOST_FACES)
     planes = FacePlanes.of(view)
     seen = drawn_faces(view, projected)
+    seen = seen if receivers is None else seen[receivers[seen]]
     found = []
     for number, light in enumerate(lights):
         system = light_system(view, light)
@@ -110,7 +117,7 @@ def shadow_crossings(view: View, casters: Casters, receivers: Receivers, caster:
 
 def candidates(view: View, system: LightSystem, casters: Casters, receivers: Receivers) -> Iterator[tuple[Ints, Ints]]:
     """Pairs of casters and receivers whose boxes overlap in an image of the light, the caster not behind; each pair
-    once, in lots. A convex solid is not paired with itself, nor a face.
+    once, in lots.
 
     Source: Glaeser, section 6.3 (bounding rectangles and priorities in the light systems).
     """
@@ -127,12 +134,7 @@ def candidates(view: View, system: LightSystem, casters: Casters, receivers: Rec
         if len(lot) > 1:
             key = np.unique(caster * len(receivers.face) + receiver)
             caster, receiver = np.divmod(key, len(receivers.face))
-        face = receivers.face[receiver]
-        own = casters.solid[caster] & (casters.item[caster] == view.face_item[face])
-        # Of a caster that is no solid the one face stands in order of the casters.
-        first = np.searchsorted(casters.caster, caster)
-        own |= ~casters.solid[caster] & (casters.face[first] == face)
-        yield caster[~own], receiver[~own]
+        yield caster, receiver
         count = int(np.clip(count * PAIRS_AT_ONCE / max(len(caster), 1), 1, 8 * count))
 
 
