@@ -16,7 +16,7 @@ from vectorplot.drawing.page import mm_per_image, page_from_world
 from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, interleaved, placed_faces
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.plan import StageReport, Walk, plan_paint
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.view import View, look
@@ -82,8 +82,9 @@ def paint(
     seen = _Seen(facets.scene, view, projected, placed.framed(painted.faces, page, view.tolerance), placed)
     lighting = Lighting(scene.items, view_lights(view, scene.lights), _normals(view, facets, smooth), palette)
     shades = walk.run("shades", _shades, seen, lighting)
-    decals = _decals(walk, seen, lighting, aura_mm)
-    overlays = _overlays(walk, seen, lighting, decals, tolerance_mm)
+    aura = aura_mm / float(placed.page_from_image[0, 0])
+    decals = _decals(walk, seen, lighting, aura)
+    overlays = _overlays(walk, seen, lighting, decals, aura, tolerance_mm)
     polygons = walk.run("fills", _fills, walk, seen, lighting, shades, overlays, page)
     world = page_from_world(view, placed.page_from_image)
     if walk.calls_for("visible fills"):
@@ -149,14 +150,13 @@ def _shades(seen: _Seen, lighting: Lighting) -> Shades:
     return corner_shades_of(seen.view, lighting, points, faces.offsets, faces.source)
 
 
-def _decals(walk: Walk, seen: _Seen, lighting: Lighting, aura_mm: float) -> tuple[Decals, ...]:
+def _decals(walk: Walk, seen: _Seen, lighting: Lighting, aura: float) -> tuple[Decals, ...]:
     """The polygons that lie on faces, in the order in which they are painted."""
     scene, view, projected = seen.scene, seen.view, seen.projected
     found: list[Decals] = []
     if walk.calls_for("shadows"):
         from vectorplot.effects.scene_decals import scene_shadows
 
-        aura = aura_mm / float(seen.placed.page_from_image[0, 0])
         found.append(walk.run("shadows", scene_shadows, view, scene.lights, projected, aura))
     if walk.calls_for("patterns"):
         from vectorplot.effects.decals import joined_decals
@@ -171,21 +171,30 @@ def _decals(walk: Walk, seen: _Seen, lighting: Lighting, aura_mm: float) -> tupl
 
 
 def _overlays(
-    walk: Walk, seen: _Seen, lighting: Lighting, decals: tuple[Decals, ...], tolerance_mm: float
+    walk: Walk, seen: _Seen, lighting: Lighting, decals: tuple[Decals, ...], aura: float, tolerance_mm: float
 ) -> tuple[Overlay, ...]:
-    """What is painted right after polygons of the picture: what lies on them, and what they show."""
+    """What is painted right after polygons of the picture: what lies on them, and what they show.
+
+    aura: the width of soft borders of shadows in the image.
+    """
     found = []
     if decals:
         from vectorplot.effects.decal_fills import decal_fills
 
         found += [decal_fills(seen.view, lighting, some, seen.faces, seen.placed) for some in decals]
     if walk.calls_for("reflections"):
+        from vectorplot.effects.double_decals import double_decals
         from vectorplot.effects.reflection_fills import reflection_fills
         from vectorplot.effects.reflections import mirrors
 
         shown = mirrors(seen.scene, seen.view, seen.projected)
+        borders = aura if walk.calls_for("shadows") else None
+
+        def decals_of(number: int, there: Lighting, which: Bools) -> tuple[Decals, ...]:
+            return double_decals(seen.scene, seen.view, shown, number, there, which, borders)
+
         found.append(
-            walk.run("reflections", reflection_fills, seen.view, lighting, shown, decals, seen.faces, seen.placed)
+            walk.run("reflections", reflection_fills, seen.view, lighting, shown, decals_of, seen.faces, seen.placed)
         )
     if walk.calls_for("refraction"):
         from vectorplot.effects.glass_fills import glass_fills

@@ -23,12 +23,17 @@ def is_clear(item: Item) -> bool:
 
 
 def clear_shadows(
-    view: View, scene: Scene, lights: Sequence[Light], *, projected: ProjectedFaces | None = None
+    view: View,
+    scene: Scene,
+    lights: Sequence[Light],
+    *,
+    receivers: Bools | None = None,
+    projected: ProjectedFaces | None = None,
 ) -> Decals:
     """The shadows of the transparent items of a scene that do not occlude: decals of the items' colours and opacities,
     each with one light, to be drawn after the shadows of what is not transparent.
 
-    Errors and degenerate cases as of cast_shadows. Source: Glaeser, section 6.6.
+    receivers, errors and degenerate cases as of cast_shadows. Source: Glaeser, section 6.6.
     """
     groups: dict[tuple[str, float], Bools] = {}
     for number, item in enumerate(scene.items):
@@ -38,14 +43,20 @@ def clear_shadows(
     if not groups:
         return joined_decals()
     projected = project_faces(view) if projected is None else projected
-    return joined_decals(*(_of_group(view, lights, items, *key, projected) for key, items in groups.items()))
+    return joined_decals(*(_of_group(view, lights, items, *key, receivers, projected) for key, items in groups.items()))
 
 
 def _of_group(
-    view: View, lights: Sequence[Light], items: Bools, colour: str, opacity: float, projected: ProjectedFaces
+    view: View,
+    lights: Sequence[Light],
+    items: Bools,
+    colour: str,
+    opacity: float,
+    receivers: Bools | None,
+    projected: ProjectedFaces,
 ) -> Decals:
     """The shadows of items of one colour and opacity."""
-    shadows = cast_shadows(view, lights, casters=items, projected=projected)
+    shadows = cast_shadows(view, lights, casters=items, receivers=receivers, projected=projected)
     count = np.zeros(len(shadows), dtype=np.intp)
     return Decals(
         shadows.points,

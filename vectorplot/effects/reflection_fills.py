@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -13,19 +13,23 @@ from vectorplot.effects.decal_fills import decal_fills
 from vectorplot.effects.decals import Decals
 from vectorplot.effects.reflections import DIMMED, Mirrors, doubled, reflections
 from vectorplot.effects.windows import SeenThrough
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
 from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, unmapped
 
+DecalsOf = Callable[[int, Lighting, Bools], Sequence[Decals]]
+"""The decals, in the double of a view, on what the mirror with a number shows; the light there; (f,) the faces."""
+
 
 def reflection_fills(
-    view: View, lighting: Lighting, mirrors: Mirrors, decals: Sequence[Decals], faces: ImageFaces, placed: Placed
+    view: View, lighting: Lighting, mirrors: Mirrors, decals_of: DecalsOf, faces: ImageFaces, placed: Placed
 ) -> Overlay:
     """The doubles of all faces in mirrors, with the decals that lie on them, dimmed.
 
-    The doubles are the faces of a mirrored scene in mirrored light: what holds for the scene holds for them.
+    The doubles are the faces of a mirrored scene in mirrored light: what holds for the scene holds for them. Other
+    shadows fall on them than the eye sees, where it does not see the same sides.
     Source: Glaeser, section 6.4, figures 7 and 8.
     """
     seen = reflections(view, mirrors, faces)
@@ -35,9 +39,10 @@ def reflection_fills(
     for number in range(len(mirrors)):
         here = _some(seen, np.flatnonzero(plane_of[seen.pane] == number))
         if len(here):
-            mirrored = doubled(view, mirrors, number)
-            doubles = [replace(d, points=mirrors.reflected(number, d.points)) for d in decals]
-            parts.append(_of_double(mirrored, _mirrored_light(lighting, mirrors, number), doubles, here, placed))
+            there = _mirrored_light(lighting, mirrors, number)
+            shown = np.isin(np.arange(view.face_count), here.source)
+            decals = decals_of(number, there, shown)
+            parts.append(_of_double(doubled(view, mirrors, number), there, decals, here, placed))
     if not parts:
         return Overlay(Fills.empty(), np.zeros(0, dtype=np.intp))
     return Overlay(Fills.joined(*(part.fills for part in parts)), np.concatenate([part.after for part in parts]))

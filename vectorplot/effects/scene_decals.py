@@ -16,20 +16,28 @@ from vectorplot.shading.painted_colours import Lighting
 from vectorplot.visibility.projected_faces import ProjectedFaces
 
 
-def scene_shadows(view: View, lights: Sequence[Light], projected: ProjectedFaces, aura: float) -> Decals:
-    """The shadows of opaque items, of every grade, with soft borders of some width in the image."""
+def scene_shadows(
+    view: View, lights: Sequence[Light], projected: ProjectedFaces, aura: float, receivers: Bools | None = None
+) -> Decals:
+    """The shadows of opaque items, of every grade, with soft borders of some width in the image; receivers (f,): the
+    faces that they may fall on (None: all)."""
     from vectorplot.effects.shadow_borders import shadow_borders
     from vectorplot.effects.shadow_grades import graded, shadow_decals_of
     from vectorplot.effects.shadows import cast_shadows
 
-    shadows = graded(view, cast_shadows(view, lights, projected=projected), len(lights))
+    shadows = graded(view, cast_shadows(view, lights, receivers=receivers, projected=projected), len(lights))
     dark = shadow_decals_of(shadows, DecalKind.SHADOW)
     return dark if aura == 0.0 else joined_decals(dark, shadow_borders(view, shadows, aura))
 
 
 def scene_patterns(scene: Scene, view: View, lighting: Lighting, shadows: Decals) -> Decals:
     """The patterns of all items, dark where shadows fall on them."""
+    return shadowed_patterns(scene, view, lighting, pattern_decals(scene, view), shadows)
+
+
+def shadowed_patterns(scene: Scene, view: View, lighting: Lighting, patterns: Decals, shadows: Decals) -> Decals:
+    """Patterns on faces of a view, dark where shadows fall on them."""
     found = face_shades(view, lighting.items, lighting.lights)
     lights = len(scene.lights)
     dark: Bools = np.asarray(found.backlit.all(axis=0) & (lights > 0), dtype=np.bool_)
-    return patterns_in_shadows(view, pattern_decals(scene, view), shadows, dark, lights)
+    return patterns_in_shadows(view, patterns, shadows, dark, lights)

@@ -1,0 +1,118 @@
+"""What a scene of polyhedra with convex faces shows, by rays of another make: which faces, lit by what, also in
+mirrors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from pixel_rays import intersector
+
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.scene.scene import Page, Scene
+
+ABOVE = 2e-5
+"""Rays start so far above the face they leave, in extents of the scene."""
+
+GRAZING = 0.02
+"""What comes in flatter than at this cosine has no sure answer."""
+
+
+@dataclass(frozen=True)
+class Faces:
+    """The faces of a scene: triangles (t,3,3), face (t,) that each is of; item, normal (outer), middle of each."""
+
+    triangles: Floats
+    face: Ints
+    item: Ints
+    normal: Floats
+    middle: Floats
+
+    def first(self, origin: Floats, direction: Floats) -> tuple[Ints, Floats]:
+        """(n,) the face each ray meets first, -1 for none, and (n,3) where, exactly on its plane."""
+        found = np.asarray(_single(self.triangles, origin, direction, "INTERSECT"))
+        face = np.where(found >= 0, self.face[found], -1)
+        n, m = self.normal[face], self.middle[face]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            t = (n * (m - origin)).sum(axis=1) / (n * direction).sum(axis=1)
+        return face, origin + np.where(face >= 0, np.nan_to_num(t), 0.0)[:, None] * direction
+
+
+def faces_of(scene: Scene, which: Bools | None = None) -> Faces:
+    """The faces of all items, or of some."""
+    triangles, face, item, normal, middle = [np.zeros((0, 3, 3))], [], [], [], []
+    for number, thing in enumerate(scene.items):
+        if which is not None and not which[number]:
+            continue
+        for polygon in thing.mesh.polygons():
+            corner = thing.mesh.vertices[np.asarray(polygon)]
+            arms = corner[1:] - corner[0]
+            vector = np.cross(arms[:-1], arms[1:]).sum(axis=0)
+            fan = [corner[[0, k, k + 1]] for k in range(1, len(corner) - 1)]
+            triangles.append(np.array(fan))
+            face += [len(item)] * len(fan)
+            item.append(number)
+            normal.append(vector / np.linalg.norm(vector))
+            middle.append(corner.mean(axis=0))
+    return Faces(
+        np.concatenate(triangles),
+        np.array(face, dtype=np.intp),
+        np.array(item, dtype=np.intp),
+        np.array(normal).reshape(-1, 3),
+        np.array(middle).reshape(-1, 3),
+    )
+
+
+def page_rays(camera: Camera, page: Page, places: Floats) -> tuple[Floats, Floats]:
+    """(n,3) origins and unit directions of the rays through places (n,2) of a page that is the camera's picture."""
+    right, up, back = camera.axes
+    distance = float(np.linalg.norm(np.subtract(camera.eye, camera.target)))
+    height = camera.height if camera.parallel else 2.0 * distance * np.tan(np.radians(camera.fov_deg) / 2.0)
+    plane = (places - (page.width_mm / 2.0, page.height_mm / 2.0)) * height / page.height_mm
+    through = np.asarray(camera.target) + plane[:, :1] * right + plane[:, 1:] * up
+    if camera.parallel:
+        return through + 4.0 * distance * back, np.broadcast_to(-back, through.shape)
+    way = through - np.asarray(camera.eye)
+    return np.broadcast_to(camera.eye, way.shape), way / np.linalg.norm(way, axis=1)[:, None]
+
+
+def lacking(faces: Faces, scene: Scene, face: Ints, point: Floats, viewed_from: Floats) -> tuple[Ints, Bools]:
+    """(n,) which lights do not reach points (n,3) on faces (n,) that they shine on, bit k for light k, and whether
+    that is sure; viewed_from (n,3): the direction in which each point is looked at."""
+    mask, sure = np.zeros(len(face), dtype=np.intp), np.ones(len(face), dtype=np.bool_)
+    size = np.ptp(faces.triangles.reshape(-1, 3), axis=0).max()
+    normal = faces.normal[face]
+    normal = np.where((normal * viewed_from).sum(axis=1)[:, None] > 0.0, -normal, normal)
+    for number, light in enumerate(scene.lights):
+        place = np.asarray(light.position, dtype=np.float64)
+        way = np.broadcast_to(place, point.shape) if light.parallel else place - point
+        distance = np.linalg.norm(way, axis=1)
+        way = way / distance[:, None]
+        slope = (way * normal).sum(axis=1)
+        start = point + ABOVE * size * normal
+        reach = np.full(len(point), 1e3 * size) if light.parallel else distance * (1.0 - 1e-6)
+        dark = _single(faces.triangles, start, way, "OCCLUDED", reach) >= 0
+        mask |= np.where(dark & (slope > 0.0) & (face >= 0), 1 << number, 0)
+        sure &= np.abs(slope) > GRAZING
+    return mask, sure
+
+
+def clear_of_edges(labels: Ints, reach: int) -> Bools:
+    """(rows, columns) where all labels (rows, columns) up to so many pixels away are the same."""
+    from scipy.ndimage import maximum_filter, minimum_filter
+
+    size = 2 * reach + 1
+    return np.asarray(maximum_filter(labels, size) == minimum_filter(labels, size))
+
+
+def _single(triangles: Floats, origin: Floats, direction: Floats, query: str, reach: Floats | None = None) -> Ints:
+    """(n,) the triangle each ray meets, -1 for none; in single precision, about the middle of the scene."""
+    if not len(triangles):
+        return np.full(len(origin), -1)
+    middle = triangles.reshape(-1, 3).mean(axis=0)
+    soup = (triangles - middle).reshape(-1, 3)
+    scene = intersector(soup, np.arange(len(soup)).reshape(-1, 3))
+    rays = (np.ascontiguousarray(some, dtype=np.float32) for some in (origin - middle, direction))
+    far = {} if reach is None else {"dists": np.ascontiguousarray(reach, dtype=np.float32)}
+    return np.asarray(scene.run(*rays, query=query, **far))
