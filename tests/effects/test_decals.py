@@ -42,3 +42,13 @@ def test_joined_decals_share_their_colours() -> None:
 
 def test_nothing_joined_is_nothing() -> None:
     assert len(joined_decals()) == 0 and len(joined_decals(no_decals())) == 0
+
+
+def test_lights_and_opacities_are_those_told_or_the_plain_ones() -> None:
+    plain = _decals([0, 1], [0, 0], [-1, -1], ())
+    shadow = Decals(**{**plain.__dict__, "light": np.array([2, -1])})
+    clear = Decals(**{**plain.__dict__, "lacking": np.array([5, 3]), "opacity": np.array([0.5, 0.25])})
+    both = joined_decals(plain, shadow, clear)
+    assert both.lights_lacking.tolist() == [0, 0, 4, 0, 5, 3]
+    assert both.opacities.tolist() == [1, 1, 1, 1, 0.5, 0.25]
+    assert both.of(np.array([5, 2])).lights_lacking.tolist() == [3, 4]
