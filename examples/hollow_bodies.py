@@ -1,0 +1,69 @@
+"""Bodies with a convex outline that lack some faces: first the insides of the back, then the front.
+
+Of a convex solid only the faces in front are painted, in any order. Where faces are missing one looks inside, and paints
+what shows its inside before what shows its outside. Source: Glaeser, section 5.1, figure 2.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import vectorplot as vp
+from vectorplot.geometry.revolution import revolution
+from vectorplot.geometry.solids import box
+from vectorplot.geometry.vectors import translated
+
+EYE = np.array([6.0, -13.0, 9.0])
+
+
+def placed(name: str, mesh: vp.Mesh, x: float, colour: str) -> vp.Item:
+    """A body in its place."""
+    return vp.Item(
+        name, vp.Mesh(translated(mesh.vertices, (x, 0, 0)), mesh.corners, mesh.offsets, mesh.present), colour
+    )
+
+
+def covered(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Which points lie in a convex polygon."""
+    along, arm = np.roll(corners, -1, axis=0) - corners, points[:, None] - corners
+    side = along[:, 0] * arm[..., 1] - along[:, 1] * arm[..., 0]
+    return (side > 0).all(axis=1) | (side < 0).all(axis=1)
+
+
+def main(folder: Path) -> None:
+    items = (
+        placed("SOLID", box((2, 2, 2)), -4.6, "yellow"),
+        placed("CRATE", box((2, 2, 2), caps=("bottom",)), -1.6, "orange"),
+        placed("BOWL", revolution([(0.7, 0, 0), (1.3, 0, 2)], 24, caps=("bottom",)), 2.4, "cyan"),
+        placed("PIPE", revolution([(1, 0, 0), (1, 0, 2)], 24, caps=()), 5.4, "green"),
+    )
+    scene = vp.Scene(items, (vp.Light((-3, -4, 6), parallel=True, intensity=1.0),), title="Hollow bodies")
+    camera = vp.Camera(eye=tuple(EYE), target=(0.6, 0.5, 0.7), fov_deg=30)
+    drawing = vp.paint(scene, camera, page=vp.Page(150, 70, 3), shadows="none")
+    vp.save(drawing, folder / "hollow_bodies.svg")
+
+    (fills,) = drawing.layers[0].fills
+    shows_inside = []
+    for start, end, item in zip(fills.offsets[:-1], fills.offsets[1:], fills.item, strict=True):
+        corners = fills.points3d[start:end]
+        normal = np.cross(corners[1] - corners[0], corners[2] - corners[1])
+        middle = items[item].mesh.vertices.mean(axis=0)
+        outwards = normal * np.sign(normal @ (corners[0] - middle))
+        shows_inside.append(bool(outwards @ (EYE - corners[0]) < 0))
+    inside = np.array(shows_inside)
+    sample = np.random.default_rng(1).uniform(fills.points.min(axis=0), fills.points.max(axis=0), (3000, 2))
+    covers = np.array(
+        [covered(fills.points[a:b], sample) for a, b in zip(fills.offsets, fills.offsets[1:], strict=False)]
+    )
+    for number, item in enumerate(items):
+        own = fills.item == number
+        last_inside = np.where(covers & (own & inside)[:, None], np.arange(len(own))[:, None], -1).max(axis=0)
+        first_outside = np.where(covers & (own & ~inside)[:, None], np.arange(len(own))[:, None], len(own)).min(axis=0)
+        assert (last_inside < first_outside).all(), f"{item.name}: insides first"
+        assert inside[own].any() == (item.name != "SOLID")
+    assert (fills.item == 0).sum() == 3, "of a cube one sees three faces"
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1] if len(sys.argv) > 1 else "docs/gallery"))

@@ -1,0 +1,57 @@
+"""A lamp near a floor: light becomes weaker with the square of the distance.
+
+Once every tile takes the light at its angle only, once it fades as well; what is nearest to the lamp keeps what it has.
+Source: Glaeser, section 4.5, equation 4, figure 5.
+"""
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+import vectorplot as vp
+from vectorplot.scene.view import look
+from vectorplot.shading.face_shades import face_colours, face_middles, face_shades, faded, view_lights
+
+LAMP = vp.Light((0.5, 0.5, 4.0), intensity=1.0)
+COLUMNS, ROWS = 20, 12
+
+
+def tiles() -> tuple[vp.Item, ...]:
+    """A floor of square tiles, each an item."""
+    corners = np.array([(0, 0, 0), (0.5, 0, 0), (0.5, 0.5, 0), (0, 0.5, 0)])
+    places = [(0.5 * column, 0.5 * row, 0.0) for row in range(ROWS) for column in range(COLUMNS)]
+    return tuple(
+        vp.Item(f"TILE{k}", vp.Mesh.from_polygons(corners + place, [range(4)])) for k, place in enumerate(places)
+    )
+
+
+def main(folder: Path) -> None:
+    camera = vp.Camera(eye=(5, -9, 9), target=(5, 2.8, 0), fov_deg=30)
+    scene = vp.Scene(tiles(), (LAMP,), title="A lamp near the floor")
+    drawing = vp.paint(scene, camera, page=vp.Page(110, 60, 3), shadows="none")
+    vp.save(drawing, folder / "near_light_angle.svg")
+
+    view = look(scene, camera)
+    lights, middles = view_lights(view, scene.lights), face_middles(view)
+    plain = face_shades(view, scene.items, lights)
+    weaker = faded(view, plain, lights, middles)
+    (layer,), (fills,) = drawing.layers, drawing.layers[0].fills
+    colours = face_colours(view, scene.items, weaker.total)[np.repeat(fills.item, np.diff(fills.offsets))]
+    faded_drawing = replace(drawing, layers=(replace(layer, marks=(replace(fills, colours=colours),)),))
+    vp.save(faded_drawing, folder / "near_light_distance.svg")
+
+    factor = weaker.shares[0] / plain.shares[0]
+    # Depths in the system of the lamp, which looks at the middle of the scene.
+    axis = np.array(LAMP.position) - scene.bounds.mean(axis=0)
+    distance = np.linalg.norm(axis)
+    depth, nearest = (
+        (points - scene.bounds.mean(axis=0)) @ axis / distance for points in (view.world_of(middles), scene.vertices)
+    )
+    assert np.allclose(factor, ((distance - nearest.max()) / (distance - depth)) ** 2) and factor.max() <= 1.0
+    assert (weaker.total <= plain.total + 1e-12).all()
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1] if len(sys.argv) > 1 else "docs/gallery"))

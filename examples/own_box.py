@@ -1,0 +1,51 @@
+"""The box of an object, taken in its own coordinates and turned with it, and the one along the axes that is taken later.
+
+The first one, the smaller, is kept for the search for separating planes. Source: Glaeser, section 5.8, figure 13.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import vectorplot as vp
+from vectorplot.geometry.rotations import rotation_about
+from vectorplot.geometry.separating_planes import own_box
+from vectorplot.geometry.solids import prism
+
+HOUSE = prism([(-1, -2, 0), (1, -2, 0), (1, -2, 1.4), (0, -2, 2.4), (-1, -2, 1.4)], (0, 4, 0))
+FACES = [(0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4, 6), (4, 5, 7, 6), (2, 3, 1, 0)]
+"""The sides of a box of eight corners, as own_box numbers them."""
+
+
+def frame(name: str, corners: np.ndarray, colour: str) -> vp.Item:
+    """The edges of a box, which hide nothing."""
+    return vp.Item(name, vp.Mesh.from_polygons(corners, FACES), colour, lines=("contour", "crease"), occludes=False)
+
+
+def volume(corners: np.ndarray) -> float:
+    """Of a box of eight corners."""
+    return float(abs(np.linalg.det(corners[[1, 2, 4]] - corners[0])))
+
+
+def main(folder: Path) -> None:
+    turn = rotation_about((0.4, 0.2, 1), np.radians(40)).T
+    points = HOUSE.vertices @ turn.T
+    own, later = own_box(HOUSE.vertices) @ turn.T, own_box(points)
+    house = vp.Item("HOUSE", vp.Mesh(points, HOUSE.corners, HOUSE.offsets), "orange")
+    items = (house, frame("OWN", own, "blue"), frame("LATER", later, "gray"))
+    camera = vp.Camera(eye=(7, -13, 9), target=(0, 0, 1), fov_deg=24)
+    drawing = vp.draw(vp.Scene(items, title="Boxes"), camera, page=vp.Page(100, 90, 4), layers="colour")
+    vp.save(drawing, folder / "own_box.svg")
+
+    assert np.isclose(volume(own), np.prod(np.ptp(HOUSE.vertices, axis=0)))
+    assert volume(own) < 0.7 * volume(later)
+    sides = (own[[1, 2, 4]] - own[0]) / np.linalg.norm(own[[1, 2, 4]] - own[0], axis=1, keepdims=True)
+    height = (points - own[0]) @ sides.T
+    reach = np.linalg.norm(own[[1, 2, 4]] - own[0], axis=1)
+    assert (height >= -1e-12).all() and (height <= reach + 1e-12).all(), "nothing of the house is outside"
+    assert np.allclose(height.min(axis=0), 0) and np.allclose(height.max(axis=0), reach), "and it touches all sides"
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1] if len(sys.argv) > 1 else "docs/gallery"))
