@@ -1,7 +1,7 @@
 """Bounding rectangles: objects whose rectangles in the image have nothing in common may be painted in any order.
 
-Only the other pairs are looked at further, by their depths, by spheres and planes that keep them apart, and at last by
-their outlines. Source: Glaeser, section 5.5, figure 8.
+Only the other pairs are looked at further, by their depths, by spheres and planes that keep them apart, and at last
+by their outlines. Source: Glaeser, section 5.5, figure 8.
 """
 
 import sys

@@ -1,8 +1,8 @@
 """Depth cueing: what is near the eye is brighter.
 
-First the edges of a wire model, each in the mean of the shades of its ends. Then a row of equal boxes: the light alone
-would give them equal colours, and ambient light, a fifth of the palette, goes to the nearer ones. Source: Glaeser,
-sections 4.4 and 4.5, figures 2 and 6.
+First the edges of a wire model, each in the mean of the shades of its ends. Then a row of equal boxes: the light
+alone would give them equal colours, and ambient light, a fifth of the palette, goes to the nearer ones. Source:
+Glaeser, sections 4.4 and 4.5, figures 2 and 6.
 """
 
 import sys

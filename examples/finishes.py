@@ -1,7 +1,7 @@
 """Materials: the power of the cosine, from mat to metallic, and highlights.
 
-Mat things are bright almost up to the border of the light, metallic ones darken fast; in what is polished the eye sees the
-lamp. Source: Glaeser, section 4.5, figure 4.
+Mat things are bright almost up to the border of the light, metallic ones darken fast; in what is polished the eye
+sees the lamp. Source: Glaeser, section 4.5, figure 4.
 """
 
 import sys

@@ -1,8 +1,8 @@
 """Function graphs painted slice by slice, for three places of the eye.
 
-Through the eye go two planes, upright on the axes. They cut the graph or not: then the slices on one side of the eye come
-first, towards it, after them those on the other side, and the eye's own last. The later a patch is painted, the brighter
-it is here. Source: Glaeser, section 5.4, figure 7.
+Through the eye go two planes, upright on the axes. They cut the graph or not: then the slices on one side of the eye
+come first, towards it, after them those on the other side, and the eye's own last. The later a patch is painted, the
+brighter it is here. Source: Glaeser, section 5.4, figure 7.
 """
 
 import sys

@@ -1,7 +1,7 @@
 """Bodies with a convex outline that lack some faces: first the insides of the back, then the front.
 
-Of a convex solid only the faces in front are painted, in any order. Where faces are missing one looks inside, and paints
-what shows its inside before what shows its outside. Source: Glaeser, section 5.1, figure 2.
+Of a convex solid only the faces in front are painted, in any order. Where faces are missing one looks inside, and
+paints what shows its inside before what shows its outside. Source: Glaeser, section 5.1, figure 2.
 """
 
 import sys

@@ -1,7 +1,8 @@
 """The mikado sort: take off the stick that nothing lies on, and again.
 
-Twelve painted sticks, then seven, then three: what is gone lay above. Where three sticks lie on one another in a circle
-none can be taken off; such a Gordian knot is found among all others, and named. Source: Glaeser, section 5.6, figure 11.
+Twelve painted sticks, then seven, then three: what is gone lay above. Where three sticks lie on one another in a
+circle none can be taken off; such a Gordian knot is found among all others, and named. Source: Glaeser, section 5.6,
+figure 11.
 """
 
 import sys

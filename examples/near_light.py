@@ -1,7 +1,7 @@
 """A lamp near a floor: light becomes weaker with the square of the distance.
 
-Once every tile takes the light at its angle only, once it fades as well; what is nearest to the lamp keeps what it has.
-Source: Glaeser, section 4.5, equation 4, figure 5.
+Once every tile takes the light at its angle only, once it fades as well; what is nearest to the lamp keeps what it
+has. Source: Glaeser, section 4.5, equation 4, figure 5.
 """
 
 import sys

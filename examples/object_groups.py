@@ -1,8 +1,8 @@
 """Groups of objects: first the order of the groups, then the order inside each.
 
-A table with its things and a cupboard with its books are two groups. Few pairs are compared: groups with groups, and the
-members of each among themselves. Where groups lie on each other in a circle they are taken apart. Source: Glaeser,
-section 5.7, figure 12.
+A table with its things and a cupboard with its books are two groups. Few pairs are compared: groups with groups, and
+the members of each among themselves. Where groups lie on each other in a circle they are taken apart. Source:
+Glaeser, section 5.7, figure 12.
 """
 
 import sys

@@ -1,7 +1,7 @@
 """Two convex outlines in the image: apart, crossing, or one inside the other.
 
-Where they cross, the depths of both bodies at a crossing tell which one is in front; where one lies inside the other, the
-depths at a corner of it. Source: Glaeser, sections 5.5 and 6.2, figure 10 of chapter 5.
+Where they cross, the depths of both bodies at a crossing tell which one is in front; where one lies inside the other,
+the depths at a corner of it. Source: Glaeser, sections 5.5 and 6.2, figure 10 of chapter 5.
 """
 
 import sys

@@ -1,4 +1,4 @@
-"""The box of an object, taken in its own coordinates and turned with it, and the one along the axes that is taken later.
+"""The box of an object in its own coordinates, turned with it, and the box along the axes that is taken later.
 
 The first one, the smaller, is kept for the search for separating planes. Source: Glaeser, section 5.8, figure 13.
 """

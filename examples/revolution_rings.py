@@ -1,8 +1,8 @@
 """A surface of revolution painted ring by ring: half of it, and all of it.
 
-Slices between horizontal planes are painted towards the height of the eye, the eye's own last; of each slice first what
-shows its far side, outer rings before inner ones. No two faces are compared, and the picture is the one that comparing
-gives. Source: Glaeser, section 5.2, figure 3.
+Slices between horizontal planes are painted towards the height of the eye, the eye's own last; of each slice first
+what shows its far side, outer rings before inner ones. No two faces are compared, and the picture is the one that
+comparing gives. Source: Glaeser, section 5.2, figure 3.
 """
 
 import sys

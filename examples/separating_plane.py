@@ -1,7 +1,7 @@
 """A plane between two bodies: the one that is not on the eye's side is painted first.
 
-The plane is found in space, once; whoever looks from the other side has the other order. Source: Glaeser, section 5.1,
-figure 1, and section 5.8.
+The plane is found in space, once; whoever looks from the other side has the other order. Source: Glaeser, section
+5.1, figure 1, and section 5.8.
 """
 
 import sys

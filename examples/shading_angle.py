@@ -1,8 +1,7 @@
 """Lambert's law: the flatter light falls in, the darker is the face.
 
-Six sheets turn away from parallel light in steps of fifteen degrees. Each takes the shade of its palette that belongs to
-the cosine of the angle between its normal and the light. Source: Glaeser, section
-4.5, figure 3.
+Six sheets turn away from parallel light in steps of fifteen degrees. Each takes the shade of its palette that belongs
+to the cosine of the angle between its normal and the light. Source: Glaeser, section 4.5, figure 3.
 """
 
 import sys

@@ -1,7 +1,7 @@
 """A surface cut into horizontal slices, painted slice by slice: ribbons that only their own slice is compared with.
 
-The bands below the eye come first, upwards, then those above it, downwards. Bands have two colours, so that one sees them.
-Source: Glaeser, sections 5.3 and 5.4, figures 4 to 6.
+The bands below the eye come first, upwards, then those above it, downwards. Bands have two colours, so that one sees
+them. Source: Glaeser, sections 5.3 and 5.4, figures 4 to 6.
 """
 
 import sys

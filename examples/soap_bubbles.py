@@ -1,7 +1,8 @@
 """Soap bubbles: balls that do not meet are painted in the order of the eye's power, not of its distance.
 
-The power of a point with respect to a sphere is d² - r². Two spheres have equal power in a plane between them, whatever
-their radii; a large ball whose centre is nearer may still lie behind a small one. Source: Glaeser, section 5.5, figure 9.
+The power of a point with respect to a sphere is d² - r². Two spheres have equal power in a plane between them,
+whatever their radii; a large ball whose centre is nearer may still lie behind a small one. Source: Glaeser, section
+5.5, figure 9.
 """
 
 import sys

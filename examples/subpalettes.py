@@ -20,7 +20,7 @@ def row(shades: np.ndarray, left: float, bottom: float, height: float) -> Fills:
     """The shades of a palette side by side."""
     corners = np.array([(0, 0), (1, 0), (1, 1), (0, 1)]) * (CELL_MM[0], height)
     steps = np.column_stack([np.arange(len(shades)) * CELL_MM[0], np.zeros(len(shades))])
-    points = (left, bottom) + (steps[:, None] + corners).reshape(-1, 2)
+    points = np.array((left, bottom)) + (steps[:, None] + corners).reshape(-1, 2)
     return Fills.flat(points, 4 * np.arange(len(shades) + 1), shades)
 
 
