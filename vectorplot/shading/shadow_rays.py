@@ -23,10 +23,10 @@ from vectorplot.shading.shadow_map import standard_frame
 
 Blocks = Callable[[Floats, Floats, Ints], Bools]
 
-POINTS_OF_CELL = 8
+POINTS_OF_CELL = 1
 """Mean number of points in a cell of the grid."""
 
-MOST_CELLS = 1024
+MOST_CELLS = 2048
 """Along a side of the grid."""
 
 PAIRS_AT_ONCE = 1 << 20
