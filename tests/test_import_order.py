@@ -102,7 +102,7 @@ def test_every_exported_name_has_a_home_and_the_others_do_not_exist():
         _ = vectorplot.rubber
 
 
-@pytest.mark.parametrize("verb", ["draw", "save"])
+@pytest.mark.parametrize("verb", ["draw", "render", "save"])
 def test_a_verb_stays_a_verb_when_its_module_was_imported_first(verb):
     script = f"import vectorplot.{verb}, vectorplot as vp; assert callable(vp.{verb}), vp.{verb}"
     subprocess.run([sys.executable, "-c", script], check=True)

@@ -314,11 +314,13 @@ def test_meshes_look_round_up_to_the_crease_angle():
 
     scene = vp.Scene((vp.Item("RING", torus_mesh(36, 18), "gray"),), (SUN,))
     camera = default_camera(scene)
-    round_, flat = (render(scene, camera, size=SIZE, crease_angle_deg=angle).pixels for angle in (30.0, 0.0))
-    assert len(np.unique(round_.reshape(-1, 3), axis=0)) > 1.3 * len(np.unique(flat.reshape(-1, 3), axis=0)) or (
-        np.abs(np.diff(levels(vp.Image(round_)), axis=1)).max() <= np.abs(np.diff(levels(vp.Image(flat)), axis=1)).max()
+    round_, flat = (
+        levels(render(scene, camera, size=(480, 360), crease_angle_deg=angle, background="gray"))
+        for angle in (30.0, 0.0)
     )
-    assert (round_ != flat).any()
+    # Within a flat face nothing changes, from face to face much does; a round one changes a little everywhere.
+    jumps = [(np.abs(np.diff(image, axis=1)) > 6.0).mean() for image in (round_, flat)]
+    assert jumps[0] < 0.5 * jumps[1]
 
 
 def test_the_background_is_the_scenes_or_the_users():
