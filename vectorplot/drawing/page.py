@@ -62,7 +62,7 @@ def page_from_image(view: View, lines: Lines, seen: Visibility, page: Page, fit:
         return centred(page, view.picture_height, page.height_mm - 2.0 * page.margin_mm)
     if not len(seen.segment):
         return fitted(page, np.zeros(2), np.zeros(2))
-    start, end = _part_ends(lines, seen)
+    start, end = lines.ends(view, seen.segment, seen.low, seen.high)
     images = np.concatenate([view.image_of(start), view.image_of(end)], axis=1)
     low, high = images.min(axis=1), images.max(axis=1)
     if (high - low).max() <= view.tolerance:
@@ -71,19 +71,12 @@ def page_from_image(view: View, lines: Lines, seen: Visibility, page: Page, fit:
     return fitted(page, low, high)
 
 
-def _part_ends(lines: Lines, seen: Visibility) -> tuple[Floats, Floats]:
-    """Both ends (3,k) of all parts; where a part goes on to the end of its line, exactly that end."""
-    start, end = lines.start[:, seen.segment], lines.end[:, seen.segment]
-    along = end - start
-    return start + seen.low * along, np.where(seen.high < 1.0, start + seen.high * along, end)
-
-
 def strokes_on_page(view: View, lines: Lines, seen: Visibility, page_from_image: Floats) -> Paths:
     """The parts of lines as strokes on the page, each line once where several lie on each other.
 
     Of coincident strokes the visible one stays, then the one whose kind comes first, then the one nearer the eye.
     """
-    ends = np.stack(_part_ends(lines, seen), axis=2).reshape(3, -1)
+    ends = np.stack(lines.ends(view, seen.segment, seen.low, seen.high), axis=2).reshape(3, -1)
     image = view.image_of(ends)
     points = (page_from_image[:2, :2] @ image).T + page_from_image[:2, 2]
     count = len(seen.segment)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from vectorplot.geometry.mesh import Floats
@@ -89,9 +87,5 @@ def in_frame(view: View, lines: Lines, page: Page, fit: bool) -> tuple[Lines, bo
     if len(planes):
         low, high = inside(planes, lines.start, lines.end)
         kept = np.flatnonzero(low < high)
-        lines, low, high = lines.some(kept), low[kept], high[kept]
-        along = lines.end - lines.start
-        start = np.where(low > 0.0, lines.start + low * along, lines.start)
-        end = np.where(high < 1.0, lines.start + high * along, lines.end)
-        lines = replace(lines, start=start, end=end)
+        lines = lines.cut(view, kept, low[kept], high[kept])
     return lines, fitted

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,13 +21,16 @@ from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import ProjectedFaces
 
+if TYPE_CHECKING:
+    from vectorplot.visibility.smooth.chord_parts import ChordParts
+
 
 @dataclass(frozen=True, eq=False)
 class Lines:
     """Straight lines in the view's coordinates: start and end (3,n), kind (n,) LineKind values, item (n,); side (n,):
     1 or -1 for an outline, where its surface lies to the left or right of start -> end in the image, 0 for other
     lines; smooth (n,): a chord of a smooth curve, both of its ends on it; behind (n,): how many smooth surfaces hide
-    all of it."""
+    all of it; chords: which parts of smooth curves they are, if some are."""
 
     start: Floats
     end: Floats
@@ -35,6 +39,7 @@ class Lines:
     side: Ints
     smooth: Bools
     behind: Ints
+    chords: ChordParts | None = None
 
     def __len__(self) -> int:
         return len(self.kind)
@@ -49,11 +54,37 @@ class Lines:
             self.side[which],
             self.smooth[which],
             self.behind[which],
+            self.chords.some(which) if self.chords else None,
         )
+
+    def ends(self, view: View, which: Ints, low: Floats, high: Floats) -> tuple[Floats, Floats]:
+        """Both ends (3,k) of parts of lines, from low to high (k,) of those with the indices which (k,).
+
+        Where a part goes on to an end of its line it is exactly that; inside of a chord it is on the curve.
+        """
+        start, end = _divided(self.start[:, which], self.end[:, which], low, high)
+        if self.chords:
+            self.chords.some(which).cut(view, low, high, start, end)
+        return start, end
+
+    def cut(self, view: View, which: Ints, low: Floats, high: Floats) -> Lines:
+        """The same parts as lines."""
+        some = self.some(which)
+        start, end = _divided(some.start, some.end, low, high)
+        if not some.chords:
+            return replace(some, start=start, end=end)
+        begin, stop = some.chords.cut(view, low, high, start, end)
+        return replace(some, start=start, end=end, chords=replace(some.chords, begin=begin, end=stop))
+
+
+def _divided(start: Floats, end: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
+    """The points (3,k) at low and high (k,) of lines; exact at 0 and 1."""
+    along = end - start
+    return start + low * along, np.where(high < 1.0, start + high * along, end)
 
 
 def joined_lines(parts: Collection[Lines]) -> Lines:
-    """All lines of all parts."""
+    """All lines of all parts, none of which has chords of smooth curves."""
     return Lines(
         np.concatenate([np.zeros((3, 0)), *(p.start for p in parts)], axis=1),
         np.concatenate([np.zeros((3, 0)), *(p.end for p in parts)], axis=1),

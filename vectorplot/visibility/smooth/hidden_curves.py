@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.scene.view import View
+from vectorplot.visibility.smooth.chord_parts import ChordParts
 from vectorplot.visibility.smooth.crossings import crossings
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.events import all_events
@@ -59,8 +60,8 @@ def hidden_curves(view: View, traced: TracedScene, curves: Curves, items: int, t
     return HiddenCurves(pieces, without_short_runs(view, curves, pieces, hidden_by, 2.0 * tolerance))
 
 
-def cut_curves(curves: Curves, found: HiddenCurves) -> tuple[Floats, Floats, Ints, Ints]:
-    """The chords of all pieces, cut at events: start and end (c,3), chord (c,), hidden_by (c,)."""
+def cut_curves(curves: Curves, found: HiddenCurves) -> tuple[Floats, Floats, ChordParts, Ints]:
+    """The chords of all pieces, cut at events: start and end (c,3), which parts of chords, hidden_by (c,)."""
     pieces = found.pieces
     count = pieces.end_chord - pieces.begin_chord + 1
     first = np.cumsum(count) - count
@@ -68,8 +69,10 @@ def cut_curves(curves: Curves, found: HiddenCurves) -> tuple[Floats, Floats, Int
     step = np.arange(len(owner)) - first[owner]
     chord = pieces.begin_chord[owner] + step
     start, end = curves.points[chord].copy(), curves.points[chord + 1].copy()
+    begin_part, end_part = np.zeros(len(chord)), np.ones(len(chord))
+    begin_part[first], end_part[first + count - 1] = pieces.begin_part, pieces.end_part
     inner = np.flatnonzero(pieces.begin_part > 0.0)
     start[first[inner]] = curves.at(pieces.begin_chord[inner], pieces.begin_part[inner]).points
     inner = np.flatnonzero(pieces.end_part < 1.0)
     end[(first + count - 1)[inner]] = curves.at(pieces.end_chord[inner], pieces.end_part[inner]).points
-    return start, end, chord, found.hidden_by[owner]
+    return start, end, ChordParts(curves, chord, begin_part, end_part), found.hidden_by[owner]

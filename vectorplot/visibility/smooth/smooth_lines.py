@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from vectorplot.geometry.mesh import Ints
@@ -25,16 +27,17 @@ def with_curves(view: View, traced: TracedScene, lines: Lines, items: int, toler
     """
     curves = together([traced.curves, _straight(lines)])
     found = hidden_curves(view, traced, curves, items, tolerance)
-    start, end, chord, behind = cut_curves(curves, found)
+    start, end, chords, behind = cut_curves(curves, found)
     long = (start != end).any(axis=1)
-    start, end, chord, behind = start[long], end[long], chord[long], behind[long]
-    curve = curves.owner[chord]
+    start, end, chords, behind = start[long], end[long], chords.some(long), behind[long]
+    chord, curve = chords.chord, curves.owner[chords.chord]
     smooth = curve < len(traced.curves)
     side = np.zeros(len(chord), dtype=np.intp)
     side[~smooth] = lines.side[curve[~smooth] - len(traced.curves)]
     outline = np.flatnonzero(smooth & np.isin(curves.kind[curve], OUTLINES) & (curves.sheet[curve] >= 0))
     side[outline] = _sides(view, traced, curves, chord[outline])
-    return Lines(start.T, end.T, curves.kind[curve], curves.item[curve], side, smooth, behind)
+    chords = replace(chords, chord=np.where(smooth, chord, -1))
+    return Lines(start.T, end.T, curves.kind[curve], curves.item[curve], side, smooth, behind, chords)
 
 
 def _sides(view: View, traced: TracedScene, curves: Curves, chord: Ints) -> Ints:
