@@ -3,149 +3,17 @@ show. Pixels beside an edge are not compared."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from scene_rays import Faces, clear_of_edges, faces_of, lacking, page_rays
+from picture_rays import COLUMNS, PAGE, ROWS, compared, random_camera, random_lights
 from strewn import STREWN, placed
-from top_fills import colours_at, covering, fills_of, last_at, pixel_places
 
-from vectorplot.drawing.drawing import Drawing
-from vectorplot.drawing.fills import FillKind
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.paint import paint
-from vectorplot.scene.scene import Item, Light, Material, Page, Scene
+from vectorplot.scene.scene import Item, Light, Material, Scene
 from vectorplot.testing.shapes import box, random_convex_solids, rotated_boxes
-
-PAGE = Page(160.0, 120.0, 0.0)
-COLUMNS, ROWS = 160, 120
-EDGE = 2
-"""Pixels that are so many rays away from an edge are compared: a pixel of the picture is two of them wide."""
-LEVELS = 2.5
-"""Colours are the same where they differ by so many of 256 levels: one by rounding, one by the palette."""
-
-
-@dataclass(frozen=True)
-class Truth:
-    """What rays through the pixels see: face (n,) and point (n,3), the direction from the eye, and the mirror that it
-    is seen in, -1 for none; lights that do not get there."""
-
-    faces: Faces
-    face: Ints
-    point: Floats
-    way: Floats
-    pane: Ints
-    dark: Ints
-    sure: Bools
-
-
-def random_camera(scene: Scene, random: np.random.Generator) -> Camera:
-    low, high = scene.bounds
-    size, middle = float(np.linalg.norm(high - low)), (low + high) / 2.0
-    way = random.normal(size=3)
-    way[2] = abs(way[2]) + 0.2
-    eye = middle + random.uniform(0.9, 2.0) * size * way / np.linalg.norm(way)
-    parallel, twist = bool(random.random() < 0.3), random.uniform(0, 360)
-    distance = float(np.linalg.norm(eye - middle))
-    fov = float(np.degrees(2.0 * np.arctan(0.4 * size / distance)))
-    return Camera(tuple(eye), tuple(middle), twist_deg=twist, fov_deg=fov, parallel=parallel, height=0.8 * size)
-
-
-def random_lights(scene: Scene, random: np.random.Generator, count: int) -> tuple[Light, ...]:
-    """Lamps and suns all around."""
-    low, high = scene.bounds
-    size = float(np.linalg.norm(high - low))
-    lights = []
-    for number in range(count):
-        way = random.normal(size=3) + np.array([0.0, 0.0, 1.5])
-        way *= random.uniform(0.6, 1.5) * size / np.linalg.norm(way)
-        parallel = bool(random.random() < 0.5)
-        place = way if parallel else (low + high) / 2.0 + way
-        lights.append(Light(tuple(place.tolist()), parallel, 0.55 - 0.2 * number))
-    return tuple(lights)
-
-
-def truth_of(scene: Scene, camera: Camera, places: Floats) -> Truth:
-    faces = faces_of(scene)
-    origin, way = page_rays(camera, PAGE, places)
-    face, point = faces.first(origin, way)
-    mirrors = np.array([item.material.word == "mirror" for item in scene.items], dtype=np.bool_)
-    outside = (faces.normal[face] * way).sum(axis=1) < 0.0
-    pane = np.where((face >= 0) & mirrors[faces.item[face]] & outside, face, -1)
-    at = np.flatnonzero(pane >= 0)
-    if len(at):
-        normal = faces.normal[pane[at]]
-        away = way[at] - 2.0 * (way[at] * normal).sum(axis=1)[:, None] * normal
-        size = np.ptp(scene.vertices, axis=0).max()
-        behind, there = faces.first(point[at] + 2e-5 * size * normal, away)
-        face, point, way = face.copy(), point.copy(), way.copy()
-        # What a mirror shows beside all things is itself.
-        hit = behind >= 0
-        pane[at[~hit]] = -1
-        face[at[hit]], point[at[hit]], way[at[hit]] = behind[hit], there[hit], away[hit]
-    dark, sure = lacking(faces, scene, face, point, way)
-    return Truth(faces, face, point, way, pane, dark, sure)
-
-
-def expected_levels(scene: Scene, camera: Camera, truth: Truth) -> Floats:
-    """(n,) the levels of gray, from 0 to 255, of what rays see, as chapter 4.5 of the book has it, without rounding."""
-    result = np.zeros(len(truth.face))
-    for pane in np.unique(truth.pane).tolist():
-        here = np.flatnonzero(truth.pane == pane)
-        result[here] = _levels(scene, camera, truth, here, pane)
-    return result
-
-
-def _levels(scene: Scene, camera: Camera, truth: Truth, here: Ints, pane: int) -> Floats:
-    face, faces = truth.face[here], truth.faces
-    normal = faces.normal[face]
-    normal = np.where((normal * truth.way[here]).sum(axis=1)[:, None] > 0.0, -normal, normal)
-    given, kept = np.zeros(len(here)), np.zeros(len(here))
-    for number, light in enumerate(scene.lights):
-        place = np.asarray(light.position)
-        way = np.broadcast_to(place, normal.shape) if light.parallel else place - faces.middle[face]
-        cosine = (normal * way).sum(axis=1) / np.linalg.norm(way, axis=1)
-        share = light.intensity * np.where(cosine > 0.0, cosine, -0.3 * cosine)
-        given += share
-        kept += share * np.where(truth.dark[here] >> number & 1, 0.5, 1.0)
-    deep = _depths(camera, faces, scene.vertices, pane)
-    cue = 0.2 * (_depths(camera, faces, faces.middle[face], pane) - deep.min()) / np.ptp(deep)
-    level = 255.0 * np.clip(0.8 * np.minimum(given, 1.0) * kept / np.maximum(given, 1e-300) + cue, 0.0, 1.0)
-    return level if pane < 0 else 0.85 * level
-
-
-def _depths(camera: Camera, faces: Faces, points: Floats, pane: int) -> Floats:
-    """(n,) coordinates towards the eye of points, or of their doubles in a mirror."""
-    if pane >= 0:
-        normal = faces.normal[pane]
-        points = points - 2.0 * ((points - faces.middle[pane]) @ normal)[:, None] * normal
-    return np.asarray(points @ camera.axes[2])
-
-
-def compared(scene: Scene, camera: Camera, drawing: Drawing | None = None) -> tuple[int, int, int]:
-    """How many pixels show the wrong item, how many the wrong shade, and how many are compared."""
-    drawing = drawing or paint(scene, camera, page=PAGE, fit=False, palette=256)
-    fills = fills_of(drawing)
-    places = pixel_places(drawing, COLUMNS, ROWS)
-    truth = truth_of(scene, camera, places)
-    labels = (truth.face + 1) + (len(truth.faces.item) + 1) * (truth.pane + 1)
-    labels = labels * (1 << len(scene.lights)) + truth.dark
-    sure = clear_of_edges(labels.reshape(ROWS, COLUMNS), EDGE).ravel()
-    place, polygon = covering(fills, places[sure])
-    top = last_at(place, polygon, int(sure.sum()))
-    item = np.where(top >= 0, np.append(fills.item, -1)[top], -1)
-    wanted = np.where(truth.face >= 0, truth.faces.item[truth.face], -1)[sure]
-    reflects = (top >= 0) & (np.append(fills.kind, -1)[top] == FillKind.REFLECTION)
-    wrong = (item != wanted) | (reflects != (truth.pane[sure] >= 0))
-    plain = np.array([thing.material.word == "normal" for thing in scene.items] + [False])
-    lit = truth.sure[sure] & plain[wanted] & ~wrong
-    if not scene.lights:
-        return int(wrong.sum()), 0, int(sure.sum())
-    level = colours_at(fills, top[lit], places[sure][lit])[:, 0]
-    off = np.abs(level - expected_levels(scene, camera, truth)[sure][lit]) > LEVELS
-    return int(wrong.sum()), int(off.sum()), int(sure.sum())
 
 
 def with_mirror(scene: Scene, random: np.random.Generator) -> Scene:
@@ -201,9 +69,32 @@ def test_the_comparison_finds_wrong_pictures() -> None:
     scene = replace(scene, lights=random_lights(scene, random, 2))
     camera = random_camera(scene, random)
     moved = [
-        replace(light, position=tuple(np.asarray(light.position) + np.array([0.5, 0.0, 0.0]))) for light in scene.lights
+        replace(light, position=tuple(np.asarray(light.position) + np.array([4.0, 0.0, 0.0]))) for light in scene.lights
     ]
-    assert compared(scene, camera, paint(scene, camera, page=PAGE, fit=False, palette=256, lights=moved))[1] > 100
-    assert compared(scene, camera, paint(scene, camera, page=PAGE, fit=False, palette=256, shadows="none"))[1] > 100
+    assert compared(scene, camera, paint(scene, camera, page=PAGE, fit=False, palette=256, lights=moved))[1] > 50
+    assert compared(scene, camera, paint(scene, camera, page=PAGE, fit=False, palette=256, shadows="none"))[1] > 50
     fewer = replace(scene, items=scene.items[1:])
     assert compared(scene, camera, paint(fewer, camera, page=PAGE, fit=False, palette=256))[0] > 100
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+def test_an_eye_amid_the_scene_sees_what_is_before_it(parallel: bool) -> None:
+    for seed in range(6):
+        random = np.random.default_rng(seed)
+        scene = rotated_boxes(30, seed)
+        scene = replace(scene, lights=random_lights(scene, random, seed % 3))
+        low, high = scene.bounds
+        eye = (low + high) / 2.0 + random.uniform(-0.5, 0.5, 3)
+        target = eye + random.normal(size=3)
+        camera = Camera(tuple(eye), tuple(target), fov_deg=70.0, parallel=parallel, height=4.0)
+        wrong, off, sure = compared(scene, camera)
+        assert (wrong, off) == (0, 0), f"seed {seed}"
+        assert sure > 0.5 * ROWS * COLUMNS
+
+
+def test_an_eye_in_a_room_sees_its_inner_walls_and_what_stands_in_it() -> None:
+    room, table = box((-4, -3, 0), (4, 3, 2.5)), box((0.5, -1, 0), (2, 1, 0.8))
+    scene = Scene((Item("ROOM", room), Item("TABLE", table)), (Light((-1.0, 0.5, 2.2), intensity=0.9),))
+    for target in [(1.0, 0.0, 0.8), (-4.0, 1.0, 1.0), (0.0, 3.0, 0.5)]:
+        wrong, off, sure = compared(scene, Camera((-2.5, -1.0, 1.6), target, fov_deg=60.0))
+        assert (wrong, off) == (0, 0) and sure > 0.8 * ROWS * COLUMNS

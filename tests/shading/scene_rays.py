@@ -64,15 +64,16 @@ def faces_of(scene: Scene, which: Bools | None = None) -> Faces:
     )
 
 
-def page_rays(camera: Camera, page: Page, places: Floats) -> tuple[Floats, Floats]:
-    """(n,3) origins and unit directions of the rays through places (n,2) of a page that is the camera's picture."""
+def page_rays(camera: Camera, page: Page, places: Floats, size: float) -> tuple[Floats, Floats]:
+    """(n,3) origins and unit directions of the rays through places (n,2) of a page that is the camera's picture; those
+    of a parallel one start outside of a scene of some size."""
     right, up, back = camera.axes
     distance = float(np.linalg.norm(np.subtract(camera.eye, camera.target)))
     height = camera.height if camera.parallel else 2.0 * distance * np.tan(np.radians(camera.fov_deg) / 2.0)
     plane = (places - (page.width_mm / 2.0, page.height_mm / 2.0)) * height / page.height_mm
     through = np.asarray(camera.target) + plane[:, :1] * right + plane[:, 1:] * up
     if camera.parallel:
-        return through + 4.0 * distance * back, np.broadcast_to(-back, through.shape)
+        return through + 2.0 * (distance + size) * back, np.broadcast_to(-back, through.shape)
     way = through - np.asarray(camera.eye)
     return np.broadcast_to(camera.eye, way.shape), way / np.linalg.norm(way, axis=1)[:, None]
 
