@@ -83,7 +83,7 @@ def paint(
     lighting = Lighting(scene.items, view_lights(view, scene.lights), _normals(view, facets, smooth), palette)
     shades = walk.run("shades", _shades, seen, lighting)
     aura = aura_mm / float(placed.page_from_image[0, 0])
-    decals = _decals(walk, seen, lighting, aura)
+    decals, lighting = _decals(walk, seen, lighting, aura)
     overlays = _overlays(walk, seen, lighting, decals, aura, tolerance_mm)
     polygons = walk.run("fills", _fills, walk, seen, lighting, shades, overlays, page)
     world = page_from_world(view, placed.page_from_image)
@@ -150,7 +150,7 @@ def _shades(seen: _Seen, lighting: Lighting) -> Shades:
     return corner_shades_of(seen.view, lighting, points, faces.offsets, faces.source)
 
 
-def _decals(walk: Walk, seen: _Seen, lighting: Lighting, aura: float) -> tuple[Decals, ...]:
+def _decals(walk: Walk, seen: _Seen, lighting: Lighting, aura: float) -> tuple[tuple[Decals, ...], Lighting]:
     """The polygons that lie on faces, in the order in which they are painted."""
     scene, view, projected = seen.scene, seen.view, seen.projected
     found: list[Decals] = []
@@ -158,16 +158,22 @@ def _decals(walk: Walk, seen: _Seen, lighting: Lighting, aura: float) -> tuple[D
         from vectorplot.effects.scene_decals import scene_shadows
 
         found.append(walk.run("shadows", scene_shadows, view, scene.lights, projected, aura))
+    if walk.calls_for("mirror light"):
+        from vectorplot.effects.scene_decals import scene_mirror_light
+
+        lit, doubles = walk.run("mirror light", scene_mirror_light, scene, view, projected, lighting, found[0])
+        found.append(lit)
+        lighting = replace(lighting, doubles=doubles)
     if walk.calls_for("patterns"):
         from vectorplot.effects.decals import joined_decals
         from vectorplot.effects.scene_decals import scene_patterns
 
-        found.append(walk.run("patterns", scene_patterns, scene, view, lighting, joined_decals(*found)))
+        found.append(walk.run("patterns", scene_patterns, scene, view, lighting, joined_decals(*found[:1])))
     if walk.calls_for("clear shadows"):
         from vectorplot.effects.clear_shadows import clear_shadows
 
         found.append(walk.run("clear shadows", partial(clear_shadows, projected=projected), view, scene, scene.lights))
-    return tuple(found)
+    return tuple(found), lighting
 
 
 def _overlays(

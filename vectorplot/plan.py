@@ -166,6 +166,8 @@ def plan_paint(scene: Scene, shadows: str, fills: str) -> tuple[Stage, ...]:
     clear = any(item.material.opacity < 1.0 for item in scene.items)
     if casts:
         stages.append(Stage("shadows", f"{len(scene.lights)} lights cast them"))
+    if casts and any(item.material.word == "mirror" for item in scene.items):
+        stages.append(Stage("mirror light", "mirrors throw light back"))
     if any(item.patterns for item in scene.items):
         stages.append(Stage("patterns", "faces carry patterns"))
     if casts and clear:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from vectorplot.drawing.fills import FillKind
@@ -11,11 +13,13 @@ from vectorplot.effects.laying import Laid, laid
 from vectorplot.effects.shadow_shades import shadow_shades
 from vectorplot.effects.windows import SeenThrough
 from vectorplot.geometry.mesh import Floats
+from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
 from vectorplot.shading.face_shades import Shades
+from vectorplot.shading.illumination import REDUCED
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of
 from vectorplot.shading.palettes import Colours, shaded_colours
-from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, unmapped
 
 KINDS = {
     DecalKind.SHADOW: FillKind.SHADOW,
@@ -40,6 +44,8 @@ def decal_fills(
     points = unmapped(view, parts.points)
     shades = corner_shades_of(view, lighting, points, parts.offsets, decals.face[parts.decal])
     shade = _shades(decals, parts, shades)
+    for number, double in enumerate(lighting.doubles):
+        shade = _with_double(view, lighting, decals, parts, points, shade, number, double)
     words = np.zeros(max(DecalKind) + 1, dtype=np.intp)
     words[list(KINDS)] = list(KINDS.values())
     fills = fills_on_page(
@@ -63,6 +69,29 @@ def _shades(decals: Decals, parts: Laid, shades: Shades) -> Floats:
     dimmed = np.repeat(np.where(border, decals.light[parts.decal], -1), sizes)
     dark = shadow_shades(shades.shares, shades.intensity, lacking, shades.cue, dimmed=dimmed)
     return np.where((lacking > 0) | (dimmed >= 0), dark, shades.total)
+
+
+def _with_double(
+    view: View,
+    lighting: Lighting,
+    decals: Decals,
+    parts: Laid,
+    points: Floats,
+    shade: Floats,
+    number: int,
+    light: Light,
+) -> Floats:
+    """The shades (c,), brighter where the double of a light in a mirror shines."""
+    kind, of = decals.kind[parts.decal], decals.light[parts.decal]
+    lit = np.flatnonzero((kind == DecalKind.LIGHT) & (of == number))
+    if not len(lit):
+        return shade
+    corner, offsets = corner_positions(parts.offsets, lit)
+    only = replace(lighting, lights=(light,))
+    own = corner_shades_of(view, only, points[:, corner], offsets, decals.face[parts.decal[lit]])
+    result = shade.copy()
+    result[corner] = np.clip(shade[corner] + REDUCED * own.intensity[0] * own.shares[0], 0.0, 1.0)
+    return result
 
 
 def _colours(view: View, lighting: Lighting, decals: Decals, parts: Laid, shade: Floats) -> Colours:

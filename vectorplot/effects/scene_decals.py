@@ -11,7 +11,7 @@ from vectorplot.effects.patterns import pattern_decals, patterns_in_shadows
 from vectorplot.geometry.mesh import Bools
 from vectorplot.scene.scene import Light, Scene
 from vectorplot.scene.view import View
-from vectorplot.shading.face_shades import face_shades
+from vectorplot.shading.face_shades import face_shades, view_lights
 from vectorplot.shading.painted_colours import Lighting
 from vectorplot.visibility.projected_faces import ProjectedFaces
 
@@ -28,6 +28,25 @@ def scene_shadows(
     shadows = graded(view, cast_shadows(view, lights, receivers=receivers, projected=projected), len(lights))
     dark = shadow_decals_of(shadows, DecalKind.SHADOW)
     return dark if aura == 0.0 else joined_decals(dark, shadow_borders(view, shadows, aura))
+
+
+def scene_mirror_light(
+    scene: Scene, view: View, projected: ProjectedFaces, lighting: Lighting, shadows: Decals
+) -> tuple[Decals, tuple[Light, ...]]:
+    """Where light falls by way of mirrors, and the doubles of lights that it comes from, in the view."""
+    from vectorplot.effects.mirror_lights import light_doubles, mirror_light
+    from vectorplot.effects.reflections import mirror_faces, mirrors_of
+    from vectorplot.effects.united_decals import united_decals
+
+    mirrors = mirrors_of(view, mirror_faces(scene, view))
+    doubles = light_doubles(view, mirrors, scene.lights)
+    # Many small shadows on a face make few regions: each has to be cut with each of the others.
+    lit, shadows = (united_decals(view, some) for some in (mirror_light(view, mirrors, doubles, projected), shadows))
+    nowhere = np.zeros(view.face_count, dtype=np.bool_)
+    lights = tuple(double.light for double in doubles)
+    return patterns_in_shadows(view, lit, shadows, nowhere, len(scene.lights)), view_lights(
+        view, lights
+    ) if lights else ()
 
 
 def scene_patterns(scene: Scene, view: View, lighting: Lighting, shadows: Decals) -> Decals:

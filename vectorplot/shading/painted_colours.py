@@ -25,12 +25,14 @@ from vectorplot.shading.palettes import COLOUR_MAP, SIZE, Colours
 @dataclass(frozen=True, eq=False)
 class Lighting:
     """What colours are made of: items and lights of the view, the latter as of view_lights; normals (3,v) of smooth
-    surfaces at the vertices of the view, NaN at those of polyhedra; size: shades of each palette."""
+    surfaces at the vertices of the view, NaN at those of polyhedra; size: shades of each palette; doubles: of lights in
+    mirrors, where such light falls."""
 
     items: Sequence[Item]
     lights: Sequence[Light]
     normals: Floats
     size: int = SIZE
+    doubles: tuple[Light, ...] = ()
 
 
 def smooth_faces(view: View, normals: Floats) -> Bools:
