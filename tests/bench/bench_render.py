@@ -32,7 +32,8 @@ def report(stage):
 warm = Scene((Item("SMALL", bumpy_icosphere(2)),), scene.lights)
 render(warm, default_camera(warm), size=(64, 64), shadows=shadows, shadow_size=64)
 start = time.perf_counter()
-image = render(scene, default_camera(scene), size={size}, shadows=shadows, shadow_size={map}, samples=samples, explain=report)
+options = {{"size": {size}, "shadows": shadows, "shadow_size": {map}, "samples": samples}}
+image = render(scene, default_camera(scene), **options, explain=report)
 seconds = time.perf_counter() - start
 with open("/proc/self/status") as status:
     peak = next(int(line.split()[1]) / 1024.0 for line in status if line.startswith("VmHWM"))

@@ -15,7 +15,14 @@ from vectorplot.shading import shadow_map as maps
 from vectorplot.shading.screen import front_facing, raster_system
 from vectorplot.shading.seen_region import seen_region
 from vectorplot.shading.shadow_buffer import is_inside, light_system, shadow_buffer
-from vectorplot.shading.shadow_map import light_plane, shadow_map, standard_frame, texels_per_unit, trapezoid_frame
+from vectorplot.shading.shadow_map import (
+    light_plane,
+    shadow_map,
+    standard_frame,
+    texels_per_unit,
+    trapezoid_frame,
+    vertices_with_own_depth,
+)
 from vectorplot.shading.shadow_rays import blocked_exactly
 from vectorplot.testing.surfaces import bumpy_icosphere
 
@@ -167,11 +174,30 @@ def test_depths_of_a_tapered_map_are_the_lamps_own(light):
     assert (np.abs(places[:, 2]) < 1e-3).mean() > 0.5, "the floor is where it is, near the eye and far away"
     assert places[:, 2].min() > -1e-3
     assert places[:, 2].max() < points[:, 2].max() + 1e-3
-    # Per vertex the same depth, put into the tapered system: z_T = z_L w_T / w_L.
-    h = system.homogeneous(points)
-    weight = h[:, [0, 1, 3]] @ tapered.texel_from_light[2]
-    z_t = h[:, 2] / h[:, 3] * weight / h[:, 3]
-    assert np.allclose(z_t / (weight / h[:, 3]), h[:, 2] / h[:, 3], rtol=1e-12)
+
+
+@pytest.mark.capability("R-zcorr")
+@pytest.mark.parametrize("light", [SUN, Light((60.0, -90.0, 150.0))], ids=["sun", "lamp"])
+def test_depths_put_right_at_the_vertices_are_right_only_there(light):
+    points, corners = triangles_of(floor(100.0, 0.0))
+    region = seen_region(
+        raster_system(FIELD_CAMERA, COLUMNS, ROWS), COLUMNS, ROWS, bounds(points) + np.array([[0.0], [4.0]])
+    )
+    system = light_system(light, points)
+    tapered = shadow_map(system, trapezoid_frame(system, region, 0.8), points, corners, 200, 200)
+    inner = np.array([(x, y, 0.0) for x in (-5.0, 5.0) for y in (-80.0, -40.0, 20.0)])
+    true = system.homogeneous(inner)
+    found = vertices_with_own_depth(system, tapered.texel_from_light, inner)
+    assert np.allclose(found[:, 2] / found[:, 3], true[:, 2] / true[:, 3], rtol=1e-12, atol=1e-12)
+    # Between the corners of the large floor such depths bend, those of the map do not.
+    column, row = np.rint(found[:, :2] / found[:, 3:]).astype(int).T
+    at = np.column_stack([column, row, np.ones(len(row))]) @ tapered.light_from_texel.T
+    places = np.column_stack([at[:, :2] / at[:, 2:], unscaled(system, tapered.depth[row, column])])
+    assert np.abs(system.to_world(places)[:, 2]).max() < 3e-3
+    rim = vertices_with_own_depth(system, tapered.texel_from_light, points[corners[0]])
+    flat = np.column_stack([rim[:, :2] / rim[:, 3:], np.ones(3)])
+    bent = np.column_stack([column, row, np.ones(len(row))]) @ np.linalg.solve(flat, rim[:, 2] / rim[:, 3])
+    assert np.abs(bent - tapered.depth[row, column]).max() > 100 * tapered.depth_code.step
 
 
 def unscaled(system, depth):
@@ -193,13 +219,16 @@ def test_the_trapezoid_shows_more_of_what_is_near_and_the_same_shadows(light):
     _, facing = stopped(points, corners, places, normals, light)
     distance = np.linalg.norm(places - FIELD_CAMERA.eye, axis=1)
     near = distance <= np.quantile(distance, 0.1)
-    texels, wrong = {}, {}
+    texels, wrong, shadows = {}, {}, {}
     for frame in ("standard", "box", "trapezoid"):
         buffer = shadow_buffer(light, points, corners, size=1024, frame=frame, region=region)
+        shadows[frame] = buffer.blocks(places, normals)
         texels[frame] = texels_per_unit(buffer.maps[0], places[near]).mean()
         coarse = shadow_buffer(light, points, corners, size=256, frame=frame, region=region)
         bad = coarse.blocks(places, normals) != exact
         wrong[frame] = (bad[near & facing].mean(), bad[facing].mean())
+    plain = shadow_buffer(light, points, corners, size=3000).blocks(places, normals)
+    assert (shadows["trapezoid"] == plain)[facing].mean() > 0.98
     assert texels["trapezoid"] > 8.0 * texels["standard"]
     assert texels["trapezoid"] > 4.0 * texels["box"] >= 4.0 * texels["standard"]
     assert wrong["trapezoid"][0] < 0.6 * wrong["standard"][0], "near the eye"

@@ -32,7 +32,7 @@ MOST_MIRRORS = 32
 class Picture:
     """What a picture is made of.
 
-    system: view coordinates to pixels; homogeneous (n, 4): the triangles' points in it; screen: the triangles in pixels;
+    system: view coordinates to pixels; homogeneous (n, 4): the triangles' points there; screen: the triangles there;
     opacity (i,) and mirror (i,) of every item; background (3,); points_at_once: so many points are shaded together.
     """
 

@@ -153,6 +153,22 @@ def shadow_map(
     return ShadowMap(system, matrix, code, depth_code)
 
 
+def vertices_with_own_depth(system: CoordinateSystem, texel_from_light: Floats, points: ArrayLike) -> Floats:
+    """(n, 4) homogeneous points in texels whose depth, after division, is that of the lamp's own space.
+
+    Right at the vertices (n, 3) only: within a triangle such depths are not interpolated linearly, and bend. Good for
+    meshes much finer than the map; shadow_map corrects every texel instead.
+    Errors: InputError for points behind the lamp.
+    Source: Martin and Tan, recipe, polygon offset without fragment programs.
+    """
+    h = system.homogeneous(points)
+    if not (h[:, 3] > 0.0).all():
+        raise InputError("a point on or behind the neutral plane of the lamp has no image")
+    texels = h @ four_by_four(texel_from_light).T
+    texels[:, 2] = h[:, 2] / h[:, 3] * texels[:, 3]
+    return np.asarray(texels)
+
+
 def _own_depth(inverse: Floats, seen: Bools, depth: ArrayLike) -> Floats:
     """(k,) the lamp's own depths at the texels that see something, from those of the tapered map."""
     if not inverse[2, :2].any():
