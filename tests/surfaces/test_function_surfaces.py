@@ -202,6 +202,29 @@ def test_bad_regions_and_graphs_are_input_errors(make, words):
         make()
 
 
+def test_a_graph_drops_periods():
+    closed = Domain(0.0, 2.0 * np.pi, -1.0, 1.0, closed_u=True)
+    surface = graph(lambda x, y: np.cos(x) + y, closed)
+    assert surface.domain == Domain(0.0, 2.0 * np.pi, -1.0, 1.0)
+    # Derivatives on the border are those of the function, not across a seam.
+    assert np.allclose(surface.partials(np.array([2.0 * np.pi]), np.array([0.0]))[0], (1.0, 0.0, 0.0), atol=1e-6)
+
+
+@pytest.mark.parametrize("direction", ["u", "v"])
+def test_a_function_that_does_not_come_back_does_not_close(direction):
+    def strip(u, v):
+        r = 2.0 + v * np.cos(0.5 * u)
+        return r * np.cos(u), r * np.sin(u), v * np.sin(0.5 * u)
+
+    def turned(u, v):
+        return strip(v, u)
+
+    function, size = (strip, (0.0, 2.0 * np.pi, -1.0, 1.0)) if direction == "u" else (turned, (-1, 1, 0, 2.0 * np.pi))
+    surface_of_function(function, Domain(*size))
+    with pytest.raises(InputError, match=f"closed in {direction}, but the surface ends up to 2 from"):
+        surface_of_function(function, Domain(*size, closed_u=direction == "u", closed_v=direction == "v"))
+
+
 def test_a_constant_graph_is_flat():
     surface = graph(lambda x, y: 2.0, Domain(0, 1, 0, 1))
     assert np.array_equal(surface.points(U[:2] / 7, V[:2] / 7)[..., 2], np.full((2, 13), 2.0))

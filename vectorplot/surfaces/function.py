@@ -6,10 +6,18 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Floats
 from vectorplot.surfaces.surface import Domain
+
+LOOKS = 16
+"""Columns and rows of the points at which a seam is looked at."""
+
+OPEN = 1e-6
+"""A surface with a larger gap than this part of its extent does not close."""
 
 
 def ranges_of(domain: Domain) -> tuple[Range, Range]:
@@ -64,16 +72,35 @@ def surface_of_function(
     that takes single numbers works too, slower, with one InputWarning. partials: two such functions, by u and by v;
     second_partials: three, by uu, uv, vv. What is not given comes by complex step if the function takes complex
     numbers, else by differences; see NumericFunction for their accuracy.
-    Errors: InputError, naming the function, when it raises, returns complex numbers or the wrong shape.
+    Errors: InputError, naming the function, when it raises, returns complex numbers or the wrong shape; and for a
+    domain that is closed in a direction in which the function does not come back to where it began.
     Degenerate: where the function is not finite the surface has a hole, NaN.
     Source: Glaeser, section 8.2, equation 9.
     """
     if len(partials) not in (0, 2) or len(second_partials) not in (0, 3):
         raise InputError("give both partials and all three second partials, or none")
     ranges = ranges_of(domain)
-    return FunctionSurface(
+    surface = FunctionSurface(
         domain,
         numeric_function(function, 3, ranges),
         tuple(numeric_function(f, 3, ranges) for f in partials),
         tuple(numeric_function(f, 3, ranges) for f in second_partials),
     )
+    _check_seams(surface)
+    return surface
+
+
+def _check_seams(surface: FunctionSurface) -> None:
+    """The function is the same on both sides of a seam."""
+    domain = surface.domain
+    if not (domain.closed_u or domain.closed_v):
+        return
+    points = surface.points(*np.meshgrid(*domain.grid(LOOKS, LOOKS), indexing="ij"))
+    if np.isnan(points).all():
+        return
+    extent = float(np.nanmax(np.nanmax(points, axis=(0, 1)) - np.nanmin(points, axis=(0, 1))))
+    for name, closed, along in (("u", domain.closed_u, points), ("v", domain.closed_v, points.swapaxes(0, 1))):
+        apart = np.linalg.norm(along[-1] - along[0], axis=1)
+        if closed and (apart > OPEN * extent).any():
+            gap = float(np.nanmax(apart))
+            raise InputError(f"a domain closed in {name}, but the surface ends up to {gap:.3g} from where it began")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -56,15 +56,18 @@ def graph(
 ) -> Graph:
     """The surface z = function(x, y) above a rectangle or a region of the plane; u is x, v is y.
 
-    domain: a Domain; or a region, such as Disc or PolygonRegion: the surface then has the rectangle around it as its
-    domain, with a hole outside the region, where the function is not asked. For a disc with a smooth border see
-    `graph_over_disc`. slopes: the derivatives by x and by y, else they are found as in `surface_of_function`.
+    domain: a Domain, of which only the rectangle counts: x and y do not come back, whatever the function does, so the
+    graph has a border also where the domain is closed; or a region, such as Disc or PolygonRegion: the surface then has
+    the rectangle around it as its domain, with a hole outside the region, where the function is not asked. For a disc
+    with a smooth border see `graph_over_disc`. slopes: the derivatives by x and by y, else they are found as in
+    `surface_of_function`.
     Errors: InputError, naming the function, when it raises, returns complex numbers or the wrong shape.
     Degenerate: where the function is not finite the graph has a hole, NaN.
     """
     if len(slopes) not in (0, 2):
         raise InputError("give both slopes or none")
-    rectangle, inside = (domain, None) if isinstance(domain, Domain) else (domain.domain, domain.contains)
+    given, inside = (domain, None) if isinstance(domain, Domain) else (domain.domain, domain.contains)
+    rectangle = replace(given, closed_u=False, closed_v=False)
     ranges = ranges_of(rectangle)
     return Graph(
         rectangle,
