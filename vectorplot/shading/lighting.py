@@ -68,13 +68,17 @@ def lighting_of(view: View, items: Sequence[Item], lights: tuple[Light, ...], bl
 
     Errors: InputError for a colour that is none.
     """
-    words = list(dict.fromkeys(item.material.word for item in items))
-    finish = np.array([words.index(item.material.word) for item in items], dtype=np.intp)
-    names = list(dict.fromkeys(item.colour for item in items))
-    number = np.array([names.index(item.colour) for item in items], dtype=np.intp)
+    words, finish = _numbered([item.material.word for item in items])
+    names, number = _numbered([item.colour for item in items])
     palettes = np.array([palette(name, COLOUR_MAP) for name in names], dtype=np.uint8).reshape(-1, COLOUR_MAP, 3)
     finishes = tuple(FINISHES.get(word, Finish()) for word in words)
     return Lighting(lights, blocked, view_eye(view), number, palettes, finish, finishes, depth_limits(view))
+
+
+def _numbered(values: Sequence[str]) -> tuple[list[str], Ints]:
+    """The different values, and (n,) which of them each is."""
+    places = {value: number for number, value in enumerate(dict.fromkeys(values))}
+    return list(places), np.array([places[value] for value in values], dtype=np.intp)
 
 
 def shaded_points(triangles: SceneTriangles, found: VisiblePoints, lighting: Lighting) -> ShadedPoints:
