@@ -1,0 +1,62 @@
+"""Things between two mirrors, with a floor of tiles: what the eye sees in each is clipped by its window.
+
+The mirrors show no mutual reflections: in each other they are plain boards. Source: Glaeser, section 6.4, figure 8.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import vectorplot as vp
+from vectorplot.drawing.fills import FillKind
+from vectorplot.geometry.revolution import revolution
+from vectorplot.geometry.solids import box
+from vectorplot.geometry.vectors import translated
+
+LIGHTS = (vp.Light((5, -6, 7), parallel=True, intensity=0.7), vp.Light((-1.0, -7.0, 9.0), intensity=0.4))
+PLANES = {"MIRROR1": (np.array([0.0, -1.0, 0.0]), -3.0), "MIRROR2": (np.array([1.0, 0.0, 0.0]), -3.4)}
+"""Normal, towards the room, and level of each mirror."""
+
+
+def placed(name: str, mesh: vp.Mesh, place: tuple[float, float, float], colour: str, word: str = "normal") -> vp.Item:
+    """A body in its place."""
+    moved = vp.Mesh(translated(mesh.vertices, place), mesh.corners, mesh.offsets)
+    return vp.Item(name, moved, colour, vp.Material(word))
+
+
+def main(folder: Path) -> None:
+    items = (
+        placed("FLOOR", box((9, 9, 0.3)), (-3.6, -6, -0.3), "lightgray"),
+        placed("MIRROR1", box((6, 0.15, 4.2)), (-2.9, 3.0, 0.2), "cyan", "mirror"),
+        placed("MIRROR2", box((0.15, 6.2, 4.2)), (-3.55, -3.6, 0.2), "cyan", "mirror"),
+        placed(
+            "VASE", revolution([(0.5, 0, 0), (1, 0, 0.9), (0.4, 0, 1.9), (0.7, 0, 2.5)], 20), (-0.6, 0.6, 0), "orange"
+        ),
+        placed("BLOCK", box((1.6, 1.1, 1.3)), (1.6, -1.4, 0), "green"),
+        placed("SPIKE", revolution([(0.6, 0, 0), (0, 0, 2.2)], 4), (-0.8, -2.6, 0), "pink"),
+    )
+    scene = vp.Scene(items, LIGHTS, title="Two mirrors")
+    camera = vp.Camera(eye=(11, -15, 10), target=(-0.2, -0.8, 1.2), fov_deg=28)
+    drawing = vp.paint(scene, camera, page=vp.Page(130, 100, 4))
+    vp.save(drawing, folder / "two_mirrors.svg")
+
+    (fills,) = drawing.layers[0].fills
+    owner = np.repeat(fills.item, np.diff(fills.offsets))
+    reflected = np.repeat(fills.kind == FillKind.REFLECTION, np.diff(fills.offsets))
+    seen = {drawing.items[k] for k in np.unique(owner[reflected])}
+    assert seen >= {"FLOOR", "VASE", "BLOCK", "SPIKE", "MIRROR1", "MIRROR2"}
+    assert reflected.sum() > 100
+    # A double lies on the far side of one of the mirrors, and what it is the double of before it.
+    points = fills.points3d[reflected]
+    beyond = np.array([points @ normal < level + 1e-6 for normal, level in PLANES.values()])
+    assert beyond.any(axis=0).all()
+    for number in (3, 4, 5):
+        own, vertices = points[owner[reflected] == number], items[number].mesh.vertices
+        back = np.array([own - 2.0 * np.outer(own @ normal - level, normal) for normal, level in PLANES.values()])
+        inside = ((back > vertices.min(axis=0) - 1e-6) & (back < vertices.max(axis=0) + 1e-6)).all(axis=2)
+        assert inside.any(axis=0).all(), f"reflected once more they are points of {items[number].name}"
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1] if len(sys.argv) > 1 else "docs/gallery"))
