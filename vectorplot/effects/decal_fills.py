@@ -12,12 +12,10 @@ from vectorplot.effects.decals import DecalKind, Decals
 from vectorplot.effects.laying import Laid, laid
 from vectorplot.effects.shadow_shades import shadow_shades
 from vectorplot.effects.windows import SeenThrough
-from vectorplot.geometry.mesh import Floats
-from vectorplot.scene.scene import Light
+from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.shading.face_shades import Shades
-from vectorplot.shading.illumination import REDUCED
-from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of
+from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
 from vectorplot.shading.palettes import Colours, shaded_colours
 from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, unmapped
 
@@ -37,15 +35,18 @@ def decal_fills(
 ) -> Overlay:
     """Decals on what is painted of their faces, in the shades of their faces, those that lack lights darker.
 
-    faces: the painted polygons.
-    Source: Glaeser, sections 6.3 and 6.5.
+    faces: the painted polygons. On transparent faces there are patterns only: light goes through them.
+    Source: Glaeser, sections 6.3, 6.5 and 6.6.
     """
+    opaque = opacities(lighting.items)[view.face_item[decals.face]] >= 1.0
+    decals = decals.of(np.flatnonzero(opaque | (decals.kind == DecalKind.PATTERN)))
     parts = laid(view, decals, faces.points, faces.offsets, faces.source)
     points = unmapped(view, parts.points)
     shades = corner_shades_of(view, lighting, points, parts.offsets, decals.face[parts.decal])
     shade = _shades(decals, parts, shades)
-    for number, double in enumerate(lighting.doubles):
-        shade = _with_double(view, lighting, decals, parts, points, shade, number, double)
+    for number in range(len(lighting.doubles)):
+        corner, brighter = _with_double(view, lighting, decals, parts, points, shades, number)
+        shade[corner] = brighter
     words = np.zeros(max(DecalKind) + 1, dtype=np.intp)
     words[list(KINDS)] = list(KINDS.values())
     fills = fills_on_page(
@@ -72,26 +73,18 @@ def _shades(decals: Decals, parts: Laid, shades: Shades) -> Floats:
 
 
 def _with_double(
-    view: View,
-    lighting: Lighting,
-    decals: Decals,
-    parts: Laid,
-    points: Floats,
-    shade: Floats,
-    number: int,
-    light: Light,
-) -> Floats:
-    """The shades (c,), brighter where the double of a light in a mirror shines."""
+    view: View, lighting: Lighting, decals: Decals, parts: Laid, points: Floats, shades: Shades, number: int
+) -> tuple[Ints, Floats]:
+    """The corners (n,) where the double of a light in a mirror shines too, and their shades (n,)."""
     kind, of = decals.kind[parts.decal], decals.light[parts.decal]
     lit = np.flatnonzero((kind == DecalKind.LIGHT) & (of == number))
-    if not len(lit):
-        return shade
     corner, offsets = corner_positions(parts.offsets, lit)
-    only = replace(lighting, lights=(light,))
+    only = replace(lighting, lights=(lighting.doubles[number],))
     own = corner_shades_of(view, only, points[:, corner], offsets, decals.face[parts.decal[lit]])
-    result = shade.copy()
-    result[corner] = np.clip(shade[corner] + REDUCED * own.intensity[0] * own.shares[0], 0.0, 1.0)
-    return result
+    shares = np.concatenate([shades.shares[:, corner], own.shares])
+    intensity = np.concatenate([shades.intensity, own.intensity])
+    lacking = np.repeat(decals.lights_lacking[parts.decal[lit]], np.diff(offsets))
+    return corner, shadow_shades(shares, intensity, lacking, shades.cue[corner])
 
 
 def _colours(view: View, lighting: Lighting, decals: Decals, parts: Laid, shade: Floats) -> Colours:

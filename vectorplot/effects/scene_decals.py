@@ -40,8 +40,9 @@ def scene_mirror_light(
 
     mirrors = mirrors_of(view, mirror_faces(scene, view))
     doubles = light_doubles(view, mirrors, scene.lights)
-    # Many small shadows on a face make few regions: each has to be cut with each of the others.
-    lit, shadows = (united_decals(view, some) for some in (mirror_light(view, mirrors, doubles, projected), shadows))
+    lit = mirror_light(view, mirrors, doubles, projected)
+    # Many small shadows on a face make few regions, each of which has to be cut with each part of the light.
+    shadows = united_decals(view, shadows)
     nowhere = np.zeros(view.face_count, dtype=np.bool_)
     lights = tuple(double.light for double in doubles)
     return patterns_in_shadows(view, lit, shadows, nowhere, len(scene.lights)), view_lights(
