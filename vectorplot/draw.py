@@ -16,7 +16,7 @@ from vectorplot.drawing.layers import layers_by_colour, layers_by_kind, layers_b
 from vectorplot.drawing.page import mm_per_image, page_from_image, page_from_world, strokes_on_page
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Bools
+from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.plan import StageReport, Walk, plan_draw
 from vectorplot.scene.scene import Page, Scene
@@ -93,17 +93,8 @@ def draw(
     view = walk.run("look", look, scene, camera)
     faces = walk.run("faces", project_faces, view)
     solid = solid_items(view, faces)
-    found = []
-    if walk.calls_for("edges"):
-        backs = ~solid if hidden == "none" else np.ones(len(solid), dtype=np.bool_)
-        found.append(walk.run("edges", edge_lines, scene, view, faces, kinds, crease_angle_deg, backs))
-    if walk.calls_for("intersections"):
-        found.append(walk.run("intersections", intersection_lines, scene, view, faces, kinds, solid))
-    if walk.calls_for("patterns"):
-        found.append(walk.run("patterns", pattern_lines, scene, view, kinds))
-    if walk.calls_for("lines on meshes"):
-        found.append(walk.run("lines on meshes", mesh_curve_lines, scene, view, kinds))
-    straight, sheets = joined_lines(found), _sheets(walk, scene, view)
+    straight = _straight_lines(walk, scene, view, faces, solid, kinds, crease_angle_deg)
+    sheets = _sheets(walk, scene, view)
     scale = mm_per_image(view, [sheet.vertices for sheet in sheets], page, fit)
     while True:
         # Chords take one half of the tolerance, Béziers through their ends the other.
@@ -126,6 +117,57 @@ def draw(
     pens = walk.run("pen", inked, sorted_layers, hidden, world, tolerance_mm if curves == "bezier" else None)
     names = tuple(item.name for item in scene.items)
     return Drawing(page.width_mm, page.height_mm, pens, names, scene.title, world)
+
+
+def lines_in_place(
+    scene: Scene,
+    camera: Camera,
+    page: Page,
+    lines: Iterable[str],
+    place: Callable[[View], Floats],
+    *,
+    crease_angle_deg: float,
+    tolerance_mm: float,
+) -> tuple[Layer, ...]:
+    """The visible lines of a scene in layers by kind, where a picture of it already has its place on the page.
+
+    place: the (3,3) matrix from the image of a view of the scene to the page. All else as of draw.
+    """
+    kinds = frozenset(map(LineKind.from_word, lines))
+    walk = Walk(plan_draw(scene, kinds, "none", 0.0), None, None)
+    view = look(scene, camera)
+    faces, placed = project_faces(view), place(view)
+    solid = solid_items(view, faces)
+    straight = _straight_lines(walk, scene, view, faces, solid, kinds, crease_angle_deg)
+    tolerance = 0.5 * tolerance_mm / float(placed[0, 0])
+    every = _with_curves(walk, scene, view, _sheets(walk, scene, view), kinds, straight, tolerance)
+    framed, _ = in_frame(view, every, page, True)
+    seen = _visibility(walk, view, faces, solid, framed)
+    strokes = strokes_on_page(view, framed, seen, placed)
+    return inked(layers_by_kind(strokes), "none", page_from_world(view, placed), tolerance_mm)
+
+
+def _straight_lines(
+    walk: Walk,
+    scene: Scene,
+    view: View,
+    faces: ProjectedFaces,
+    solid: Bools,
+    kinds: frozenset[LineKind],
+    crease_angle_deg: float,
+) -> Lines:
+    """The lines of polyhedra."""
+    found = []
+    if walk.calls_for("edges"):
+        backs = ~solid if walk.calls_for("visible lines") else np.ones(len(solid), dtype=np.bool_)
+        found.append(walk.run("edges", edge_lines, scene, view, faces, kinds, crease_angle_deg, backs))
+    if walk.calls_for("intersections"):
+        found.append(walk.run("intersections", intersection_lines, scene, view, faces, kinds, solid))
+    if walk.calls_for("patterns"):
+        found.append(walk.run("patterns", pattern_lines, scene, view, kinds))
+    if walk.calls_for("lines on meshes"):
+        found.append(walk.run("lines on meshes", mesh_curve_lines, scene, view, kinds))
+    return joined_lines(found)
 
 
 def _check_options(hidden: str, curves: str, halo_mm: float, crease_angle_deg: float, tolerance_mm: float) -> None:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from vectorplot.draw import default_camera
+from vectorplot.draw import default_camera, lines_in_place
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.page import mm_per_image, page_from_world
@@ -17,6 +17,7 @@ from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, interleav
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Bools, Floats
+from vectorplot.geometry.strokes import LineKind
 from vectorplot.plan import StageReport, Walk, plan_paint
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.view import View, look
@@ -48,6 +49,8 @@ def paint(
     palette: int = SIZE,
     smooth: bool = True,
     fills: Literal["painted", "visible"] = "painted",
+    lines: Iterable[str] = (),
+    crease_angle_deg: float = 25.0,
     tolerance_mm: float = 0.02,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
@@ -59,6 +62,7 @@ def paint(
     place of those of the scene. shadows: whether lights cast any. aura_mm: the width of their soft borders. palette:
     how many shades every colour has. smooth: smooth surfaces are shaded from corner to corner, not face by face.
     fills: polygons painted one over the other, or only what is seen of each, for pens, which cannot paint over things.
+    lines: words of LineKind, drawn on top with exact hidden lines; crease_angle_deg: sharper edges are creases.
     tolerance_mm: how far the sides of polygons may be off smooth surfaces and refracted lines. progress(stage,
     fraction) and explain(report) are called while it works.
     Errors: InputError for unknown words and colours, impossible cameras, and widths and counts out of range.
@@ -71,7 +75,8 @@ def paint(
     scene = scene if lights is None else replace(scene, lights=tuple(lights))
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
-    walk = Walk(plan_paint(scene, shadows, fills), explain, progress)
+    kinds = frozenset(map(LineKind.from_word, lines))
+    walk = Walk(plan_paint(scene, shadows, fills, kinds), explain, progress)
     facets = FacetedScene(scene, (None,) * len(scene.items))
     if walk.calls_for("facets"):
         facets = walk.run("facets", faceted, scene, _allowed(scene, camera, page, fit, tolerance_mm))
@@ -91,8 +96,10 @@ def paint(
         from vectorplot.drawing.visible_fills import visible_fills
 
         polygons = walk.run("visible fills", visible_fills, polygons, world)
-    layers = (Layer("fills", Pen(), (polygons,)),)
-    return Drawing(page.width_mm, page.height_mm, layers, tuple(i.name for i in scene.items), scene.title, world)
+    layers = [Layer("fills", Pen(), (polygons,))]
+    if walk.calls_for("lines"):
+        layers += walk.run("lines", _lines, scene, camera, page, seen, kinds, crease_angle_deg, tolerance_mm)
+    return Drawing(page.width_mm, page.height_mm, tuple(layers), tuple(i.name for i in scene.items), scene.title, world)
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,6 +253,29 @@ def _fills(
         fills, tints = tinted(fills, clear, opacity, shades_of(seen.scene.background or PAPER)[-1])
         overlays = (*overlays, tints)
     return Fills.joined(*_background(seen.scene, page), interleaved(fills, overlays))
+
+
+def _lines(
+    scene: Scene,
+    camera: Camera,
+    page: Page,
+    seen: _Seen,
+    kinds: frozenset[LineKind],
+    crease_angle_deg: float,
+    tolerance_mm: float,
+) -> tuple[Layer, ...]:
+    """The lines of the scene, where the polygons have their place."""
+
+    def place(view: View) -> Floats:
+        own = seen.view
+        # The same rays in views of other units: a length in the image is one in the world, or a slope times the focus.
+        unit = view.scale / own.scale if own.eye is None else own.focus / view.focus
+        return np.asarray(seen.placed.page_from_image @ np.diag([unit, unit, 1.0]))
+
+    words = [kind.word for kind in kinds]
+    return lines_in_place(
+        scene, camera, page, words, place, crease_angle_deg=crease_angle_deg, tolerance_mm=tolerance_mm
+    )
 
 
 def _background(scene: Scene, page: Page) -> tuple[Fills, ...]:

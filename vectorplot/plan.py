@@ -151,7 +151,7 @@ def peak_mb() -> float:
     return peak / (1024.0 * 1024.0 if sys.platform == "darwin" else 1024.0)
 
 
-def plan_paint(scene: Scene, shadows: str, fills: str) -> tuple[Stage, ...]:
+def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind]) -> tuple[Stage, ...]:
     """The stages that painting this scene calls for, in their order; nothing else runs."""
     stages = []
     if any(not isinstance(item.shape, Mesh) for item in scene.items):
@@ -179,4 +179,6 @@ def plan_paint(scene: Scene, shadows: str, fills: str) -> tuple[Stage, ...]:
     stages.append(Stage("fills", "polygons on the page"))
     if fills == "visible":
         stages.append(Stage("visible fills", "each without what is painted over it"))
+    if kinds:
+        stages.append(Stage("lines", ", ".join(sorted(kind.word for kind in kinds)) + " on top"))
     return tuple(stages)

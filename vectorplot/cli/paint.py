@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.options import at_least, between, format_of, light
+from vectorplot.cli.options import at_least, between, format_of, kinds_or_none, light
 from vectorplot.cli.picture import make_picture
 from vectorplot.cli.view import CAMERA_OPTIONS, PAGE_OPTIONS, CameraOptions, camera_from, page_from, with_options
 
@@ -41,6 +41,10 @@ FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
     default="painted",
     help="Painted one over the other, or only what is seen of each.",
 )
+@click.option("--lines", type=kinds_or_none, default="none", metavar="KIND,...", help="Lines on top, as those of draw.")
+@click.option(
+    "--crease-angle", type=at_least(0.0, at_most=180.0), default=25.0, metavar="DEG", help="Sharper edges are creases."
+)
 @click.option("--tolerance", type=between(0.0, math.inf), default=0.02, metavar="MM", help="For approximations.")
 @click.option("--explain", is_flag=True, help="Print stages, times, counts and memory on stderr.")
 @click.option("-q", "--quiet", is_flag=True, help="No warnings, no progress bar.")
@@ -65,6 +69,8 @@ def paint(scene_file: str, out: str, format_: str | None, quiet: bool, explain: 
             palette=options["palette"],
             smooth=not options["flat"],
             fills=options["fills"],
+            lines=options["lines"],
+            crease_angle_deg=options["crease_angle"],
             tolerance_mm=options["tolerance"],
             progress=report.progress,
             explain=report.explain,
