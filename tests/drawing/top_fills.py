@@ -81,3 +81,13 @@ def blended(fills: Fills, places: Floats, paper: float = 255.0) -> Floats:
 
 def _turn(one: Floats, two: Floats) -> Floats:
     return np.asarray(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
+
+
+def assert_same_picture(one: Drawing, two: Drawing, levels: float = 1.5, apart: int = 2) -> None:
+    """Nothing, where two pages show the same in random places but for a few beside edges, which rounding moves."""
+    assert (one.width_mm, one.height_mm) == (two.width_mm, two.height_mm)
+    places = np.random.default_rng(0).random((4000, 2)) * (one.width_mm, one.height_mm)
+    seen = [blended(fills_of(drawing), places) for drawing in (one, two)]
+    different = np.abs(seen[0] - seen[1]).max(axis=1) > levels
+    assert different.sum() <= apart, f"{different.sum()} places of {len(places)} differ, as {places[different][:3]}"
+    assert (seen[0] < 250.0).any(axis=1).mean() > 0.02, "the pages show something"
