@@ -15,6 +15,7 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.surface_lines import SurfaceLines
+from vectorplot.surfaces.cyclide import ImplicitCyclide, dupin_cyclide
 from vectorplot.surfaces.cylinder import Cone, Cylinder
 from vectorplot.surfaces.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.graph import graph
@@ -178,3 +179,17 @@ def test_polyhedra_among_surfaces_are_judged_too() -> None:
         assert_drawing_is_right(
             changed(drawing, hidden_by=lambda count: np.minimum(count, 1)), scene, camera, samples=300, clearance=SURE
         )
+
+
+def test_cells_of_very_unequal_size_leave_few_points_open() -> None:
+    # A torus inverted in a sphere around a point close to it: one side of it is thirty times as large as the other.
+    scene = one(dupin_cyclide(3.0, 1.0, (5.2, 0.0, 0.0), 4.0))
+    camera = Camera((5.0, -19.0, 13.0))
+    points = some_points(scene.items[0].shape, scene, np.random.default_rng(4))
+    sight = visible_by_rays(scene, camera, points)
+    assert (sight.clearance > SURE).mean() > 0.8
+    # The same surface as an equation, which another walk looks at.
+    other = visible_by_rays(one(ImplicitCyclide(3.0, 1.0, (5.2, 0.0, 0.0), 4.0)), camera, points)
+    sure = np.minimum(sight.clearance, other.clearance) > SURE
+    assert sure.mean() > 0.5
+    assert np.array_equal(sight.hidden_by[sure], other.hidden_by[sure])

@@ -195,21 +195,24 @@ def distance_to_segment(point: Floats, a: Floats, b: Floats) -> Floats:
     return np.asarray(np.linalg.norm(arm - share[:, None] * edge, axis=1))
 
 
-def edge_distances(rays: Rays, edges: Solids, own: Floats | None = None) -> Floats:
+def edge_distances(rays: Rays, edges: Solids, own: Floats | None = None, off: Floats | None = None) -> Floats:
     """(n,) distance from each ray to the nearest edge that its point does not touch, at most REACH.
 
-    own (n,): edges no further from the point than this do not count either; None: those that touch it.
+    own (n,): edges no further from the point than this do not count either; None: those that touch it. off (m,): how
+    far edges may be off; the distances are less by that, but no less than 0. None: they are exact.
     """
     touching = np.full(len(rays.length), CONTACT) if own is None else own
-    clearance = np.full(len(rays.length), REACH)
+    nearer = np.zeros(len(edges)) if off is None else off
+    # Edges beyond the reach are not looked at; they may be nearer than that.
+    clearance = np.full(len(rays.length), REACH - nearer.max(initial=0.0))
     for ray, index in near_pairs(rays, edges):
         start, end = edges.corners[index, 0], edges.corners[index, 1]
         free = distance_to_segment(rays.origin[ray], start, end) > touching[ray]
-        ray, start, end = ray[free], start[free], end[free]
+        ray, index, start, end = ray[free], index[free], start[free], end[free]
         origin = rays.origin[ray]
         tip = origin + rays.direction[ray] * rays.length[ray][:, None]
-        np.minimum.at(clearance, ray, distance_of_segments(origin, tip, start, end))
-    return clearance
+        np.minimum.at(clearance, ray, distance_of_segments(origin, tip, start, end) - nearer[index])
+    return np.asarray(np.maximum(clearance, 0.0))
 
 
 def distance_of_segments(a: Floats, b: Floats, c: Floats, d: Floats) -> Floats:

@@ -89,12 +89,15 @@ class Net:
         return np.asarray(found[~is_hole(self.points)[found].any(axis=1)])
 
     @cached_property
-    def error(self) -> float:
-        """How far the surface is from the middles of the cells' diagonals, at most."""
+    def errors(self) -> Floats:
+        """(n m,) how far the surface is from the middles of the diagonals of the cells around a grid point, at most."""
         a, _, c, _ = self._cells.T
         middles = self.at(*(0.5 * (self.parameters[a] + self.parameters[c])).T)
         off = np.linalg.norm(middles - 0.5 * (self.points[a] + self.points[c]), axis=1)
-        return float(off[np.isfinite(off)].max(initial=0.0))
+        worst = np.zeros(len(self.points))
+        for corner in self._cells.T:
+            np.maximum.at(worst, corner, np.where(np.isfinite(off), off, 0.0))
+        return worst
 
     @cached_property
     def longest(self) -> float:
@@ -103,8 +106,9 @@ class Net:
         long = np.linalg.norm(self.points[a] - self.points[c], axis=1)
         return float(long[np.isfinite(long)].max(initial=0.0))
 
-    def borders(self) -> Floats:
-        """(b,2,3) segments of the borders of domain and holes; none at poles and where the domain closes."""
+    def borders(self) -> tuple[Floats, Floats]:
+        """(b,2,3) segments of the borders of domain and holes, none at poles and where the domain closes; and (b,) how
+        far they may be off."""
         domain, n, m = self.surface.domain, len(self.u), len(self.v)
         index = np.arange(n * m).reshape(n, m)
         sides = [] if domain.closed_u else [index[0], index[-1]]
@@ -114,18 +118,20 @@ class Net:
         hole = is_hole(self.points)
         mixed = hole[self._cells].any(axis=1)
         ends += [np.stack(pair, axis=1)[mixed] for pair in ((a, b), (b, c), (c, d), (d, a), (a, c), (b, d))]
-        segments = self.points[np.concatenate(ends)]
-        long = np.linalg.norm(segments[:, 1] - segments[:, 0], axis=1)
-        return np.asarray(segments[long > CONTACT])
+        segments, errors = self.points[np.concatenate(ends)], self.errors[np.concatenate(ends)].max(axis=1, initial=0.0)
+        long = np.linalg.norm(segments[:, 1] - segments[:, 0], axis=1) > CONTACT
+        return segments[long], errors[long]
 
-    def contour(self, eye: Floats | None, direction: Floats) -> Floats:
-        """(s,2,3) segments of the contour as seen from the eye, or along a direction towards it."""
+    def contour(self, eye: Floats | None, direction: Floats) -> tuple[Floats, Floats]:
+        """(s,2,3) segments of the contour as seen from the eye, or along a direction towards it; and (s,) how far they
+        may be off."""
         normals = unit_normals(self.surface, *self.parameters.T)
         sight = np.broadcast_to(direction, normals.shape) if eye is None else eye - self.points
         value = (normals * sight).sum(axis=1)
         corners, at = self.triangles, value[self.triangles]
         unknown = np.isnan(at).any(axis=1)
         every = self.points[corners[unknown]][:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2, 3)
+        errors = np.repeat(self.errors[corners[unknown]].max(axis=1, initial=0.0), 3)
         corners, at = corners[~unknown], at[~unknown]
         count = (at > 0.0).sum(axis=1)
         corners, at = corners[count % 3 > 0], at[count % 3 > 0]
@@ -138,7 +144,8 @@ class Net:
             share = (f / (f - g))[:, None]
             p, q = self.points[corners[row, lone]], self.points[corners[row, other]]
             found.append(p + share * (q - p))
-        return np.concatenate([np.stack(found, axis=1).reshape(-1, 2, 3), every])
+        errors = np.concatenate([self.errors[corners].max(axis=1, initial=0.0), errors])
+        return np.concatenate([np.stack(found, axis=1).reshape(-1, 2, 3), every]), errors
 
     @cached_property
     def _cells(self) -> Ints:
@@ -148,18 +155,24 @@ class Net:
 
 
 def fine_net(surface: Surface, middle: Floats, size: float) -> Net:
-    """The net of a surface that is as near to it as MOST_CELLS allow."""
+    """The net of a surface that is as near to it as MOST_CELLS allow, finer where it bends more."""
     first = Net(surface, middle, size, *surface.domain.grid(FIRST_CELLS, FIRST_CELLS))
     p = first.points.reshape(FIRST_CELLS + 1, FIRST_CELLS + 1, 3)
     bends = [
         np.linalg.norm(p[:-2] + p[2:] - 2.0 * p[1:-1], axis=-1),
         np.linalg.norm(p[:, :-2] + p[:, 2:] - 2.0 * p[:, 1:-1], axis=-1),
     ]
-    sag = np.array([bend[np.isfinite(bend)].max(initial=0.0) / 8.0 for bend in bends])
-    cells = np.clip(FIRST_CELLS * np.sqrt(sag / NET_ERROR), FIRST_CELLS, MOST_CELLS / FIRST_CELLS)
-    cells *= min(1.0, np.sqrt(MOST_CELLS / cells.prod()))
-    columns, rows = np.maximum(cells, FIRST_CELLS / 2).astype(int).tolist()
-    return Net(surface, middle, size, *surface.domain.grid(columns, rows))
+    # Of each row of cells the worst one.
+    needs = [np.sqrt(np.nanmax(bend, axis=1 - axis, initial=0.0) / 8.0 / NET_ERROR) for axis, bend in enumerate(bends)]
+    needs = [np.clip(np.append(need, need[-1]), 1.0, MOST_CELLS / FIRST_CELLS**2) for need in needs]
+    share = min(1.0, float(np.sqrt(MOST_CELLS / (needs[0].sum() * needs[1].sum()))))
+    return Net(surface, middle, size, _spread(first.u, share * needs[0]), _spread(first.v, share * needs[1]))
+
+
+def _spread(t: Floats, density: Floats) -> Floats:
+    """Parameters from t[0] to t[-1] (n + 1,), of which about so many (n,) lie between each and the next."""
+    reach = np.concatenate([[0.0], np.cumsum(density)])
+    return np.interp(np.linspace(0.0, reach[-1], max(int(reach[-1]), FIRST_CELLS // 2) + 1), reach, t)
 
 
 def surface_hides(surface: Surface, eye: Floats | None, rays: Rays, middle: Floats, size: float) -> Hiding:
@@ -168,10 +181,10 @@ def surface_hides(surface: Surface, eye: Floats | None, rays: Rays, middle: Floa
     feet = feet_on(net, rays)
     hidden, clearance = _hits(net, rays, feet)
     direction = rays.direction[0] if len(rays.direction) else np.array([0.0, 0.0, 1.0])
-    for segments, own in ((net.contour(eye, direction), feet.on_contour), (net.borders(), feet.on_border)):
-        edges = near_together(segments, np.zeros(len(segments), dtype=np.intp))
-        away = edge_distances(rays, edges, np.where(own, max(AROUND, 0.5 * net.longest), CONTACT))
-        clearance = np.minimum(clearance, np.maximum(away - 2.0 * net.error, 0.0))
+    for (segments, errors), own in ((net.contour(eye, direction), feet.on_contour), (net.borders(), feet.on_border)):
+        edges = near_together(segments, np.arange(len(segments)))
+        touching = np.where(own, max(AROUND, 0.5 * net.longest), CONTACT)
+        clearance = np.minimum(clearance, edge_distances(rays, edges, touching, 2.0 * errors[edges.item]))
     return Hiding(hidden, np.where(feet.unsure, 0.0, clearance), feet.on_contour)
 
 
