@@ -12,7 +12,7 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.scene.view import look
-from vectorplot.shading.face_shades import face_colours, face_middles, face_shades, faded, view_lights
+from vectorplot.shading.face_shades import face_middles, face_shades, view_lights
 
 LAMP = vp.Light((0.5, 0.5, 4.0), intensity=1.0)
 COLUMNS, ROWS = 20, 12
@@ -33,14 +33,13 @@ def main(folder: Path) -> None:
     drawing = vp.paint(scene, camera, page=vp.Page(110, 60, 3), shadows="none")
     vp.save(drawing, folder / "near_light_angle.svg")
 
+    fading = replace(scene, lights=(replace(LAMP, fading=True),))
+    vp.save(vp.paint(fading, camera, page=vp.Page(110, 60, 3), shadows="none"), folder / "near_light_distance.svg")
+
     view = look(scene, camera)
     lights, middles = view_lights(view, scene.lights), face_middles(view)
     plain = face_shades(view, scene.items, lights)
-    weaker = faded(view, plain, lights, middles)
-    (layer,), (fills,) = drawing.layers, drawing.layers[0].fills
-    colours = face_colours(view, scene.items, weaker.total)[np.repeat(fills.item, np.diff(fills.offsets))]
-    faded_drawing = replace(drawing, layers=(replace(layer, marks=(replace(fills, colours=colours),)),))
-    vp.save(faded_drawing, folder / "near_light_distance.svg")
+    weaker = face_shades(view, scene.items, view_lights(view, fading.lights))
 
     factor = weaker.shares[0] / plain.shares[0]
     # Depths in the system of the lamp, which looks at the middle of the scene.

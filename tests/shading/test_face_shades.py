@@ -233,7 +233,10 @@ def test_light_of_lamps_fades_and_parallel_light_does_not():
     )
     view, lights, found = shaded(given_scene)
     points = fs.face_middles(view)
-    faded = fs.faded(view, found, lights, points)
+    assert np.array_equal(fs.faded(view, found, lights, points).shares, found.shares)
+    fading = tuple(replace(light, fading=True) for light in lights)
+    faded = fs.faded(view, found, fading, points)
+    assert np.array_equal(faded.shares, fs.face_shades(view, given_scene.items, fading).shares)
     assert np.array_equal(faded.shares[1], found.shares[1])
     middle = given_scene.bounds.mean(axis=0)
     lamp = np.array(LIGHTS[0].position) - middle
@@ -245,7 +248,8 @@ def test_light_of_lamps_fades_and_parallel_light_does_not():
     assert (faded.shares[0] <= found.shares[0]).all()
     amid = (Light((0.5, 0.5, 0.5)),)
     view, lights, found = shaded(replace(given_scene, lights=amid))
-    assert np.array_equal(fs.faded(view, found, lights, points).shares, found.shares)
+    fading = tuple(replace(light, fading=True) for light in lights)
+    assert np.array_equal(fs.faded(view, found, fading, points).shares, found.shares)
 
 
 @pytest.mark.capability("G4.5-depth")

@@ -50,7 +50,7 @@ def read_camera(words: Words, at: int) -> tuple[Camera, int]:
         words.fail(start, error.cause)
 
 
-_LIGHT_WORDS = ("position", "direction", "intensity", "colour")
+_LIGHT_WORDS = ("position", "direction", "intensity", "colour", "fading")
 
 
 def read_light(words: Words, at: int) -> tuple[Light, int]:
@@ -65,10 +65,13 @@ def read_light(words: Words, at: int) -> tuple[Light, int]:
     place: tuple[float, float, float] | None = None
     parallel = False
     intensity: float | None = None
-    colour = "white"
+    colour, fading = "white", False
     while (word := words.words[at]) in _LIGHT_WORDS:
         if word == "colour":
             colour, at = _light_colour(words, at + 1, owner)
+            continue
+        if word == "fading":
+            fading, at = True, at + 1
             continue
         if word == "intensity":
             intensity = words.number(at + 1, owner, word)
@@ -84,7 +87,9 @@ def read_light(words: Words, at: int) -> tuple[Light, int]:
             words.fail(start, f"{owner}the direction is zero")
     if place is None:
         words.fail(at, f"{owner}expected 'position' or 'direction', got {words.shown(at)}")
-    return Light(place, parallel, intensity, name, colour), at
+    if fading and parallel:
+        words.fail(start, f"{owner}parallel light does not fade")
+    return Light(place, parallel, intensity, name, colour, fading), at
 
 
 def _light_colour(words: Words, at: int, owner: str) -> tuple[str, int]:

@@ -81,6 +81,8 @@ def _light(light: Light) -> str:
         words.append(f"intensity {float(light.intensity)!r}")
     if light.colour != "white":
         words.append(f"colour {_colour(light.colour)}")
+    if light.fading:
+        words.append("fading")
     return " ".join(words)
 
 

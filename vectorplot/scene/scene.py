@@ -29,13 +29,14 @@ class Material:
 @dataclass(frozen=True)
 class Light:
     """A light source at a point, or with parallel rays coming from the direction ``position``; intensity 0 to 1; colour:
-    white, a palette or #rrggbb."""
+    white, a palette or #rrggbb; fading: the light of a lamp becomes weaker with the square of the distance."""
 
     position: tuple[float, float, float]
     parallel: bool = False
     intensity: float | None = None
     name: str = ""
     colour: str = "white"
+    fading: bool = False
 
 
 @dataclass(frozen=True, eq=False)

@@ -127,12 +127,13 @@ def point_shades(
     for row, light in zip(dark, lights, strict=True):
         row[:] = backlit(np.einsum("ij,ij->i", normals, towards(points, homogeneous_light(light))))
     low, high = depth_limits(view)
-    return Shades(shares, dark, intensities(lights), depth_cue(points[:, 2], low, high - low))
+    found = Shades(shares, dark, intensities(lights), depth_cue(points[:, 2], low, high - low))
+    return faded(view, found, lights, points.T) if any(light.fading for light in lights) else found
 
 
 def faded(view: View, found: Shades, lights: Sequence[Light], points: Floats) -> Shades:
-    """The shades of points (3,n) if light of lamps becomes weaker with their distance, in square; the point of the
-    scene that is nearest to a lamp keeps what it has.
+    """The shades of points (3,n), the light of fading lamps weaker with the square of the distance; the point of the
+    scene that is nearest to such a lamp keeps what it has.
 
     Depths are those of the lamp's system, which looks at the middle of the scene. Parallel light does not fade, nor
     does that of a lamp that stands amid the scene.
@@ -144,7 +145,7 @@ def faded(view: View, found: Shades, lights: Sequence[Light], points: Floats) ->
         distance = float(np.sqrt(place @ place))
         axis = place / distance if distance > 0.0 else place
         nearest = float((axis @ view.points).max(initial=-np.inf))
-        if not light.parallel and -np.inf < nearest < distance:
+        if light.fading and not light.parallel and -np.inf < nearest < distance:
             row *= distance_factor(distance, np.minimum(axis @ points, nearest), nearest)
     return replace(found, shares=shares)
 
