@@ -38,6 +38,13 @@ class Faces:
             t = (n * (m - origin)).sum(axis=1) / (n * direction).sum(axis=1)
         return face, origin + np.where(face >= 0, np.nan_to_num(t), 0.0)[:, None] * direction
 
+    def free(self, start: Floats, end: Floats) -> Bools:
+        """(n,) whether nothing is between points."""
+        way = end - start
+        length = np.linalg.norm(way, axis=1)
+        way = way / length[:, None]
+        return np.asarray(_single(self.triangles, start, way, "OCCLUDED", length * (1.0 - 1e-6)) < 0)
+
 
 def faces_of(scene: Scene, which: Bools | None = None) -> Faces:
     """The faces of all items, or of some."""

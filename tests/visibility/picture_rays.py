@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scene_rays import Faces, clear_of_edges, faces_of, lacking, page_rays
+from scene_rays import ABOVE, GRAZING, Faces, clear_of_edges, faces_of, lacking, page_rays
 from top_fills import colours_at, covering, fills_of, last_at, pixel_places
 
 from vectorplot.drawing.drawing import Drawing
@@ -26,7 +26,8 @@ LEVELS = 2.5
 @dataclass(frozen=True)
 class Truth:
     """What rays through the pixels see: face (n,) and point (n,3), the direction from the eye, and the mirror that it
-    is seen in, -1 for none; lights that do not get there."""
+    is seen in, -1 for none; lights that do not get there; by_mirror: the number of the double of a light that may shine
+    there, -1 for none, and more: what it gives, as a light."""
 
     faces: Faces
     face: Ints
@@ -34,6 +35,8 @@ class Truth:
     way: Floats
     pane: Ints
     dark: Ints
+    by_mirror: Ints
+    more: Floats
     sure: Bools
 
 
@@ -82,7 +85,61 @@ def truth_of(scene: Scene, camera: Camera, places: Floats) -> Truth:
         pane[at[~hit]] = -1
         face[at[hit]], point[at[hit]], way[at[hit]] = behind[hit], there[hit], away[hit]
     dark, sure = lacking(faces, scene, face, point, way)
-    return Truth(faces, face, point, way, pane, dark, sure)
+    by_mirror, more, certain = _light_by_mirrors(scene, faces, mirrors, face, point, way)
+    # Mirrors do not show what other mirrors throw.
+    by_mirror, more = np.where(pane < 0, by_mirror, -1), np.where(pane < 0, more, 0.0)
+    return Truth(faces, face, point, way, pane, dark, by_mirror, more, sure & certain)
+
+
+def _light_by_mirrors(
+    scene: Scene, faces: Faces, mirrors: Bools, face: Ints, point: Floats, way: Floats
+) -> tuple[Ints, Floats, Bools]:
+    """(n,) which double of a light shines on points, or would if nothing were in the way; what it gives, half of what
+    the light does; and whether that is sure. Of several doubles the last one counts."""
+    number, more, sure = np.full(len(face), -1), np.zeros(len(face)), np.ones(len(face), dtype=np.bool_)
+    normal = faces.normal[face]
+    normal = np.where((normal * way).sum(axis=1)[:, None] > 0.0, -normal, normal)
+    size, count = float(np.ptp(scene.vertices, axis=0).max()), 0
+    for light in scene.lights:
+        for window in np.flatnonzero(mirrors[faces.item]).tolist():
+            axis, middle = faces.normal[window], faces.middle[window]
+            place = np.asarray(light.position) - (0.0 if light.parallel else middle)
+            if place @ axis <= 0.0:
+                continue
+            double = np.asarray(light.position) - 2.0 * (place @ axis) * axis
+            to_light = np.broadcast_to(double, point.shape) if light.parallel else double - point
+            reach = -((point - middle) @ axis) / (to_light @ axis)
+            through = point + np.clip(reach, 0.0, 1e6)[:, None] * to_light
+            inside = (face >= 0) & (reach > 0.0) & (((point - middle) @ axis) > 1e-9 * size)
+            inside &= (normal * to_light).sum(axis=1) > 0.0
+            inside &= ((through - middle) @ axis < 1e-6 * size) & _within(faces, window, through)
+            at = np.flatnonzero(inside)
+            start, mirror = point[at] + ABOVE * size * normal[at], through[at] + ABOVE * size * axis
+            on = np.broadcast_to(light.position, mirror.shape) * (1e3 if light.parallel else 1.0)
+            free = faces.free(start, mirror) & faces.free(mirror, on)
+            from_middle = np.broadcast_to(double, point.shape) if light.parallel else double - faces.middle[face]
+            cosine = (normal * from_middle).sum(axis=1) / np.linalg.norm(from_middle, axis=1)
+            number[at], more[at] = count, 0.5 * light.intensity * np.where(free, cosine[at], 0.0)
+            slope = (normal * to_light).sum(axis=1) / np.linalg.norm(to_light, axis=1)
+            sure[at] &= (np.abs(slope[at]) > GRAZING) & (np.abs(to_light[at] @ axis) > GRAZING * _lengths(to_light[at]))
+            count += 1
+    return number, more, sure
+
+
+def _lengths(vectors: Floats) -> Floats:
+    return np.asarray(np.linalg.norm(vectors, axis=1))
+
+
+def _within(faces: Faces, face: int, points: Floats) -> Bools:
+    """(n,) which points of its plane lie in a face."""
+    found = np.zeros(len(points), dtype=np.bool_)
+    for corners in faces.triangles[faces.face == face]:
+        sides = np.roll(corners, -1, axis=0) - corners
+        turns = [
+            np.cross(side, points - corner) @ faces.normal[face] for side, corner in zip(sides, corners, strict=True)
+        ]
+        found |= (np.array(turns) >= 0.0).all(axis=0)
+    return found
 
 
 def expected_levels(scene: Scene, camera: Camera, truth: Truth) -> Floats:
@@ -106,6 +163,7 @@ def _levels(scene: Scene, camera: Camera, truth: Truth, here: Ints, pane: int) -
         share = light.intensity * np.where(cosine > 0.0, cosine, -0.3 * cosine)
         given += share
         kept += share * np.where(truth.dark[here] >> number & 1, 0.5, 1.0)
+    given, kept = given + truth.more[here], kept + truth.more[here]
     low, high = _depth_limits(camera, _depths(camera, faces, scene.vertices, pane))
     depth = _depths(camera, faces, faces.middle[face], pane)
     cue = 0.2 * np.clip((depth - low) / (high - low), 0.0, 1.0)
@@ -140,6 +198,7 @@ def compared(scene: Scene, camera: Camera, drawing: Drawing | None = None) -> tu
     truth = truth_of(scene, camera, places)
     labels = (truth.face + 1) + (len(truth.faces.item) + 1) * (truth.pane + 1)
     labels = labels * (1 << len(scene.lights)) + truth.dark
+    labels = 64 * labels + 2 * (truth.by_mirror + 1) + (truth.more > 0.0)
     sure = clear_of_edges(labels.reshape(ROWS, COLUMNS), EDGE).ravel()
     place, polygon = covering(fills, places[sure])
     top = last_at(place, polygon, int(sure.sum()))

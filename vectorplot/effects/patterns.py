@@ -129,7 +129,8 @@ def patterns_in_shadows(view: View, patterns: Decals, shadows: Decals, dark: Boo
 
 
 def in_shadows(view: View, patterns: Decals, shadows: Decals) -> Decals:
-    """The parts of patterns that lie in shadows, in the level of their pattern plus the grade of the shadow."""
+    """The parts of patterns that lie in shadows, in the level of their pattern plus the grade of the shadow; lacking
+    says which lights they lack. Parts of what light falls on by way of mirrors keep their light."""
     shadow = np.flatnonzero(shadows.kind == DecalKind.SHADOW)
     shadow = shadow[np.argsort(shadows.face[shadow], kind="stable")]
     faces = shadows.face[shadow]
@@ -151,7 +152,7 @@ def in_shadows(view: View, patterns: Decals, shadows: Decals) -> Decals:
         patterns.face[pattern],
         patterns.kind[pattern],
         shadows.grade[shade],
-        shadows.light[shade],
+        np.where(patterns.kind[pattern] == DecalKind.LIGHT, patterns.light[pattern], shadows.light[shade]),
         patterns.colour[pattern],
         patterns.level[pattern] + shadows.grade[shade],
         patterns.colours,
