@@ -1,4 +1,5 @@
-"""Pixels: run with ``pytest tests/bench/bench_render.py -m bench -s``.
+"""Pixels: run with ``pytest tests/bench/bench_render.py -m bench -s``. Prints; only memory, which no other process
+changes, is a test.
 
 Each case runs in a process of its own, so that its peak memory is its own.
 """
@@ -59,14 +60,12 @@ def measured(**case) -> tuple[float, float]:
 def test_a_million_triangles_with_a_large_shadow_map():
     case = {"levels": 8, "lights": 1, "samples": 1, "size": (1920, 1080), "map": 2048}
     measured(**case, shadows="none")
-    seconds, peak = measured(**case, shadows="buffer")
-    assert seconds < 3.0
+    _, peak = measured(**case, shadows="buffer")
     assert peak < 1024.0
 
 
 def test_many_triangles_with_a_shadow_map():
-    seconds, _ = measured(levels=6, lights=1, samples=1, size=(1280, 720), map=1024, shadows="buffer")
-    assert seconds < 1.0
+    measured(levels=6, lights=1, samples=1, size=(1280, 720), map=1024, shadows="buffer")
 
 
 def test_three_lights_trapezoids_exact_shadows_and_supersampling():
