@@ -117,4 +117,6 @@ def _dips(curves: Curves, function: OnCurve, values: Floats) -> tuple[Ints, Floa
             hit |= new
         left = np.abs(f_one) < np.abs(f_two)
         low, high = np.where(left, low, one), np.where(left, two, high)
-    return chord[hit], best[hit]
+    # Between two equally small values a dip is felt from both.
+    found, first = np.unique(chord[hit], return_index=True)
+    return found, best[hit][first]

@@ -1,0 +1,34 @@
+"""Curves cut at events, and counts carried along them."""
+
+from __future__ import annotations
+
+import numpy as np
+from smooth_parts import polylines
+
+from vectorplot.visibility.smooth.events import Events
+from vectorplot.visibility.smooth.pieces import Counts, carried, cut
+
+LINES = polylines([(x, 0.0, 0.0) for x in (0.0, 1.0, 2.0)], [(0.0, 1.0, 0.0), (1.0, 1.0, 0.0)])
+
+
+def pieces():
+    chord, part = np.array([1, 0, 1, 3]), np.array([0.5, 0.25, 0.5, 0.5])
+    return cut(LINES, Events(chord, part, np.array([0, 0, 1, 1]), np.array([1, 2, -1, 1])), 2)
+
+
+def test_events_at_one_place_are_one() -> None:
+    found = pieces()
+    assert found.curve.tolist() == [0, 0, 0, 1, 1]
+    assert np.allclose(found.begin_chord + found.begin_part, [0.0, 0.25, 1.5, 3.0, 3.5])
+    assert np.allclose(found.end_chord + found.end_part, [0.25, 1.5, 2.0, 3.5, 4.0])
+    assert found.change.tolist() == [[0, 0], [2, 0], [1, -1], [0, 0], [0, 1]]
+
+
+def test_what_is_not_safe_follows_from_the_nearest_that_is() -> None:
+    counts = Counts(np.array([[0, 1], [9, 9], [9, 9], [9, 9], [4, 1]]), np.array([True, False, False, False, True]))
+    assert carried(pieces(), counts).tolist() == [[0, 1], [2, 1], [3, 0], [4, 0], [4, 1]]
+
+
+def test_a_curve_without_a_safe_piece_has_its_own_sight_lines() -> None:
+    counts = Counts(np.array([[0, 1], [2, 1], [3, 0], [5, 6], [7, 8]]), np.array([True, True, True, False, False]))
+    assert carried(pieces(), counts)[3:].tolist() == [[5, 6], [7, 8]]

@@ -1,0 +1,36 @@
+"""Triangles in the image, and points near them."""
+
+from __future__ import annotations
+
+import numpy as np
+from smooth_parts import ball_from_above
+
+from vectorplot.visibility.smooth.targets import distance_to, inside, target, weights
+
+TRIANGLE = np.array([[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]])
+
+
+def test_barycentric_coordinates_and_distances() -> None:
+    points = np.array([[0.5, 0.5], [2.0, 0.0], [-1.0, -1.0]])
+    three = np.repeat(TRIANGLE, 3, axis=0)
+    found = weights(three, points)
+    assert np.allclose(found, [[0.5, 0.25, 0.25], [0.0, 1.0, 0.0], [2.0, -0.5, -0.5]])
+    assert np.allclose(distance_to(three, found, points), [0.0, 0.0, np.sqrt(2.0)])
+
+
+def test_a_triangle_seen_edge_on_has_its_middle() -> None:
+    flat = np.array([[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]])
+    assert np.allclose(inside(weights(flat, np.array([[0.3, 0.1]]))), 1.0 / 3.0)
+
+
+def test_boxes_meet_the_triangles_of_a_sphere_and_nothing_beside_it() -> None:
+    view, sheet, radius = ball_from_above()
+    seen = target(view, sheet)
+    at = radius * np.array([[0.3, 0.2], [0.9, 0.9]])
+    box, triangle = seen.near_boxes(at, at)
+    assert set(box.tolist()) == {0}
+    # The upper and the lower half.
+    depth = seen.depth[triangle].mean(axis=1)
+    assert np.ptp(depth) > 1.5 * radius
+    assert seen.may_reach(at, at).tolist() == [True, True]
+    assert seen.may_reach(at + 3.0, at + 3.0).tolist() == [False, False]
