@@ -49,7 +49,7 @@ def main(folder: Path) -> None:
         assert inside == ("none", "one", "both").index(name)
 
         triangles = view.corners.reshape(-1, 3)[order]
-        points = (45, 32) + 34.0 * view.image[:, triangles.ravel()].T
+        points = (45, 32) + 31.0 * view.image[:, triangles.ravel()].T
         shade = np.linspace(0.1, 1.0, len(order))
         colours = shaded_colours(["green"], np.zeros(len(order), dtype=int), shade)
         fills = Fills.flat(points, 3 * np.arange(len(order) + 1), colours)

@@ -14,7 +14,8 @@ from svg_strokes import SVG, strokes_by_layer
 
 import vectorplot as vp
 from vectorplot.draw import DRAWN
-from vectorplot.plan import plan_draw
+from vectorplot.drawing.fills import FillKind
+from vectorplot.plan import plan_draw, plan_paint
 from vectorplot.testing import assert_drawing_is_right, edge_points
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -141,6 +142,73 @@ def test_a_chess_pawn_falls_into_convex_parts_that_fill_it(made):
     assert len(made(ROOT / "examples" / "convex_parts.py")) == 2
 
 
+PAINTED = {
+    "4.1": "subpalettes",
+    "4.2 and 4.6": "depth_cueing",
+    "4.3": "shading_angle",
+    "4.4": "finishes",
+    "4.5": "near_light",
+    "5.1": "separating_plane",
+    "5.2": "hollow_bodies",
+    "5.3": "revolution_rings",
+    "5.4 to 5.6": "sliced_surface",
+    "5.7": "graph_cases",
+    "5.8": "bounding_rectangles",
+    "5.9": "soap_bubbles",
+    "5.10": "outline_cases",
+    "5.11": "mikado_order",
+    "5.12": "object_groups",
+    "5.13": "own_box",
+    "6.1": "convex_hull",
+    "6.2": "point_in_polygon",
+    "6.3": "convex_clipping",
+    "6.4": "shadow_clipping",
+    "6.5": "convex_shadows",
+    "6.6": "several_lights",
+    "6.7": "mirror_doubles",
+    "6.8": "two_mirrors",
+    "6.9": "patterned_objects",
+    "6.11": "parallel_planes",
+    "6.12": "swimming_pool",
+    "7.1": "erasing",
+}
+"""The figures of shading, of the painter's order, and of shadows, mirrors, patterns and glass."""
+
+
+@pytest.mark.parametrize("figure", PAINTED)
+def test_figures_of_painted_pictures_are_made_and_asserted(figure, made):
+    path = ROOT / "examples" / f"{PAINTED[figure]}.py"
+    assert made(path)
+    assert "assert" in path.read_text(encoding="utf-8").partition("def main")[2]
+
+
+@pytest.mark.capability("G5.0-painter")
+@pytest.mark.parametrize("name", sorted(GALLERY.PAINTED))
+def test_scenes_are_painted_as_well(name, made):
+    drawn, painted = made(ROOT / "data" / f"{name}.scene")
+    assert not painted_by_layer(ElementTree.fromstring(drawn.read_bytes()))
+    assert list(painted_by_layer(ElementTree.fromstring(painted.read_bytes()))) == ["1 fills"]
+
+
+@pytest.mark.capability("G6.5-patterns")
+def test_the_cube_with_patterns_shows_those_of_its_visible_faces():
+    scene = vp.read(ROOT / "data" / "patterns.scene")
+    (fills,) = vp.paint(scene).layers[0].fills
+    patterns = fills.some(np.flatnonzero(fills.kind == FillKind.PATTERN))
+    assert len(patterns) == 4
+    on_top = np.abs(patterns.points3d[:, 2] - 10.0) < 1e-9
+    assert on_top.sum() == 8, "the two polygons on the top are two of them"
+
+
+def test_the_town_has_two_lights_which_cast_shadows():
+    town = vp.read(ROOT / "data" / "town.scene")
+    assert len(town.lights) == 2
+    (fills,) = vp.paint(town).layers[0].fills
+    assert (fills.kind == FillKind.SHADOW).sum() > 100
+    (bare,) = vp.paint(town, shadows="none").layers[0].fills
+    assert (bare.kind == FillKind.FACE).all() and len(bare) == (fills.kind == FillKind.FACE).sum()
+
+
 RENDERED = {
     "4.7": "scan_lines",
     "7.7": "depth_buffering",
@@ -222,6 +290,13 @@ def test_rays_confirm_every_scene(path):
 def test_the_pencil_calls_for_no_effect():
     scene = vp.read(ROOT / "data" / "pencil.scene")
     assert scene.lights == ()
+    assert [stage.name for stage in plan_paint(scene, "auto", "painted", frozenset())] == [
+        "look",
+        "faces",
+        "order",
+        "shades",
+        "fills",
+    ]
     stages = plan_draw(scene, frozenset(map(vp.LineKind.from_word, DRAWN)), "none", 0.0)
     assert {stage.name for stage in stages}.isdisjoint({"halo", "patterns", "counted lines", "shadows"})
 
