@@ -11,7 +11,7 @@ import numpy as np
 
 from vectorplot.draw import default_camera, lines_in_place
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
-from vectorplot.drawing.fills import FillKind, Fills
+from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.page import mm_per_image, page_from_world
 from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, interleaved, placed_faces
 from vectorplot.errors import InputError
@@ -27,11 +27,17 @@ from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shad
 from vectorplot.shading.palettes import SIZE
 from vectorplot.shading.palettes import palette as shades_of
 from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
-from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.painter.order import Painted, painters_order
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 
 if TYPE_CHECKING:
     from vectorplot.effects.decals import Decals
+
+MOST_NAMES = 5
+"""So many items of a knot are named."""
+
+PEN = Pen()
+"""What draws lines among fills."""
 
 PAPER = "white"
 """The colour of the paper where the scene names none."""
@@ -48,7 +54,7 @@ def paint(
     aura_mm: float = 0.0,
     palette: int = SIZE,
     smooth: bool = True,
-    fills: Literal["painted", "visible"] = "painted",
+    fills: Literal["painted", "visible", "erasing"] = "painted",
     lines: Iterable[str] = (),
     crease_angle_deg: float = 25.0,
     tolerance_mm: float = 0.02,
@@ -61,7 +67,8 @@ def paint(
     its margin; otherwise the page centre is the target and the page height the camera's picture height. lights: in
     place of those of the scene. shadows: whether lights cast any. aura_mm: the width of their soft borders. palette:
     how many shades every colour has. smooth: smooth surfaces are shaded from corner to corner, not face by face.
-    fills: polygons painted one over the other, or only what is seen of each, for pens, which cannot paint over things.
+    fills: polygons painted one over the other, or only what is seen of each, for pens, which cannot paint over things,
+    with transparent ones as sparse lines; or blank, each with its edges: hidden lines by erasing.
     lines: words of LineKind, drawn on top with exact hidden lines; crease_angle_deg: sharper edges are creases.
     tolerance_mm: how far the sides of polygons may be off smooth surfaces and refracted lines. progress(stage,
     fraction) and explain(report) are called while it works.
@@ -83,20 +90,26 @@ def paint(
     view = walk.run("look", look, facets.scene, camera)
     projected = walk.run("faces", project_faces, view)
     painted = walk.run("order", painters_order, view, projected)
+    _tell_knots(walk, scene, painted)
     placed = placed_faces(view, painted.faces, page, fit)
     seen = _Seen(facets.scene, view, projected, placed.framed(painted.faces, page, view.tolerance), placed)
-    lighting = Lighting(scene.items, view_lights(view, scene.lights), _normals(view, facets, smooth), palette)
-    shades = walk.run("shades", _shades, seen, lighting)
-    aura = aura_mm / float(placed.page_from_image[0, 0])
-    decals, lighting = _decals(walk, seen, lighting, aura)
-    overlays = _overlays(walk, seen, lighting, decals, aura, tolerance_mm)
-    polygons = walk.run("fills", _fills, walk, seen, lighting, shades, overlays, page)
     world = page_from_world(view, placed.page_from_image)
+    if walk.calls_for("erasing"):
+        from vectorplot.drawing.erased import erased_fills
+
+        polygons = walk.run("erasing", erased_fills, view, seen.faces, placed, _paper(scene))
+    else:
+        lighting = Lighting(scene.items, view_lights(view, scene.lights), _normals(view, facets, smooth), palette)
+        polygons = _shaded(walk, seen, lighting, page, aura_mm, tolerance_mm)
     if walk.calls_for("visible fills"):
         from vectorplot.drawing.visible_fills import visible_fills
 
         polygons = walk.run("visible fills", visible_fills, polygons, world)
-    layers = [Layer("fills", Pen(), (polygons,))]
+    if walk.calls_for("screen door"):
+        from vectorplot.effects.screen_fills import screened
+
+        polygons = walk.run("screen door", screened, polygons, PEN.width_mm, world)
+    layers = [Layer("fills", PEN, (polygons,))]
     if walk.calls_for("lines"):
         layers += walk.run("lines", _lines, scene, camera, page, seen, kinds, crease_angle_deg, tolerance_mm)
     return Drawing(page.width_mm, page.height_mm, tuple(layers), tuple(i.name for i in scene.items), scene.title, world)
@@ -114,11 +127,19 @@ class _Seen:
     placed: Placed
 
 
+def _tell_knots(walk: Walk, scene: Scene, painted: Painted) -> None:
+    """Say which items were cut because no order of whole faces was right."""
+    if len(painted) > painted.uncut:
+        names = ", ".join(scene.items[number].name for number in painted.knots[:MOST_NAMES].tolist())
+        more = f" and {len(painted.knots) - MOST_NAMES} more" if len(painted.knots) > MOST_NAMES else ""
+        walk.tell("cut", f"{names}{more}: they pierce one another, or overlap in circles", len(painted) - painted.uncut)
+
+
 def _check_options(shadows: str, aura_mm: float, palette: int, fills: str, tolerance_mm: float) -> None:
     if shadows not in ("auto", "none"):
         raise InputError(f"shadows {shadows!r}: expected auto or none")
-    if fills not in ("painted", "visible"):
-        raise InputError(f"fills {fills!r}: expected painted or visible")
+    if fills not in ("painted", "visible", "erasing"):
+        raise InputError(f"fills {fills!r}: expected painted, visible or erasing")
     if not 0.0 <= aura_mm < np.inf:
         raise InputError(f"an aura of {aura_mm:g} mm: expected a width that is finite and not negative")
     if not 2 <= palette <= 256:
@@ -155,6 +176,15 @@ def _shades(seen: _Seen, lighting: Lighting) -> Shades:
     faces = seen.faces
     points = unmapped(seen.view, faces.points)
     return corner_shades_of(seen.view, lighting, points, faces.offsets, faces.source)
+
+
+def _shaded(walk: Walk, seen: _Seen, lighting: Lighting, page: Page, aura_mm: float, tolerance_mm: float) -> Fills:
+    """The polygons of the picture in their colours, with all that lies on them and is seen in them."""
+    shades = walk.run("shades", _shades, seen, lighting)
+    aura = aura_mm / float(seen.placed.page_from_image[0, 0])
+    decals, lighting = _decals(walk, seen, lighting, aura)
+    overlays = _overlays(walk, seen, lighting, decals, aura, tolerance_mm)
+    return walk.run("fills", _fills, walk, seen, lighting, shades, overlays, page)
 
 
 def _decals(walk: Walk, seen: _Seen, lighting: Lighting, aura: float) -> tuple[tuple[Decals, ...], Lighting]:
@@ -250,7 +280,7 @@ def _fills(
         from vectorplot.effects.glass_fills import tinted
 
         clear = refracting_items(seen.scene, view, seen.projected)[item]
-        fills, tints = tinted(fills, clear, opacity, shades_of(seen.scene.background or PAPER)[-1])
+        fills, tints = tinted(fills, clear, opacity, _paper(seen.scene)[0])
         overlays = (*overlays, tints)
     return Fills.joined(*_background(seen.scene, page), interleaved(fills, overlays))
 
@@ -278,10 +308,14 @@ def _lines(
     )
 
 
+def _paper(scene: Scene) -> Colours:
+    """(1,3) the colour of the paper."""
+    return np.asarray(shades_of(scene.background or PAPER)[-1:])
+
+
 def _background(scene: Scene, page: Page) -> tuple[Fills, ...]:
     """A sheet of the scene's own colour, if it names one."""
     if scene.background is None:
         return ()
     corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]) * (page.width_mm, page.height_mm)
-    colour = shades_of(scene.background)[-1:]
-    return (Fills.flat(corners, np.array([0, 4]), colour, kind=FillKind.BACKGROUND),)
+    return (Fills.flat(corners, np.array([0, 4]), _paper(scene), kind=FillKind.BACKGROUND),)

@@ -120,6 +120,11 @@ class Walk:
 
         return report
 
+    def tell(self, name: str, why: str, count: int) -> None:
+        """Tell the listener what came out of a stage, besides its result."""
+        if self._explain is not None:
+            self._explain(StageReport(name, why, 0.0, count, peak_mb()))
+
     def run(self, name: str, function: Callable[P, R], *args: P.args, **kwargs: P.kwargs) -> R:
         """The result of a stage."""
         stage = self._stages[name][1]
@@ -151,14 +156,9 @@ def peak_mb() -> float:
     return peak / (1024.0 * 1024.0 if sys.platform == "darwin" else 1024.0)
 
 
-def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind]) -> tuple[Stage, ...]:
-    """The stages that painting this scene calls for, in their order; nothing else runs."""
+def _shading_stages(scene: Scene, shadows: str) -> list[Stage]:
+    """The stages that give colours to painted faces, and what is painted between them."""
     stages = []
-    if any(not isinstance(item.shape, Mesh) for item in scene.items):
-        stages.append(Stage("facets", "smooth surfaces become triangles within the tolerance"))
-    stages.append(Stage("look", "the scene in the camera's axes, in the unit box"))
-    stages.append(Stage("faces", "the faces in the image, and which side they show"))
-    stages.append(Stage("order", "back to front; what pierces or overlaps in circles is cut"))
     stages.append(
         Stage("shades", f"{len(scene.lights)} lights" if scene.lights else "no light: one from the eye's left")
     )
@@ -177,8 +177,25 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
     if clear and any(item.material.refraction != 1.0 for item in scene.items):
         stages.append(Stage("refraction", "items refract light"))
     stages.append(Stage("fills", "polygons on the page"))
+    return stages
+
+
+def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind]) -> tuple[Stage, ...]:
+    """The stages that painting this scene calls for, in their order; nothing else runs."""
+    stages = []
+    if any(not isinstance(item.shape, Mesh) for item in scene.items):
+        stages.append(Stage("facets", "smooth surfaces become triangles within the tolerance"))
+    stages.append(Stage("look", "the scene in the camera's axes, in the unit box"))
+    stages.append(Stage("faces", "the faces in the image, and which side they show"))
+    stages.append(Stage("order", "back to front; what pierces or overlaps in circles is cut"))
+    if fills == "erasing":
+        stages.append(Stage("erasing", "faces in the colour of the paper, and their edges"))
+    else:
+        stages += _shading_stages(scene, shadows)
     if fills == "visible":
         stages.append(Stage("visible fills", "each without what is painted over it"))
+        if any(item.material.opacity < 1.0 for item in scene.items):
+            stages.append(Stage("screen door", "transparent polygons become sparse lines"))
     if kinds:
         stages.append(Stage("lines", ", ".join(sorted(kind.word for kind in kinds)) + " on top"))
     return tuple(stages)

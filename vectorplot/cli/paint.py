@@ -37,9 +37,9 @@ FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
 @click.option("--flat", is_flag=True, help="One shade for each face of smooth surfaces too.")
 @click.option(
     "--fills",
-    type=click.Choice(["painted", "visible"]),
+    type=click.Choice(["painted", "visible", "erasing"]),
     default="painted",
-    help="Painted one over the other, or only what is seen of each.",
+    help="Painted one over the other, only what is seen of each, or blank with edges.",
 )
 @click.option("--lines", type=kinds_or_none, default="none", metavar="KIND,...", help="Lines on top, as those of draw.")
 @click.option(

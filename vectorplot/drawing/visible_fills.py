@@ -82,12 +82,12 @@ def _listed(fills: Fills, parts: Any, source: Ints, page_from_world: Floats) -> 
         mean[corner],
         fills.opacity[source],
         fills.item[source],
-        _in_space(fills, flat.T, corner, page_from_world),
+        in_space(fills, flat.T, corner, page_from_world),
         fills.kind[source],
     )
 
 
-def _in_space(fills: Fills, points: Floats, source: Ints, page_from_world: Floats) -> Floats:
+def in_space(fills: Fills, points: Floats, source: Ints, page_from_world: Floats) -> Floats:
     """(c,3) where the sight lines of points (c,2) of the page meet the planes of fills (c,).
 
     Degenerate: of a fill that is seen edge-on its first corner.
