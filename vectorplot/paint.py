@@ -21,7 +21,7 @@ from vectorplot.geometry.strokes import LineKind
 from vectorplot.plan import StageReport, Walk, plan_paint
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.view import View, look
-from vectorplot.shading.face_shades import Shades, view_lights
+from vectorplot.shading.face_shades import Shades, item_colours, view_lights
 from vectorplot.shading.faceted import FacetedScene, faceted
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
 from vectorplot.shading.palettes import SIZE
@@ -94,12 +94,10 @@ def paint(
     placed = placed_faces(view, painted.faces, page, fit)
     seen = _Seen(facets.scene, view, projected, placed.framed(painted.faces, page, view.tolerance), placed)
     world = page_from_world(view, placed.page_from_image)
+    lighting = Lighting(scene.items, view_lights(view, scene.lights), _normals(view, facets, smooth), palette)
     if walk.calls_for("erasing"):
-        from vectorplot.drawing.erased import erased_fills
-
-        polygons = walk.run("erasing", erased_fills, view, seen.faces, placed, _paper(scene))
+        polygons = _erased(walk, seen, lighting)
     else:
-        lighting = Lighting(scene.items, view_lights(view, scene.lights), _normals(view, facets, smooth), palette)
         polygons = _shaded(walk, seen, lighting, page, aura_mm, tolerance_mm)
     if walk.calls_for("visible fills"):
         from vectorplot.drawing.visible_fills import visible_fills
@@ -176,6 +174,24 @@ def _shades(seen: _Seen, lighting: Lighting) -> Shades:
     faces = seen.faces
     points = unmapped(seen.view, faces.points)
     return corner_shades_of(seen.view, lighting, points, faces.offsets, faces.source)
+
+
+def _erased(walk: Walk, seen: _Seen, lighting: Lighting) -> Fills:
+    """Blank polygons with their edges, and the outlines of the patterns on them."""
+    from vectorplot.drawing.erased import erased_fills
+    from vectorplot.shading.depth_cueing import MIDDLE
+
+    scene, view, faces, placed = seen.scene, seen.view, seen.faces, seen.placed
+    outlines = []
+    if walk.calls_for("patterns"):
+        from vectorplot.effects.decal_fills import decal_outlines
+        from vectorplot.effects.patterns import pattern_decals
+
+        patterns = walk.run("patterns", pattern_decals, scene, view)
+        outlines.append(decal_outlines(view, lighting, patterns, faces, placed))
+    items = np.arange(len(scene.items))
+    ink = item_colours(scene.items, items, np.full(len(items), MIDDLE), lighting.size)
+    return walk.run("erasing", erased_fills, view, faces, placed, _paper(scene), ink, outlines)
 
 
 def _shaded(walk: Walk, seen: _Seen, lighting: Lighting, page: Page, aura_mm: float, tolerance_mm: float) -> Fills:

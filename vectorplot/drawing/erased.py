@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from vectorplot.drawing.fills import Colours, FillKind, Fills
@@ -10,12 +12,12 @@ from vectorplot.scene.view import View
 from vectorplot.visibility.painter.erasing import erasing_edges
 from vectorplot.visibility.painter.image_faces import ImageFaces
 
-INK = np.array([[0, 0, 0]], dtype=np.uint8)
-"""The colour of edges."""
 
-
-def erased_fills(view: View, faces: ImageFaces, placed: Placed, paper: Colours) -> Fills:
-    """Painted polygons in the colour of the paper (1,3), the edges of each after it, as lines of two corners.
+def erased_fills(
+    view: View, faces: ImageFaces, placed: Placed, paper: Colours, ink: Colours, overlays: Sequence[Overlay] = ()
+) -> Fills:
+    """Painted polygons in the colour of the paper (1,3), each followed by its edges, lines of two corners, and by what
+    else is drawn on it; ink (i,3): the colours of the edges of items.
 
     Source: Glaeser, section 7.1, figure 1.
     """
@@ -38,9 +40,9 @@ def erased_fills(view: View, faces: ImageFaces, placed: Placed, paper: Colours) 
         np.stack([erased.start, erased.end], axis=2).reshape(3, -1),
         np.arange(0, 2 * count + 1, 2),
         placed,
-        colours=np.repeat(INK, 2 * count, axis=0),
+        colours=np.repeat(ink[item[after]], 2, axis=0),
         opacity=np.ones(count),
         item=item[after],
         kind=np.full(count, int(FillKind.EDGE)),
     )
-    return interleaved(blank, [Overlay(edges, after)])
+    return interleaved(blank, [Overlay(edges, after), *overlays])
