@@ -7,7 +7,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from vectorplot.effects.decals import DecalKind, Decals, joined_decals
-from vectorplot.effects.patterns import pattern_decals, patterns_in_shadows
 from vectorplot.geometry.mesh import Bools
 from vectorplot.scene.scene import Light, Scene
 from vectorplot.scene.view import View
@@ -35,6 +34,7 @@ def scene_mirror_light(
 ) -> tuple[Decals, tuple[Light, ...]]:
     """Where light falls by way of mirrors, and the doubles of lights that it comes from, in the view."""
     from vectorplot.effects.mirror_lights import light_doubles, mirror_light
+    from vectorplot.effects.patterns import patterns_in_shadows
     from vectorplot.effects.reflections import mirror_faces, mirrors_of
     from vectorplot.effects.united_decals import united_decals
 
@@ -52,11 +52,15 @@ def scene_mirror_light(
 
 def scene_patterns(scene: Scene, view: View, lighting: Lighting, shadows: Decals) -> Decals:
     """The patterns of all items, dark where shadows fall on them."""
+    from vectorplot.effects.patterns import pattern_decals
+
     return shadowed_patterns(scene, view, lighting, pattern_decals(scene, view), shadows)
 
 
 def shadowed_patterns(scene: Scene, view: View, lighting: Lighting, patterns: Decals, shadows: Decals) -> Decals:
     """Patterns on faces of a view, dark where shadows fall on them."""
+    from vectorplot.effects.patterns import patterns_in_shadows
+
     found = face_shades(view, lighting.items, lighting.lights)
     lights = len(scene.lights)
     dark: Bools = np.asarray(found.backlit.all(axis=0) & (lights > 0), dtype=np.bool_)

@@ -78,11 +78,11 @@ def component_ranks(count: int, before: Ints, after: Ints) -> Ints:
     Source: Tarjan (1972) as scipy has it; the order of its components is not promised, so it is checked and, where
     it is no order of drawing, made by mikado.
     """
+    if not len(before):
+        return np.arange(count)
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
-    if not len(before):
-        return np.arange(count)
     graph = coo_array((np.ones(len(before), dtype=np.int8), (before, after)), shape=(count, count)).tocsr()
     graph.sum_duplicates()
     components, label = connected_components(graph, directed=True, connection="strong")

@@ -1,0 +1,146 @@
+"""What runs when a scene is painted, and what is loaded for it: that which the scene calls for, and nothing else."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from vectorplot.geometry.camera import Camera
+from vectorplot.io.read import read
+from vectorplot.paint import paint
+from vectorplot.plan import StageReport
+from vectorplot.scene.scene import Item, Light, Material, Pattern, Scene
+from vectorplot.surfaces.ellipsoid import Sphere
+from vectorplot.testing.shapes import box
+
+DATA = Path(__file__).resolve().parent.parent / "data"
+PLAIN = ["look", "faces", "order", "shades", "fills"]
+CUBE = Item("CUBE", box((-1, -1, -1), (1, 1, 1)), "blue")
+SUN = Light((2.0, -3.0, 4.0), parallel=True)
+PANE = Item("PANE", box((-3, -3, -2), (3, 3, -1.9)), "cyan")
+MIRROR = replace(PANE, material=Material("mirror"))
+CLEAR = replace(PANE, material=Material("transparent", 0.5), occludes=False)
+GLASS = replace(PANE, material=Material("transparent", 0.5, 1.4), occludes=False)
+SPOT = replace(CUBE, patterns=(Pattern("SPOT", "red", 1, np.array([(0.0, 0.0), (0.5, 0.0), (0.0, 0.5)])),))
+BALL = Item("BALL", Sphere(0.5))
+CAMERA = Camera((4.0, -6.0, 5.0))
+
+
+def with_stages(*stages: str) -> list[str]:
+    """The stages of a plain scene, and others between the shades and the polygons on the page."""
+    return [*PLAIN[:-1], *stages, PLAIN[-1]]
+
+
+def reports_of(scene: Scene, **options: object) -> list[StageReport]:
+    reports: list[StageReport] = []
+    paint(scene, CAMERA, explain=reports.append, **options)
+    return reports
+
+
+def ran(scene: Scene, **options: object) -> list[str]:
+    return [report.name for report in reports_of(scene, **options)]
+
+
+CALLS = [
+    (Scene(()), {}, PLAIN),
+    (Scene((CUBE,)), {}, PLAIN),
+    (Scene((CUBE,), (SUN,)), {}, with_stages("shadows")),
+    (Scene((CUBE,), (SUN,)), {"shadows": "none"}, PLAIN),
+    (Scene((CUBE,), (SUN,)), {"lights": ()}, PLAIN),
+    (Scene((CUBE,)), {"lights": (SUN,)}, with_stages("shadows")),
+    (Scene((SPOT,)), {}, with_stages("patterns")),
+    (Scene((SPOT,), (SUN,)), {}, with_stages("shadows", "patterns")),
+    (Scene((CUBE, MIRROR)), {}, with_stages("reflections")),
+    (Scene((CUBE, MIRROR), (SUN,)), {}, with_stages("shadows", "mirror light", "reflections")),
+    (Scene((CUBE, MIRROR), (SUN,)), {"shadows": "none"}, with_stages("reflections")),
+    (Scene((CUBE, CLEAR)), {}, PLAIN),
+    (Scene((CUBE, CLEAR), (SUN,)), {}, with_stages("shadows", "clear shadows")),
+    (Scene((CUBE, GLASS)), {}, with_stages("refraction")),
+    (Scene((CUBE, GLASS), (SUN,)), {"shadows": "none"}, with_stages("refraction")),
+    (Scene((CUBE, BALL)), {}, ["facets", *PLAIN]),
+    (Scene((CUBE,)), {"fills": "visible"}, [*PLAIN, "visible fills"]),
+    (Scene((CUBE,)), {"lines": ("crease",)}, [*PLAIN, "lines"]),
+]
+
+
+@pytest.mark.parametrize("scene, options, stages", CALLS)
+def test_each_scene_runs_the_stages_that_it_calls_for(scene: Scene, options: dict, stages: list[str]) -> None:
+    assert ran(scene, **options) == stages
+
+
+def test_each_stage_tells_why_it_ran_and_what_it_took() -> None:
+    for report in reports_of(Scene((SPOT, MIRROR, GLASS, BALL), (SUN,)), tolerance_mm=1.0):
+        assert report.why and 0.0 <= report.seconds < 60.0 and report.count >= 0 and report.peak_mb > 1.0
+
+
+@pytest.mark.parametrize("name", ["pencil", "town"])
+def test_the_scenes_that_come_with_the_package(name: str) -> None:
+    scene = read(DATA / f"{name}.scene")
+    stages: list[StageReport] = []
+    paint(scene, explain=stages.append)
+    assert [stage.name for stage in stages] == (PLAIN if name == "pencil" else with_stages("shadows"))
+    assert bool(scene.lights) == (name == "town")
+
+
+LOADED = """
+import sys
+import numpy as np
+import vectorplot as vp
+from vectorplot.paint import paint
+{scene}
+paint(scene{options})
+print(*(name for name in sys.modules if name.startswith(("vectorplot.", "scipy", "shapely", "cairo", "svgwrite"))))
+"""
+CUBE_TEXT = "from vectorplot.testing.shapes import box\nitem = vp.Item('A', box((0, 0, 0), (1, 1, 1)){more})\n"
+
+
+def loaded(scene: str, options: str = "") -> set[str]:
+    """The modules that painting a scene in a new process loads."""
+    code = LOADED.format(scene=scene, options=options)
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
+    return set(found.stdout.split())
+
+
+def effects_of(modules: set[str]) -> set[str]:
+    return {name.removeprefix("vectorplot.effects.") for name in modules if name.startswith("vectorplot.effects.")}
+
+
+def test_a_scene_without_lights_mirrors_patterns_and_clear_things_loads_no_effect() -> None:
+    pencil = f"from vectorplot.io.read import read\nscene = read({str(DATA / 'pencil.scene')!r})"
+    modules = loaded(pencil)
+    assert not {name for name in modules if name.startswith("vectorplot.effects")}
+    assert not {name.split(".")[0] for name in modules} & {"cairo", "svgwrite"}
+    assert not {name for name in modules if name.startswith("vectorplot.backends")}
+
+
+def test_a_single_body_needs_nothing_heavy() -> None:
+    modules = loaded(CUBE_TEXT.format(more="") + "scene = vp.Scene((item,))")
+    assert not {name.split(".")[0] for name in modules} & {"cairo", "svgwrite", "scipy"}
+    assert not effects_of(modules)
+
+
+EFFECTS = {
+    "shadows": ("", "(vp.Light((1, -2, 3)),)", "shadows"),
+    "patterns": (", patterns=(vp.Pattern('P', 'red', 1, np.array([(0, 0), (1, 0), (0, 1)])),)", "()", "patterns"),
+    "mirrors": (", material=vp.Material('mirror')", "()", "reflection_fills"),
+    "glass": (", material=vp.Material('transparent', 0.5, 1.4), occludes=False", "()", "glass_fills"),
+}
+
+
+@pytest.mark.parametrize("effect", EFFECTS)
+def test_an_effect_loads_its_own_code_and_not_that_of_the_others(effect: str) -> None:
+    more, lights, own = EFFECTS[effect]
+    found = effects_of(loaded(CUBE_TEXT.format(more=more) + f"scene = vp.Scene((item,), {lights})"))
+    assert own in found
+    others = {module for name, (_, _, module) in EFFECTS.items() if name != effect}
+    assert not found & (others - {own}), found
+
+
+def test_transparency_without_refraction_loads_no_effect() -> None:
+    more = ", material=vp.Material('transparent', 0.5), occludes=False"
+    assert not effects_of(loaded(CUBE_TEXT.format(more=more) + "scene = vp.Scene((item,))"))
