@@ -166,13 +166,14 @@ def _shading_stages(scene: Scene, shadows: str) -> list[Stage]:
     clear = any(item.material.opacity < 1.0 for item in scene.items)
     if casts:
         stages.append(Stage("shadows", f"{len(scene.lights)} lights cast them"))
-    if casts and any(item.material.word == "mirror" for item in scene.items):
+    mirrors = any(item.material.word == "mirror" and isinstance(item.shape, Mesh) for item in scene.items)
+    if casts and mirrors:
         stages.append(Stage("mirror light", "mirrors throw light back"))
     if any(item.patterns for item in scene.items):
         stages.append(Stage("patterns", "faces carry patterns"))
     if casts and clear:
         stages.append(Stage("clear shadows", "items are transparent"))
-    if any(item.material.word == "mirror" for item in scene.items):
+    if mirrors:
         stages.append(Stage("reflections", "items are mirrors"))
     if clear and any(item.material.refraction != 1.0 for item in scene.items):
         stages.append(Stage("refraction", "items refract light"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.curves.circle import Circle
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Item, Material, Scene
 from vectorplot.shading.faceted import faceted
 from vectorplot.surfaces.torus import Torus
 from vectorplot.testing.shapes import box
@@ -31,3 +31,12 @@ def test_a_curve_has_no_faces():
     made = faceted(Scene((Item("CIRCLE", Circle()),)), lambda points: np.ones(points.shape[:-1]))
     assert made.scene.items[0].mesh.face_count == 0
     assert made.normals == (None,)
+
+
+def test_the_triangles_of_a_curved_mirror_are_no_plane_mirrors():
+    items = (
+        Item("RING", Torus(3.0, 1.0), material=Material("mirror")),
+        Item("PANE", box((0, 0, 0), (1, 1, 1)), material=Material("mirror")),
+    )
+    made = faceted(Scene(items), lambda points: np.full(points.shape[:-1], 0.1))
+    assert [item.material.word for item in made.scene.items] == ["shiny", "mirror"]

@@ -14,8 +14,9 @@ from vectorplot.surfaces.surface import is_implicit, is_parametrised
 
 @dataclass(frozen=True, eq=False)
 class FacetedScene:
-    """A scene without smooth surfaces. normals: for every item the unit normals (v, 3) at its vertices, zero where the
-    surface has none; None where its faces are those of a polyhedron."""
+    """A scene without smooth surfaces; the triangles in their place are no plane mirrors. normals: for every item the
+    unit normals (v, 3) at its vertices, zero where the surface has none; None where its faces are those of a
+    polyhedron."""
 
     scene: Scene
     normals: tuple[Floats | None, ...]
@@ -36,4 +37,6 @@ def _faceted_item(item: Item, allowed: Allowed) -> tuple[Item, Floats | None]:
     if not (is_parametrised(shape) or is_implicit(shape)):
         return replace(item, shape=item.mesh), None
     found = facets(shape, allowed)
-    return replace(item, shape=found.mesh), np.nan_to_num(found.normals)
+    # A mirror that is curved shows something else at every point: its triangles are no mirrors.
+    word = "shiny" if item.material.word == "mirror" else item.material.word
+    return replace(item, shape=found.mesh, material=replace(item.material, word=word)), np.nan_to_num(found.normals)
