@@ -14,7 +14,7 @@ from vectorplot.geometry.revolution import revolution
 from vectorplot.geometry.solids import box
 from vectorplot.geometry.vectors import translated
 
-LIGHTS = (vp.Light((5, -6, 7), parallel=True, intensity=0.7), vp.Light((-1.0, -7.0, 9.0), intensity=0.4))
+LIGHTS = (vp.Light((5, -6, 7), parallel=True, intensity=0.5), vp.Light((-1.0, -7.0, 9.0), intensity=0.3))
 PLANES = {"MIRROR1": (np.array([0.0, -1.0, 0.0]), -3.0), "MIRROR2": (np.array([1.0, 0.0, 0.0]), -3.4)}
 """Normal, towards the room, and level of each mirror."""
 
@@ -27,7 +27,7 @@ def placed(name: str, mesh: vp.Mesh, place: tuple[float, float, float], colour: 
 
 def main(folder: Path) -> None:
     items = (
-        placed("FLOOR", box((9, 9, 0.3)), (-3.6, -6, -0.3), "lightgray"),
+        placed("FLOOR", box((9, 9, 0.3)), (-3.6, -6, -0.3), "gray"),
         placed("MIRROR1", box((6, 0.15, 4.2)), (-2.9, 3.0, 0.2), "cyan", "mirror"),
         placed("MIRROR2", box((0.15, 6.2, 4.2)), (-3.55, -3.6, 0.2), "cyan", "mirror"),
         placed(

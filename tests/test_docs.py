@@ -14,6 +14,7 @@ import vectorplot as vp
 from vectorplot.cli.draw import draw
 from vectorplot.cli.info import info
 from vectorplot.cli.main import run
+from vectorplot.cli.paint import paint
 from vectorplot.cli.render import render
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -27,7 +28,7 @@ def blocks(page: Path, language: str) -> list[str]:
 
 COMMANDS = [
     line
-    for page in (ROOT / "README.md", DOCS / "command.md")
+    for page in (ROOT / "README.md", DOCS / "command.md", DOCS / "paint.md")
     for block in blocks(page, "sh")
     for line in block.splitlines()
     if line.startswith("vectorplot ") and "INPUT" not in line and "NAME" not in line
@@ -48,7 +49,13 @@ def test_the_python_of_the_pages_runs(checkout):
     assert (checkout / "table.pdf").read_bytes().startswith(b"%PDF")
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+def test_the_python_of_painted_pictures_runs(checkout, capsys):
+    (code,) = blocks(DOCS / "paint.md", "python")
+    exec(compile(code, "paint.md", "exec"), {})
+    assert (checkout / "town.pdf").read_bytes().startswith(b"%PDF") and "polygons" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("command", sorted(set(COMMANDS)))
 def test_the_commands_of_the_pages_work(command, checkout, capfdbinary):
     words = shlex.split(command)
     assert run(words[1:]) == 0
@@ -59,7 +66,7 @@ def test_the_commands_of_the_pages_work(command, checkout, capfdbinary):
         assert out
 
 
-@pytest.mark.parametrize("command", [draw, info, render], ids=lambda command: command.name)
+@pytest.mark.parametrize("command", [draw, info, paint, render], ids=lambda command: command.name)
 def test_every_option_is_on_the_page_of_the_command(command):
     page = (DOCS / "command.md").read_text(encoding="utf-8")
     for parameter in command.params:
