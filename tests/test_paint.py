@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from strewn import STREWN
-from top_fills import assert_same_picture, blended, colours_at, fills_of, top_at
+from top_fills import assert_same_picture, blended, colours_at, covering, fills_of, top_at
 
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import FillKind, Fills
@@ -420,6 +420,19 @@ def test_knots_of_many_bars_are_painted_right_and_stay_few_polygons() -> None:
         bars.append(box((-3.0, -0.1, -0.05), (3.0, 0.1, 0.05)).transformed(about_z @ tilt))
     fills = fills_of(paint(replace(numbered(bars), lights=(SUN,)), top_view(7.0), shadows="none"))
     assert len(fills) < 12 * 3 * 4
+
+
+@pytest.mark.parametrize("kind", ["tori", "piercing_boxes", "on_a_floor", "mirror"])
+def test_visible_fills_show_the_same_picture_without_painting_anything_over(kind: str) -> None:
+    mirror = Item("MIRROR", box((-3, 2, 0), (3, 2.1, 3)), "cyan", Material("mirror"))
+    strewn = TABLE if kind == "mirror" else STREWN[kind](np.random.default_rng(3))
+    scene = replace(strewn, items=(*strewn.items, mirror) if kind == "mirror" else strewn.items, lights=(SUN, LAMP))
+    camera = Camera((7.0, -9.0, 8.0))
+    painted, visible = (paint(scene, camera, page=SQUARE, fills=how) for how in ("painted", "visible"))
+    assert_same_picture(painted, visible, levels=3.0, apart=4)
+    places = np.random.default_rng(1).random((4000, 2)) * 100.0
+    place, _ = covering(fills_of(visible), places)
+    assert (np.bincount(place, minlength=len(places)) > 1).sum() <= 2, "beside edges at most"
 
 
 @pytest.mark.capability("G5.1-hollow")

@@ -7,10 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from picture_rays import COLUMNS, PAGE, ROWS, compared, random_camera, random_lights
+from picture_rays import COLUMNS, EDGE, PAGE, ROWS, compared, random_camera, random_lights
+from scene_rays import clear_of_edges, faces_of, page_rays
 from strewn import STREWN, placed
+from top_fills import covering, fills_of, pixel_places
 
+from vectorplot.drawing.fills import Fills
 from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Light, Material, Scene
 from vectorplot.testing.shapes import box, random_convex_solids, rotated_boxes
@@ -98,3 +102,66 @@ def test_an_eye_in_a_room_sees_its_inner_walls_and_what_stands_in_it() -> None:
     for target in [(1.0, 0.0, 0.8), (-4.0, 1.0, 1.0), (0.0, 3.0, 0.5)]:
         wrong, off, sure = compared(scene, Camera((-2.5, -1.0, 1.6), target, fov_deg=60.0))
         assert (wrong, off) == (0, 0) and sure > 0.8 * ROWS * COLUMNS
+
+
+@pytest.mark.parametrize("family", ["hulls", "piercing_boxes", "tori"])
+def test_one_sees_through_clear_things_what_rays_meet_one_after_the_other(family: str) -> None:
+    compared_places = several = 0
+    for seed in range(6):
+        random = np.random.default_rng(seed)
+        scene = FAMILIES[family](random)
+        items = tuple(
+            replace(item, material=Material("transparent", 0.4), occludes=False) if random.random() < 0.8 else item
+            for item in scene.items
+        )
+        scene = replace(scene, items=items)
+        camera = random_camera(scene, random)
+        drawing = paint(scene, camera, page=PAGE, fit=False)
+        places = pixel_places(drawing, COLUMNS, ROWS)
+        truth = seen_through(scene, camera, places)
+        _, labels = np.unique(truth, axis=0, return_inverse=True)
+        sure = np.flatnonzero(clear_of_edges(labels.reshape(ROWS, COLUMNS), EDGE))
+        wrong = shown_through(fills_of(drawing), places[sure], truth.shape[1]) != truth[sure]
+        assert not wrong.any(), f"seed {seed}"
+        compared_places += len(sure)
+        several += int((truth[sure, 1] >= 0).sum())
+    assert compared_places > 0.3 * 6 * ROWS * COLUMNS and several > 300
+
+
+DEEP = 12
+"""So many things may be seen through one another."""
+
+
+def seen_through(scene: Scene, camera: Camera, places: Floats) -> Ints:
+    """(n, DEEP) the items whose outsides rays meet, front to back, up to the first that is opaque; then -1."""
+    faces = faces_of(scene)
+    clear = np.array([item.material.opacity < 1.0 for item in scene.items])
+    size = float(np.ptp(scene.vertices, axis=0).max())
+    origin, way = page_rays(camera, PAGE, places, 3.0 * size)
+    found = np.full((len(places), DEEP), -1)
+    count, origin = np.zeros(len(places), dtype=np.intp), np.array(origin)
+    going = np.arange(len(places))
+    while len(going):
+        face, point = faces.first(origin[going], way[going])
+        going, face, point = going[face >= 0], face[face >= 0], point[face >= 0]
+        outside = (faces.normal[face] * way[going]).sum(axis=1) < 0.0
+        at = going[outside]
+        found[at, count[at]] = faces.item[face[outside]]
+        count[at] += 1
+        origin[going] = point + 2e-5 * size * way[going]
+        going = going[clear[faces.item[face]] | ~outside]
+    return found
+
+
+def shown_through(fills: Fills, places: Floats, deep: int) -> Ints:
+    """(n, deep) the items of what covers places, the last painted first, down to the first that is opaque; then -1."""
+    place, polygon = covering(fills, places)
+    place, polygon = place[::-1], polygon[::-1]
+    turn = np.arange(len(place)) - np.searchsorted(-place, -place)
+    opaque = fills.opacity[polygon] >= 1.0
+    below = np.full(len(places), len(place))
+    np.minimum.at(below, place[opaque], turn[opaque])
+    seen = np.flatnonzero(turn <= below[place])
+    found = np.full((len(places), deep), -1)
+    found[place[seen], turn[seen]] = fills.item[polygon[seen]]
+    return found

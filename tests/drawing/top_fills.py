@@ -57,11 +57,13 @@ def colours_at(fills: Fills, polygon: Ints, places: Floats) -> Floats:
         area = _turn(b - a, c - a)
         with np.errstate(divide="ignore", invalid="ignore"):
             weights = np.stack([_turn(b - places, c - places), _turn(c - places, a - places)]) / area
-        weights = np.concatenate([weights, 1.0 - weights.sum(axis=0, keepdims=True)])
+            weights = np.concatenate([weights, 1.0 - weights.sum(axis=0, keepdims=True)])
         inside = np.where(np.isfinite(weights).all(axis=0), weights.min(axis=0), -np.inf)
         better = inside > best
         best = np.where(better, inside, best)
-        mixed = np.einsum("kn,knc->nc", np.nan_to_num(weights), fills.colours[corner].astype(np.float64))
+        mixed = np.einsum(
+            "kn,knc->nc", np.where(np.isfinite(weights), weights, 0.0), fills.colours[corner].astype(np.float64)
+        )
         colours = np.where(better[:, None], mixed, colours)
     return colours
 
