@@ -78,7 +78,7 @@ def draw(
     left out, dashed, or solid on a layer of their own. halo_mm: lines end so far beside what is in front of them.
     layers: what shares a layer. curves: strokes of smooth curves are fitted with cubic Béziers and elliptic arcs, or
     stay polylines. tolerance_mm: how far strokes of smooth curves may be off the true curves; their
-    points are exact, straight lines are so whatever it is. progress(stage, fraction)
+    points are exact but for the ends of dashes, straight lines are so whatever it is. progress(stage, fraction)
     and explain(report) are called while it works.
     Errors: InputError for unknown words, impossible cameras, and widths and angles out of range.
     Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees

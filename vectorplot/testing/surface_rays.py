@@ -33,6 +33,9 @@ ON_CONTOUR = 1e-6
 OWN = 1e-3
 """A hit nearer to a point on the surface than this part of the extent is the point itself."""
 
+SAME = 1e-6
+"""A refined hit farther from it than this part of the extent is another sheet."""
+
 AROUND = 5e-3
 """Contour and borders on which a point lies are its own up to this distance, as a part of the extent."""
 
@@ -204,6 +207,9 @@ def _hits(net: Net, rays: Rays, feet: Feet) -> tuple[Bools, Floats]:
         along, there, lost = _refined(net, rays, ray, along, start)
         clearance[ray[lost & (np.abs(along) > own[ray])]] = 0.0
         ray, along = ray[there], along[there]
+        # Beside a cuspidal edge or a self-intersection another sheet may be that near.
+        other = ~feet.on_contour[ray] & (np.abs(along) > SAME) & (np.abs(along) <= own[ray])
+        clearance[ray[other]] = 0.0
         free = np.abs(along) > own[ray]
         np.minimum.at(clearance, ray[free], np.abs(along[free]))
         if rays.ends_in_eye:

@@ -24,7 +24,8 @@ from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.sheet import dot
 
 MISSED = 1e-6
-"""Where the sheets are still apart by this part of a chord they do not cross, but touch: the first one has to do."""
+"""Where the sheets, or the last two steps, are still apart by this part of a chord the sheets do not cross, but touch,
+as in a pinch point: there the first one has to do."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,13 +57,14 @@ class SheetsMeet:
                 steps = [no_longer(aim - x, long) for x in (p, q)]
                 at = _finite(one.moved(at, steps[0]), at)
                 there = _finite(two.moved(there, steps[1]), there)
-                if not (np.sqrt(np.fmax(dot(steps[0], steps[0]), dot(steps[1], steps[1]))) > SETTLED * long).any():
+                last = np.sqrt(np.fmax(dot(steps[0], steps[0]), dot(steps[1], steps[1])))
+                if not (last > SETTLED * long).any():
                     break
             tangent = np.cross(n, m)
             tangent *= (dot(way, way) / dot(tangent, way))[:, None]
         p, q = one.points(at), two.points(there)
         roughly = ParameterCurves(one, self.sheet).between(chords, part)
-        met = np.sqrt(np.fmax(dot(p - q, p - q), 0.0)) <= MISSED * long
+        met = (last <= MISSED * long) & (np.sqrt(dot(p - q, p - q)) <= MISSED * long)
         a, b = chords.second_places
         places, second = (
             np.where(met[:, None], at, roughly.places),

@@ -1,0 +1,113 @@
+"""The hard cases 29, 48 and 49 as drawings: cusps of contours, pinch points, cuspidal edges."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vectorplot as vp
+from vectorplot.drawing.drawing import Curves, Drawing
+from vectorplot.surfaces.function import surface_of_function
+from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.torus import Torus
+from vectorplot.testing import assert_drawing_is_right, curves_in_space
+
+pytestmark = pytest.mark.filterwarnings("ignore:SURFACE. f :vectorplot.errors.InputWarning")
+"""Where a surface has no normal its contour may be in doubt; the drawing says so."""
+
+SQUARE = Domain(-1.0, 1.0, -1.0, 1.0)
+
+
+def drawn(surface: object, camera: vp.Camera, hidden: str = "solid") -> tuple[vp.Scene, Drawing]:
+    scene = vp.Scene((vp.Item("SURFACE", surface, curves=vp.SurfaceLines(7, 7)),))
+    return scene, vp.draw(scene, camera, page=vp.Page(100, 100, 5), hidden=hidden)
+
+
+def ends_of(curves: list[np.ndarray]) -> np.ndarray:
+    return np.concatenate([curve[[0, -1]] for curve in curves])
+
+
+def knots(drawing: Drawing) -> np.ndarray:
+    """(n,2) where Bézier segments begin and end."""
+    marks = [mark for layer in drawing.layers for mark in layer.marks if isinstance(mark, Curves)]
+    return np.concatenate([mark.beziers.control[:, k] for mark in marks for k in (0, 3)])
+
+
+def distance(points: np.ndarray, aim: np.ndarray) -> float:
+    return float(np.linalg.norm(points - aim, axis=1).min())
+
+
+def on_page(drawing: Drawing, point: np.ndarray) -> np.ndarray:
+    x, y, _, w = drawing.page_from_world @ [*point, 1.0]
+    return np.array([x, y]) / w
+
+
+def torus_cusps(slant: float) -> np.ndarray:
+    """(4,3) the cusps of the contour of a torus of radii 3 and 1, seen along (0, sin slant, cos slant): where the
+    ellipse that its circle of middles has for an image has the radius of curvature 1."""
+    c = np.cos(slant)
+    sine = np.sqrt(((c / 3.0) ** (2.0 / 3.0) - c * c) / (1.0 - c * c))
+    t = np.array([1.0, -1.0, 1.0, -1.0]) * np.arcsin(sine) + np.array([0.0, 0.0, np.pi, np.pi])
+    middle = np.stack([np.cos(t), np.sin(t), 0.0 * t], axis=1)
+    arm = np.stack([-c * np.cos(t), -c * np.sin(t), np.sin(slant) * np.sin(t)], axis=1)
+    return 3.0 * middle + arm / np.linalg.norm(arm, axis=1, keepdims=True)
+
+
+@pytest.mark.hard(29)
+@pytest.mark.parametrize("slant", [1.1, 1.3, 1.5])
+def test_the_visible_contour_of_a_torus_ends_in_its_cusps(slant: float) -> None:
+    camera = vp.Camera((0.0, 20.0 * np.sin(slant), 20.0 * np.cos(slant)), (0.0, 0.0, 0.0), parallel=True)
+    scene, drawing = drawn(Torus(3.0, 1.0), camera)
+    cusps = torus_cusps(slant)
+    # The pen may leave out the tip of a hidden one: on the page it is no further than this from the next point.
+    assert all(distance(knots(drawing), on_page(drawing, cusp)) < 1e-4 for cusp in cusps)
+    # Those on this side of the axis are seen: there the contour ends, and nothing of it is seen beyond.
+    seen = drawn(Torus(3.0, 1.0), camera, "none")[1]
+    visible = curves_in_space(seen, kind="contour")
+    ends = ends_of([curve for curve in visible if np.linalg.norm(curve[0] - curve[-1]) > 1e-6])
+    images = np.array([on_page(seen, end) for end in ends])
+    found = [distance(images, on_page(seen, cusp)) < 1e-4 for cusp in cusps]
+    assert sum(found) == 2
+    assert_drawing_is_right(drawing, scene, camera, samples=300, clearance=1e-5)
+
+
+@pytest.mark.hard(48)
+@pytest.mark.parametrize("eye", [(6.0, -5.0, 4.0), (5.0, 7.0, 2.0), (-4.0, -6.0, 7.0)])
+def test_the_double_line_of_an_umbrella_is_drawn_up_to_its_pinch_point(eye: tuple[float, float, float]) -> None:
+    # x^2 = y^2 z: both halves meet in the z axis, from the pinch point in the origin upwards.
+    umbrella = surface_of_function(lambda u, v: (u * v, u, v * v), SQUARE)
+    _, drawing = drawn(umbrella, vp.Camera(eye, (0.0, 0.0, 0.5)))
+    lines = curves_in_space(drawing, kind="intersection")
+    points = np.concatenate(lines)
+    assert np.abs(points[:, :2]).max() < 1e-9
+    assert abs(points[:, 2].min()) < 1e-9 and abs(points[:, 2].max() - 1.0) < 1e-9
+    assert distance(ends_of(lines), np.zeros(3)) < 1e-9
+    assert np.isclose(sum(abs(np.diff(line[:, 2])).sum() for line in lines), 1.0, atol=1e-6), "once, without gaps"
+
+
+@pytest.mark.hard(49)
+def test_the_cuspidal_edge_of_a_swallowtail_keeps_its_cusp() -> None:
+    tail = surface_of_function(lambda u, v: (3.0 * v**4 + u * v * v, 4.0 * v**3 + 2.0 * u * v, u), SQUARE)
+    _, drawing = drawn(tail, vp.Camera((6.0, -5.0, 4.0)))
+    edge = curves_in_space(drawing, kind="crease")
+    points = np.concatenate(edge)
+    # The edge is (-3 v^4, -8 v^3, -6 v^2), down to the border at u = -1.
+    v = np.cbrt(-points[:, 1] / 8.0)
+    assert np.abs(points - np.stack([-3.0 * v**4, -8.0 * v**3, -6.0 * v**2], axis=1)).max() < 1e-6
+    assert np.abs(points[:, 2].min() + 1.0) < 1e-8
+    assert distance(points, np.zeros(3)) < 1e-9
+    assert distance(knots(drawing), on_page(drawing, np.zeros(3))) < 1e-6, "no curve is bent round the cusp"
+
+
+@pytest.mark.hard(49)
+def test_the_edge_of_the_tangents_of_a_helix_is_drawn_whole() -> None:
+    def points(u, v):
+        return np.cos(v) - u * np.sin(v), np.sin(v) + u * np.cos(v), v + u
+
+    camera = vp.Camera((9.0, -14.0, 8.0), (0.0, 0.0, 3.0))
+    scene, drawing = drawn(surface_of_function(points, Domain(-1.0, 1.0, 0.0, 6.0)), camera)
+    edge = curves_in_space(drawing, kind="crease")
+    x, y, z = np.concatenate(edge).T
+    assert np.abs(np.hypot(x - np.cos(z), y - np.sin(z))).max() < 1e-9
+    assert np.isclose(sum(abs(np.diff(line[:, 2])).sum() for line in edge), 6.0, atol=1e-6), "once, without gaps"
+    assert_drawing_is_right(drawing, scene, camera, samples=200, clearance=1e-4)
