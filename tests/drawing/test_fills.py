@@ -8,7 +8,6 @@ import pytest
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.ink import inked
-from vectorplot.effects.decals import DecalKind
 from vectorplot.errors import InputError
 from vectorplot.testing import assert_drawings_equal
 
@@ -86,10 +85,6 @@ def line(*points) -> Paths:
     page = np.array(points, dtype=np.float64)
     offsets, world = np.array([0, len(page)]), np.column_stack((page, np.zeros(len(page))))
     return Paths(page, offsets, none > 0, none, none, none, world)
-
-
-def test_decals_become_fills_of_the_same_kind():
-    assert {kind.name: int(FillKind[kind.name]) for kind in DecalKind} == {kind.name: int(kind) for kind in DecalKind}
 
 
 def test_ink_joins_strokes_and_leaves_fills_in_their_places():

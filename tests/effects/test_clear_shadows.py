@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.clear_shadows import clear_shadows
-from vectorplot.effects.decals import DecalKind, joined_decals
+from vectorplot.effects.decals import joined_decals
 from vectorplot.effects.shadows import shadow_decals
 from vectorplot.geometry.camera import Camera
 from vectorplot.scene.scene import Item, Light, Material, Scene
@@ -38,7 +39,7 @@ def test_they_have_the_colours_of_the_items_and_come_last() -> None:
     assert sorted(names) == ["blue"] * 4 + ["green"] * 2
     assert np.allclose(clear.opacities[on_floor], [0.3 if name == "blue" else 0.5 for name in names])
     assert sorted(clear.light[on_floor].tolist()) == [0, 0, 0, 1, 1, 1]
-    assert (clear.kind == DecalKind.CLEAR_SHADOW).all() and not clear.lights_lacking.any()
+    assert (clear.kind == FillKind.CLEAR_SHADOW).all() and not clear.lights_lacking.any()
     dark = shadow_decals(view, LIGHTS)
     both = joined_decals(clear, dark)
     on_one = [k for k in both.painting_order if both.face[k] == clear.face[on_floor[0]]]

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.effects.decals import DecalKind, Decals, joined_decals, no_decals
+from vectorplot.drawing.fills import FillKind
+from vectorplot.effects.decals import Decals, joined_decals, no_decals
 
 
 def _decals(face: list[int], level: list[int], colour: list[int], colours: tuple[str, ...]) -> Decals:
@@ -12,7 +13,7 @@ def _decals(face: list[int], level: list[int], colour: list[int], colours: tuple
     sizes = 3 + np.arange(count) % 2
     offsets = np.concatenate([[0], np.cumsum(sizes)])
     points = np.arange(3.0 * offsets[-1]).reshape(3, -1)
-    kind = np.full(count, int(DecalKind.PATTERN))
+    kind = np.full(count, int(FillKind.PATTERN))
     none = np.zeros(count, dtype=np.intp)
     return Decals(points, offsets, np.array(face), kind, none, none - 1, np.array(colour), np.array(level), colours)
 

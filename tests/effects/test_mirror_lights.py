@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from seen_rays import first_hits, topmost, triangles
 
-from vectorplot.effects.decals import DecalKind
+from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.mirror_lights import MIRRORED_SHARE, LightDouble, light_doubles, mirror_light
 from vectorplot.effects.reflections import mirror_faces, mirrors_of
 from vectorplot.geometry.camera import Camera
@@ -133,7 +133,7 @@ def test_a_window_throws_its_own_shape_on_the_floor() -> None:
     lit = Lit(scene, Camera(eye=(6.0, -9.0, 7.0)))
     decals = lit.decals
     bright = decals.of(np.flatnonzero(decals.light == 0))
-    assert (bright.kind == DecalKind.LIGHT).all() and len(bright) == 1
+    assert (bright.kind == FillKind.LIGHT).all() and len(bright) == 1
     world = lit.view.world_of(bright.points)
     assert np.allclose(np.sort(world[:, 0]), [1, 1, 2, 2]) and np.allclose(np.sort(world[:, 1]), [-1, -1, 1, 1])
 

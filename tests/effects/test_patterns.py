@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 import shapely
 
-from vectorplot.effects.decals import DecalKind, Decals, joined_decals, no_decals
+from vectorplot.drawing.fills import FillKind
+from vectorplot.effects.decals import Decals, joined_decals, no_decals
 from vectorplot.effects.patterns import pattern_decals, patterns_in_shadows
 from vectorplot.errors import InputError
 from vectorplot.features.patterns import face_frames
@@ -57,7 +58,7 @@ def test_patterns_lie_in_their_faces_and_end_at_their_borders(scale: float, shif
     item = Item("CUBE", Mesh(scale * mesh.vertices + shift, mesh.corners, mesh.offsets), patterns=tuple(wide))
     scene, view = seen([item])
     decals = pattern_decals(scene, view)
-    assert len(decals) == 6 and (decals.kind == DecalKind.PATTERN).all()
+    assert len(decals) == 6 and (decals.kind == FillKind.PATTERN).all()
     assert in_plane(view, decals) < (1e-8 if shift else 1e-14)
     assert (np.abs(view.world_of(decals.points) - shift) <= 10.0 * scale * (1 + 1e-8)).all()
     areas = [
@@ -117,7 +118,7 @@ def shadow(view: View, item: Item, face: int, of_view: int, points: np.ndarray, 
         corners,
         np.array([0, len(points)]),
         np.array([of_view]),
-        one * DecalKind.SHADOW,
+        one * FillKind.SHADOW,
         one * grade,
         np.array([grade - 1]),
         -one,

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from blocked_lights import FacePoints, face_points, highest_grade
 
-from vectorplot.effects.decals import DecalKind, joined_decals
+from vectorplot.drawing.fills import FillKind
+from vectorplot.effects.decals import joined_decals
 from vectorplot.effects.shadow_borders import shadow_borders
 from vectorplot.effects.shadow_grades import graded, shadow_decals_of
 from vectorplot.effects.shadows import cast_shadows
@@ -36,8 +37,8 @@ def test_borders_reach_as_far_as_their_width(parallel: bool, turned: bool, light
     shadows = graded(view, cast_shadows(view, LIGHTS[:lights]), lights)
     width = 0.02
     decals = shadow_borders(view, shadows, width)
-    assert (decals.kind == DecalKind.SHADOW_BORDER).all() and (decals.level % 2 == 1).all()
-    plain = shadow_decals_of(shadows, DecalKind.SHADOW)
+    assert (decals.kind == FillKind.SHADOW_BORDER).all() and (decals.level % 2 == 1).all()
+    plain = shadow_decals_of(shadows, FillKind.SHADOW)
     at = face_points(view, np.unique(shadows.face), 4000, np.random.default_rng(1))
     image = view.image_of(at.points)
     first = plain.of(np.flatnonzero(plain.grade == 1))
@@ -63,7 +64,7 @@ def test_a_border_of_higher_grade_ends_where_only_one_light_more_shines() -> Non
     view = scene_view(False)
     shadows = graded(view, cast_shadows(view, LIGHTS), 3)
     decals = shadow_borders(view, shadows, 0.02)
-    plain = shadow_decals_of(shadows, DecalKind.SHADOW)
+    plain = shadow_decals_of(shadows, FillKind.SHADOW)
     assert set(decals.grade.tolist()) == {1, 2, 3}
     for grade in (2, 3):
         for k in np.flatnonzero(decals.grade == grade).tolist():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.effects.decals import DecalKind
+from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.shadow_grades import Shadows, graded, joined_shadows, shadow_decals_of, without_covered
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.plane_cuts import polygon_areas
@@ -76,7 +76,7 @@ def test_what_lies_in_another_shadow_of_its_light_goes() -> None:
 
 def test_decals_tell_lights_and_levels() -> None:
     view = table()
-    decals = shadow_decals_of(graded(view, squares(view, (0, 0, 0.5, 0), (0.5, 0, 0.5, 3)), 4), DecalKind.SHADOW)
+    decals = shadow_decals_of(graded(view, squares(view, (0, 0, 0.5, 0), (0.5, 0, 0.5, 3)), 4), FillKind.SHADOW)
     assert decals.light.tolist() == [0, 3, -1] and decals.grade.tolist() == [1, 1, 2]
     assert decals.lights_lacking.tolist() == [1, 8, 9] and decals.level[2] > decals.level[0]
 

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from vectorplot.effects.decals import DecalKind, Decals, joined_decals
+from vectorplot.drawing.fills import FillKind
+from vectorplot.effects.decals import Decals, joined_decals
 from vectorplot.effects.shadows import cast_shadows
 from vectorplot.geometry.mesh import Bools
 from vectorplot.scene.scene import Item, Light, Scene
@@ -62,7 +63,7 @@ def _of_group(
         shadows.points,
         shadows.offsets,
         shadows.face,
-        count + int(DecalKind.CLEAR_SHADOW),
+        count + int(FillKind.CLEAR_SHADOW),
         count,
         np.log2(shadows.lacking).astype(np.intp),
         count,

@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.drawing.fills import FillKind
 from vectorplot.drawing.painted import Overlay, Placed, fills_on_page
-from vectorplot.effects.decals import DecalKind, Decals
+from vectorplot.effects.decals import Decals
 from vectorplot.effects.laying import Laid, laid
 from vectorplot.effects.shadow_shades import shadow_shades
 from vectorplot.effects.windows import SeenThrough
@@ -20,16 +20,6 @@ from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shad
 from vectorplot.shading.palettes import Colours, shaded_colours
 from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, unmapped
 
-KINDS = {
-    DecalKind.SHADOW: FillKind.SHADOW,
-    DecalKind.SHADOW_BORDER: FillKind.SHADOW_BORDER,
-    DecalKind.CLEAR_SHADOW: FillKind.CLEAR_SHADOW,
-    DecalKind.PATTERN: FillKind.PATTERN,
-    DecalKind.REFLECTION: FillKind.REFLECTION,
-    DecalKind.LIGHT: FillKind.FACE,
-}
-"""What decals are as filled polygons."""
-
 
 def decal_fills(
     view: View, lighting: Lighting, decals: Decals, faces: ImageFaces | SeenThrough, placed: Placed
@@ -40,7 +30,7 @@ def decal_fills(
     Source: Glaeser, sections 6.3, 6.5 and 6.6.
     """
     opaque = opacities(lighting.items)[view.face_item[decals.face]] >= 1.0
-    decals = decals.of(np.flatnonzero(opaque | (decals.kind == DecalKind.PATTERN)))
+    decals = decals.of(np.flatnonzero(opaque | (decals.kind == FillKind.PATTERN)))
     parts = laid(view, decals, faces.points, faces.offsets, faces.source)
     points = unmapped(view, parts.points)
     shades = corner_shades_of(view, lighting, points, parts.offsets, decals.face[parts.decal])
@@ -48,8 +38,6 @@ def decal_fills(
     for number in range(len(lighting.doubles)):
         corner, brighter = _with_double(view, lighting, decals, parts, points, shades, number)
         shade[corner] = brighter
-    words = np.zeros(max(DecalKind) + 1, dtype=np.intp)
-    words[list(KINDS)] = list(KINDS.values())
     fills = fills_on_page(
         view,
         parts.points,
@@ -58,7 +46,7 @@ def decal_fills(
         colours=_colours(view, lighting, decals, parts, shade),
         opacity=decals.opacities[parts.decal],
         item=view.face_item[decals.face[parts.decal]],
-        kind=words[decals.kind[parts.decal]],
+        kind=decals.kind[parts.decal],
     )
     return Overlay(fills, parts.piece)
 
@@ -67,7 +55,7 @@ def _shades(decals: Decals, parts: Laid, shades: Shades) -> Floats:
     """(c,) the shades at the corners of parts of decals."""
     sizes = np.diff(parts.offsets)
     lacking = np.repeat(decals.lights_lacking[parts.decal], sizes)
-    border = decals.kind[parts.decal] == DecalKind.SHADOW_BORDER
+    border = decals.kind[parts.decal] == FillKind.SHADOW_BORDER
     dimmed = np.repeat(np.where(border, decals.light[parts.decal], -1), sizes)
     dark = shadow_shades(shades.shares, shades.intensity, lacking, shades.cue, dimmed=dimmed)
     return np.where((lacking > 0) | (dimmed >= 0), dark, shades.total)
@@ -78,7 +66,7 @@ def _with_double(
 ) -> tuple[Ints, Floats]:
     """The corners (n,) where the double of a light in a mirror shines too, and their shades (n,)."""
     kind, of = decals.kind[parts.decal], decals.light[parts.decal]
-    lit = np.flatnonzero((kind == DecalKind.LIGHT) & (of == number))
+    lit = np.flatnonzero((kind == FillKind.LIGHT) & (of == number))
     corner, offsets = corner_positions(parts.offsets, lit)
     only = replace(lighting, lights=(lighting.doubles[number],))
     own = corner_shades_of(view, only, points[:, corner], offsets, decals.face[parts.decal[lit]])

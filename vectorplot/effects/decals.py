@@ -3,28 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import IntEnum
 
 import numpy as np
 
 from vectorplot.geometry.mesh import Floats, Ints
-
-
-class DecalKind(IntEnum):
-    """What a decal is."""
-
-    SHADOW = 1
-    """Where an opaque item keeps light away."""
-    SHADOW_BORDER = 2
-    """The soft border of a shadow (aura)."""
-    CLEAR_SHADOW = 3
-    """Where a transparent item dims light."""
-    PATTERN = 4
-    """A coloured polygon of the face's own."""
-    REFLECTION = 5
-    """What a mirror shows."""
-    LIGHT = 6
-    """Where light comes in by way of a mirror; light is then the number of the double, -1 where it is in the way."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +15,7 @@ class Decals:
 
     points (3,c) in the view's coordinates, on the planes of their faces; offsets (m+1,): decal k has the points
     offsets[k] to offsets[k+1], simple, its turn that of the face; face (m,) the face of the view it lies on; kind (m,)
-    of DecalKind; grade (m,) how many lights it lacks (0 for decals that are no shadows); light (m,) which light of the
+    of FillKind; grade (m,) how many lights it lacks (0 for decals that are no shadows); light (m,) which light of the
     scene, -1 for several or none; colour (m,) index into colours, or -1: the face's own; level (m,) the order on one
     face, smaller first, equal ones in any order; colours: names of palettes and colours; lacking (m,): the lights that
     do not get there at all, bit k for light k (None: as far as light says); opacity (m,) how much of the face they

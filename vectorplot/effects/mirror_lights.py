@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.effects.decals import DecalKind, Decals, joined_decals, no_decals
+from vectorplot.drawing.fills import FillKind
+from vectorplot.effects.decals import Decals, joined_decals, no_decals
 from vectorplot.effects.light_system import FacePlanes, LightSystem, light_system
 from vectorplot.effects.patterns import in_shadows
 from vectorplot.effects.reflections import Mirrors, doubled, half_of_view
@@ -98,7 +99,7 @@ def _through_windows(
         parts.points,
         parts.offsets,
         on,
-        zero + DecalKind.LIGHT,
+        zero + FillKind.LIGHT,
         zero,
         zero + number,
         zero - 1,

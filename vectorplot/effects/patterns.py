@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.effects.decals import DecalKind, Decals, joined_decals, no_decals
+from vectorplot.drawing.fills import FillKind
+from vectorplot.effects.decals import Decals, joined_decals, no_decals
 from vectorplot.features.patterns import face_frames
 from vectorplot.geometry.convex_clipping import clipped
 from vectorplot.geometry.convex_faces import convex_faces
@@ -48,7 +49,7 @@ def _item_patterns(view: View, number: int, item: Item) -> Decals:
     colours = tuple(dict.fromkeys(pattern.colour for pattern in patterns))
     colour = np.array([colours.index(pattern.colour) for pattern in patterns], dtype=np.intp)
     zero = np.zeros(len(which), dtype=np.intp)
-    return Decals(points, ends, face[which], zero + DecalKind.PATTERN, zero, zero - 1, colour[chosen], chosen, colours)
+    return Decals(points, ends, face[which], zero + FillKind.PATTERN, zero, zero - 1, colour[chosen], chosen, colours)
 
 
 def _convex_parts(flat: Floats, offsets: Ints, tolerance: float) -> tuple[Floats, Ints, Ints]:
@@ -131,7 +132,7 @@ def patterns_in_shadows(view: View, patterns: Decals, shadows: Decals, dark: Boo
 def in_shadows(view: View, patterns: Decals, shadows: Decals) -> Decals:
     """The parts of patterns that lie in shadows, in the level of their pattern plus the grade of the shadow; lacking
     says which lights they lack. Parts of what light falls on by way of mirrors keep their light."""
-    shadow = np.flatnonzero(shadows.kind == DecalKind.SHADOW)
+    shadow = np.flatnonzero(shadows.kind == FillKind.SHADOW)
     shadow = shadow[np.argsort(shadows.face[shadow], kind="stable")]
     faces = shadows.face[shadow]
     first, last = (np.searchsorted(faces, patterns.face, side=side) for side in ("left", "right"))
@@ -152,7 +153,7 @@ def in_shadows(view: View, patterns: Decals, shadows: Decals) -> Decals:
         patterns.face[pattern],
         patterns.kind[pattern],
         shadows.grade[shade],
-        np.where(patterns.kind[pattern] == DecalKind.LIGHT, patterns.light[pattern], shadows.light[shade]),
+        np.where(patterns.kind[pattern] == FillKind.LIGHT, patterns.light[pattern], shadows.light[shade]),
         patterns.colour[pattern],
         patterns.level[pattern] + shadows.grade[shade],
         patterns.colours,

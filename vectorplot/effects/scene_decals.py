@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from vectorplot.effects.decals import DecalKind, Decals, joined_decals
+from vectorplot.drawing.fills import FillKind
+from vectorplot.effects.decals import Decals, joined_decals
 from vectorplot.geometry.mesh import Bools
 from vectorplot.scene.scene import Light, Scene
 from vectorplot.scene.view import View
@@ -25,7 +26,7 @@ def scene_shadows(
     from vectorplot.effects.shadows import cast_shadows
 
     shadows = graded(view, cast_shadows(view, lights, receivers=receivers, projected=projected), len(lights))
-    dark = shadow_decals_of(shadows, DecalKind.SHADOW)
+    dark = shadow_decals_of(shadows, FillKind.SHADOW)
     return dark if aura == 0.0 else joined_decals(dark, shadow_borders(view, shadows, aura))
 
 

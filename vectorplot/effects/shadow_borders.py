@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.effects.decals import DecalKind, Decals, joined_decals
+from vectorplot.drawing.fills import FillKind
+from vectorplot.effects.decals import Decals, joined_decals
 from vectorplot.effects.shadow_grades import Shadows, upright_planes
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Floats, Ints, next_positions
@@ -59,7 +60,7 @@ def _strips(view: View, shadows: Shadows, which: Ints, grade: int, left_out: int
         parts.points,
         parts.offsets,
         shadows.face[which[strip]],
-        count + int(DecalKind.SHADOW_BORDER),
+        count + int(FillKind.SHADOW_BORDER),
         count + grade,
         np.log2(shadows.lacking[light[strip]]).astype(np.intp),
         count - 1,

@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from vectorplot.effects.decals import DecalKind, Decals
+from vectorplot.drawing.fills import FillKind
+from vectorplot.effects.decals import Decals
 from vectorplot.features.edges import cross
 from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
 from vectorplot.geometry.plane_cuts import Parts, PlaneBundles, crossings_of, cut_by_planes, planes_of, polygon_areas
@@ -225,7 +226,7 @@ def _laid_out(view: View, shadows: Shadows) -> Floats:
     return np.stack(result)
 
 
-def shadow_decals_of(shadows: Shadows, kind: DecalKind) -> Decals:
+def shadow_decals_of(shadows: Shadows, kind: FillKind) -> Decals:
     """Shadows as decals, higher grades above."""
     grade = shadows.grade
     none = np.full(len(shadows), -1, dtype=np.intp)

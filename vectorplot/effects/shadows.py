@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.effects.decals import DecalKind, Decals
+from vectorplot.drawing.fills import FillKind
+from vectorplot.effects.decals import Decals
 from vectorplot.effects.light_system import FacePlanes, LightBoxes, LightSystem, light_boxes, light_system
 from vectorplot.effects.shadow_casters import Casters, shadow_casters
 from vectorplot.effects.shadow_grades import Shadows, graded, joined_shadows, shadow_decals_of
@@ -175,4 +176,4 @@ def shadow_decals(
     Source: Glaeser, section 6.3, figure 6.
     """
     shadows = cast_shadows(view, lights, casters=casters, projected=projected)
-    return shadow_decals_of(graded(view, shadows, len(lights)), DecalKind.SHADOW)
+    return shadow_decals_of(graded(view, shadows, len(lights)), FillKind.SHADOW)
