@@ -296,8 +296,7 @@ def _fills(
         from vectorplot.effects.glass_fills import tinted
 
         clear = refracting_items(seen.scene, view, seen.projected)[item]
-        fills, tints = tinted(fills, clear, opacity, _paper(seen.scene)[0])
-        overlays = (*overlays, tints)
+        fills, overlays = tinted(fills, clear, opacity, _paper(seen.scene)[0], overlays)
     return Fills.joined(*_background(seen.scene, page), interleaved(fills, overlays))
 
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 
 from vectorplot.drawing.fills import FillKind, Fills
@@ -46,29 +49,25 @@ def glass_fills(
     return Overlay(fills, seen.window)
 
 
-def tinted(fills: Fills, clear: Bools, opacity: Floats, paper: Colours) -> tuple[Fills, Overlay]:
-    """Painted polygons with those of refracting solids (m,) in the colour of the paper, and their tints (m,) after all
-    that is seen through them."""
-    which = np.flatnonzero(clear)
-    tint = fills.some(which)
-    tint = Fills(
-        tint.points,
-        tint.offsets,
-        tint.colours,
-        opacity[which],
-        tint.item,
-        tint.points3d,
-        np.full(len(which), int(FillKind.GLASS)),
-    )
+def tinted(
+    fills: Fills, clear: Bools, opacity: Floats, paper: Colours, overlays: Sequence[Overlay]
+) -> tuple[Fills, tuple[Overlay, ...]]:
+    """Painted polygons, those of refracting solids (m,) in the colour of the paper as it is seen through them, and
+    overlays, those after such polygons as they are seen through them.
+
+    Colours are mixed here once for all: transparent polygons that meet would leave a line between them.
+    """
+    tint, amount = fills.colours[fills.offsets[:-1]], np.where(clear, opacity, 0.0)
     corner = np.repeat(clear, np.diff(fills.offsets))
-    colours = np.where(corner[:, None], paper, fills.colours).astype(np.uint8)
-    base = Fills(
-        fills.points,
-        fills.offsets,
-        colours,
-        np.where(clear, 1.0, fills.opacity),
-        fills.item,
-        fills.points3d,
-        fills.kind,
-    )
-    return base, Overlay(tint, which)
+    sheet = replace(fills, colours=np.where(corner[:, None], paper, fills.colours).astype(np.uint8))
+    base = replace(_mixed(sheet, tint, amount), opacity=np.where(clear, 1.0, fills.opacity))
+    seen = (Overlay(_mixed(o.fills, tint[o.after], amount[o.after]), o.after) for o in overlays)
+    return base, tuple(seen)
+
+
+def _mixed(fills: Fills, tint: Colours, amount: Floats) -> Fills:
+    """Polygons with some amount (m,) of other colours (m,3)."""
+    sizes = np.diff(fills.offsets)
+    share = np.repeat(amount, sizes)[:, None]
+    colours = (1.0 - share) * fills.colours + share * np.repeat(tint, sizes, axis=0)
+    return replace(fills, colours=np.rint(colours).astype(np.uint8))
