@@ -94,6 +94,17 @@ def test_the_seam_test_would_see_a_seam(tmp_path):
     assert rgb(run("rsvg-convert", "-d", 300, "-p", 300, "-b", "white", tmp_path / "a.svg"))[2:-3, 2:-3].max() > 60
 
 
+def test_shaded_neighbours_one_sees_through_do_not_cover_their_common_sides_twice():
+    triangles = fan((30.0, 20.0), 15.0, 24)
+    colours = [[(0, 60, 60), (0, 70, 70), (0, 90, 90)]] * len(triangles)
+    picture = rgb(png_bytes(page_of(shaded(triangles, colours, opacity=0.4)), 150))
+    row, column = np.indices(picture.shape[:2])
+    inside = np.hypot(row - picture.shape[0] / 2.0, column - picture.shape[1] / 2.0) < 13.0 * 150.0 / 25.4
+    red = picture[..., 0][inside]
+    # Once covered it is 0.6 of the white; twice would be 0.36.
+    assert red.min() >= 0.6 * 255 - 3 and red.max() <= 0.84 * 255
+
+
 def test_a_polygon_grows_by_half_a_seam():
     picture = rgb(png_bytes(page_of(flat([SQUARE], [DARK])), dpi=1270))  # 50 pixels a mm
     row = picture[1250, :, 0] < 128

@@ -35,7 +35,14 @@ def paint(
             if opacity[first] == 1.0:
                 sides = _outer_sides(areas.microns[corners.start : corners.stop])
                 _seams(context, points, colours, sides, corners.start, seam)
-            _mesh(context, points, colours, corners, opacity[first])
+            mesh = _mesh(points, colours, corners, opacity[first])
+            context.set_source(mesh)
+            if opacity[first] == 1.0:
+                context.paint()
+            else:
+                # Meshes cover all of the pixels on their borders: where neighbours meet, things would be seen twice.
+                _outline(context, points, starts[first : last + 1])
+                context.fill()
             continue
         _outline(context, points, starts[first : last + 1])
         red, green, blue = colours[starts[first]]
@@ -98,8 +105,8 @@ def _seams(
         context.stroke()
 
 
-def _mesh(context: cairo.Context[Any], points: Corners, colours: Colours, corners: range, opacity: float) -> None:
-    """Paint triangles that begin at the given corners, shaded. The last corner of a patch of four is the first one."""
+def _mesh(points: Corners, colours: Colours, corners: range, opacity: float) -> cairo.MeshPattern:
+    """Triangles that begin at the given corners, shaded. The last corner of a patch of four is the first one."""
     import cairo
 
     mesh = cairo.MeshPattern()
@@ -113,5 +120,4 @@ def _mesh(context: cairo.Context[Any], points: Corners, colours: Colours, corner
             red, green, blue = colours[corner]
             mesh.set_corner_color_rgba(side, red, green, blue, opacity)
         mesh.end_patch()
-    context.set_source(mesh)
-    context.paint()
+    return mesh
