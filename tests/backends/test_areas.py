@@ -8,7 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.backends.areas import RUN_LENGTH, SHADE_ERROR, areas
-from vectorplot.drawing.fills import SEAM_MM, Fills
+from vectorplot.backends.svg import svg_text
+from vectorplot.drawing.drawing import Drawing, Layer, Pen
+from vectorplot.drawing.fills import SEAM_MM, FillKind, Fills
 
 RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)
 SQUARE = [(10, 10), (20, 10), (20, 20), (10, 20)]
@@ -129,3 +131,14 @@ def test_neighbours_keep_common_corners():
     assert places == {(30_000, 20_000)} | {
         tuple(np.rint(1000 * p).astype(int)) for p in triangles[:, 1] if 0 < p[0] < 60 and 0 < p[1] < 40
     }
+
+
+def test_blank_polygons_have_no_line_around_them():
+    square = np.array([[10.0, 10.0], [20.0, 10.0], [20.0, 20.0], [10.0, 20.0]])
+    points, colours = np.concatenate([square, square + 15.0]), np.array([[9, 9, 9], [9, 9, 9]], dtype=np.uint8)
+    fills = Fills.flat(points, np.array([0, 4, 8]), colours, kind=[FillKind.BACKGROUND, FillKind.FACE])
+    found = areas(fills, 60.0, 60.0)
+    assert found.bare.tolist() == [True, False]
+    assert len(found.runs) == 3
+    text = svg_text(Drawing(60.0, 60.0, (Layer("fills", Pen(), (fills,)),)))
+    assert text.count('stroke="none"') == 1

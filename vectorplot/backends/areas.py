@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.drawing.clip import clipped_parts
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.fills import SEAM_MM, Colours, Fills
+from vectorplot.drawing.fills import SEAM_MM, Colours, FillKind, Fills
 from vectorplot.drawing.pieces import offsets_of, ranges
 from vectorplot.geometry.convex_clipping import clipped
 from vectorplot.geometry.mesh import Bools, Floats, Ints
@@ -28,7 +28,8 @@ RUN_LENGTH = 1000
 class Areas:
     """Filled polygons, each painted over those before it.
 
-    microns (p,2) int64, y upwards; offsets (m+1,); colours (p,3) of the corners; opacity (m,), more than 0. A polygon
+    microns (p,2) int64, y upwards; offsets (m+1,); colours (p,3) of the corners; opacity (m,), more than 0; bare (m,):
+    those without a line around them: transparent ones, and blank ones that are there to hide things. A polygon
     of two corners is a line. All others are counter-clockwise, have an area, and no two neighbouring corners that are
     equal; they are flat, or triangles that are shaded linearly.
     """
@@ -37,6 +38,7 @@ class Areas:
     offsets: Ints
     colours: Colours
     opacity: Floats
+    bare: Bools
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
@@ -58,7 +60,7 @@ class Areas:
         if not len(self):
             return np.zeros(1, dtype=np.intp)
         colour = self.colours[self.offsets[:-1]].astype(np.intp) @ (65536, 256, 1)
-        colour = np.where(self.shaded, -1, 2 * colour + (self.sizes == 2))
+        colour = np.where(self.shaded, -1, 4 * colour + 2 * self.bare + (self.sizes == 2))
         alone = self.opacity < 1.0
         new = np.ones(len(self), dtype=np.bool_)
         new[1:] = (colour[1:] != colour[:-1]) | alone[1:] | alone[:-1]
@@ -79,7 +81,9 @@ def areas(fills: Fills, width_mm: float, height_mm: float) -> Areas:
     drawn = _nearly_flat(_fanned(drawn))
     drawn = _fanned(_clipped(drawn, width_mm, height_mm))
     microns, offsets, colours, kept = rounded(drawn)
-    return Areas(microns, offsets, colours, solid.opacity[drawn.source[kept]])
+    source = drawn.source[kept]
+    bare = (solid.opacity < 1.0) | (solid.kind == FillKind.BACKGROUND)
+    return Areas(microns, offsets, colours, solid.opacity[source], bare[source])
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,6 +29,7 @@ def paint(
     colours = [(r, g, b) for r, g, b in (areas.colours / 255.0).tolist()]
     starts, runs = areas.offsets.tolist(), areas.runs.tolist()
     opacity, shaded, line = areas.opacity.tolist(), areas.shaded.tolist(), (areas.sizes == 2).tolist()
+    bare = areas.bare.tolist()
     for first, last in pairwise(runs):
         if shaded[first]:
             corners = range(starts[first], starts[last], 3)
@@ -50,7 +51,7 @@ def paint(
         if line[first]:
             context.set_line_width(line_width)
             context.stroke()
-        elif opacity[first] < 1.0:
+        elif bare[first]:
             context.fill()
         else:
             _filled(context, seam)

@@ -60,14 +60,15 @@ def _heads(areas: Areas, starts: Ints, pen_mm: float) -> list[bytes]:
     """The elements of the runs up to their data, those of flat polygons and lines."""
     packed = areas.colours[areas.offsets[starts]].astype(np.intp) @ (65536, 256, 1)
     heads = [b'<path fill="#%06x" stroke="#%06x" d="M' % (c, c) for c in packed.tolist()]
-    line, clear = areas.sizes[starts] == 2, areas.opacity[starts] < 1.0
-    for k in np.flatnonzero(line | clear).tolist():
+    line, clear, bare = areas.sizes[starts] == 2, areas.opacity[starts] < 1.0, areas.bare[starts]
+    for k in np.flatnonzero(line | bare).tolist():
         opacity = f"{areas.opacity[starts[k]]:.3g}"
         if line[k]:
             faint = f' stroke-opacity="{opacity}"' if clear[k] else ""
             head = f'<path stroke="#{packed[k]:06x}" stroke-width="{pen_mm:.6g}"{faint} d="M'
         else:
-            head = f'<path fill="#{packed[k]:06x}" stroke="none" fill-opacity="{opacity}" d="M'
+            faint = f' fill-opacity="{opacity}"' if clear[k] else ""
+            head = f'<path fill="#{packed[k]:06x}" stroke="none"{faint} d="M'
         heads[k] = head.encode("ascii")
     return heads
 
@@ -106,5 +107,6 @@ def _with_strips(areas: Areas) -> tuple[Areas, Strips, Ints]:
         offsets_of(sizes[order]),
         np.concatenate((areas.colours[corner], one_colour))[moved],
         areas.opacity[source[order]],
+        areas.bare[source[order]],
     )
     return pieces, strips, np.flatnonzero(order >= len(others))

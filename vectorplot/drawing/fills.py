@@ -16,7 +16,8 @@ Colours = NDArray[np.uint8]
 SEAM_MM = 0.15
 """Opaque polygons are stroked in their own colour with a line of this width, so that the paper does not shine through
 between neighbours, both of which cover a pixel in part only. A line as wide as a pixel does that: this one does from
-170 dots per inch on. A polygon grows by half of it."""
+170 dots per inch on. A polygon grows by half of it. Blank ones (FillKind.BACKGROUND) are not stroked: there is nothing
+of them to be seen."""
 
 
 class FillKind(IntEnum):
@@ -41,7 +42,7 @@ class FillKind(IntEnum):
     EDGE = 8
     """A line between two points."""
     BACKGROUND = 9
-    """The paper."""
+    """The paper, or a blank polygon that hides what is behind it."""
 
     @property
     def word(self) -> str:

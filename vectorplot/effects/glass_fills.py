@@ -60,7 +60,8 @@ def tinted(
     tint, amount = fills.colours[fills.offsets[:-1]], np.where(clear, opacity, 0.0)
     corner = np.repeat(clear, np.diff(fills.offsets))
     sheet = replace(fills, colours=np.where(corner[:, None], paper, fills.colours).astype(np.uint8))
-    base = replace(_mixed(sheet, tint, amount), opacity=np.where(clear, 1.0, fills.opacity))
+    blank = np.where(clear, int(FillKind.BACKGROUND), fills.kind)
+    base = replace(_mixed(sheet, tint, amount), opacity=np.where(clear, 1.0, fills.opacity), kind=blank)
     seen = (Overlay(_mixed(o.fills, tint[o.after], amount[o.after]), o.after) for o in overlays)
     return base, tuple(seen)
 
