@@ -445,3 +445,15 @@ def test_a_solid_of_many_faces_stays_as_it_is() -> None:
     scene = replace(random_convex_solids(6), lights=(SUN, LAMP))
     fills = fills_of(paint(scene, CAMERAS[0]))
     assert np.isfinite(fills.points).all() and len(fills) > 30
+
+
+@pytest.mark.hard(31)
+@pytest.mark.parametrize("distance", [1e3, 1e6, 1e9, 1e12])
+def test_the_picture_from_afar_becomes_that_of_a_parallel_projection(distance: float) -> None:
+    scene = replace(STREWN["plates"](np.random.default_rng(28)), lights=(SUN,))
+    way = np.array([-0.35, -0.05, 0.65])
+    far = Camera(tuple(distance * way), fov_deg=float(np.degrees(6.0 / distance)))
+    parallel = Camera(tuple(9.0 * way), parallel=True, height=6.0)
+    drawings = [paint(scene, camera, page=SQUARE) for camera in (far, parallel)]
+    assert len(fills_of(drawings[0])) < 2 * len(fills_of(drawings[1])) < 200
+    assert_same_picture(*drawings, levels=2.0, apart=40 if distance < 1e4 else 4)

@@ -131,7 +131,9 @@ def mapped(view: View, points: Floats) -> Floats:
         height = points[2]
     else:
         depth = np.maximum(view.depth_of(points), view.near)
-        height = view.focus * (view.focus - depth) / depth
+        # This is focus - depth, without the distance of the eye: of a scene far from it no digits would be left.
+        beyond = np.minimum(points[2] + (view.focus - view.eye[2]), view.focus - view.near)
+        height = view.focus * beyond / depth
     return np.concatenate([view.image_of(points), height[None]])
 
 
@@ -142,8 +144,9 @@ def unmapped(view: View, points: Floats) -> Floats:
     """
     if view.eye is None:
         return np.concatenate([points[:2] + view.target[:2, None], points[2:]])
-    depth = view.focus * view.focus / (points[2] + view.focus)
-    return np.concatenate([points[:2] * (depth / view.focus) + view.eye[:2, None], view.eye[2] - depth[None]])
+    share = view.focus / (points[2] + view.focus)
+    z = points[2:] * share + (view.eye[2] - view.focus)
+    return np.concatenate([points[:2] * share + view.eye[:2, None], z])
 
 
 def polygons_of(points: Floats, offsets: Ints, source: Ints, tolerance: float) -> ImageFaces:
