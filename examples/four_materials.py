@@ -25,7 +25,7 @@ def main(folder: Path) -> None:
     for word in MATERIALS:
         item = vp.Item(word.upper(), body, "orange", vp.Material(word))
         scene = vp.Scene((item,), (LIGHT,), title=word.capitalize())
-        pictures[word] = vp.render(scene, camera, size=(150, 220), samples=3).pixels
+        pictures[word] = vp.render(scene, camera, size=(150, 220), samples=3, shadows="none").pixels
     vp.save(vp.Image(np.concatenate(list(pictures.values()), axis=1), "Materials"), folder / "four_materials.png")
 
     shades = {word: picture.astype(float).mean(axis=2) for word, picture in pictures.items()}

@@ -12,7 +12,7 @@ import numpy as np
 import vectorplot as vp
 from vectorplot.geometry.solids import box
 from vectorplot.shading.screen import fans, raster_system
-from vectorplot.shading.seen_region import seen_region
+from vectorplot.shading.seen_region import region_in_picture
 from vectorplot.shading.shadow_buffer import shadow_buffer
 from vectorplot.shading.shadow_map import texels_per_unit
 
@@ -46,9 +46,9 @@ def main(folder: Path) -> None:
     first = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     points = np.concatenate([mesh.vertices for mesh in meshes])
     corners = np.concatenate([fans(m.corners, m.offsets)[0] + k for m, k in zip(meshes, first[:-1], strict=True)])
-    region = seen_region(raster_system(CAMERA, *SIZE), *SIZE, [points.min(axis=0), points.max(axis=0)])
+    region = region_in_picture(raster_system(CAMERA, *SIZE), *SIZE, points, corners)
     maps = {
-        frame: shadow_buffer(LIGHT, points, corners, size=MAP, frame=frame, region=region).maps[0]
+        frame: shadow_buffer(LIGHT, points, corners, size=MAP, rows=MAP, frame=frame, region=region).maps[0]
         for frame in ("standard", "box", "trapezoid")
     }
     grays = [np.where(m.code > 0, 60 + 190.0 * (m.code / m.code.max()) ** 4, 255) for m in maps.values()]

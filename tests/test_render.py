@@ -14,7 +14,7 @@ import vectorplot as vp
 from vectorplot import render as render_verb
 from vectorplot.draw import default_camera
 from vectorplot.errors import InputError
-from vectorplot.plan import plan_render
+from vectorplot.plan import chosen_shadows, plan_render
 from vectorplot.render import render
 from vectorplot.shading import picture
 from vectorplot.shading.illumination import AMBIENT, DARK_SIDE, FINISHES, REDUCED
@@ -136,7 +136,7 @@ def test_every_light_casts_its_own_shadow():
     lights = tuple(vp.Light(way, parallel=True, intensity=0.5) for way in ((-2, -0.5, 3), (2, -0.5, 3)))
     camera = vp.Camera((0.0, -9.0, 9.0), (0, 0, -1), fov_deg=35.0)
     image = levels(render(floor_scene(lights), camera, size=SIZE, shadows="exact"))
-    one = levels(render(floor_scene(lights), camera, size=SIZE))
+    one = levels(render(floor_scene(lights), camera, size=SIZE, shadows="none"))
     share = image / np.maximum(one, 1.0)
     counts = [(np.abs(share - s) < 0.06).sum() for s in (1.0, 0.68)]
     assert min(counts) > 200, "lit by both, by one"
@@ -378,6 +378,54 @@ def stage_names(scene, *, shadows="none", lines=False):
     return [stage.name for stage in plan_render(scene, shadows, lines)]
 
 
+GLASS = vp.Item("PANE", box((-1, -1, -1), (1, 1, 1)), material=vp.Material(opacity=0.5))
+PLATE = vp.Item("PLATE", box((-50, -50, -1), (50, 50, 0)))
+BRICK = vp.Item("BRICK", box((-1, -1, 0), (1, 1, 1)))
+FAR = vp.Camera((0, -30, 20), fov_deg=10.0)
+
+
+@pytest.mark.parametrize(
+    ("items", "lights", "camera", "fit", "expected", "why"),
+    [
+        ((BRICK,), (), FAR, True, "none", "no light"),
+        ((BRICK,), (replace(SUN, intensity=0.0),), FAR, True, "none", "no light"),
+        ((GLASS,), (SUN,), FAR, True, "none", "nothing"),
+        ((BRICK,), (SUN,), FAR, True, "buffer", "about as far"),
+        ((BRICK,), (SUN,), FAR, False, "buffer", "about as far"),
+        ((PLATE, BRICK), (SUN,), vp.Camera((0, -200, 60)), True, "buffer", "about as far"),
+        ((PLATE, BRICK), (SUN,), vp.Camera((0, -90, 20)), True, "trapezoid", "times as far"),
+        ((PLATE, BRICK), (SUN,), vp.Camera((0, -48, -0.5)), True, "trapezoid", "amid"),
+        ((PLATE, BRICK), (SUN,), vp.Camera((0, -9, 9), parallel=True), True, "buffer", "about as far"),
+        ((PLATE, BRICK), (SUN,), vp.Camera((0, -9, 9), parallel=True, height=9.0), False, "trapezoid", "a part"),
+        ((PLATE, BRICK), (SUN,), vp.Camera((0, -900, 90), fov_deg=1.0), False, "trapezoid", "a part"),
+        ((), (SUN,), FAR, True, "none", "nothing"),
+    ],
+)
+def test_the_view_calls_for_its_shadows(items, lights, camera, fit, expected, why):
+    scene = vp.Scene(items, lights)
+    word, reason = chosen_shadows(scene, camera, SIZE, fit)
+    assert word == expected
+    assert why in reason
+    reports = []
+    automatic = render(scene, camera, size=SIZE, fit=fit, explain=reports.append)
+    said = [report.why for report in reports if report.name == "shadows"]
+    assert said == [] if word == "none" else reason in said[0]
+    assert (automatic.pixels == render(scene, camera, size=SIZE, fit=fit, shadows=word).pixels).all()
+
+
+def test_progress_never_goes_back(monkeypatch):
+    monkeypatch.setattr(sys.modules["vectorplot.render"], "BAND_PIXELS", 240 * 20)
+    told = []
+    scene = replace(coloured_boxes(), lights=(SUN,))
+    render(scene, size=SIZE, progress=lambda stage, part: told.append((part, stage)))
+    parts = [part for part, _ in told]
+    assert parts[0] == 0.0
+    assert parts[-1] == pytest.approx(1.0)
+    assert len(parts) > 60
+    assert (np.diff(parts) > -1e-12).all(), told
+    assert max(np.diff(parts)) < 0.2
+
+
 def test_only_the_stages_that_the_scene_calls_for_run():
     plain = vp.Scene((vp.Item("A", box((-1, -1, -1), (1, 1, 1))),))
     assert stage_names(plain) == ["look", "triangles", "depth", "shading", "average"]
@@ -396,7 +444,7 @@ def test_a_plain_picture_loads_no_effect_and_nothing_heavy():
 import sys
 import vectorplot as vp
 from vectorplot.testing.shapes import box
-vp.render(vp.Scene((vp.Item("A", box((0, 0, 0), (1, 1, 1))),), (vp.Light((1, -2, 3)),)), size=(20, 20))
+vp.render(vp.Scene((vp.Item("A", box((0, 0, 0), (1, 1, 1))),), (vp.Light((1, -2, 3)),)), size=(20, 20), shadows="none")
 print(*(name for name in sys.modules if name.split(".")[0] in ("cairo", "scipy", "shapely", "svgwrite", "skimage")
         or name.startswith(("vectorplot.effects", "vectorplot.backends", "vectorplot.shading.shadow",
                             "vectorplot.shading.trapezoid", "vectorplot.shading.seen"))))

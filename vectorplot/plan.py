@@ -7,12 +7,20 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, ParamSpec, TypeVar
 
+import numpy as np
+
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Item, Scene
 
 P = ParamSpec("P")
 R = TypeVar("R")
+
+
+DEEP = 2.0
+"""Where the farthest is so many times as far from the eye as the nearest, trapezoidal shadow maps have a tenth fewer
+wrong pixels than whole ones, or much fewer; in shallower views they gain nothing (three dozen views, five lights)."""
 
 
 @dataclass(frozen=True)
@@ -67,8 +75,41 @@ def plan_draw(scene: Scene, kinds: frozenset[LineKind], hidden: str, halo_mm: fl
     return tuple(stages)
 
 
-def plan_render(scene: Scene, shadows: str, lines: bool) -> tuple[Stage, ...]:
-    """The stages that rendering this scene calls for, in their order; nothing else runs."""
+def chosen_shadows(scene: Scene, camera: Camera, size: tuple[int, int], fit: bool) -> tuple[str, str]:
+    """Which shadows this view of a scene calls for, none, buffer or trapezoid, and why.
+
+    size: columns and rows of the picture; fit: whether all of the scene is to fill it. Decided by the box about the
+    scene. Errors: InputError, with the item's name, for a surface without a finite point.
+    """
+    if not any(light.intensity != 0.0 for light in scene.lights):
+        return "none", "no light shines"
+    if not any(casts_shadow(item) for item in scene.items):
+        return "none", "nothing stops light"
+    low, high = scene.bounds
+    corners = low + np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * (high - low)
+    arm = (corners - np.asarray(camera.target)) @ camera.axes.T
+    shown = np.ones(len(arm))
+    if not camera.parallel:
+        ahead = camera.distance - arm[:, 2]
+        near, far = float(ahead.min()), float(ahead.max())
+        if not near > 0.0:
+            return "trapezoid", "the eye is amid the scene"
+        if far >= DEEP * near:
+            return "trapezoid", f"what is farthest is {far / near:.1f} times as far away as what is nearest"
+        shown = ahead / camera.distance
+    half = camera.picture_height / 2.0 * np.array([size[0] / size[1], 1.0])
+    if not fit and (np.abs(arm[:, :2]) > half * shown[:, None]).any():
+        return "trapezoid", "the picture shows a part of the scene"
+    return "buffer", "everything is about as far away"
+
+
+def casts_shadow(item: Item) -> bool:
+    """Whether an item stops light, as far as it has faces."""
+    return item.occludes and item.material.opacity >= 1.0
+
+
+def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple[Stage, ...]:
+    """The stages that rendering this scene calls for, in their order; nothing else runs. why: of such shadows."""
     stages = []
     if any(not isinstance(item.shape, Mesh) for item in scene.items):
         stages.append(Stage("facets", "smooth surfaces become triangles smaller than pixels can show"))
@@ -76,7 +117,7 @@ def plan_render(scene: Scene, shadows: str, lines: bool) -> tuple[Stage, ...]:
     stages.append(Stage("triangles", "all faces, with the normals at their corners"))
     if shadows != "none" and scene.lights:
         how = {"buffer": "shadow buffers", "trapezoid": "trapezoidal shadow maps", "exact": "exactly"}[shadows]
-        stages.append(Stage("shadows", f"{len(scene.lights)} lights cast them: {how}"))
+        stages.append(Stage("shadows", f"{len(scene.lights)} lights cast them: {how}" + (why and f", as {why}")))
     stages.append(Stage("depth", "which triangle is in front in every pixel"))
     stages.append(Stage("shading", "every visible point once"))
     if any(item.material.word == "mirror" for item in scene.items):
@@ -103,7 +144,9 @@ class Walk:
         explain: Callable[[StageReport], None] | None,
         progress: Callable[[str, float], None] | None,
     ) -> None:
-        self._stages = {stage.name: (number, stage) for number, stage in enumerate(stages)}
+        self._stages = {stage.name: stage for stage in stages}
+        size = 1.0 / max(len(stages), 1)
+        self._spans = {stage.name: (number * size, size) for number, stage in enumerate(stages)}
         self._explain = explain
         self._progress = progress
 
@@ -111,12 +154,23 @@ class Walk:
         """Whether the plan has this stage."""
         return name in self._stages
 
+    def repetition(self, names: Sequence[str], number: int, count: int) -> Walk:
+        """The walk of one of some repetitions, the number-th of count, of stages that follow one another."""
+        spans = [self._spans[name] for name in names if name in self._spans]
+        first, whole = min(begin for begin, _ in spans), sum(size for _, size in spans)
+        walk = Walk(list(self._stages.values()), self._explain, self._progress)
+        for name in walk._spans.keys() & set(names):
+            begin, size = walk._spans[name]
+            walk._spans[name] = (first + (whole * number + begin - first) / count, size / count)
+        return walk
+
     def fraction(self, name: str) -> Callable[[float], None]:
         """What a stage calls with the part of it that is done."""
 
         def report(part: float) -> None:
             if self._progress is not None:
-                self._progress(name, (self._stages[name][0] + part) / len(self._stages))
+                begin, size = self._spans[name]
+                self._progress(name, begin + part * size)
 
         return report
 
@@ -127,7 +181,7 @@ class Walk:
 
     def run(self, name: str, function: Callable[P, R], *args: P.args, **kwargs: P.kwargs) -> R:
         """The result of a stage."""
-        stage = self._stages[name][1]
+        stage = self._stages[name]
         self.fraction(name)(0.0)
         start = time.perf_counter()
         result = function(*args, **kwargs)

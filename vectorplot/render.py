@@ -15,7 +15,7 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.projection import CoordinateSystem
 from vectorplot.geometry.strokes import LineKind
-from vectorplot.plan import StageReport, Walk, plan_render
+from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, plan_render
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.shading.face_shades import view_lights
@@ -58,7 +58,7 @@ def render(
     size: tuple[int, int] = SIZE,
     fit: bool = True,
     lights: Sequence[Light] | None = None,
-    shadows: Literal["none", "buffer", "trapezoid", "exact"] = "none",
+    shadows: Literal["auto", "none", "buffer", "trapezoid", "exact"] = "auto",
     shadow_size: int = 1024,
     shadow_bits: int = 32,
     samples: int = 1,
@@ -73,10 +73,10 @@ def render(
     camera: that of the scene where None, else default_camera. size: columns and rows. fit: the picture fills the
     raster, otherwise the camera's field of vision is its height. lights: in place of those of the scene. shadows: of
     these lights, found with shadow buffers of shadow_size x shadow_size texels of shadow_bits bits, plain ones or such
-    that show most of what is near the eye, or exactly. samples: every pixel is the mean of samples x samples ones.
-    crease_angle_deg: faces that meet at less look round. lines: words of LineKind, drawn over the picture with exact
-    hidden lines. background: a palette, a plain colour or #rrggbb. progress(stage, fraction) and explain(report) are
-    called while it works.
+    that show most of what is near the eye, or exactly; auto: as the view calls for. samples: every pixel is the mean of
+    samples x samples ones. crease_angle_deg: faces that meet at less look round. lines: words of LineKind, drawn over
+    the picture with exact hidden lines. background: a palette, a plain colour or #rrggbb. progress(stage, fraction) and
+    explain(report) are called while it works.
     Errors: InputError for unknown words and colours, impossible cameras, and sizes out of range.
     Degenerate: an empty scene gives the background. Where the scene reaches behind the eye, or more than 60 degrees off
     the principal ray, a fitted picture shows the camera's field of vision. A scene without lights is lit from the eye's
@@ -87,7 +87,8 @@ def render(
     _check(size, shadows, samples, crease_angle_deg, kinds)
     scene = scene if lights is None else replace(scene, lights=tuple(lights))
     camera = camera or scene.camera or default_camera(scene)
-    walk = Walk(plan_render(scene, shadows, bool(kinds)), explain, progress)
+    how, why = chosen_shadows(scene, camera, size, fit) if shadows == "auto" else (shadows, "")
+    walk = Walk(plan_render(scene, how, bool(kinds), why), explain, progress)
     fine = (size[0] * samples, size[1] * samples)
     facets = FacetedScene(scene, (None,) * len(scene.items))
     if walk.calls_for("facets"):
@@ -98,13 +99,13 @@ def render(
     if fit:
         system = fitted(system, triangles.points, *fine)
     here = view_lights(view, scene.lights)
-    blocked = _blocked(walk, scene, triangles, here, system, fine, shadows, shadow_size, shadow_bits)
+    blocked = _blocked(walk, scene, triangles, here, system, fine, how, shadow_size, shadow_bits)
     lighting = lighting_of(view, scene.items, here, blocked)
     opacity = np.array([item.material.opacity for item in scene.items])
     mirror = np.array([item.material.word == "mirror" for item in scene.items], dtype=np.bool_)
     paper = palette(background or scene.background or BACKGROUND)[-1].astype(np.float64)
     picture = picture_of(triangles, system, fine, lighting, opacity, mirror, paper)
-    if shadows == "exact":
+    if how == "exact":
         picture = replace(picture, points_at_once=EXACT_POINTS_AT_ONCE)
     pixels = _pixels(walk, picture, samples)
     if walk.calls_for("lines"):
@@ -113,8 +114,8 @@ def render(
 
 
 def _check(size: tuple[int, int], shadows: str, samples: int, crease_angle_deg: float, kinds: tuple[str, ...]) -> None:
-    if shadows not in ("none", "buffer", "trapezoid", "exact"):
-        raise InputError(f"shadows {shadows!r}: expected none, buffer, trapezoid or exact")
+    if shadows not in ("auto", "none", "buffer", "trapezoid", "exact"):
+        raise InputError(f"shadows {shadows!r}: expected auto, none, buffer, trapezoid or exact")
     if not 1 <= samples <= MOST_SAMPLES:
         raise InputError(f"{samples} samples: expected 1 to {MOST_SAMPLES}")
     if not 0.0 <= crease_angle_deg <= 180.0:
@@ -148,7 +149,7 @@ def _blocked(
     """For every light what it does not reach; nothing where the plan has no shadows."""
     if not walk.calls_for("shadows"):
         return ()
-    casts = np.array([item.occludes and item.material.opacity >= 1.0 for item in scene.items], dtype=np.bool_)
+    casts = np.array([casts_shadow(item) for item in scene.items], dtype=np.bool_)
     corners = triangles.corners[casts[triangles.item]]
     if shadows == "exact":
         from vectorplot.shading.shadow_rays import exact_shadows
@@ -156,13 +157,14 @@ def _blocked(
         shown = casts[triangles.item]
         number = np.where(shown, np.cumsum(shown) - 1, -1)
         return walk.run("shadows", exact_shadows, lights, triangles.points, corners, number)
-    from vectorplot.shading.seen_region import seen_region
     from vectorplot.shading.shadow_buffer import shadow_buffers
 
     points = triangles.points
-    low = points.min(axis=0) if len(points) else np.zeros(3)
-    high = points.max(axis=0) if len(points) else np.zeros(3)
-    region = seen_region(system, *size, [low, high]) if shadows == "trapezoid" else None
+    if shadows != "trapezoid":
+        return walk.run("shadows", shadow_buffers, lights, points, corners, shadow_size, bits, None)
+    from vectorplot.shading.seen_region import region_in_picture
+
+    region = region_in_picture(system, *size, points, triangles.corners)
     return walk.run("shadows", shadow_buffers, lights, points, corners, shadow_size, bits, region)
 
 
@@ -170,14 +172,16 @@ def _pixels(walk: Walk, picture: Picture, samples: int) -> Bytes:
     """(rows, columns, 3) the finer picture, made in bands."""
     result = np.zeros((picture.rows, picture.columns, 3), dtype=np.uint8)
     step = max(1, BAND_PIXELS // (picture.columns * samples)) * samples
-    for top in range(0, picture.rows, step):
+    tops = range(0, picture.rows, step)
+    for number, top in enumerate(tops):
         bottom = min(top + step, picture.rows)
-        buffer = walk.run("depth", opaque_buffer, picture, top, bottom)
-        colours = walk.run("shading", shaded, picture, buffer)
-        if walk.calls_for("mirrors"):
-            colours = walk.run("mirrors", with_mirrors, picture, buffer, colours)
-        if walk.calls_for("transparency"):
-            colours = walk.run("transparency", with_glass, picture, buffer, colours)
+        band = walk.repetition(("depth", "shading", "mirrors", "transparency"), number, len(tops))
+        buffer = band.run("depth", opaque_buffer, picture, top, bottom)
+        colours = band.run("shading", shaded, picture, buffer)
+        if band.calls_for("mirrors"):
+            colours = band.run("mirrors", with_mirrors, picture, buffer, colours)
+        if band.calls_for("transparency"):
+            colours = band.run("transparency", with_glass, picture, buffer, colours)
         result[top:bottom] = np.rint(colours)
     return result
 

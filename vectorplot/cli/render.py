@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from vectorplot.shading.image import Image
 
 FORMATS = ("png",)
-SHADOWS = ("none", "buffer", "trapezoid", "exact")
+SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
 
 
 @click.command(short_help="Render a scene or a mesh as pixels.", context_settings={"show_default": True})
@@ -33,7 +33,7 @@ SHADOWS = ("none", "buffer", "trapezoid", "exact")
     metavar="X,Y,Z[,I]",
     help="Lamp at a point, with an intensity from 0 to 1, in place of the lights of the scene; repeat it for more.",
 )
-@click.option("--shadows", type=click.Choice(SHADOWS), default="none", help="How shadows are found.")
+@click.option("--shadows", type=click.Choice(SHADOWS), default="auto", help="How shadows are found.")
 @click.option("--shadow-size", type=click.IntRange(8, 16384), default=1024, metavar="N", help="Texels along a map.")
 @click.option("--shadow-bits", type=click.Choice(["8", "16", "32"]), default="32", help="Of a depth in a shadow map.")
 @click.option("--samples", type=click.IntRange(1, 8), default=1, metavar="N", help="N x N samples in every pixel.")

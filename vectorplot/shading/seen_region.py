@@ -1,18 +1,20 @@
-"""The part of a scene that a camera can see at all: its viewing frustum, cut with the box about the scene."""
+"""The part of a scene that a camera can see at all: its viewing frustum, cut with the box about the scene, or with the
+scene itself."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
-from vectorplot.geometry.projection import CoordinateSystem
+from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry.projection import CoordinateSystem, depth_of
 from vectorplot.geometry.tolerance import INFINITE, ZERO_OF_EXTENT
-from vectorplot.shading.screen import NEAR
+from vectorplot.shading.screen import NEAR, HalfSpace, screen_triangles
+from vectorplot.shading.trapezoid import FOCUS_LINE
 
 FOCUS = 0.3
 """Part of the seen depth that is in focus unless said otherwise."""
@@ -20,7 +22,7 @@ FOCUS = 0.3
 
 @dataclass(frozen=True, eq=False)
 class SeenRegion:
-    """A convex body in the world. points (k, 3): its corners, none where nothing is in the frustum; near, far, focus
+    """A part of the world. points (k, 3): its corners, none where nothing is in the frustum; near, far, focus
     (3,): the centres of its planes; focus_points (l, 3): corners of the part before the focus plane."""
 
     points: Floats
@@ -43,22 +45,79 @@ def seen_region(
         raise InputError(f"a focus at {focus:g} of the depth: expected a part between 0 and 1")
     low, high = np.asarray(bounds, dtype=np.float64)
     middle = (low + high) / 2.0
+    corners = _box_corners(np.concatenate([high - middle, middle - low])) + middle
+    near, far = depths_seen(system, corners)
+    return _region(system, columns, rows, np.stack([low, high]), near, far, focus)
+
+
+def region_in_picture(system: CoordinateSystem, columns: int, rows: int, points: Floats, corners: Ints) -> SeenRegion:
+    """What a picture of so many pixels can show of triangles (t, 3) of points (n, 3): they are cut with the frustum.
+
+    The near and the far plane touch what is left; the focus is that of focus_of_depths.
+    Error: a ten-thousandth of the eye's distance from the target before the eye nothing is seen.
+    Degenerate: no points where nothing is in the frustum.
+    """
+    sides = [
+        HalfSpace((1.0, 0.0, 0.0, 0.5)),
+        HalfSpace((-1.0, 0.0, 0.0, columns - 0.5)),
+        HalfSpace((0.0, 1.0, 0.0, 0.5)),
+        HalfSpace((0.0, -1.0, 0.0, rows - 0.5)),
+    ]
+    flat = screen_triangles(system.homogeneous(points), corners, sides=sides)
+    used = np.zeros(len(flat.points), dtype=np.bool_)
+    used[flat.corners] = True
+    if not used.any():
+        nothing, nowhere = np.zeros((0, 3)), np.zeros(3)
+        return SeenRegion(nothing, nowhere, nowhere, nowhere, nothing)
+    seen = flat.points[used]
+    if system.distance != INFINITE:
+        seen[:, 2] = depth_of(seen[:, 2], system.distance)
+    seen = system.to_world(seen)
+    near, far = depths_seen(system, seen)
+    share = FOCUS_LINE if system.distance == INFINITE else focus_of_depths(near, far)
+    found = _region(system, columns, rows, np.stack([seen.min(axis=0), seen.max(axis=0)]), near, far, share)
+    return replace(found, points=seen)
+
+
+def depths_seen(system: CoordinateSystem, points: Floats) -> tuple[float, float]:
+    """The smallest and the largest depth of points (n, 3) before the eye, in a parallel projection before the target;
+    none nearer than the near plane."""
+    parallel = system.distance == INFINITE
+    depth = ((system.target if parallel else system.centre) - points) @ system.rotation[:, 2]
+    least = -np.inf if parallel else NEAR * system.distance
+    return max(float(depth.min()), least), max(float(depth.max()), least)
+
+
+def focus_of_depths(near: float, far: float) -> float:
+    """The part of the depth from near to far, before the eye, that is to get FOCUS_LINE of the map, so that at a right
+    angle to the light all that is seen is equally sharp in the picture, as far as one perspective can do it.
+
+    Such a map's base is sqrt(far / near) as wide as its top line. Degenerate: without depth nothing is widened.
+    Source: Wimmer, Scherzer and Purgathofer, Light space perspective shadow maps, section 4 (the best n); Ressler,
+    section 2, solved for the focus.
+    """
+    taper = np.sqrt(far / near) - 1.0 if 0.0 < near < far else 0.0
+    return float(FOCUS_LINE / (1.0 + (1.0 - FOCUS_LINE) * taper))
+
+
+def _region(
+    system: CoordinateSystem, columns: int, rows: int, bounds: Floats, near: float, far: float, focus: float
+) -> SeenRegion:
+    """The frustum between two depths, in a box."""
+    low, high = bounds
+    middle = (low + high) / 2.0
     size = float((high - low).max()) or 1.0
     box = np.concatenate([np.eye(3), -np.eye(3)]), np.concatenate([high - middle, middle - low]) / size
-    back = system.rotation[:, 2]
     parallel = system.distance == INFINITE
     # In a parallel projection depths count from the target.
     eye = ((system.target if parallel else system.centre) - middle) / size
-    depth = eye @ back - _box_corners(box[1]) @ back
-    least = -np.inf if parallel else NEAR * system.distance / size
-    near, far = max(float(depth.min()), least), max(float(depth.max()), least)
+    back, depths = system.rotation[:, 2], np.array([near, far, near + focus * (far - near)]) / size
     normals, limits = _window_sides(system, columns, rows, middle, size)
     normals, limits = np.concatenate([box[0], normals]), np.concatenate([box[1], limits])
-    at_focus = near + focus * (far - near)
-    corners = _cut_at(normals, limits, back, eye, near, far)
-    focus_corners = _cut_at(normals, limits, back, eye, near, at_focus)
+    corners = _cut_at(normals, limits, back, eye, depths[0], depths[1])
+    focus_corners = _cut_at(normals, limits, back, eye, depths[0], depths[2])
     ray = _principal_ray(system, columns, rows)
-    centres = [middle + size * eye + size * distance * ray for distance in (near, far, at_focus)]
+    centres = [middle + size * (eye + depth * ray) for depth in depths]
     if parallel:
         shift = system.to_world(np.array([(columns - 1) / 2.0, (rows - 1) / 2.0, 0.0])) - system.target
         centres = [centre + shift for centre in centres]

@@ -36,6 +36,9 @@ Blocks = Callable[[Floats, Floats, Ints], Bools]
 WIDEST_COSINE = 0.5
 """A lamp that sees a corner of the scene more than 60 degrees off its middle needs six maps."""
 
+LONGEST = 4.0
+"""A map is no longer than so many times its width."""
+
 SIDES = np.concatenate([np.eye(3), -np.eye(3)])
 """The directions of the six maps of a lamp in the scene."""
 
@@ -68,7 +71,8 @@ def shadow_buffer(
 ) -> ShadowBuffer:
     """The shadow buffer of a light for triangles (t, 3) of world points (n, 3).
 
-    size: columns, and rows unless told otherwise, in texels; bits: 8, 16 or 32 for a depth; frame: the map shows the
+    size: the map has as many texels as a square of this side, and is as wide against its height as what it shows; or
+    size: columns, and rows; bits: 8, 16 or 32 for a depth; frame: the map shows the
     whole scene, the box about what is seen, or the trapezoid around it, of which most is what is near the eye; region:
     what the camera sees, for the latter two. A lamp within the scene has six maps of half the size, whole ones.
     Errors: InputError for impossible sizes, bits and frames, for a tapered map without a region.
@@ -80,15 +84,30 @@ def shadow_buffer(
     if frame != "standard" and region is None:
         raise InputError(f"a shadow map of the frame {frame} needs the region that is seen")
     p = np.asarray(points, dtype=np.float64).reshape(-1, 3)
-    down = size if rows is None else rows
     if not len(p):
         return ShadowBuffer(())
     if is_inside(light, p):
-        maps = (_side_map(light, way, p, corners, (max(size // 2, 4), max(down // 2, 4)), bits) for way in SIDES)
+        half = max(size // 2, 4), max((rows or size) // 2, 4)
+        maps = (_side_map(light, way, p, corners, half, bits) for way in SIDES)
         return ShadowBuffer(tuple(maps))
     system = light_system(light, p)
     matrix = _frame(system, p, frame, region)
-    return ShadowBuffer((shadow_map(system, matrix, p, corners, size, down, bits=bits),))
+    columns, rows = shape_of(matrix, size) if rows is None else (size, rows)
+    return ShadowBuffer((shadow_map(system, matrix, p, corners, columns, rows, bits=bits),))
+
+
+def shape_of(frame: Floats, size: int) -> tuple[int, int]:
+    """Columns and rows of a map of about size x size texels that are square in the middle of what it shows.
+
+    frame (3, 3): as of shadow_map. No side is longer than four times the other.
+    Source: Martin and Tan, recipe, tips (textures that are no squares).
+    """
+    ends = np.array([[-1.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 1.0], np.ones(4)])
+    there = np.linalg.solve(frame, ends)
+    left, right, low, high = (there[:2] / there[2]).T
+    wide, long = float(np.linalg.norm(right - left)), float(np.linalg.norm(high - low))
+    stretch = np.sqrt(min(max(wide / long, 1.0 / LONGEST), LONGEST)) if long > 0.0 else 1.0
+    return round(size * stretch), round(size / stretch)
 
 
 def shadow_buffers(
