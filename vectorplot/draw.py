@@ -15,9 +15,10 @@ from vectorplot.drawing.ink import inked
 from vectorplot.drawing.layers import layers_by_colour, layers_by_kind, layers_by_object
 from vectorplot.drawing.page import mm_per_image, page_from_image, page_from_world, strokes_on_page
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.camera import Camera, Point
 from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.strokes import LineKind
+from vectorplot.geometry.vectors import cross, normalize
 from vectorplot.plan import StageReport, Walk, plan_draw
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import View, look
@@ -45,11 +46,17 @@ DRAWN = ("contour", "boundary", "crease", "intersection", "pattern", "parameter"
 """The kinds of lines that are drawn where nothing else is said."""
 
 
-def default_camera(scene: Scene) -> Camera:
-    """A central projection of the whole scene from the front, the right and above."""
+def default_camera(scene: Scene, up: Point = (0.0, 0.0, 1.0)) -> Camera:
+    """A central projection of the whole scene from the front, the right and above, for what stands upright along up.
+
+    The front of a scene with z upwards is where y is smallest, with y upwards where z is largest.
+    """
     low, high = scene.bounds
     centre, size = (low + high) / 2.0, math.dist(low, high)
-    direction = np.array([0.45, -0.8, 0.45]) / np.linalg.norm([0.45, -0.8, 0.45])
+    above = normalize(up)
+    # Without a direction upwards, or with x upwards, something has to be the right.
+    front = cross((1.0, 0.0, 0.0) if abs(above[0]) < 0.9 else (0.0, -1.0, 0.0), above)
+    direction = normalize(0.45 * cross(above, normalize(front)) + 0.8 * normalize(front) + 0.45 * above)
     eye = centre + direction * 2.2 * (size if size > 0.0 else 1.0)
     return Camera(eye=tuple(eye.tolist()), target=tuple(centre.tolist()))
 

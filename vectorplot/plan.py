@@ -145,8 +145,8 @@ class Walk:
         progress: Callable[[str, float], None] | None,
     ) -> None:
         self._stages = {stage.name: stage for stage in stages}
-        size = 1.0 / max(len(stages), 1)
-        self._spans = {stage.name: (number * size, size) for number, stage in enumerate(stages)}
+        count = max(len(stages), 1)
+        self._spans = {stage.name: (number / count, (number + 1) / count) for number, stage in enumerate(stages)}
         self._explain = explain
         self._progress = progress
 
@@ -157,11 +157,11 @@ class Walk:
     def repetition(self, names: Sequence[str], number: int, count: int) -> Walk:
         """The walk of one of some repetitions, the number-th of count, of stages that follow one another."""
         spans = [self._spans[name] for name in names if name in self._spans]
-        first, whole = min(begin for begin, _ in spans), sum(size for _, size in spans)
+        first, whole = min(begin for begin, _ in spans), sum(end - begin for begin, end in spans)
         walk = Walk(list(self._stages.values()), self._explain, self._progress)
         for name in walk._spans.keys() & set(names):
-            begin, size = walk._spans[name]
-            walk._spans[name] = (first + (whole * number + begin - first) / count, size / count)
+            begin, end = (first + (whole * number + place - first) / count for place in walk._spans[name])
+            walk._spans[name] = (begin, end)
         return walk
 
     def fraction(self, name: str) -> Callable[[float], None]:
@@ -169,8 +169,9 @@ class Walk:
 
         def report(part: float) -> None:
             if self._progress is not None:
-                begin, size = self._spans[name]
-                self._progress(name, begin + part * size)
+                begin, end = self._spans[name]
+                # One stage ends exactly where the next one begins.
+                self._progress(name, begin * (1.0 - part) + end * part)
 
         return report
 

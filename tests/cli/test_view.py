@@ -84,3 +84,11 @@ def test_the_page_is_that_of_the_scene_but_for_the_options():
     assert page_from(page_options(margin=0.0), WITH_CAMERA) == Page(100.0, 50.0, 0.0)
     with pytest.raises(click.UsageError, match="leaves nothing"):
         page_from(page_options(margin=25.0), WITH_CAMERA)
+
+
+def test_without_an_eye_models_that_stand_upright_along_y_are_seen_from_above_and_from_their_front():
+    camera = camera_from(CameraOptions(up=(0.0, 1.0, 0.0)), SCENE)
+    x, y, z = camera.direction
+    assert y > 0.3 and z > 0.5 and x > 0.3
+    assert np.allclose(camera_from(CameraOptions(up=(0.0, 0.0, 2.0)), SCENE).eye, default_camera(SCENE).eye)
+    assert camera_from(CameraOptions(up=(3.0, 0.0, 0.0)), SCENE).direction[0] > 0.3

@@ -84,7 +84,8 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
     from vectorplot.draw import default_camera
     from vectorplot.geometry.camera import Camera
 
-    base = default_camera(scene) if scene.camera is None else scene.camera
+    upright = options.up if options.up is not None and any(options.up) else (0.0, 0.0, 1.0)
+    base = scene.camera or default_camera(scene, upright)
     if options.view is not None:
         named = Camera.view(options.view, target=chosen(options.target, base.target), distance=base.distance)
         height = base.height if base.parallel else None
