@@ -35,9 +35,9 @@ def decal_fills(
     points = unmapped(view, parts.points)
     shades = corner_shades_of(view, lighting, points, parts.offsets, decals.face[parts.decal])
     shade = _shades(decals, parts, shades)
-    for number in range(len(lighting.doubles)):
+    for number in np.unique(decals.light[(decals.kind == FillKind.LIGHT) & (decals.light >= 0)]).tolist():
         corner, brighter = _with_double(view, lighting, decals, parts, points, shades, number)
-        shade[corner] = brighter
+        shade[..., corner] = brighter
     fills = fills_on_page(
         view,
         parts.points,
@@ -52,7 +52,7 @@ def decal_fills(
 
 
 def _shades(decals: Decals, parts: Laid, shades: Shades) -> Floats:
-    """(c,) the shades at the corners of parts of decals."""
+    """(c,) the shades at the corners of parts of decals; in coloured light (3,c)."""
     sizes = np.diff(parts.offsets)
     lacking = np.repeat(decals.lights_lacking[parts.decal], sizes)
     border = decals.kind[parts.decal] == FillKind.SHADOW_BORDER
@@ -64,14 +64,18 @@ def _shades(decals: Decals, parts: Laid, shades: Shades) -> Floats:
 def _with_double(
     view: View, lighting: Lighting, decals: Decals, parts: Laid, points: Floats, shades: Shades, number: int
 ) -> tuple[Ints, Floats]:
-    """The corners (n,) where the double of a light in a mirror shines too, and their shades (n,)."""
+    """The corners (n,) where the double of a light in a mirror shines too, and their shades (n,) or (3,n)."""
     kind, of = decals.kind[parts.decal], decals.light[parts.decal]
     lit = np.flatnonzero((kind == FillKind.LIGHT) & (of == number))
     corner, offsets = corner_positions(parts.offsets, lit)
     only = replace(lighting, lights=(lighting.doubles[number],))
     own = corner_shades_of(view, only, points[:, corner], offsets, decals.face[parts.decal[lit]])
     shares = np.concatenate([shades.shares[:, corner], own.shares])
-    intensity = np.concatenate([shades.intensity, own.intensity])
+    # White lights beside coloured ones send as much of red, green and blue.
+    one, other = shades.intensity, own.intensity
+    if one.ndim != other.ndim:
+        one, other = (np.tile(some[:, None], 3) if some.ndim == 1 else some for some in (one, other))
+    intensity = np.concatenate([one, other])
     lacking = np.repeat(decals.lights_lacking[parts.decal[lit]], np.diff(offsets))
     return corner, shadow_shades(shares, intensity, lacking, shades.cue[corner])
 
@@ -83,7 +87,7 @@ def _colours(view: View, lighting: Lighting, decals: Decals, parts: Laid, shade:
     found = colours_of(view, lighting, np.repeat(decals.face[parts.decal], sizes), shade)
     own = np.flatnonzero(colour >= 0)
     if len(own):
-        found[own] = shaded_colours(decals.colours, colour[own], shade[own], lighting.size)
+        found[own] = shaded_colours(decals.colours, colour[own], shade[..., own], lighting.size)
     return found
 
 

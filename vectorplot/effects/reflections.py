@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.effects.windows import SeenThrough, joined_seen, near_windows, seen_through
+from vectorplot.effects.windows import SeenThrough, joined_seen, near_windows, nothing_seen, seen_through
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.scene import Scene
@@ -95,7 +95,11 @@ def reflections(view: View, mirrors: Mirrors, painted: ImageFaces) -> SeenThroug
 
 def _reflected(view: View, mirrors: Mirrors, number: int, painted: ImageFaces) -> SeenThrough:
     windows = np.flatnonzero(np.isin(painted.source, mirrors.face[mirrors.plane == number]))
+    if not len(windows):
+        return nothing_seen()
     double, source = mirrored_view(view, mirrors, number, painted.box[:4, windows])
+    if not len(source):
+        return nothing_seen()
     order = painters_order(double)
     faces = replace(order.faces, source=source[order.faces.source])
     return seen_through(faces, painted, windows, view.tolerance)
@@ -111,11 +115,14 @@ def mirrored_view(view: View, mirrors: Mirrors, number: int, windows: Floats) ->
     height = mirrors.heights(number, view.points)
     everything = doubled(view, mirrors, number)
     projected = project_faces(everything)
+    near = near_windows(projected.box, windows)
+    if not (near & (_face_spans(view, height)[1] > view.tolerance)).any():
+        nothing = np.zeros(view.face_count, dtype=np.bool_)
+        return half_of_view(everything, height, nothing, np.zeros(len(view.item_vertices) - 1, dtype=np.bool_))
     body = solid_items(everything, projected) & (_item_lows(view, height) >= -view.tolerance)
     in_body = body[view.face_item]
     shown = np.zeros(view.face_count, dtype=np.bool_)
     shown[drawn_faces(everything, projected)] = True
-    near = near_windows(projected.box, windows)
     near[in_body] = np.bincount(view.face_item[near], minlength=len(body))[view.face_item[in_body]] > 0
     return half_of_view(everything, height, near & (in_body | shown), body)
 
