@@ -457,3 +457,21 @@ def test_the_picture_from_afar_becomes_that_of_a_parallel_projection(distance: f
     drawings = [paint(scene, camera, page=SQUARE) for camera in (far, parallel)]
     assert len(fills_of(drawings[0])) < 2 * len(fills_of(drawings[1])) < 200
     assert_same_picture(*drawings, levels=2.0, apart=40 if distance < 1e4 else 4)
+
+
+def test_an_eye_in_the_planes_of_faces_sees_what_there_is() -> None:
+    random = np.random.default_rng(154)
+    random.integers(0, 3)
+    scene = STREWN["on_a_floor"](random)
+    fills = fills_of(paint(scene, Camera((0.0, 0.0, 1.0), (0.01, 0.01, 1.01)), page=SQUARE))
+    assert len(fills) > 1 and np.isfinite(fills.points).all()
+
+
+@pytest.mark.parametrize("seed", [1, 2, 4, 6])
+def test_shadows_seen_edge_on_have_no_aura(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    scene = STREWN["on_a_floor"](random)
+    lamp = Light(tuple(scene.vertices[int(random.integers(len(scene.vertices)))].tolist()))
+    for eye in ((0.0, 0.0, 0.7), (-12.0, 3.0, 1.0), (0.3, -15.0, 1e-4)):
+        fills = fills_of(paint(replace(scene, lights=(lamp, SUN)), Camera(eye, (0.1, 0.2, 0.3)), aura_mm=2.0))
+        assert np.isfinite(fills.points).all()

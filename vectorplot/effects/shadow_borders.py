@@ -102,11 +102,13 @@ def _outer_lines(image: Floats, along: Floats, ends: Ints, width: float) -> tupl
     """(3,k) lines a x + b y <= c of the image around convex polygons, and whose each is."""
     sizes = np.diff(ends)
     owner = np.repeat(np.arange(len(sizes)), sizes)
-    after = next_positions(ends, np.arange(len(owner))) if len(owner) else owner
-    before = np.empty_like(after)
-    before[after] = np.arange(len(owner))
     turn = np.zeros(len(sizes))
     filled = sizes > 0
+    # Those without sides left have no corners either.
+    some = np.append(ends[:-1][filled], len(owner))
+    after = next_positions(some, np.arange(len(owner))) if len(owner) else owner
+    before = np.empty_like(after)
+    before[after] = np.arange(len(owner))
     corner = along[0, before] * along[1] - along[1, before] * along[0]
     turn[filled] = np.add.reduceat(corner, ends[:-1][filled]) if filled.any() else 0.0
     outwards = np.stack([along[1], -along[0]]) * np.where(turn < 0.0, -1.0, 1.0)[owner]

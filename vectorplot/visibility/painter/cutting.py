@@ -17,7 +17,7 @@ from vectorplot.visibility.painter.face_pairs import (
 from vectorplot.visibility.painter.image_faces import ImageFaces, joined
 from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.space_partition import partitioned
-from vectorplot.visibility.painter.splitting import dense, halves, height_span
+from vectorplot.visibility.painter.splitting import dense, halves, height_span, in_two
 
 MOST_ROUNDS = 64
 """After so many rounds of cutting what is still in circles is ordered by a tree of planes."""
@@ -62,6 +62,9 @@ def cut_into_order(faces: ImageFaces, group: Ints, pairs: Pairs, tolerance: floa
         if not len(pairs):
             break
         victim, knife = _cuts(faces, place, pairs, number, tolerance)
+        # Steep faces may lie within the tolerance of a plane that they are said to reach through.
+        halved = in_two(faces, victim, faces.planes[:, knife], faces.steepness[knife], tolerance)
+        victim, knife = victim[halved], knife[halved]
         given_up = np.isin(place, place[pairs.first]) & ~np.isin(place, place[victim])
         circled |= given_up
         pairs = pairs.some(~given_up[pairs.first])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.geometry.clipping import Polygons, cut_polygons
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.visibility.painter.image_faces import ImageFaces
 
 
@@ -23,6 +23,13 @@ def height_span(faces: ImageFaces, which: Ints, planes: Floats) -> tuple[Floats,
     if not len(which):
         return np.zeros(0), np.zeros(0)
     return np.minimum.reduceat(height, some.offsets[:-1]), np.maximum.reduceat(height, some.offsets[:-1])
+
+
+def in_two(faces: ImageFaces, which: Ints, planes: Floats, steepness: Floats, tolerance: float) -> Bools:
+    """(n,) whether planes (5,n) cut faces (n,) in two: both parts reach farther than what counts as on the plane."""
+    low, high = height_span(faces, which, planes)
+    limit = tolerance * np.maximum(faces.steepness[which], steepness)
+    return np.asarray((low < -limit) & (high > limit), dtype=np.bool_)
 
 
 def halves(faces: ImageFaces, planes: Floats, steepness: Floats, tolerance: float) -> tuple[ImageFaces, ImageFaces]:
