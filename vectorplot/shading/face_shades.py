@@ -31,7 +31,7 @@ from vectorplot.shading.illumination import (
     shades,
     towards,
 )
-from vectorplot.shading.palettes import SIZE, Colours, shaded_colours
+from vectorplot.shading.palettes import COLOUR_MAP, SIZE, Colours, palette, shaded_colours
 
 HEADLIGHT = Light(UPPER_LEFT, parallel=True, intensity=1.0)
 """The light of a view of a scene without lights, in the view's coordinates; it throws no shadows."""
@@ -40,8 +40,8 @@ HEADLIGHT = Light(UPPER_LEFT, parallel=True, intensity=1.0)
 @dataclass(frozen=True, eq=False)
 class Shades:
     """How bright n points are. shares (l,n): what a light of intensity 1 gives, 1 and more being as bright as can be;
-    backlit (l,n): whether a light shines on their far side; intensity (l,) of the lights; cue (n,): what is added
-    because they are near the eye."""
+    backlit (l,n): whether a light shines on their far side; intensity (l,) of the lights, or (l,3) of their red,
+    green and blue where one of them is coloured; cue (n,): what is added because they are near the eye."""
 
     shares: Floats
     backlit: Bools
@@ -53,11 +53,13 @@ class Shades:
 
     @property
     def total(self) -> Floats:
-        """(n,) shades from 0 to 1, of all lights together. Source: Glaeser, section 4.5, equations 3, 5 and 7."""
+        """(n,) shades from 0 to 1, of all lights together, in coloured light (3,n) of red, green and blue.
+
+        Source: Glaeser, section 4.5, equations 3, 5 and 7."""
         return shades(self.shares, self.intensity, self.cue)
 
     def of_light(self, number: int) -> Floats:
-        """(n,) shades from 0 to 1 if only one of the lights were on."""
+        """(n,) or (3,n) shades from 0 to 1 if only one of the lights were on."""
         return shades(self.shares[number : number + 1], self.intensity[number : number + 1], self.cue)
 
     @property
@@ -72,6 +74,18 @@ def view_lights(view: View, lights: Sequence[Light]) -> tuple[Light, ...]:
     if not lights:
         return (HEADLIGHT,)
     return tuple(replace(light, position=_in_view(view, light)) for light in lights)
+
+
+def light_colours(lights: Sequence[Light]) -> Floats:
+    """(l,3) how much red, green and blue the lights send, their intensities included; (l,) where all are white.
+
+    Errors: InputError for a colour that is none. Source: Glaeser, sections 4.5 and 8.5, note on coloured light sources.
+    """
+    strength = intensities(lights)
+    if all(light.colour == "white" for light in lights):
+        return strength
+    sent = np.array([palette(light.colour, COLOUR_MAP)[-1] for light in lights]) / 255.0
+    return np.asarray(strength[:, None] * sent)
 
 
 def view_eye(view: View) -> tuple[float, float, float, float]:
@@ -127,7 +141,7 @@ def point_shades(
     for row, light in zip(dark, lights, strict=True):
         row[:] = backlit(np.einsum("ij,ij->i", normals, towards(points, homogeneous_light(light))))
     low, high = depth_limits(view)
-    found = Shades(shares, dark, intensities(lights), depth_cue(points[:, 2], low, high - low))
+    found = Shades(shares, dark, light_colours(lights), depth_cue(points[:, 2], low, high - low))
     return faded(view, found, lights, points.T) if any(light.fading for light in lights) else found
 
 
@@ -201,12 +215,12 @@ def shows_inside(view: View) -> Bools:
 
 
 def face_colours(view: View, items: Sequence[Item], shade: Floats, count: int = SIZE) -> Colours:
-    """(f,3) the colours of all faces of a view at shades (f,) from 0 to 1, of palettes of so many shades."""
+    """(f,3) the colours of all faces of a view at shades (f,) or (3,f) from 0 to 1, of palettes of so many shades."""
     return item_colours(items, view.face_item, shade, count)
 
 
 def item_colours(items: Sequence[Item], item: Ints, shade: Floats, count: int = SIZE) -> Colours:
-    """(n,3) the colours of items (n,) at shades (n,) from 0 to 1, of palettes of so many shades.
+    """(n,3) the colours of items (n,) at shades (n,) or (3,n) from 0 to 1, of palettes of so many shades.
 
     Errors: InputError that names the colour, where there is none of that name.
     """

@@ -15,14 +15,13 @@ from vectorplot.scene.scene import Item, Light
 from vectorplot.scene.view import View
 from vectorplot.shading.barycentrics import VisiblePoints
 from vectorplot.shading.corner_normals import face_normals, unit
-from vectorplot.shading.face_shades import depth_limits, view_eye
+from vectorplot.shading.face_shades import depth_limits, light_colours, view_eye
 from vectorplot.shading.illumination import (
     FINISHES,
     Finish,
     brightness,
     depth_cue,
     homogeneous_light,
-    intensities,
     lambert,
     shades,
     towards,
@@ -91,7 +90,7 @@ def shaded_points(triangles: SceneTriangles, found: VisiblePoints, lighting: Lig
     to_eye = towards(places, lighting.eye)
     faces, normals = _normals(triangles, found, to_eye)
     item = triangles.item[found.triangle]
-    strength = light_colours(lighting.lights)
+    strength = light_colours(lighting.lights).reshape(len(lighting.lights), -1)
     # White light needs one number, coloured light one for red, green and blue each.
     total = np.zeros((strength.shape[1], len(found)))
     for number, light in enumerate(lighting.lights):
@@ -111,18 +110,6 @@ def shaded_points(triangles: SceneTriangles, found: VisiblePoints, lighting: Lig
             level = np.rint(shade * (COLOUR_MAP - 1)).astype(np.intp)
         colours[:, channel] = lighting.palettes[lighting.palette[item], level, channel]
     return ShadedPoints(places, faces, colours)
-
-
-def light_colours(lights: Sequence[Light]) -> Floats:
-    """(l, 3) how much red, green and blue the lights send, their intensities included; (l, 1) where all are white.
-
-    Errors: InputError for a colour that is none. Source: Glaeser, sections 4.5 and 8.5, note on coloured light sources.
-    """
-    strength = intensities(lights)
-    if all(light.colour == "white" for light in lights):
-        return strength[:, None]
-    sent = np.array([palette(light.colour, COLOUR_MAP)[-1] for light in lights]) / 255.0
-    return np.asarray(strength[:, None] * sent)
 
 
 def _normals(triangles: SceneTriangles, found: VisiblePoints, to_eye: Floats) -> tuple[Floats, Floats]:

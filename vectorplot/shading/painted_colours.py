@@ -65,12 +65,12 @@ def corner_shades_of(view: View, lighting: Lighting, points: Floats, offsets: In
 
 
 def colours_of(view: View, lighting: Lighting, source: Ints, shade: Floats) -> Colours:
-    """(n,3) the colours of points on faces (n,) at shades (n,): on smooth surfaces without steps."""
+    """(n,3) the colours of points on faces (n,) at shades (n,) or (3,n): on smooth surfaces without steps."""
     item = view.face_item[source]
     found = item_colours(lighting.items, item, shade, lighting.size)
     at = np.flatnonzero(smooth_faces(view, lighting.normals)[source])
     if len(at):
-        found[at] = item_colours(lighting.items, item[at], shade[at], COLOUR_MAP)
+        found[at] = item_colours(lighting.items, item[at], shade[..., at], COLOUR_MAP)
     return found
 
 

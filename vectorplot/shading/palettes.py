@@ -144,11 +144,13 @@ def mixed(shades: ArrayLike, light: ArrayLike, kept: int) -> Floats:
 def shaded_colours(names: Sequence[str], which: Ints, shade: ArrayLike, count: int = SIZE) -> Colours:
     """(n, 3) colours: number which[k] of the palettes with these names, at shade[k] from 0 to 1.
 
+    Shades (3, n) are of red, green and blue, as coloured light makes them: a component each of a shade of its own.
     Errors: as of palette.
     """
     numbers = shade_numbers(shade, count).astype(np.intp)
     table = np.concatenate([np.zeros((0, 3), np.uint8), *(palette(name, count) for name in names)])
-    return np.asarray(table[np.asarray(which, dtype=np.intp) * count + numbers])
+    entry = np.asarray(which, dtype=np.intp) * count + numbers
+    return np.asarray(table[entry] if entry.ndim == 1 else table[entry, np.arange(3)[:, None]].T)
 
 
 @dataclass(frozen=True, eq=False)
