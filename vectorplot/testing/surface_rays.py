@@ -165,9 +165,13 @@ def fine_net(surface: Surface, middle: Floats, size: float) -> Net:
         np.linalg.norm(p[:-2] + p[2:] - 2.0 * p[1:-1], axis=-1),
         np.linalg.norm(p[:, :-2] + p[:, 2:] - 2.0 * p[:, 1:-1], axis=-1),
     ]
-    # Of each row of cells the worst one.
-    needs = [np.sqrt(np.nanmax(bend, axis=1 - axis, initial=0.0) / 8.0 / NET_ERROR) for axis, bend in enumerate(bends)]
-    needs = [np.clip(np.append(need, need[-1]), 1.0, MOST_CELLS / FIRST_CELLS**2) for need in needs]
+    twist = np.linalg.norm(p[1:, 1:] - p[1:, :-1] - p[:-1, 1:] + p[:-1, :-1], axis=-1)
+    needs = []
+    for axis, bend in enumerate(bends):
+        # Of each row of cells the worst one; diagonals are bent by the twist too.
+        sag = np.nanmax(bend, axis=1 - axis, initial=0.0)
+        sag = np.maximum(np.append(sag, 0.0), np.append(0.0, sag)) + np.nanmax(twist, axis=1 - axis, initial=0.0)
+        needs.append(np.clip(np.sqrt(sag / 8.0 / NET_ERROR), 1.0, MOST_CELLS / FIRST_CELLS**2))
     share = min(1.0, float(np.sqrt(MOST_CELLS / (needs[0].sum() * needs[1].sum()))))
     return Net(surface, middle, size, _spread(first.u, share * needs[0]), _spread(first.v, share * needs[1]))
 
