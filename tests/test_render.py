@@ -223,6 +223,25 @@ def test_a_mirror_shows_what_mirrored_rays_meet():
     assert not (shows == 2)[on].any(), "what is behind the mirror is not in it"
 
 
+def test_a_mirror_shows_glass_before_what_is_behind_it():
+    plain = coloured_boxes()
+    camera = vp.Camera((7.0, -5.0, 2.5), (0, 0, 0), fov_deg=40.0)
+    # Beside the eye's way to the mirror, between the mirror and the boxes.
+    pane = vp.Item("PANE", box((0.4, -1.5, -1.5), (0.42, 0.7, 0.2)), "#000000", vp.Material(opacity=0.5), occludes=False)
+    clear = replace(plain, items=(*plain.items, pane))
+    none, veiled = (render(s, camera, size=SIZE, fit=False).pixels.astype(int) for s in (plain, clear))
+    changed = (none != veiled).any(axis=2)
+    alone = replace(plain, items=tuple(i for i in clear.items if i.name != "GLASS"))
+    without = replace(plain, items=plain.items[1:])
+    direct = (
+        render(alone, camera, size=SIZE, fit=False).pixels != render(without, camera, size=SIZE, fit=False).pixels
+    ).any(axis=2)
+    doubled = changed & ~direct
+    assert doubled.sum() > 300
+    assert (veiled[doubled] <= none[doubled]).all(), "a black veil only darkens"
+    assert (veiled[doubled] > 0).any(axis=1).mean() > 0.9, "and lets light through"
+
+
 def test_glass_is_a_veil_before_what_is_behind_it():
     back = vp.Item("BACK", box((-2, 2, -2), (2, 2.1, 2)), "#ffffff")
     panes = [

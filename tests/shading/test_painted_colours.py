@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.drawing.fills import Fills, FillKind
+from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.effects.shadow_shades import shadow_shades
 from vectorplot.errors import InputError
 from vectorplot.scene.scene import Item, Light, Material, Scene

@@ -26,9 +26,9 @@ def shadow_shades(
     """(n,) shades 0 to 1 of points in shadows: those of points in the light, less half of what each light that does
     not get there would give. Where no light gets, half of the face's shade is left, and the cue.
 
-    shares (l,n), intensity (l,) or (l,3), which makes (3,n) shades, and cue as of illumination.shades, with the cue at the depth of each point, so that
-    large shadows vary with it; lacking (n,): bit k for light k, as of Decals; dimmed (n,): a light that gets there in
-    part, as in a border, or -1.
+    shares (l,n), intensity (l,) or (l,3), which makes (3,n) shades, and cue as of illumination.shades, with the cue at
+    the depth of each point, so that large shadows vary with it; lacking (n,): bit k for light k, as of Decals; dimmed
+    (n,): a light that gets there in part, as in a border, or -1.
     Degenerate: points that no light reaches anyway keep their shade.
     Source: Glaeser, section 6.3; decision D-5.
     """

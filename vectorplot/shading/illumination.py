@@ -206,13 +206,15 @@ def depth_cue(depth: ArrayLike, minimum: float, total: float) -> Floats:
 
 def shades(shares: ArrayLike, intensity: ArrayLike, cue: ArrayLike = 0.0) -> Floats:
     """(n,) shades 0 to 1 from the shares (l, n) of lights with intensities (l,): their sum takes four fifths of the
-    palette, cut off there; then comes the cue. With intensities (l, 3), of coloured light, (3, n) shades. Source: Glaeser, section 4.5, equations 3, 5 and 7; erratum G4-08."""
+    palette, cut off there; then comes the cue. With intensities (l, 3), of coloured light, (3, n) shades. Source:
+    Glaeser, section 4.5, equations 3, 5 and 7; erratum G4-08."""
     total = np.asarray(intensity, dtype=np.float64).T @ np.asarray(shares, dtype=np.float64)
     return np.asarray(np.clip(REDUCED * np.minimum(total, 1.0) + np.asarray(cue), 0.0, 1.0))
 
 
 def fitting(shares: ArrayLike, intensity: ArrayLike) -> Floats:
-    """(l,) or (l, 3) the intensities, scaled so that the brightest point just reaches the end of the lights' part of the palette.
+    """(l,) or (l, 3) the intensities, scaled so that the brightest point just reaches the end of the lights' part of
+    the palette.
 
     For one picture; in a movie keep those of the first frame, or it flickers. Degenerate: in the dark nothing changes.
     Source: Glaeser, section 4.5.

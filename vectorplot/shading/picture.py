@@ -92,15 +92,22 @@ def shaded(picture: Picture, buffer: DepthBuffer) -> Colours:
 
 def with_glass(picture: Picture, buffer: DepthBuffer, colours: Colours) -> Colours:
     """The colours with the transparent triangles that are before a buffer, each as a veil of its opacity."""
-    pixel, triangle, _ = layers_before(buffer, ~picture.opaque)
     result = colours.reshape(-1, 3).copy()
+    _veil(picture, buffer, result, np.ones(len(result), dtype=np.bool_))
+    return result.reshape(colours.shape)
+
+
+def _veil(picture: Picture, buffer: DepthBuffer, colours: Colours, wanted: Bools) -> None:
+    """Lay the transparent triangles of the picture that are before a buffer over the colours (p, 3) of its wanted (p,)
+    pixels: changes them."""
+    clear = picture.opacity[picture.triangles.item[buffer.triangles.source]] < 1.0
+    pixel, triangle, _ = layers_before(buffer, clear)
+    pixel, triangle = pixel[wanted[pixel]], triangle[wanted[pixel]]
     for begin in range(0, len(pixel), picture.points_at_once):
         part = slice(begin, begin + picture.points_at_once)
         found = points_in_pixels(buffer, pixel[part], triangle[part], picture.homogeneous, picture.triangles.corners)
         made = shaded_points(picture.triangles, found, picture.lighting)
-        veil = picture.opacity[picture.triangles.item[found.triangle]]
-        blend(result, pixel[part], made.colours, veil)
-    return result.reshape(colours.shape)
+        blend(colours, pixel[part], made.colours, picture.opacity[picture.triangles.item[found.triangle]])
 
 
 def blend(picture: Colours, pixel: Ints, colours: ArrayLike, opacity: Floats) -> None:
@@ -162,7 +169,12 @@ def _reflection(picture: Picture, buffer: DepthBuffer, triangle: int, pixel: Int
     x, y, z = (eye[:3] - 2.0 * (eye[:3] @ normal - eye[3] * (a @ normal)) * normal).tolist()
     lighting = replace(picture.lighting, eye=(x, y, z, float(eye[3])))
     colours[met] = shaded_points(triangles, found, lighting).colours
-    return colours
+    if (picture.opacity >= 1.0).all():
+        return colours
+    whole, wanted = np.zeros((window.code.size, 3), dtype=np.float32), np.zeros(window.code.size, dtype=np.bool_)
+    whole[inside], wanted[inside] = colours, True
+    _veil(replace(picture, homogeneous=double, lighting=lighting), window, whole, wanted)
+    return whole[inside]
 
 
 def _in_pixels(system: CoordinateSystem, plane: Floats) -> tuple[float, float, float, float]:
