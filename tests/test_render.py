@@ -227,7 +227,9 @@ def test_a_mirror_shows_glass_before_what_is_behind_it():
     plain = coloured_boxes()
     camera = vp.Camera((7.0, -5.0, 2.5), (0, 0, 0), fov_deg=40.0)
     # Beside the eye's way to the mirror, between the mirror and the boxes.
-    pane = vp.Item("PANE", box((0.4, -1.5, -1.5), (0.42, 0.7, 0.2)), "#000000", vp.Material(opacity=0.5), occludes=False)
+    pane = vp.Item(
+        "PANE", box((0.4, -1.5, -1.5), (0.42, 0.7, 0.2)), "#000000", vp.Material(opacity=0.5), occludes=False
+    )
     clear = replace(plain, items=(*plain.items, pane))
     none, veiled = (render(s, camera, size=SIZE, fit=False).pixels.astype(int) for s in (plain, clear))
     changed = (none != veiled).any(axis=2)
@@ -358,9 +360,48 @@ def test_an_empty_scene_is_a_blank_picture():
     assert image.pixels.shape == (5, 7, 3)
 
 
+@pytest.mark.parametrize("shadows", ["none", "auto", "buffer", "trapezoid", "exact"])
+@pytest.mark.parametrize(
+    ("light", "message"),
+    [
+        (vp.Light((np.nan, 0, 1)), "range"),
+        (vp.Light((np.inf, 0, 1), parallel=True), "range"),
+        (vp.Light((1e300, 0, 1)), "range"),
+        (vp.Light((0, 0, 0), parallel=True, name="SUN"), "SUN"),
+        (vp.Light((0, 0, 9), intensity=np.nan), "intensity"),
+        (vp.Light((0, 0, 9), intensity=-1.0), "intensity"),
+    ],
+)
+def test_impossible_lights_are_refused(light, message, shadows):
+    with pytest.raises(InputError, match=message):
+        render(vp.Scene((sphere(),)), size=(20, 20), lights=[light], shadows=shadows)
+
+
+@pytest.mark.hard(33)
+@pytest.mark.parametrize("shadows", ["auto", "buffer", "trapezoid", "exact"])
+def test_a_lamp_in_the_eye_shows_no_shadow_and_one_in_a_box_lights_nothing_outside(shadows):
+    camera = vp.Camera((5, -9, 6), fov_deg=30)
+    items = (vp.Item("A", box((-1, -1, -1), (1, 1, 1)), "cyan"), vp.Item("P", box((-4, -4, -2), (4, 4, -1))))
+
+    def picture_of(place, shadows):
+        lamp = vp.Light(place, intensity=1.0)
+        return levels(render(vp.Scene(items, (lamp,)), camera, size=SIZE, fit=False, shadows=shadows, samples=1))
+
+    eye = [picture_of(camera.eye, how) for how in (shadows, "none")]
+    assert (np.abs(eye[0] - eye[1]) > 2).mean() < 2e-3
+    inside = [picture_of((0.1, 0.0, 0.2), how) for how in (shadows, "exact")]
+    assert (np.abs(inside[0] - inside[1]) > 2).mean() < 5e-3
+    plate = (picture_of((0.1, 0.0, 0.2), "none") - inside[0]) > 2
+    assert plate.sum() > 2000, "the walls of the box stop its light"
+
+
 @pytest.mark.parametrize(
     "options",
     [
+        {"size": (2.5, 5)},
+        {"size": (float("nan"), 5)},
+        {"samples": 1.5},
+        {"shadow_size": 100.5},
         {"size": (0, 5)},
         {"size": (40_000, 5)},
         {"samples": 0},

@@ -17,7 +17,7 @@ from vectorplot.geometry.projection import CoordinateSystem
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, plan_render
 from vectorplot.scene.scene import Light, Page, Scene
-from vectorplot.scene.view import View, look
+from vectorplot.scene.view import LARGEST, View, look
 from vectorplot.shading.face_shades import view_lights
 from vectorplot.shading.faceted import FacetedScene, faceted
 from vectorplot.shading.image import Image
@@ -84,8 +84,10 @@ def render(
     Source: Glaeser, sections 4.5, 6.4, 7.3, 8.5 and 8.6; Martin and Tan; Ressler.
     """
     kinds = tuple(dict.fromkeys(lines))
+    _check_whole(columns=size[0], rows=size[1], samples=samples, shadow_size=shadow_size)
     _check(size, shadows, samples, crease_angle_deg, kinds)
     scene = scene if lights is None else replace(scene, lights=tuple(lights))
+    _check_lights(scene.lights)
     camera = camera or scene.camera or default_camera(scene)
     how, why = chosen_shadows(scene, camera, size, fit) if shadows == "auto" else (shadows, "")
     walk = Walk(plan_render(scene, how, bool(kinds), why), explain, progress)
@@ -124,6 +126,22 @@ def _check(size: tuple[int, int], shadows: str, samples: int, crease_angle_deg: 
     raster_size(size[0] * samples, size[1] * samples)
     for kind in kinds:
         LineKind.from_word(kind)
+
+
+def _check_whole(**counts: int) -> None:
+    for name, count in counts.items():
+        if not float(count).is_integer():
+            raise InputError(f"{name} {count:g}: expected a whole number")
+
+
+def _check_lights(lights: Sequence[Light]) -> None:
+    for number, light in enumerate(lights):
+        name = f"light {light.name or number}"
+        # NaN is not smaller.
+        if not all(abs(coordinate) < LARGEST for coordinate in light.position):
+            raise InputError(f"{name}: a place or direction of {light.position} is out of range")
+        if light.parallel and not any(light.position):
+            raise InputError(f"{name}: its rays have no direction")
 
 
 def _allowed(camera: Camera, rows: int, points: Floats) -> Floats:

@@ -32,7 +32,7 @@ def test_a_torus_within_the_tolerance_closed_and_with_its_normals(tolerance: flo
     middles = np.concatenate([corners.mean(axis=1), *(0.5 * (corners[:, k] + corners[:, k - 1]) for k in range(3))])
     ring = np.hypot(middles[:, 0], middles[:, 1]) - 3.0
     off = np.abs(np.hypot(ring, middles[:, 2]) - 1.0)
-    assert off.max() <= 2.5 * tolerance
+    assert off.max() <= 1.02 * tolerance
     assert len(found.mesh.vertices) * 2 == found.mesh.face_count  # Euler: a torus without seams
     around = found.mesh.vertices * [1.0, 1.0, 0.0]
     expected = found.mesh.vertices - 3.0 * around / np.linalg.norm(around, axis=1, keepdims=True)
@@ -40,6 +40,16 @@ def test_a_torus_within_the_tolerance_closed_and_with_its_normals(tolerance: flo
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     true = found.normals[found.mesh.corners.reshape(-1, 3)[:, 0]]
     assert ((normal * true).sum(axis=1) > 0.0).all()
+
+
+def test_surfaces_of_straight_lines_are_within_the_tolerance_though_their_chords_lie_in_them() -> None:
+    saddle = graph(lambda x, y: x * y, Domain(-1.0, 1.0, -1.0, 1.0))
+    for tolerance in (1e-2, 1e-3):
+        corners = (mesh := facets(saddle, within(tolerance)).mesh).vertices[mesh.corners.reshape(-1, 3)]
+        middles = 0.5 * (corners + np.roll(corners, 1, axis=1)).reshape(-1, 3)
+        off = np.abs(middles[:, 2] - middles[:, 0] * middles[:, 1])
+        assert off.max() <= 1.02 * tolerance
+        assert off.max() > 0.2 * tolerance, "and not finer than that"
 
 
 def test_cost_grows_as_the_tolerance_asks() -> None:

@@ -34,7 +34,7 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
     help="Lamp at a point, with an intensity from 0 to 1, in place of the lights of the scene; repeat it for more.",
 )
 @click.option("--shadows", type=click.Choice(SHADOWS), default="auto", help="How shadows are found.")
-@click.option("--shadow-size", type=click.IntRange(8, 16384), default=1024, metavar="N", help="Texels along a map.")
+@click.option("--shadow-size", type=click.IntRange(8, 8192), default=1024, metavar="N", help="Texels along a map.")
 @click.option("--shadow-bits", type=click.Choice(["8", "16", "32"]), default="32", help="Of a depth in a shadow map.")
 @click.option("--samples", type=click.IntRange(1, 8), default=1, metavar="N", help="N x N samples in every pixel.")
 @click.option(

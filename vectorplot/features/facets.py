@@ -38,11 +38,11 @@ class Facets:
 
 
 def facets(shape: Surface | ImplicitSurface, allowed: Allowed) -> Facets:
-    """Triangles whose edges are no farther from a smooth surface than is allowed, every vertex on it.
+    """Triangles that are no farther from a smooth surface than is allowed, every vertex on it.
 
     Triangles turn as u to v does; those of an implicit surface are counter-clockwise from where F > 0. Vertices on
     seams and at poles are one.
-    Error: MOST_CELLS and MOST bound the triangles, and the middles of triangles may be twice as far away. Details
+    Error: MOST_CELLS and MOST bound the triangles; distances are measured on some of the cells. Details
     smaller than a FEWESTth of the domain, or a cell of an implicit surface, may be missed.
     Errors: InputError for what is no smooth surface.
     Degenerate: triangles with a corner in a hole, and those without area, are left out.
@@ -70,12 +70,17 @@ def _parametrised(surface: Surface, allowed: Allowed) -> Facets:
 
 
 def _fineness(surface: Surface, allowed: Allowed) -> tuple[int, int]:
-    """Columns and rows of a grid that is close enough: a chord's distance falls like the square of its length."""
+    """Columns and rows of a grid that is close enough: a chord's distance falls like the square of its length.
+
+    The diagonal of a cell bends as much as both its sides together, and more where the cell is twisted.
+    """
     columns = rows = FEWEST
-    for _ in range(3):
+    for _ in range(4):
         across, along = _excesses(surface, allowed, columns, rows)
-        if max(across, along) <= 1.0:
+        worst = max(across, along, _twist(surface, allowed, columns, rows))
+        if worst <= 1.0:
             break
+        across, along = _shared(across, along, worst)
         columns, rows = _more(columns, across), _more(rows, along)
     while columns * rows > MOST_CELLS:
         columns, rows = columns // 2 + 1, rows // 2 + 1
@@ -84,6 +89,42 @@ def _fineness(surface: Surface, allowed: Allowed) -> tuple[int, int]:
 
 def _more(count: int, excess: float) -> int:
     return count if excess <= 1.0 else min(int(np.ceil(count * np.sqrt(1.05 * excess))), MOST)
+
+
+def _shared(across: float, along: float, worst: float) -> tuple[float, float]:
+    """By how much finer, squared, columns and rows must be, so that what remains is within the tolerance together.
+
+    across, along: the excesses of chords; worst: the largest of all, diagonals included.
+    """
+    sides = across + along
+    if worst > sides:
+        across, along = across + (worst - sides) / 2.0, along + (worst - sides) / 2.0
+    else:
+        across, along = across * worst / sides, along * worst / sides
+    # With as few cells as possible both have half of the tolerance, unless one needs less than that as it is.
+    if min(across, along) <= 0.5:
+        return (1.0, along / (1.0 - across)) if across <= along else (across / (1.0 - along), 1.0)
+    return 2.0 * across, 2.0 * along
+
+
+def _twist(surface: Surface, allowed: Allowed, columns: int, rows: int) -> float:
+    """By how many times the middles of diagonals are farther off the surface than is allowed; the worst of some
+    cells."""
+    u, v = surface.domain.grid(2 * columns, 2 * rows)
+    at_u, at_v = (1 + 2 * np.arange(0, count, max(1, count // 24)) for count in (columns, rows))
+    grids = {
+        (i, j): np.asarray(surface.points(*np.meshgrid(u[at_u + i], v[at_v + j], indexing="ij")), dtype=np.float64)
+        for i, j in ((0, 0), (-1, -1), (1, 1), (-1, 1), (1, -1))
+    }
+    middle = grids[0, 0]
+    normals = unit_normals(surface, *(some.ravel() for some in np.meshgrid(u[at_u], v[at_v], indexing="ij")))
+    worst = 0.0
+    for one, other in (((-1, -1), (1, 1)), ((-1, 1), (1, -1))):
+        with np.errstate(invalid="ignore"):
+            off = middle - 0.5 * (grids[one] + grids[other])
+            far = np.abs((off * normals.reshape(off.shape)).sum(axis=-1)) / allowed(middle)
+        worst = max(worst, float(np.where(np.isfinite(far), far, 0.0).max(initial=0.0)))
+    return worst
 
 
 def _excesses(surface: Surface, allowed: Allowed, columns: int, rows: int) -> tuple[float, float]:
