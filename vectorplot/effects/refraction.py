@@ -111,15 +111,15 @@ def inverse_refraction(p1: ArrayLike, p2: ArrayLike, a: ArrayLike, c: ArrayLike)
 def seen_in_surface(eye: ArrayLike, points: ArrayLike, normal: ArrayLike, on_surface: ArrayLike, c: float) -> Floats:
     """(n, 3) where in a plane surface an eye above it sees points (n, 3) that lie below it.
 
-    normal (3,) points to the eye's side; on_surface (3,): a point of the plane; c: of rays from the eye into the
-    material.
+    normal (3,) points to the eye's side; on_surface (3,): a point of the plane; or (n, 3), a plane for each point.
+    c: of rays from the eye into the material.
     Errors: as of tangents_of_rays.
     Degenerate: as there; points above the surface by no more than rounding are in it.
     Source: Glaeser, section 6.6, figure 12 (the swimming pool).
     """
     n = normalize(normal)
     e, p, origin = (np.asarray(x, dtype=np.float64) for x in (eye, points, on_surface))
-    high, deep = (e - origin) @ n, -((p - origin) @ n)
+    high, deep = ((e - origin) * n).sum(axis=-1), -((p - origin) * n).sum(axis=-1)
     noise = ROUNDING * max(float(np.abs(x).max(initial=0.0)) for x in (e, p, origin))
     deep = np.where((deep < 0.0) & (deep >= -noise), 0.0, deep)
     arm = p - e
@@ -127,7 +127,7 @@ def seen_in_surface(eye: ArrayLike, points: ArrayLike, normal: ArrayLike, on_sur
     far = np.sqrt((along * along).sum(axis=1))
     tangent, _ = tangents_of_rays(far, high + deep, deep, c)
     share = high * tangent / np.where(far > 0.0, far, 1.0)
-    return np.asarray(e - high * n + share[:, None] * along)
+    return np.asarray(e - high[..., None] * n + share[:, None] * along)
 
 
 def _constant(c: ArrayLike) -> Floats:

@@ -54,7 +54,7 @@ def seen_through(faces: ImageFaces, painted: ImageFaces, windows: Ints, toleranc
     window, face = tree.query(shapely.box(left, bottom, right, top))
     order = np.lexsort((face, window))
     window, face = windows[window[order]], face[order]
-    points, offsets, pair = _wide(*_clipped_pairs(faces, painted, face, window, tolerance), tolerance)
+    points, offsets, pair = clipped_pairs(faces, painted, face, window, tolerance)
     window, source = window[pair], faces.source[face[pair]]
     return sorted_by_window(SeenThrough(points, offsets, source, window, painted.source[window]))
 
@@ -93,7 +93,17 @@ def joined_seen(parts: list[SeenThrough]) -> SeenThrough:
     )
 
 
-def _clipped_pairs(
+def clipped_pairs(
+    faces: ImageFaces, windows: ImageFaces, face: Ints, window: Ints, tolerance: float
+) -> tuple[Floats, Ints, Ints]:
+    """Faces (n,) clipped with windows (n,): points (3,c), offsets (m+1,), and the pair each part is of, ascending.
+
+    Faces wholly inside are not clipped, and parts narrower than the tolerance left out.
+    """
+    return _wide(*_parts(faces, windows, face, window, tolerance), tolerance)
+
+
+def _parts(
     faces: ImageFaces, painted: ImageFaces, face: Ints, window: Ints, tolerance: float
 ) -> tuple[Floats, Ints, Ints]:
     corner, starts = corner_positions(faces.offsets, face)
