@@ -402,6 +402,7 @@ def test_a_lamp_in_the_eye_shows_no_shadow_and_one_in_a_box_lights_nothing_outsi
         {"size": (float("nan"), 5)},
         {"samples": 1.5},
         {"shadow_size": 100.5},
+        {"shadow_size": float("nan")},
         {"size": (0, 5)},
         {"size": (40_000, 5)},
         {"samples": 0},
