@@ -74,9 +74,9 @@ def test_nothing_and_lines_only() -> None:
 
 @pytest.mark.parametrize("name", ["town", "table", "interpenetrating", "patterns"])
 def test_the_picture_stays_the_same_and_nothing_overlaps(name: str) -> None:
-    scene = vp.read(DATA / f"{name}.scene")
-    painted, seen = paint(scene), paint(scene, fills="visible")
-    before, after = painted.layers[0].fills[0], seen.layers[0].fills[0]
+    painted = paint(vp.read(DATA / f"{name}.scene"))
+    before = painted.layers[0].fills[0]
+    after = visible_fills(before, painted.page_from_world)
     points = np.random.default_rng(3).uniform([0, 0], [painted.width_mm, painted.height_mm], (4000, 2))
     edges = shapely.linearrings(before.points, indices=np.repeat(np.arange(len(before)), np.diff(before.offsets)))
     _, away = shapely.STRtree(edges).query_nearest(shapely.points(points), return_distance=True, all_matches=False)
@@ -85,5 +85,24 @@ def test_the_picture_stays_the_same_and_nothing_overlaps(name: str) -> None:
     opaque = after.some(np.flatnonzero(after.opacity >= 1.0))
     polygons = polygons_of(opaque.points.T, opaque.offsets)
     assert shapely.area(polygons).sum() == pytest.approx(shapely.union_all(polygons, grid_size=1e-4).area, rel=1e-5)
-    flat = np.c_[after.points3d, np.ones(len(after.points3d))] @ seen.page_from_world.T
+    flat = np.c_[after.points3d, np.ones(len(after.points3d))] @ painted.page_from_world.T
     assert np.abs(flat[:, :2] / flat[:, 3:] - after.points).max() < 1e-9
+
+
+def test_sides_that_run_out_and_back_again_are_no_obstacle() -> None:
+    spike = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [6.0, 6.0], [4.0, 4.0], [0.0, 4.0]])
+    square = np.array([[2.0, 2.0], [7.0, 2.0], [7.0, 7.0], [2.0, 7.0]])
+    colours = np.array([[0, 0, 0], [10, 0, 0]], dtype=np.uint8)
+    for first, second in ((spike, square), (square, spike)):
+        offsets = np.array([0, len(first), len(first) + len(second)])
+        fills = Fills.flat(np.concatenate([first, second]), offsets, colours, item=np.arange(2))
+        seen = visible_fills(fills, FLAT)
+        assert sum(areas(seen).values()) == pytest.approx(37.0)
+
+
+@pytest.mark.parametrize("name", ["mirror", "patterns", "shadows", "table"])
+def test_effects_leave_regions_that_do_not_overlap(name: str) -> None:
+    seen = paint(vp.read(DATA / f"{name}.scene"), fills="visible").layers[0].fills[0]
+    opaque = seen.some(np.flatnonzero((seen.opacity == 1.0) & (np.diff(seen.offsets) > 2)))
+    polygons = polygons_of(opaque.points.T, opaque.offsets)
+    assert shapely.union_all(polygons, grid_size=1e-5).area == pytest.approx(shapely.area(polygons).sum(), rel=1e-5)

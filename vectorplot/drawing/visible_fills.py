@@ -16,7 +16,6 @@ GRID_MM = 1e-4
 AREA_MM2 = GRID_MM * GRID_MM
 """Smaller polygons have no inside."""
 
-
 EDGE_ON = 1e-9
 """Sine of the angle between sight line and plane below which the plane is seen edge-on."""
 
@@ -34,7 +33,7 @@ def visible_fills(fills: Fills, page_from_world: Floats) -> Fills:
 
     sizes = np.diff(fills.offsets)
     solid, lines = fills.some(np.flatnonzero(sizes > 2)), fills.some(np.flatnonzero(sizes == 2))
-    regions = shapely.make_valid(polygons_of(solid.points.T, solid.offsets)) if len(solid) else np.zeros(0, object)
+    regions = _regions(solid) if len(solid) else np.zeros(0, object)
     below, above, hidden = _overlaps(regions, solid.opacity >= 1.0)
     cut, of = np.unique(below, return_inverse=True)
     if len(cut):
@@ -44,6 +43,14 @@ def visible_fills(fills: Fills, page_from_world: Floats) -> Fills:
     parts, number = without_splinters(regions[left], GRID_MM)
     parts, number = without_holes(parts, number)
     return Fills.joined(_listed(solid, parts, left[number], page_from_world), lines)
+
+
+def _regions(fills: Fills) -> Any:
+    """(n,) polygons, or several, with the insides of fills; sides that run out and back again are left out, as no
+    overlay takes areas and lines at once."""
+    import shapely
+
+    return shapely.make_valid(polygons_of(fills.points.T, fills.offsets), method="structure", keep_collapsed=False)
 
 
 def _overlaps(regions: Any, opaque: Bools) -> tuple[Ints, Ints, Bools]:
