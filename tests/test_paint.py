@@ -475,3 +475,16 @@ def test_shadows_seen_edge_on_have_no_aura(seed: int) -> None:
     for eye in ((0.0, 0.0, 0.7), (-12.0, 3.0, 1.0), (0.3, -15.0, 1e-4)):
         fills = fills_of(paint(replace(scene, lights=(lamp, SUN)), Camera(eye, (0.1, 0.2, 0.3)), aura_mm=2.0))
         assert np.isfinite(fills.points).all()
+
+
+def test_what_one_sees_through_lets_light_through_whatever_it_says_about_lines() -> None:
+    floor = Item("FLOOR", box((-5, -5, -1), (5, 5, 0)), "lightgray")
+    pane = Item("PANE", box((-1, -1, 1), (1, 1, 1.2)), "cyan", Material("transparent", 0.4, 1.4))
+    light = Light((0.3, 0.2, 5.0))
+    drawings = []
+    for occludes in (True, False):
+        scene = Scene((floor, replace(pane, occludes=occludes)), (light,))
+        drawings.append(paint(scene, Camera((9, -12, 9))).layers[0].fills[0])
+    one, two = drawings
+    assert np.array_equal(one.points, two.points) and np.array_equal(one.colours, two.colours)
+    assert (one.kind == FillKind.CLEAR_SHADOW).any() and not (one.kind == FillKind.SHADOW).any()

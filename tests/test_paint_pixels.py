@@ -39,7 +39,7 @@ FAMILIES = {
 SEEDS, SEEDS_OF_MIRRORS = 16, 8
 
 
-@pytest.mark.capability("G5.0-painter", "G6.3-shadow", "G6.3-multi", "G6.3-convex-cast", "G6.3-shadow-shade")
+@pytest.mark.capability("G5.0-painter", "G6.3-shadow", "G6.3-multi", "G6.3-convex-cast")
 @pytest.mark.parametrize("family", FAMILIES)
 def test_pictures_show_what_rays_meet_in_the_shade_of_the_lights_that_reach_it(family: str) -> None:
     sure = 0

@@ -87,6 +87,7 @@ def paint(
     facets = FacetedScene(scene, (None,) * len(scene.items))
     if walk.calls_for("facets"):
         facets = walk.run("facets", faceted, scene, _allowed(scene, camera, page, fit, tolerance_mm))
+    facets = replace(facets, scene=_with_clear_items(facets.scene))
     view = walk.run("look", look, facets.scene, camera)
     projected = walk.run("faces", project_faces, view)
     painted = walk.run("order", painters_order, view, projected)
@@ -123,6 +124,15 @@ class _Seen:
     projected: ProjectedFaces
     faces: ImageFaces
     placed: Placed
+
+
+def _with_clear_items(scene: Scene) -> Scene:
+    """The scene in which light goes through whatever one can see through."""
+    clear = [item.material.word == "transparent" or item.material.opacity < 1.0 for item in scene.items]
+    if not any(see and item.occludes for see, item in zip(clear, scene.items, strict=True)):
+        return scene
+    items = (replace(item, occludes=item.occludes and not see) for see, item in zip(clear, scene.items, strict=True))
+    return replace(scene, items=tuple(items))
 
 
 def _tell_knots(walk: Walk, scene: Scene, painted: Painted) -> None:
