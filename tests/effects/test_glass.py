@@ -5,6 +5,7 @@ from seen_rays import first_hits, sight_rays, topmost, triangles
 from vectorplot.effects.glass import refracting_items, seen_in_glass
 from vectorplot.effects.refraction import refracted
 from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.convex_hulls import hull_mesh
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Material, Scene
 from vectorplot.scene.view import View, look
@@ -111,6 +112,33 @@ def test_what_is_seen_in_glass_is_what_the_refracted_ray_meets(start: int) -> No
         checked += int(steady.sum())
         seen += int((behind >= 0)[steady].sum())
     assert checked > 1500 and seen > 150
+
+
+@pytest.mark.parametrize("seed", [7, 9])
+def test_many_faces_show_what_the_refracted_ray_meets(seed: int) -> None:
+    """Balls of sixty triangles: some lie with all their sides on one side of the ball's axis."""
+    random = np.random.default_rng(seed)
+    items = [
+        Item(f"B{k}", turned_box(random, random.uniform(0.3, 1.2, 3), random.uniform((-4, -4, -2), (4, 4, 5))))
+        for k in range(4)
+    ]
+    points = random.normal(size=(30, 3))
+    ball = hull_mesh(1.8 * points / np.linalg.norm(points, axis=1)[:, None])
+    scene = Scene((*items, Item("FLOOR", FLOOR), glass(ball, float(random.choice([1.2, 1.33, 1.5])))))
+    eye = random.normal(size=3)
+    eye *= random.uniform(7, 14) / np.linalg.norm(eye)
+    picture = Picture(scene, Camera(eye=(eye[0], eye[1], abs(eye[2])), target=(0, 0, 0), parallel=seed == 9), 2e-3)
+    of_glass = picture.view.image[:, picture.view.item_vertices[-2] :]
+    low, high = of_glass.min(axis=1), of_glass.max(axis=1)
+    samples = low[:, None] + random.uniform(size=(2, 400)) * (high - low)[:, None]
+    face, behind = picture.true_at(samples)
+    steady = np.ones(400, dtype=bool)
+    for step in ([1, 0], [-1, 0], [0, 1], [0, -1]):
+        near, beside = picture.true_at(samples + 6e-3 * np.array(step)[:, None])
+        steady &= (near == face) & (beside == behind)
+    painted, refracted_ones = picture.painted_at(samples)
+    assert (painted == face)[steady].all() and (refracted_ones == behind)[steady].all()
+    assert (behind >= 0)[steady].sum() > 50
 
 
 POOL = [(-4, -2, -1), (4, -2, -1), (4, 2, -1), (-4, 2, -1), (-4, -2, 0.2), (4, -2, 0.2), (4, 2, 0.2), (-4, 2, 0.2)]

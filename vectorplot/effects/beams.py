@@ -201,10 +201,15 @@ def _grids(outlines: Soup) -> tuple[Floats, Ints]:
     steps = np.linspace(0.0, 1.0, GRID + 1)
     corner, sizes = outlines.points, np.diff(offsets)
     after = corner[:, next_positions(offsets, np.arange(corner.shape[1]))]
-    centre = np.repeat(np.add.reduceat(corner, offsets[:-1], axis=1) / sizes, sizes, axis=1)
+    centre = np.repeat(_centres(outlines), sizes, axis=1)
     sides = corner[..., None] + steps[:-1] * (after - corner)[..., None]
     grid = centre[..., None, None] + steps * (sides - centre[..., None])[..., None]
     return grid.reshape(3, -1), offsets * RAYS
+
+
+def _centres(outlines: Soup) -> Floats:
+    """(3,n) the means of the corners of polygons."""
+    return np.asarray(np.add.reduceat(outlines.points, outlines.offsets[:-1], axis=1) / np.diff(outlines.offsets))
 
 
 def _boxes(image: Floats, seen: Bools, offsets: Ints) -> Floats:
@@ -239,7 +244,7 @@ def _bundles(view: View, solid: Solid, back: Ints, direction: Floats, good: Bool
     normal = solid.planes[:3, back[owner]]
     along = corner[:, next_positions(outlines.offsets, np.arange(len(owner)))] - corner
     outwards = np.cross(along, normal, axis=0)
-    outwards *= np.sign((outwards * (corner - solid.points.mean(axis=1, keepdims=True))).sum(axis=0))
+    outwards *= np.sign((outwards * (corner - _centres(outlines)[:, owner])).sum(axis=0))
     outwards /= np.sqrt((outwards * outwards).sum(axis=0))
     ray, starts = corner_positions(offsets, owner)
     side = np.repeat(np.arange(len(owner)), np.diff(starts))

@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.effects.beams import TOUCHING, Beams, Solid, soup_above, soup_in_beams
 from vectorplot.effects.bending import Soup, bent
+from vectorplot.effects.bent_order import bent_order
 from vectorplot.effects.windows import SeenThrough, clipped_pairs, joined_seen, nothing_seen, sorted_by_window
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.scene import Scene
@@ -19,9 +20,7 @@ from vectorplot.visibility.painter.image_faces import (
     corner_positions,
     mapped,
     polygons_of,
-    unmapped,
 )
-from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.projected_faces import ProjectedFaces
 
 
@@ -103,7 +102,7 @@ def _seen_in(glass: _Glass) -> list[SeenThrough]:
     inside = soup_above(rest, walls, view.tolerance)
     way, polygon = (grid.ravel() for grid in np.mgrid[: len(front), : len(inside)])
     within = bent(view, solid.passages(front), inside.on_ways(polygon, way), boxes, glass.tolerance)
-    return [*parts, _shown(view, within, glass.panes)]
+    return [*parts, _shown(view, within, glass.panes, glass.tolerance)]
 
 
 def _behind(glass: _Glass, beams: Beams, soup: Soup) -> SeenThrough:
@@ -118,7 +117,8 @@ def _behind(glass: _Glass, beams: Beams, soup: Soup) -> SeenThrough:
     points, ends, face, pane = _in_panes(view, faces, backs.way, glass.panes)
     source = glass.panes.faces.source[pane]
     parts = ImageFaces(points, ends, faces.planes[:, face], source, faces.rank[face])
-    return _shown(view, found, Panes(parts, backs.source[faces.source[face]], glass.panes.window[pane]))
+    panes = Panes(parts, backs.source[faces.source[face]], glass.panes.window[pane])
+    return _shown(view, found, panes, glass.tolerance)
 
 
 def _in_panes(view: View, faces: ImageFaces, way: Ints, panes: Panes) -> tuple[Floats, Ints, Ints, Ints]:
@@ -133,25 +133,19 @@ def _in_panes(view: View, faces: ImageFaces, way: Ints, panes: Panes) -> tuple[F
     return points, offsets, face[pair], pane[pair]
 
 
-def _shown(view: View, soup: Soup, panes: Panes) -> SeenThrough:
+def _shown(view: View, soup: Soup, panes: Panes, tolerance: float) -> SeenThrough:
     """Bent polygons as far as they are seen in the panes of their ways, back to front."""
     faces = polygons_of(mapped(view, soup.points), soup.offsets, np.arange(len(soup)), view.tolerance)
     points, offsets, face, pane = _in_panes(view, faces, soup.way, panes)
     if not len(pane):
         return nothing_seen()
-    corners = np.arange(points.shape[1])
-    double = replace(
-        view,
-        points=unmapped(view, points),
-        corners=corners,
-        offsets=offsets,
-        inner=np.zeros(len(corners), dtype=np.bool_),
-        face_item=np.zeros(len(pane), dtype=np.intp),
-        item_vertices=np.array([0, len(corners)]),
-        occludes=np.ones(1, dtype=np.bool_),
-    )
-    order = painters_order(double).faces
-    source, through = soup.source[faces.source[face[order.source]]], pane[order.source]
+    parts = polygons_of(points, offsets, np.arange(len(pane)), view.tolerance)
+    piece = faces.source[face]
+    _, bent_face = np.unique(np.stack([soup.way[piece], soup.source[piece]]), axis=1, return_inverse=True)
+    off = view.tolerance if view.eye is None else max(tolerance, view.tolerance)
+    order = bent_order(view, parts, bent_face[parts.source], off)
+    through = pane[order.source]
+    source = soup.source[piece[order.source]]
     return sorted_by_window(
         SeenThrough(order.points, order.offsets, source, panes.window[through], panes.faces.source[through])
     )
