@@ -26,6 +26,7 @@ from vectorplot.shading.faceted import FacetedScene, faceted
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
 from vectorplot.shading.palettes import SIZE
 from vectorplot.shading.palettes import palette as shades_of
+from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
 from vectorplot.visibility.painter.order import Painted, painters_order
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
@@ -90,7 +91,7 @@ def paint(
     facets = replace(facets, scene=_with_clear_items(facets.scene))
     view = walk.run("look", look, facets.scene, camera)
     projected = walk.run("faces", project_faces, view)
-    painted = walk.run("order", painters_order, view, projected)
+    painted = walk.run("order", painters_order, view, projected, known=known_orders(facets.scene, view))
     _tell_knots(walk, scene, painted)
     placed = placed_faces(view, painted.faces, page, fit)
     seen = _Seen(facets.scene, view, projected, placed.framed(painted.faces, page, view.tolerance), placed)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import reduce
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,6 +17,9 @@ Ints32 = NDArray[np.int32]
 
 EMPTY = 4
 """A grid may have so many places for each vertex; where more stay empty it is none."""
+
+FEWEST = 64
+"""Of items with fewer faces it is not worth asking for a grid."""
 
 NONE, UPWARDS, DOWNWARDS, WHOLE = 0, 1, 2, 3
 """How a face fills its cell: not as it should, or on one side of the diagonal from the lower left corner to the upper
@@ -30,8 +35,8 @@ IS_LEFT[[0b1101, 0b1110]] = True
 
 
 def known_orders(scene: Scene, view: View) -> dict[int, Ints]:
-    """For every item whose faces lie over the cells of a grid of the world, at most one face over any place, all its
-    faces in the view, back to front.
+    """For every item whose faces, FEWEST or more, lie over the cells of a grid of the world, at most one face over any
+    place, all its faces in the view, back to front.
 
     Wherever the eye is, of two faces over different cells the one beyond a vertical plane between them goes first.
     Source: Glaeser, section 5.4, figure 7.
@@ -41,15 +46,13 @@ def known_orders(scene: Scene, view: View) -> dict[int, Ints]:
     else:
         eye = view.world_of(view.eye[:, None])[0]
     found = {}
-    for number, item in enumerate(scene.items):
-        face = np.flatnonzero(view.face_item == number)
-        order = None
-        if len(face):
-            start, end = view.offsets[face[0]], view.offsets[face[-1] + 1]
-            corners = view.corners[start:end] - view.item_vertices[number]
-            order = field_order(item.mesh.vertices, corners, view.face_sizes[face], eye)
+    first = np.searchsorted(view.face_item, np.arange(len(scene.items) + 1))
+    for number in np.flatnonzero(np.diff(first) >= FEWEST).tolist():
+        low, high = first[number : number + 2].tolist()
+        corners = view.corners[view.offsets[low] : view.offsets[high]] - view.item_vertices[number]
+        order = field_order(scene.items[number].mesh.vertices, corners, view.face_sizes[low:high], eye)
         if order is not None:
-            found[number] = face[order]
+            found[number] = low + order
     return found
 
 
@@ -72,12 +75,12 @@ def field_order(vertices: Floats, corners: Ints, sizes: Ints, eye: Floats) -> In
         place.append(np.searchsorted(line, vertices[:, axis]))
     if len(lines[0]) * len(lines[1]) > EMPTY * len(vertices):
         return None
-    corner = [p.astype(np.int32)[corners].reshape(-1, sizes[0]).T for p in place]
-    low = [np.minimum.reduce(own) for own in corner]
-    if any((own - least).max() > 1 for own, least in zip(corner, low, strict=True)):
+    across, along = ([p.astype(np.int32)[corners[k :: sizes[0]]] for k in range(sizes[0])] for p in place)
+    low = [reduce(np.minimum, own) for own in (across, along)]
+    if any((reduce(np.maximum, own) - least).max() > 1 for own, least in zip((across, along), low, strict=True)):
         return None
-    bits = np.left_shift(np.int8(1), (corner[0] - low[0] + 2 * (corner[1] - low[1])).astype(np.int8))
-    return _in_order(lines, low, np.bitwise_or.reduce(bits), eye)
+    steps = [(x - low[0] + 2 * (y - low[1])).astype(np.int8) for x, y in zip(across, along, strict=True)]
+    return _in_order(lines, low, reduce(np.bitwise_or, [np.left_shift(np.int8(1), step) for step in steps]), eye)
 
 
 def _lines(values: Floats) -> Floats:
