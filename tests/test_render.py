@@ -330,6 +330,17 @@ def test_smooth_surfaces_show_no_facets():
     assert np.quantile(across[inner[:, 1:-2]], 0.99) < 8.0
 
 
+@pytest.mark.parametrize("camera", [vp.Camera((0, -12, 9), fov_deg=170), vp.Camera((0, -1200, 900))])
+def test_triangles_are_small_in_fitted_pictures_from_afar_too(camera):
+    counts = []
+    for eye in (vp.Camera((0, -12, 9), fov_deg=30), camera):
+        scene = vp.Scene((vp.Item("RING", Torus(3.0, 1.2), "gray"),), (SUN,))
+        stages = {}
+        render(scene, eye, size=(400, 300), explain=lambda r, s=stages: s.setdefault(r.name, r.count))
+        counts.append(stages["look"])
+    assert counts[1] > 0.7 * counts[0]
+
+
 def test_meshes_look_round_up_to_the_crease_angle():
     from vectorplot.testing.surfaces import torus_mesh
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -94,7 +93,7 @@ def render(
     fine = (size[0] * samples, size[1] * samples)
     facets = FacetedScene(scene, (None,) * len(scene.items))
     if walk.calls_for("facets"):
-        facets = walk.run("facets", faceted, scene, partial(_allowed, camera, fine[1]))
+        facets = walk.run("facets", faceted, scene, _allowed(scene, camera, fine, fit))
     view = walk.run("look", look, facets.scene, camera)
     triangles = walk.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
     system = raster_system(camera_in_view(view, camera), *fine)
@@ -144,13 +143,12 @@ def _check_lights(lights: Sequence[Light]) -> None:
             raise InputError(f"{name}: its rays have no direction")
 
 
-def _allowed(camera: Camera, rows: int, points: Floats) -> Floats:
-    """(...) how far triangles may be off at points (..., 3) of the world."""
-    pixel = FACET_PIXELS * camera.picture_height / rows
-    if camera.parallel:
-        return np.full(points.shape[:-1], pixel)
-    ahead = (np.asarray(camera.eye) - points) @ camera.direction / camera.distance
-    return np.asarray(pixel * np.maximum(ahead, 0.05))
+def _allowed(scene: Scene, camera: Camera, size: tuple[int, int], fit: bool) -> Callable[[Floats], Floats]:
+    """How far triangles may be off smooth surfaces at points of the world."""
+    from vectorplot.drawing.page import allowed_in_space
+
+    # A millimetre of this page is a pixel.
+    return allowed_in_space(scene, camera, Page(*size, 0.0), fit, FACET_PIXELS)
 
 
 def _blocked(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -10,10 +10,11 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.duplicates import without_duplicates
 from vectorplot.drawing.pieces import chosen, concatenated
 from vectorplot.drawing.smooth_duplicates import without_smooth_duplicates
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.strokes import LineKind
-from vectorplot.scene.scene import Page
-from vectorplot.scene.view import View
+from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.view import View, look
 from vectorplot.visibility.hidden_lines import Visibility
 from vectorplot.visibility.lines import Lines
 
@@ -52,6 +53,24 @@ def mm_per_image(view: View, surfaces: Sequence[Floats], page: Page, fit: bool) 
     image = view.image_of(points)
     fitting = fitted(page, image.min(axis=1), image.max(axis=1))[0, 0]
     return float(max(fitting, (page.height_mm - 2.0 * page.margin_mm) / view.picture_height))
+
+
+def allowed_in_space(
+    scene: Scene, camera: Camera, page: Page, fit: bool, tolerance_mm: float
+) -> Callable[[Floats], Floats]:
+    """How far (...) triangles may be off smooth surfaces at points (..., 3) of the world, so that they are off by no
+    more than the tolerance on the page."""
+    view = look(scene, camera)
+    low, high = scene.bounds
+    corners = np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, high, low)
+    scale = mm_per_image(view, [view.points_of(corners).T], page, fit)
+
+    def allowed(points: Floats) -> Floats:
+        depth = view.depth_of(view.points_of(points.reshape(-1, 3))).reshape(points.shape[:-1])
+        ahead = np.ones_like(depth) if view.eye is None else np.maximum(depth, view.near) / view.focus
+        return np.asarray(tolerance_mm / scale * view.scale * ahead)
+
+    return allowed
 
 
 def page_from_image(view: View, lines: Lines, seen: Visibility, page: Page, fit: bool, whole: bool) -> Floats:
