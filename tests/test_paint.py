@@ -274,6 +274,8 @@ ERRORS = [
     ({"aura_mm": np.inf}, "aura of inf mm"),
     ({"palette": 1}, "palette of 1 shades"),
     ({"palette": 257}, "palette of 257 shades"),
+    ({"palette": 3.5}, "palette of 3.5 shades"),
+    ({"crease_angle_deg": float("nan")}, "crease angle of nan"),
     ({"tolerance_mm": 0.0}, "tolerance of 0 mm"),
     ({"tolerance_mm": np.nan}, "tolerance of nan mm"),
     ({"lights": (Light((np.nan, 0.0, 1.0)),)}, "light"),

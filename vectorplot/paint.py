@@ -12,7 +12,7 @@ import numpy as np
 from vectorplot.draw import default_camera, lines_in_place
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import Colours, FillKind, Fills
-from vectorplot.drawing.page import mm_per_image, page_from_world
+from vectorplot.drawing.page import allowed_in_space, page_from_world
 from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, interleaved, placed_faces
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
@@ -79,7 +79,7 @@ def paint(
     upper left, which casts no shadows.
     Source: Glaeser, chapters 4.5, 5 and 6.
     """
-    _check_options(shadows, aura_mm, palette, fills, tolerance_mm)
+    _check_options(shadows, aura_mm, palette, fills, crease_angle_deg, tolerance_mm)
     scene = scene if lights is None else replace(scene, lights=tuple(lights))
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
@@ -87,7 +87,7 @@ def paint(
     walk = Walk(plan_paint(scene, shadows, fills, kinds), explain, progress)
     facets = FacetedScene(scene, (None,) * len(scene.items))
     if walk.calls_for("facets"):
-        facets = walk.run("facets", faceted, scene, _allowed(scene, camera, page, fit, tolerance_mm))
+        facets = walk.run("facets", faceted, scene, allowed_in_space(scene, camera, page, fit, tolerance_mm))
     facets = replace(facets, scene=_with_clear_items(facets.scene))
     view = walk.run("look", look, facets.scene, camera)
     projected = walk.run("faces", project_faces, view)
@@ -144,32 +144,21 @@ def _tell_knots(walk: Walk, scene: Scene, painted: Painted) -> None:
         walk.tell("cut", f"{names}{more}: they pierce one another, or overlap in circles", len(painted) - painted.uncut)
 
 
-def _check_options(shadows: str, aura_mm: float, palette: int, fills: str, tolerance_mm: float) -> None:
+def _check_options(
+    shadows: str, aura_mm: float, palette: int, fills: str, crease_angle_deg: float, tolerance_mm: float
+) -> None:
     if shadows not in ("auto", "none"):
         raise InputError(f"shadows {shadows!r}: expected auto or none")
     if fills not in ("painted", "visible", "erasing"):
         raise InputError(f"fills {fills!r}: expected painted, visible or erasing")
     if not 0.0 <= aura_mm < np.inf:
         raise InputError(f"an aura of {aura_mm:g} mm: expected a width that is finite and not negative")
-    if not 2 <= palette <= 256:
+    if not (2 <= palette <= 256 and float(palette).is_integer()):
         raise InputError(f"a palette of {palette} shades: expected 2 to 256")
+    if not 0.0 <= crease_angle_deg <= 180.0:
+        raise InputError(f"a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
     if not 0.0 < tolerance_mm < np.inf:
         raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected a length that is finite and positive")
-
-
-def _allowed(scene: Scene, camera: Camera, page: Page, fit: bool, tolerance_mm: float) -> Callable[[Floats], Floats]:
-    """How far triangles may be off smooth surfaces at points of the world."""
-    view = look(scene, camera)
-    low, high = scene.bounds
-    corners = np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, high, low)
-    scale = mm_per_image(view, [view.points_of(corners).T], page, fit)
-
-    def allowed(points: Floats) -> Floats:
-        depth = view.depth_of(view.points_of(points.reshape(-1, 3))).reshape(points.shape[:-1])
-        ahead = np.ones_like(depth) if view.eye is None else np.maximum(depth, view.near) / view.focus
-        return np.asarray(tolerance_mm / scale * view.scale * ahead)
-
-    return allowed
 
 
 def _normals(view: View, facets: FacetedScene, smooth: bool) -> Floats:

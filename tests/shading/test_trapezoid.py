@@ -141,7 +141,8 @@ def test_the_recipe_as_eight_matrices_and_as_three_rows():
     ]
     assert np.allclose(rows, tv63, rtol=0.0, atol=1e-12), "TV63"
     image = product @ (1, 2, 1, 1)
-    assert np.allclose(image[:3] / image[3], (0.0769230769230771, -0.538461538461539, 0.519230769230769), **CLOSE)
+    tv64 = (0.0769230769230771, -0.538461538461539, 0.519230769230769)
+    assert np.allclose(image[:3] / image[3], tv64, **CLOSE), "TV64"
     fast = recipe_map(RECIPE)
     assert np.allclose(fast / fast[2, 2], rows / rows[2, 2], **CLOSE)
     assert np.allclose(mapped(fast, RECIPE), SQUARE, **CLOSE)
