@@ -8,16 +8,20 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from vectorplot.backends.svg import svg_bytes
 from vectorplot.draw import default_camera
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.convex_clipping import clipped
 from vectorplot.geometry.convex_hulls import hull_mesh
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box, numbered, rotated_boxes, rotation
 from vectorplot.testing.surfaces import bumpy_icosphere
 from vectorplot.visibility.painter.bodies import convex_bodies, outlined_items
 from vectorplot.visibility.painter.graphs import graph_order, graph_triangles
+from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.painter.rings import ring_order, sliced_meridian
@@ -123,6 +127,30 @@ def test_graphs_and_rings_without_a_comparison() -> None:
     meridian = sliced_meridian(np.stack([2.0 + np.sin(np.linspace(0, 20, 600)), np.linspace(0, 5, 600)], axis=1))
     took = seconds(lambda: ring_order(meridian, 1000, (5.0, 4.0, 3.0)))
     print(f"  {1000 * (len(meridian) - 1):>9,} faces in rings: {took:7.3f} s")
+
+
+def test_graphs_in_pictures() -> None:
+    print("\ngraphs as meshes: known and painted (to beat: .5 s at 1000 x 1000; 4 s for 400 x 400 as SVG)")
+    sizes, times = [], []
+    for cells in (250, 500, 1000):
+        scene = Scene((Item("G", waves(cells)),))
+        view = view_of(scene)
+        sizes.append(2 * cells * cells)
+        times.append(seconds(lambda s=scene, v=view: known_orders(s, v)))
+        print(f"  {sizes[-1]:>9,}: {times[-1]:7.3f} s")
+    print(growth(sizes, times))
+    scene = Scene((Item("G", waves(400)),))
+    view = view_of(scene)
+    print(f"  400 x 400 compared: {seconds(lambda: painters_order(view), 1):7.3f} s, ", end="")
+    print(f"known: {seconds(lambda: painters_order(view, known=known_orders(scene, view))):7.3f} s, ", end="")
+    print(f"painted and written: {seconds(lambda: svg_bytes(paint(scene)), 1):7.3f} s")
+
+
+def waves(cells: int) -> Mesh:
+    line = np.linspace(-1.0, 1.0, cells + 1)
+    x, y = np.meshgrid(line, line, indexing="ij")
+    vertices = np.stack([x, y, 0.3 * np.sin(9.0 * x) * np.cos(7.0 * y)], axis=-1).reshape(-1, 3)
+    return Mesh.from_triangles(vertices, graph_triangles(cells, cells))
 
 
 def test_visible_regions() -> None:
