@@ -28,8 +28,8 @@ class Material:
 
 @dataclass(frozen=True)
 class Light:
-    """A light source at a point, or with parallel rays coming from the direction ``position``; intensity 0 to 1; colour:
-    white, a palette or #rrggbb; fading: the light of a lamp becomes weaker with the square of the distance."""
+    """A light source at a point, or with parallel rays coming from the direction ``position``; intensity 0 to 1;
+    colour: white, a palette or #rrggbb; fading: the light of a lamp becomes weaker with the square of the distance."""
 
     position: tuple[float, float, float]
     parallel: bool = False
@@ -54,9 +54,9 @@ class Pattern:
 class Item:
     """A shape in the scene, and how it is drawn.
 
-    shape: a polyhedron, a smooth surface or a curve in space; colour: the name of a palette; lines: the words of the kinds to draw
-    (None: what the drawing asks for); occludes: whether it hides what is behind it; curves: which lines there are on a
-    smooth surface.
+    shape: a polyhedron, a smooth surface or a curve in space; colour: the name of a palette; lines: the words of the
+    kinds to draw (None: what the drawing asks for); occludes: whether it hides what is behind it; curves: which lines
+    there are on a smooth surface.
     """
 
     name: str

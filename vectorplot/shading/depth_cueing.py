@@ -20,8 +20,8 @@ LEAST = 0.2
 def depth_shades(depth: ArrayLike, farthest: float, nearest: float) -> Floats:
     """(...) shades from 0.2 for depths at the farthest limit, and beyond, to 1 at the nearest, and before it.
 
-    Depths grow towards the eye. Degenerate: without depth between the limits everything is near. Source: Glaeser, section 4.4, figure 2; errata
-    G4-03, G4-04.
+    Depths grow towards the eye. Degenerate: without depth between the limits everything is near.
+    Source: Glaeser, section 4.4, figure 2; errata G4-03, G4-04.
     """
     z = np.asarray(depth, dtype=np.float64)
     if not nearest > farthest:
