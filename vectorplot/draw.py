@@ -42,6 +42,9 @@ if TYPE_CHECKING:
 LARGER = 1.25
 """Curves are traced anew where they come out so many times larger on the page than they were taken for."""
 
+FINEST = 1e-7
+"""Chords are no nearer to curves than this part of half the scene's extent, however small a part a picture shows."""
+
 DRAWN = ("contour", "boundary", "crease", "intersection", "pattern", "parameter", "isophote", "section", "curve")
 """The kinds of lines that are drawn where nothing else is said."""
 
@@ -89,7 +92,8 @@ def draw(
     and explain(report) are called while it works.
     Errors: InputError for unknown words, impossible cameras, and widths and angles out of range.
     Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees
-    off the principal ray, a fitted picture shows the camera's field of vision.
+    off the principal ray, a fitted picture shows the camera's field of vision. An InputWarning says where a picture
+    shows so little of the scene that the tolerance cannot be kept.
     Source: Glaeser, sections 2.1 and 7.2.
     """
     _check_options(hidden, curves, halo_mm, crease_angle_deg, tolerance_mm)
@@ -110,7 +114,7 @@ def draw(
         framed, whole = walk.run("frame", in_frame, view, every, page, fit)
         seen = _visibility(walk, view, faces, solid, framed)
         placed = page_from_image(view, framed, seen, page, fit, whole)
-        if every is straight or not len(seen) or placed[0, 0] <= LARGER * scale:
+        if every is straight or not len(seen) or placed[0, 0] <= LARGER * scale or tolerance < FINEST:
             break
         # Little of the scene is drawn, and that larger than thought.
         scale = float(placed[0, 0])
@@ -214,6 +218,10 @@ def _with_curves(
     from vectorplot.visibility.smooth.smooth_lines import with_curves
     from vectorplot.visibility.smooth.traced import traced_scene
 
+    if tolerance < FINEST:
+        text = "the picture shows so small a part of the scene that smooth curves are off by more than the tolerance"
+        warnings.warn(text, InputWarning, stacklevel=3)
+    tolerance = max(tolerance, FINEST)
     traced = walk.run("curves", traced_scene, scene, view, sheets, kinds, tolerance)
     for doubt in traced.doubts:
         warnings.warn(doubt, InputWarning, stacklevel=3)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +12,7 @@ from smooth_scenes import few, implicit_surfaces, mixed_scenes, single_surfaces,
 from smooth_seen import Chords, chords_seen
 
 from vectorplot.draw import draw
+from vectorplot.errors import InputWarning
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.strokes import LineKind
@@ -182,3 +184,12 @@ def test_a_sphere_shows_half_of_itself() -> None:
     middle = 0.5 * (chords.start + chords.end)[~contour] @ camera.direction
     sure = np.abs(middle) > 1e-3
     assert np.array_equal(chords.hidden_by[~contour][sure] == 0, middle[sure] > 0.0)
+
+
+def test_a_picture_of_a_very_small_part_costs_no_more_than_others_and_says_that_it_is_coarse() -> None:
+    camera = Camera((8.0, -16.0, 11.0), parallel=True, height=1e-9)
+    with pytest.warns(InputWarning, match="so small a part"):
+        draw(SINGLE["torus"], camera, fit=False)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert len(draw(SINGLE["torus"], camera).layers) > 1

@@ -15,6 +15,7 @@ from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import View, look
+from vectorplot.visibility.framing import reaches_too_far
 from vectorplot.visibility.hidden_lines import Visibility
 from vectorplot.visibility.lines import Lines
 
@@ -47,11 +48,15 @@ def mm_per_image(view: View, surfaces: Sequence[Floats], page: Page, fit: bool) 
     if not fit:
         return float(page.height_mm / view.picture_height)
     points = np.concatenate([view.points, *(points.T for points in surfaces)], axis=1)
-    points = points[:, np.isfinite(points).all(axis=0) & (view.depth_of(points) > view.near)]
+    points = points[:, np.isfinite(points).all(axis=0)]
+    every = points.shape[1]
+    points = points[:, view.depth_of(points) > view.near]
     if not points.shape[1]:
         return float(page.height_mm / view.picture_height)
     image = view.image_of(points)
     fitting = fitted(page, image.min(axis=1), image.max(axis=1))[0, 0]
+    if len(points[0]) == every and not reaches_too_far(view, points, points):
+        return float(fitting)
     return float(max(fitting, (page.height_mm - 2.0 * page.margin_mm) / view.picture_height))
 
 
