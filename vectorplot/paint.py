@@ -94,7 +94,9 @@ def paint(
     painted = walk.run("order", painters_order, view, projected, known=known_orders(facets.scene, view))
     _tell_knots(walk, scene, painted)
     placed = placed_faces(view, painted.faces, page, fit)
-    seen = _Seen(facets.scene, view, projected, placed.framed(painted.faces, page, view.tolerance), placed)
+    seen = _Seen(
+        facets.scene, view, projected, placed.framed(painted.faces, page, view.tolerance), placed, _smooth(facets)
+    )
     world = page_from_world(view, placed.page_from_image)
     lighting = Lighting(scene.items, view_lights(view, scene.lights), _normals(view, facets, smooth), palette)
     if walk.calls_for("erasing"):
@@ -118,13 +120,14 @@ def paint(
 @dataclass(frozen=True, eq=False)
 class _Seen:
     """What is painted: a scene without smooth surfaces, its view, its faces in the image, the polygons of the picture
-    back to front, and where the picture goes."""
+    back to front, where the picture goes, and (i,) which items were smooth surfaces."""
 
     scene: Scene
     view: View
     projected: ProjectedFaces
     faces: ImageFaces
     placed: Placed
+    smooth: Bools
 
 
 def _with_clear_items(scene: Scene) -> Scene:
@@ -170,6 +173,11 @@ def _normals(view: View, facets: FacetedScene, smooth: bool) -> Floats:
     return np.asarray(view.axes @ np.concatenate([np.zeros((0, 3)), *parts]).T)
 
 
+def _smooth(facets: FacetedScene) -> Bools:
+    """(i,) which items are made of facets."""
+    return np.array([normals is not None for normals in facets.normals], dtype=np.bool_)
+
+
 def _shades(seen: _Seen, lighting: Lighting) -> Shades:
     faces = seen.faces
     points = unmapped(seen.view, faces.points)
@@ -191,7 +199,7 @@ def _erased(walk: Walk, seen: _Seen, lighting: Lighting) -> Fills:
         outlines.append(decal_outlines(view, lighting, patterns, faces, placed))
     items = np.arange(len(scene.items))
     ink = item_colours(scene.items, items, np.full(len(items), MIDDLE), lighting.size)
-    return walk.run("erasing", erased_fills, view, faces, placed, _paper(scene), ink, outlines)
+    return walk.run("erasing", erased_fills, view, faces, placed, _paper(scene), ink, seen.smooth, outlines)
 
 
 def _shaded(walk: Walk, seen: _Seen, lighting: Lighting, page: Page, aura_mm: float, tolerance_mm: float) -> Fills:

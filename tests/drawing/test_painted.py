@@ -98,7 +98,7 @@ def test_erasing_leaves_blank_faces_and_their_edges() -> None:
     drawing = vp.paint(scene, fills="erasing")
     fills = drawing.layers[0].fills[0]
     lines = np.diff(fills.offsets) == 2
-    assert (fills.kind[lines] == FillKind.EDGE).all() and (fills.kind[~lines] == FillKind.BACKGROUND).all()
+    assert (fills.kind[lines] == FillKind.EDGE).all() and (fills.kind[~lines] == FillKind.FACE).all()
     first = fills.colours[fills.offsets[:-1]]
     assert (first[~lines] == 255).all() and (first[lines] < 255).any(axis=1).all()
     assert lines.sum() > 9 and not lines[0]
@@ -118,3 +118,15 @@ def test_the_tolerance_decides_how_many_facets_there_are() -> None:
     scene = vp.read(DATA / "torus.scene")
     counts = [len(vp.paint(scene, tolerance_mm=tolerance).layers[0].fills[0]) for tolerance in (0.2, 0.02)]
     assert 4 < counts[1] / counts[0] < 20
+
+
+def test_erasing_draws_the_outlines_of_smooth_surfaces_and_none_of_their_facets() -> None:
+    scene = vp.read(DATA / "torus.scene")
+    fills = vp.paint(scene, fills="erasing").layers[0].fills[0]
+    lines = np.flatnonzero(np.diff(fills.offsets) == 2)
+    points = fills.points3d[fills.offsets[lines]]
+    ring = points * [1.0, 1.0, 0.0]
+    normal = points - 3.0 * ring / np.linalg.norm(ring, axis=1, keepdims=True)
+    sight = np.asarray(scene.camera.eye) - points
+    cosine = (normal * sight).sum(axis=1) / np.linalg.norm(sight, axis=1)
+    assert 50 < len(lines) < 1000 and np.abs(cosine).max() < 0.2
