@@ -29,6 +29,11 @@ Allowed = Callable[[Floats], Floats]
 """How far (...) triangles may be off a surface at points (..., 3)."""
 
 
+TURN, JUMP, LOOKS = np.radians(6.0), np.radians(45.0), 64
+"""Normals turn by no more than the one from a vertex to its neighbours, or shades would come out jagged; where they
+turn by more than the other between two of so many points in each direction, they jump."""
+
+
 @dataclass(frozen=True, eq=False)
 class Facets:
     """A mesh, and the unit normals (v,3) of the true surface at its vertices, NaN where it has none."""
@@ -41,7 +46,7 @@ def facets(shape: Surface | ImplicitSurface, allowed: Allowed) -> Facets:
     """Triangles that are no farther from a smooth surface than is allowed, every vertex on it.
 
     Triangles turn as u to v does; those of an implicit surface are counter-clockwise from where F > 0. Vertices on
-    seams and at poles are one.
+    seams and at poles are one. Triangles are small enough for smooth shades, too: normals turn little on them.
     Error: MOST_CELLS and MOST bound the triangles; distances are measured on some of the cells. Details
     smaller than a FEWESTth of the domain, or a cell of an implicit surface, may be missed.
     Errors: InputError for what is no smooth surface.
@@ -82,9 +87,26 @@ def _fineness(surface: Surface, allowed: Allowed) -> tuple[int, int]:
             break
         across, along = _shared(across, along, worst)
         columns, rows = _more(columns, across), _more(rows, along)
+    turning_columns, turning_rows = _turning(surface)
+    columns, rows = max(columns, turning_columns), max(rows, turning_rows)
     while columns * rows > MOST_CELLS:
         columns, rows = columns // 2 + 1, rows // 2 + 1
     return columns, rows
+
+
+def _turning(surface: Surface) -> tuple[int, int]:
+    """Columns and rows of a grid from point to point of which normals turn by no more than TURN, or nearly so: along
+    rulings they may turn though chords lie on the surface. Normals that jump, as on creases, tell nothing."""
+    u, v = np.meshgrid(*surface.domain.grid(LOOKS, LOOKS), indexing="ij")
+    normals = unit_normals(surface, u.ravel(), v.ravel()).reshape(*u.shape, 3)
+    counts = []
+    for grid in (normals, normals.swapaxes(0, 1)):
+        with np.errstate(invalid="ignore"):
+            turn = np.arccos(np.clip((grid[1:] * grid[:-1]).sum(axis=-1), -1.0, 1.0))
+        smooth = turn[np.isfinite(turn) & (turn < JUMP)]
+        largest = float(np.quantile(smooth, 0.98)) if len(smooth) else 0.0
+        counts.append(min(int(np.ceil(LOOKS * largest / TURN)), MOST))
+    return counts[0], counts[1]
 
 
 def _more(count: int, excess: float) -> int:
