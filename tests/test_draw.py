@@ -269,3 +269,8 @@ def test_models_from_six_views_as_rays_see_them(path: Path, name: str) -> None:
     for hidden in ("none", "solid"):
         drawing = draw(scene, camera, hidden=hidden)
         assert assert_drawing_is_right(drawing, scene, camera, samples=250) > 100
+
+
+def test_one_text_in_place_of_words_is_refused() -> None:
+    with pytest.raises(InputError, match="expected words"):
+        draw(CUBE, lines="contour")

@@ -17,7 +17,7 @@ from vectorplot.drawing.page import mm_per_image, page_from_image, page_from_wor
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.camera import Camera, Point
 from vectorplot.geometry.mesh import Bools, Floats
-from vectorplot.geometry.strokes import LineKind
+from vectorplot.geometry.strokes import LineKind, line_kinds
 from vectorplot.geometry.vectors import cross, normalize
 from vectorplot.plan import StageReport, Walk, plan_draw
 from vectorplot.scene.scene import Page, Scene
@@ -97,7 +97,7 @@ def draw(
     Source: Glaeser, sections 2.1 and 7.2.
     """
     _check_options(hidden, curves, halo_mm, crease_angle_deg, tolerance_mm)
-    kinds = frozenset(map(LineKind.from_word, lines))
+    kinds = line_kinds(lines)
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
     walk = Walk(plan_draw(scene, kinds, hidden, halo_mm), explain, progress)
@@ -144,7 +144,7 @@ def lines_in_place(
 
     place: the (3,3) matrix from the image of a view of the scene to the page. All else as of draw.
     """
-    kinds = frozenset(map(LineKind.from_word, lines))
+    kinds = line_kinds(lines)
     walk = Walk(plan_draw(scene, kinds, "none", 0.0), None, None)
     view = look(scene, camera)
     faces, placed = project_faces(view), place(view)

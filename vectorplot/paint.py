@@ -17,7 +17,7 @@ from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, interleav
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Bools, Floats
-from vectorplot.geometry.strokes import LineKind
+from vectorplot.geometry.strokes import LineKind, line_kinds
 from vectorplot.plan import StageReport, Walk, plan_paint
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.view import View, look
@@ -83,7 +83,7 @@ def paint(
     scene = scene if lights is None else replace(scene, lights=tuple(lights))
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
-    kinds = frozenset(map(LineKind.from_word, lines))
+    kinds = line_kinds(lines)
     walk = Walk(plan_paint(scene, shadows, fills, kinds), explain, progress)
     facets = FacetedScene(scene, (None,) * len(scene.items))
     if walk.calls_for("facets"):

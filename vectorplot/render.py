@@ -13,7 +13,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.projection import CoordinateSystem
-from vectorplot.geometry.strokes import LineKind
+from vectorplot.geometry.strokes import line_kinds
 from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, plan_render
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.view import LARGEST, View, look
@@ -82,9 +82,9 @@ def render(
     upper left, which casts no shadows; nor do transparent items and those that do not occlude.
     Source: Glaeser, sections 4.5, 6.4, 7.3, 8.5 and 8.6; Martin and Tan; Ressler.
     """
-    kinds = tuple(dict.fromkeys(lines))
+    kinds = tuple(kind.word for kind in sorted(line_kinds(lines)))
     _check_whole(columns=size[0], rows=size[1], samples=samples, shadow_size=shadow_size)
-    _check(size, shadows, samples, crease_angle_deg, kinds)
+    _check(size, shadows, samples, crease_angle_deg)
     scene = scene if lights is None else replace(scene, lights=tuple(lights))
     _check_lights(scene.lights)
     camera = camera or scene.camera or default_camera(scene)
@@ -114,7 +114,7 @@ def render(
     return Image(walk.run("average", _averaged, pixels, samples), scene.title)
 
 
-def _check(size: tuple[int, int], shadows: str, samples: int, crease_angle_deg: float, kinds: tuple[str, ...]) -> None:
+def _check(size: tuple[int, int], shadows: str, samples: int, crease_angle_deg: float) -> None:
     if shadows not in ("auto", "none", "buffer", "trapezoid", "exact"):
         raise InputError(f"shadows {shadows!r}: expected auto, none, buffer, trapezoid or exact")
     if not 1 <= samples <= MOST_SAMPLES:
@@ -123,8 +123,6 @@ def _check(size: tuple[int, int], shadows: str, samples: int, crease_angle_deg: 
         raise InputError(f"a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
     raster_size(*size)
     raster_size(size[0] * samples, size[1] * samples)
-    for kind in kinds:
-        LineKind.from_word(kind)
 
 
 def _check_whole(**counts: int) -> None:

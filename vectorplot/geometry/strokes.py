@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -44,6 +45,13 @@ class LineKind(IntEnum):
         if word.upper() not in cls.__members__:
             raise InputError(f"line kind {word!r}: expected one of {', '.join(kind.word for kind in cls)}")
         return cls[word.upper()]
+
+
+def line_kinds(words: Iterable[str]) -> frozenset[LineKind]:
+    """The kinds that some words spell. Errors: InputError for other words, and for one text in place of words."""
+    if isinstance(words, str):
+        raise InputError(f"line kinds {words!r}: expected words, such as ({words!r},)")
+    return frozenset(map(LineKind.from_word, words))
 
 
 @dataclass(frozen=True, eq=False)
