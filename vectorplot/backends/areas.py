@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from vectorplot.backends.transparency_groups import groups_of, outline
 from vectorplot.drawing.clip import clipped_parts
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import SEAM_MM, Colours, FillKind, Fills
@@ -29,9 +30,10 @@ class Areas:
     """Filled polygons, each painted over those before it.
 
     microns (p,2) int64, y upwards; offsets (m+1,); colours (p,3) of the corners; opacity (m,), more than 0; bare (m,):
-    those without a line around them: transparent ones, and blank ones that are there to hide things. A polygon
-    of two corners is a line. All others are counter-clockwise, have an area, and no two neighbouring corners that are
-    equal; they are flat, or triangles that are shaded linearly.
+    those without a line around them: transparent ones, and blank ones that are there to hide things; group (m,): the
+    transparency groups, ascending, -1 for none: those of a group are opaque, and their opacity is that of all. A
+    polygon of two corners is a line. All others are counter-clockwise, have an area, and no two neighbouring corners
+    that are equal; they are flat, or triangles that are shaded linearly.
     """
 
     microns: Ints
@@ -39,6 +41,7 @@ class Areas:
     colours: Colours
     opacity: Floats
     bare: Bools
+    group: Ints
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
@@ -54,6 +57,24 @@ class Areas:
         return _differ(self.colours, self.offsets)
 
     @cached_property
+    def own_opacity(self) -> Floats:
+        """(m,) what each polygon is painted with: 1 in groups."""
+        return np.where(self.group < 0, self.opacity, 1.0)
+
+    @cached_property
+    def group_ends(self) -> Ints:
+        """(g,2) the first polygon of every group, and the one behind its last."""
+        inside = np.flatnonzero(self.group >= 0)
+        _, first, count = np.unique(self.group[inside], return_index=True, return_counts=True)
+        return np.stack((inside[first], inside[first] + count), axis=1)
+
+    def group_outline(self, number: int) -> tuple[Floats, Ints]:
+        """The borders of all polygons of a group together, see transparency_groups.outline."""
+        first, last = self.group_ends[number].tolist()
+        start, end = self.offsets[[first, last]].tolist()
+        return outline(self.microns[start:end], self.offsets[first : last + 1] - start)
+
+    @cached_property
     def runs(self) -> Ints:
         """(r+1,) runs of neighbours that may be painted at once, as the union of their areas, without a change of the
         picture: opaque and of one colour, all of them lines or none; or opaque and shaded. All others stand alone."""
@@ -61,9 +82,9 @@ class Areas:
             return np.zeros(1, dtype=np.intp)
         colour = self.colours[self.offsets[:-1]].astype(np.intp) @ (65536, 256, 1)
         colour = np.where(self.shaded, -1, 4 * colour + 2 * self.bare + (self.sizes == 2))
-        alone = self.opacity < 1.0
+        alone = self.own_opacity < 1.0
         new = np.ones(len(self), dtype=np.bool_)
-        new[1:] = (colour[1:] != colour[:-1]) | alone[1:] | alone[:-1]
+        new[1:] = (colour[1:] != colour[:-1]) | (self.group[1:] != self.group[:-1]) | alone[1:] | alone[:-1]
         starts = np.flatnonzero(new)
         since = np.arange(len(self)) - np.repeat(starts, np.diff(np.append(starts, len(self))))
         return np.append(np.flatnonzero(since % RUN_LENGTH == 0), len(self))
@@ -82,8 +103,18 @@ def areas(fills: Fills, width_mm: float, height_mm: float) -> Areas:
     drawn = _fanned(_clipped(drawn, width_mm, height_mm))
     microns, offsets, colours, kept = rounded(drawn)
     source = drawn.source[kept]
-    bare = (solid.opacity < 1.0) | (solid.kind == FillKind.BACKGROUND)
-    return Areas(microns, offsets, colours, solid.opacity[source], bare[source])
+    opacity, blank = solid.opacity[source], solid.kind[source] == FillKind.BACKGROUND
+    group = groups_of(microns, offsets, _alike(solid, source, np.diff(offsets)))
+    return Areas(microns, offsets, colours, opacity, blank | ((opacity < 1.0) & (group < 0)), group)
+
+
+def _alike(fills: Fills, source: Ints, sizes: Ints) -> Ints:
+    """(m,) numbers of the runs of transparent neighbours of one item, kind and opacity, -1 for all other polygons."""
+    alike = np.stack((fills.opacity, fills.item, fills.kind), axis=1)[source]
+    new = np.ones(len(source), dtype=np.bool_)
+    new[1:] = (alike[1:] != alike[:-1]).any(axis=1)
+    clear = (alike[:, 0] < 1.0) & (alike[:, 2] != FillKind.BACKGROUND) & (sizes > 2)
+    return np.where(clear, np.cumsum(new), -1)
 
 
 @dataclass(frozen=True, eq=False)

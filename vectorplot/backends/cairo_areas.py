@@ -27,34 +27,72 @@ def paint(
     """
     points = (areas.microns * (scale, -scale) + (0.0, height)).tolist()
     colours = [(r, g, b) for r, g, b in (areas.colours / 255.0).tolist()]
-    starts, runs = areas.offsets.tolist(), areas.runs.tolist()
-    opacity, shaded, line = areas.opacity.tolist(), areas.shaded.tolist(), (areas.sizes == 2).tolist()
-    bare = areas.bare.tolist()
-    for first, last in pairwise(runs):
+    starts, shaded, line = areas.offsets.tolist(), areas.shaded.tolist(), (areas.sizes == 2).tolist()
+    opacity, bare, group = areas.own_opacity.tolist(), areas.bare.tolist(), areas.group.tolist()
+    ends = dict(areas.group_ends.tolist())
+    end, clip = -1, None
+    for first, last in pairwise(areas.runs.tolist()):
+        if first in ends:
+            corners, rings = areas.group_outline(group[first])
+            end, clip = ends[first], ((corners * (scale, -scale) + (0.0, height)).tolist(), rings.tolist())
+            _begin_group(context, clip[0])
         if shaded[first]:
-            corners = range(starts[first], starts[last], 3)
-            if opacity[first] == 1.0:
-                sides = _outer_sides(areas.microns[corners.start : corners.stop])
-                _seams(context, points, colours, sides, corners.start, seam)
-            mesh = _mesh(points, colours, corners, opacity[first])
-            context.set_source(mesh)
-            if opacity[first] == 1.0:
-                context.paint()
-            else:
-                # Meshes cover all of the pixels on their borders: where neighbours meet, things would be seen twice.
-                _outline(context, points, starts[first : last + 1])
-                context.fill()
-            continue
-        _outline(context, points, starts[first : last + 1])
-        red, green, blue = colours[starts[first]]
-        context.set_source_rgba(red, green, blue, opacity[first])
-        if line[first]:
-            context.set_line_width(line_width)
-            context.stroke()
-        elif bare[first]:
-            context.fill()
+            _paint_shaded(context, areas, points, colours, (first, last), seam)
         else:
-            _filled(context, seam)
+            _outline(context, points, starts[first : last + 1])
+            red, green, blue = colours[starts[first]]
+            context.set_source_rgba(red, green, blue, opacity[first])
+            if line[first]:
+                context.set_line_width(line_width)
+                context.stroke()
+            elif bare[first]:
+                context.fill()
+            else:
+                _filled(context, seam)
+        if clip is not None and last == end:
+            _end_group(context, *clip, areas.opacity[first])
+            clip = None
+
+
+def _paint_shaded(
+    context: cairo.Context[Any], areas: Areas, points: Corners, colours: Colours, run: tuple[int, int], seam: float
+) -> None:
+    """Paint a run of shaded triangles."""
+    starts = areas.offsets[run[0] : run[1] + 1].tolist()
+    opacity = float(areas.own_opacity[run[0]])
+    corners = range(starts[0], starts[-1], 3)
+    if opacity == 1.0:
+        sides = _outer_sides(areas.microns[corners.start : corners.stop])
+        _seams(context, points, colours, sides, corners.start, seam)
+    context.set_source(_mesh(points, colours, corners, opacity))
+    if opacity == 1.0:
+        context.paint()
+    else:
+        # Meshes cover all of the pixels on their borders: where neighbours meet, things would be seen twice.
+        _outline(context, points, starts)
+        context.fill()
+
+
+def _begin_group(context: cairo.Context[Any], corners: Corners) -> None:
+    """Paint to a transparency group from now on, as large as the whole pixels or points around its outline."""
+    places = np.array(corners).reshape(-1, 2)
+    low, high = np.floor(places.min(axis=0)), np.ceil(places.max(axis=0))
+    context.save()
+    context.rectangle(*low.tolist(), *(high - low).tolist())
+    context.clip()
+    context.push_group()
+
+
+def _end_group(context: cairo.Context[Any], corners: Corners, rings: list[int], opacity: float) -> None:
+    """Blend the group inside its outline: a clip set before would cover the pixels on its border twice."""
+    import cairo
+
+    context.pop_group_to_source()
+    _outline(context, corners, rings)
+    context.set_fill_rule(cairo.FILL_RULE_EVEN_ODD)
+    context.clip()
+    context.paint_with_alpha(opacity)
+    context.restore()
 
 
 def _outline(context: cairo.Context[Any], points: Corners, starts: list[int]) -> None:

@@ -30,12 +30,32 @@ def area_elements(areas: Areas, pen_mm: float, name: str, height: int) -> bytes:
     alone = np.concatenate((place, place + 1))
     starts = np.union1d(pieces.runs[:-1], alone[alone < len(pieces)])
     heads = _heads(pieces, starts, pen_mm)
-    of_strips = _gradient_heads(strips, pieces.opacity[place], name, height)
+    of_strips = _gradient_heads(strips, pieces.own_opacity[place], name, height)
     for k, head in zip(np.searchsorted(starts, place).tolist(), of_strips, strict=True):
         heads[k] = head
     bodies = _data(pieces, starts, height).split(_RUN)[1:]
+    begins, ends = np.searchsorted(starts, pieces.group_ends.T).tolist()
+    numbers = pieces.group[pieces.group_ends[:, 0]].tolist()
+    for number, begin, end in zip(numbers, begins, ends, strict=True):
+        heads[begin] = _group_head(areas, number, name, height) + heads[begin]
+        bodies[end - 1] += b"</g>\n"
     paths = b"".join([part for pair in zip(heads, bodies, strict=True) for part in pair])
     return f'<g stroke-width="{SEAM_MM:g}">\n'.encode() + paths + b"</g>\n"
+
+
+def _group_head(areas: Areas, number: int, name: str, height: int) -> bytes:
+    """The outline of a transparency group, which clips it, and the beginning of its element."""
+    corners, offsets = areas.group_outline(number)
+    x, y = corners.astype(np.int64).T
+    first, last = np.full(len(x), ord(" "), np.uint8), np.zeros(len(x), np.uint8)
+    first[offsets[:-1]], last[offsets[1:] - 1] = ord("M"), ord("Z")
+    identity = f"{ID_PREFIX.decode()}-{name}-group-{number}"
+    opacity = areas.opacity[areas.group_ends[number, 0]]
+    return (
+        f'<clipPath id="{identity}"><path clip-rule="evenodd" d="'.encode()
+        + formatted(first, x, height - y, last)
+        + f'"/></clipPath>\n<g opacity="{opacity:.3g}" clip-path="url(#{identity})">\n'.encode()
+    )
 
 
 def _data(areas: Areas, starts: Ints, height: int) -> bytes:
@@ -60,7 +80,7 @@ def _heads(areas: Areas, starts: Ints, pen_mm: float) -> list[bytes]:
     """The elements of the runs up to their data, those of flat polygons and lines."""
     packed = areas.colours[areas.offsets[starts]].astype(np.intp) @ (65536, 256, 1)
     heads = [b'<path fill="#%06x" stroke="#%06x" d="M' % (c, c) for c in packed.tolist()]
-    line, clear, bare = areas.sizes[starts] == 2, areas.opacity[starts] < 1.0, areas.bare[starts]
+    line, clear, bare = areas.sizes[starts] == 2, areas.own_opacity[starts] < 1.0, areas.bare[starts]
     for k in np.flatnonzero(line | bare).tolist():
         opacity = f"{areas.opacity[starts[k]]:.3g}"
         if line[k]:
@@ -108,5 +128,6 @@ def _with_strips(areas: Areas) -> tuple[Areas, Strips, Ints]:
         np.concatenate((areas.colours[corner], one_colour))[moved],
         areas.opacity[source[order]],
         areas.bare[source[order]],
+        areas.group[source[order]],
     )
     return pieces, strips, np.flatnonzero(order >= len(others))

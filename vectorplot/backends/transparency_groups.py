@@ -1,0 +1,107 @@
+"""Neighbouring transparent polygons of one item, taken together: opaque to each other, transparent as a whole.
+
+Blended one by one, polygons with a common side let the paper through along it, or cover it twice. A transparency group
+is painted as if it were opaque, the lines along common sides included, and then blended once, inside its outline.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vectorplot.drawing.pieces import offsets_of, ranges
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+
+ROUNDING_MICRONS = 2.0
+"""Polygons that overlap by no more than a strip of about this width lie side by side: their corners are rounded to
+microns."""
+
+MOST_NEIGHBOURS = 64
+"""With more boxes than this across that of a polygon, in the mean, they lie over each other in heaps, and stay alone:
+to compare all pairs would take longer than to draw them."""
+
+_SHAPES_AT_ONCE = 256
+
+
+def groups_of(microns: Ints, offsets: Ints, run: Ints) -> Ints:
+    """(m,) the transparency groups of polygons, ascending from 0, and -1 for polygons that are in none.
+
+    microns (p,2) corners, counter-clockwise; run (m,): neighbours of one number of at least 0 may share a group, as
+    they are of one item and equally transparent. Polygons of one group follow each other, and do not overlap, as what
+    is seen through two of them is to be seen through both; at least two of a group touch.
+    Degenerate: polygons that cross themselves are in none, nor are those of a heap.
+    """
+    group = np.full(len(run), -1, dtype=np.intp)
+    near = run[1:] == run[:-1]
+    beside = np.zeros(len(run), dtype=np.bool_)
+    beside[1:] |= near
+    beside[:-1] |= near
+    which = np.flatnonzero(beside & (run >= 0))
+    if not len(which):
+        return group
+    import shapely
+
+    sizes = np.diff(offsets)[which]
+    corner = ranges(offsets[which], sizes)
+    rings = shapely.linearrings(microns[corner], indices=np.repeat(np.arange(len(which)), sizes))
+    raw = shapely.polygons(rings)
+    shapes = shapely.make_valid(raw)
+    simple = np.abs(shapely.area(shapes) - shapely.area(raw)) <= 0.5
+    one, other = _neighbours(shapes, np.where(simple, run[which], -1))
+    if not len(one):
+        return group
+    common = shapely.intersection(shapes[one], shapes[other])
+    over = shapely.area(common) > ROUNDING_MICRONS * shapely.length(common) / 2.0
+    new = np.append(True, (np.diff(which) > 1) | (np.diff(run[which]) != 0))
+    new |= ~simple | np.append(False, ~simple[:-1])
+    number = _split(new, one[over], other[over])
+    touching = np.unique(number[one][number[one] == number[other]])
+    member = np.isin(number, touching)
+    group[which[member]] = np.searchsorted(touching, number[member])
+    return group
+
+
+def _neighbours(shapes: NDArray[np.object_], run: Ints) -> tuple[Ints, Ints]:
+    """The pairs of shapes of one run that overlap or touch, the earlier one first; none at all if their boxes are in
+    one another's way more often than MOST_NEIGHBOURS allows. Shapes of the run -1 have no neighbours."""
+    import shapely
+
+    tree, met, found = shapely.STRtree(shapes), 0, []
+    for start in range(0, len(shapes), _SHAPES_AT_ONCE):
+        one, other = tree.query(shapes[start : start + _SHAPES_AT_ONCE])
+        met += len(one)
+        if met > MOST_NEIGHBOURS * (len(shapes) + _SHAPES_AT_ONCE):
+            return np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp)
+        one = one + start
+        pair = (one < other) & (run[one] == run[other]) & (run[one] >= 0)
+        one, other = one[pair], other[pair]
+        found.append(np.stack((one, other))[:, shapely.intersects(shapes[one], shapes[other])])
+    first, second = np.concatenate(found, axis=1)
+    return first, second
+
+
+def _split(new: Bools, one: Ints, other: Ints) -> Ints:
+    """(n,) numbers of groups, ascending, that begin where new is true and before each polygon (other) that overlaps an
+    earlier one of its group (one). They are as long as they can be."""
+    latest = np.where(new, np.arange(len(new)) - 1, -1)
+    np.maximum.at(latest, other, one)
+    latest = np.maximum.accumulate(latest)
+    starts, at = [], 0
+    while at < len(new):
+        starts.append(at)
+        at = int(np.searchsorted(latest, at))
+    return np.searchsorted(np.array(starts), np.arange(len(new)), side="right") - 1
+
+
+def outline(microns: Ints, offsets: Ints) -> tuple[Floats, Ints]:
+    """The borders of the union of polygons, as rings to be filled by the rule of even and odd: corners (q,2) in whole
+    microns, the first of each ring not repeated, and offsets (r+1,)."""
+    import shapely
+
+    rings = shapely.linearrings(microns, indices=np.repeat(np.arange(len(offsets) - 1), np.diff(offsets)))
+    united = shapely.union_all(shapely.make_valid(shapely.polygons(rings)))
+    parts = shapely.get_parts(united)
+    borders = shapely.get_rings(parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON])
+    corners, ring = shapely.get_coordinates(borders, return_index=True)
+    first = np.append(True, ring[1:] != ring[:-1])[: len(ring)]
+    return np.rint(corners[~first]), offsets_of(np.bincount(ring[~first], minlength=len(borders)))
