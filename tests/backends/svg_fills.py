@@ -19,7 +19,10 @@ def filled_polygons(layer: ElementTree.Element) -> list[tuple[np.ndarray, np.nda
         for gradient in layer.iter(f"{SVG}linearGradient")
     }
     found = []
+    clips = {path for clip in layer.iter(f"{SVG}clipPath") for path in clip}
     for path in layer.iter(f"{SVG}path"):
+        if path in clips:
+            continue
         fill = path.get("fill", path.get("stroke"))
         colour = stops[fill] if fill in stops else _rgb(fill)
         for text in path.get("d").split("M")[1:]:
