@@ -125,11 +125,8 @@ def test_hard_shapes_have_right_shadows(name: str) -> None:
 
 
 @pytest.mark.capability("G6.3-shadow")
-@pytest.mark.parametrize("offset", [0.0, 1e6])
-@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize(("size", "offset"), [(1e-6, 0.0), (1.0, 0.0), (1e6, 0.0), (1.0, 1e6), (1e6, 1e6)])
 def test_the_shadow_of_a_triangle_is_where_rays_through_its_corners_meet_the_floor(size: float, offset: float) -> None:
-    if offset * 1e-6 > size:
-        pytest.skip("nothing is left of coordinates")
     shift = np.array([offset, -offset, offset])
     triangle = np.array([[0.0, 0.0, 1.0], [1.0, 0.2, 1.5], [0.3, 0.9, 2.0]])
     lamp = np.array([-0.5, -0.4, 4.0])

@@ -8,14 +8,15 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.drawing.painted import Overlay, Placed, fills_on_page
+from vectorplot.drawing.painted import Overlay, Placed
 from vectorplot.effects.glass import seen_in_glass
+from vectorplot.effects.seen_fills import seen_fills
 from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
+from vectorplot.shading.painted_colours import Lighting
 from vectorplot.shading.palettes import Colours
-from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
+from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.projected_faces import ProjectedFaces
 
 
@@ -34,19 +35,7 @@ def glass_fills(
     Source: Glaeser, section 6.6, figure 12.
     """
     seen = seen_in_glass(scene, view, projected, faces, tolerance_mm / placed.page_from_image[0, 0])
-    shades = corner_shades_of(view, lighting, unmapped(view, seen.points), seen.offsets, seen.source)
-    source = np.repeat(seen.source, np.diff(seen.offsets))
-    fills = fills_on_page(
-        view,
-        seen.points,
-        seen.offsets,
-        placed,
-        colours=colours_of(view, lighting, source, shades.total),
-        opacity=opacities(scene.items)[view.face_item[seen.source]],
-        item=view.face_item[seen.source],
-        kind=np.full(len(seen), int(FillKind.GLASS)),
-    )
-    return Overlay(fills, seen.window)
+    return seen_fills(view, lighting, seen, placed, FillKind.GLASS)
 
 
 def tinted(

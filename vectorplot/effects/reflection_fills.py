@@ -8,16 +8,17 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, overlaid
+from vectorplot.drawing.painted import Overlay, Placed, overlaid
 from vectorplot.effects.decal_fills import decal_fills
 from vectorplot.effects.decals import Decals
 from vectorplot.effects.reflections import DIMMED, Mirrors, doubled, reflections
+from vectorplot.effects.seen_fills import seen_fills
 from vectorplot.effects.windows import SeenThrough
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
-from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
-from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, unmapped
+from vectorplot.shading.painted_colours import Lighting
+from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions
 
 DecalsOf = Callable[[int, Lighting, Bools], Sequence[Decals]]
 """The decals, in the double of a view, on what the mirror with a number shows; the light there; (f,) the faces."""
@@ -51,21 +52,8 @@ def reflection_fills(
 def _of_double(
     mirrored: View, lighting: Lighting, decals: Sequence[Decals], seen: SeenThrough, placed: Placed
 ) -> Overlay:
-    points = unmapped(mirrored, seen.points)
-    shades = corner_shades_of(mirrored, lighting, points, seen.offsets, seen.source)
-    source = np.repeat(seen.source, np.diff(seen.offsets))
-    fills = fills_on_page(
-        mirrored,
-        seen.points,
-        seen.offsets,
-        placed,
-        colours=colours_of(mirrored, lighting, source, shades.total),
-        opacity=opacities(lighting.items)[mirrored.face_item[seen.source]],
-        item=mirrored.face_item[seen.source],
-        kind=np.full(len(seen), int(FillKind.REFLECTION)),
-    )
     overlays = [decal_fills(mirrored, lighting, some, seen, placed) for some in decals]
-    whole = overlaid(Overlay(fills, seen.window), overlays)
+    whole = overlaid(seen_fills(mirrored, lighting, seen, placed, FillKind.REFLECTION), overlays)
     count = len(whole.fills)
     dimmed = np.rint(DIMMED * whole.fills.colours).astype(np.uint8)
     return replace(whole, fills=replace(whole.fills, colours=dimmed, kind=np.full(count, int(FillKind.REFLECTION))))
