@@ -11,34 +11,23 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.geometry.revolution import revolution
 from vectorplot.geometry.solids import box
 from vectorplot.geometry.vectors import translated
-from vectorplot.scene.view import look
-from vectorplot.shading.depth_cueing import LEAST, edge_shades
-from vectorplot.shading.face_shades import depth_limits
-from vectorplot.shading.palettes import palette, shaded_colours
+from vectorplot.shading.palettes import SIZE
 
 GLASS = revolution([(1.3, 0, 0), (0.2, 0, 0.3), (0.2, 0, 2), (1, 0, 2.6), (1.3, 0, 3.5), (1.1, 0, 4.5)], 36)
 ROW = 7
 
 
 def wires() -> vp.Drawing:
-    """The edges of a wine glass on black paper, those far away first and darker."""
-    scene = vp.Scene((vp.Item("GLASS", GLASS),))
+    """The edges of a wine glass on black paper, those far away darker."""
+    scene = vp.Scene((vp.Item("GLASS", GLASS, "yellow"),), title="Wire model")
     camera = vp.Camera(eye=(3, -9, 7), target=(0, 0, 2.2), fov_deg=30)
-    view = look(scene, camera)
-    pairs = np.sort(np.column_stack([GLASS.corners, GLASS.corners[GLASS.next_corner]]), axis=1)
-    edges = np.unique(pairs, axis=0)
-    edges = edges[np.argsort(view.points[2, edges].sum(axis=1))]
-    shade = edge_shades(*view.points[2, edges].T, *depth_limits(view))
-    assert (np.diff(shade) > -1e-9).all() and shade.min() >= LEAST and shade.max() <= 1.0
-    points = (35, 45) + 34.0 * view.image_of(view.points[:, edges.ravel()]).T
-    sheet = Fills.flat(np.array([(0, 0), (70, 0), (70, 90), (0, 90.0)]), np.array([0, 4]), palette("black")[-1:])
-    colours = shaded_colours(["yellow"], np.zeros(len(edges), dtype=int), shade, 256)
-    lines = Fills.flat(points, 2 * np.arange(len(edges) + 1), colours, kind=FillKind.EDGE)
-    return vp.Drawing(70, 90, (vp.Layer("wires", vp.Pen(0.35), (sheet, lines)),), title="Wire model")
+    drawing = vp.draw(scene, camera, page=vp.Page(70, 90, 5), style="depth-cue")
+    shades = [int(layer.name.split()[1]) for layer in drawing.layers[1:]]
+    assert shades == sorted(shades) and shades[0] <= 0.3 * SIZE and shades[-1] >= 0.9 * SIZE
+    return drawing
 
 
 def boxes() -> vp.Drawing:

@@ -48,6 +48,9 @@ FINEST = 1e-7
 DRAWN = ("contour", "boundary", "crease", "intersection", "pattern", "parameter", "isophote", "section", "curve")
 """The kinds of lines that are drawn where nothing else is said."""
 
+WIRES = ("contour", "boundary", "crease", "edges", "pattern", "parameter", "isophote", "section", "curve")
+"""Those of a wireframe: every edge, and no line in which things pierce each other."""
+
 
 def default_camera(scene: Scene, up: Point = (0.0, 0.0, 1.0)) -> Camera:
     """A central projection of the whole scene from the front, the right and above, for what stands upright along up.
@@ -70,8 +73,9 @@ def draw(
     *,
     page: Page | None = None,
     fit: bool = True,
-    lines: Iterable[str] = DRAWN,
+    lines: Iterable[str] | None = None,
     crease_angle_deg: float = 25.0,
+    style: Literal["plain", "wireframe", "depth-cue"] = "plain",
     hidden: Literal["none", "dashed", "solid"] = "none",
     halo_mm: float = 0.0,
     layers: Literal["kind", "object", "colour"] = "kind",
@@ -84,7 +88,9 @@ def draw(
 
     camera and page: those of the scene where None, else default_camera and A4. fit: the picture fills the page but
     for its margin; otherwise the page centre is the target and the page height the camera's picture height. lines:
-    words of LineKind; an item's own come first. crease_angle_deg: sharper edges are creases. hidden: hidden lines are
+    words of LineKind, DRAWN or WIRES where None; an item's own come first. crease_angle_deg: sharper edges are creases.
+    style: plain, or a wireframe: nothing hides anything, all lines have the middle shades of their items' palettes, or
+    go by their depth (depth-cue), on a sheet in the scene's background or the darkest gray. hidden: hidden lines are
     left out, dashed, or solid on a layer of their own. halo_mm: lines end so far beside what is in front of them.
     layers: what shares a layer. curves: strokes of smooth curves are fitted with cubic Béziers and elliptic arcs, or
     stay polylines. tolerance_mm: how far strokes of smooth curves may be off the true curves; their
@@ -94,13 +100,14 @@ def draw(
     Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees
     off the principal ray, a fitted picture shows the camera's field of vision. An InputWarning says where a picture
     shows so little of the scene that the tolerance cannot be kept.
-    Source: Glaeser, sections 2.1 and 7.2.
+    Source: Glaeser, sections 2.1, 4.4 and 7.2.
     """
     _check_options(hidden, curves, halo_mm, crease_angle_deg, tolerance_mm)
-    kinds = line_kinds(lines)
+    _check_style(style, hidden=hidden != "none", halo_mm=halo_mm > 0.0, layers=layers != "kind")
+    kinds = line_kinds((DRAWN if style == "plain" else WIRES) if lines is None else lines)
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
-    walk = Walk(plan_draw(scene, kinds, hidden, halo_mm), explain, progress)
+    walk = Walk(plan_draw(scene, kinds, hidden, halo_mm, style), explain, progress)
     view = walk.run("look", look, scene, camera)
     faces = walk.run("faces", project_faces, view)
     solid = solid_items(view, faces)
@@ -124,7 +131,12 @@ def draw(
         seen = walk.run("halo", halo, view, framed, seen, halo_mm / placed[0, 0])
     world = page_from_world(view, placed)
     strokes = walk.run("strokes", strokes_on_page, view, framed, seen, placed)
-    sorted_layers = walk.run("layers", _layers, scene, strokes, layers)
+    if style == "plain":
+        sorted_layers = walk.run("layers", _layers, scene, strokes, layers)
+    else:
+        from vectorplot.effects.wireframe import wire_layers
+
+        sorted_layers = walk.run("layers", wire_layers, scene, view, strokes, page, style)
     pens = walk.run("pen", inked, sorted_layers, hidden, world, tolerance_mm if curves == "bezier" else None)
     names = tuple(item.name for item in scene.items)
     return Drawing(page.width_mm, page.height_mm, pens, names, scene.title, world)
@@ -194,6 +206,15 @@ def _check_options(hidden: str, curves: str, halo_mm: float, crease_angle_deg: f
         raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected a length that is finite and positive")
 
 
+def _check_style(style: str, **others: bool) -> None:
+    """InputError for an unknown style, and for options, by their names, that wireframes leave nothing to do."""
+    if style not in ("plain", "wireframe", "depth-cue"):
+        raise InputError(f"style {style!r}: expected plain, wireframe or depth-cue")
+    for name, given in others.items():
+        if given and style != "plain":
+            raise InputError(f"{name} does not go with the style {style}, which shows all lines, in colours of its own")
+
+
 def _sheets(walk: Walk, scene: Scene, view: View) -> tuple[SmoothSheet, ...]:
     """The smooth surfaces of the scene, if it has any."""
     if not walk.calls_for("curves"):
@@ -230,6 +251,10 @@ def _with_curves(
 
 
 def _visibility(walk: Walk, view: View, faces: ProjectedFaces, solid: Bools, lines: Lines) -> Visibility:
+    if walk.calls_for("all lines"):
+        from vectorplot.effects.wireframe import all_lines
+
+        return walk.run("all lines", all_lines, lines)
     segments = Segments(lines.start, lines.end)
     if walk.calls_for("visible lines"):
         return walk.run("visible lines", visible_parts, view, faces, solid, segments, walk.fraction("visible lines"))

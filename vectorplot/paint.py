@@ -340,5 +340,4 @@ def _background(scene: Scene, page: Page) -> tuple[Fills, ...]:
     """A sheet of the scene's own colour, if it names one."""
     if scene.background is None:
         return ()
-    corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]) * (page.width_mm, page.height_mm)
-    return (Fills.flat(corners, np.array([0, 4]), _paper(scene), kind=FillKind.BACKGROUND),)
+    return (Fills.whole_page(page.width_mm, page.height_mm, _paper(scene)[0]),)

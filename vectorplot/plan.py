@@ -42,7 +42,9 @@ class StageReport:
     peak_mb: float
 
 
-def plan_draw(scene: Scene, kinds: frozenset[LineKind], hidden: str, halo_mm: float) -> tuple[Stage, ...]:
+def plan_draw(
+    scene: Scene, kinds: frozenset[LineKind], hidden: str, halo_mm: float, style: str = "plain"
+) -> tuple[Stage, ...]:
     """The stages that drawing this scene calls for, in their order; nothing else runs."""
     wanted = kinds.union(*(map(LineKind.from_word, item.lines) for item in scene.items if item.lines is not None))
     stages = [
@@ -63,7 +65,9 @@ def plan_draw(scene: Scene, kinds: frozenset[LineKind], hidden: str, halo_mm: fl
         stages.append(Stage("curves", "items are smooth surfaces"))
         stages.append(Stage("smooth surfaces", "they hide curves and lines"))
     stages.append(Stage("frame", "what is in front of the eye and inside the picture"))
-    if hidden == "none":
+    if style != "plain":
+        stages.append(Stage("all lines", f"nothing hides anything in the style {style}"))
+    elif hidden == "none":
         stages.append(Stage("visible lines", "hidden lines are left out"))
     else:
         stages.append(Stage("counted lines", f"hidden lines are drawn {hidden}"))

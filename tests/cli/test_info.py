@@ -33,7 +33,7 @@ def test_info_counts_the_faces_that_were_taken_away(tmp_path, capsys):
     assert run(["info", str(scene)]) == 0
     first, last = capsys.readouterr().out.splitlines()
     assert "6 faces (1 of them removed), closed" in first
-    assert last.startswith("1 item, 6 faces, 1 light, ")
+    assert last.startswith("1 item, 8 vertices, 12 edges, 6 faces, 1 light, ")
 
 
 def test_info_tells_which_surfaces_there_are_and_what_is_drawn_on_them(tmp_path, capsys):
@@ -50,5 +50,5 @@ def test_info_tells_which_surfaces_there_are_and_what_is_drawn_on_them(tmp_path,
         "BLOB: implicit surface, box of size 4 x 4 x 4",
         "SHEET: implicit surface (quadric), box of size 2 x 2 x 2",
         "CUBE: 8 vertices, 12 edges, 6 faces, closed, convex, size 1 x 1 x 1",
-        "4 items, 3 surfaces, 6 faces, 0 lights, size 8 x 8 x 4",
+        "4 items, 3 surfaces, 8 vertices, 12 edges, 6 faces, 0 lights, size 8 x 8 x 4",
     ]

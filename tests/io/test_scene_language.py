@@ -301,15 +301,6 @@ def test_names_stand_in_the_order_of_the_file():
     assert [item.name for item in scene.items] == ["B", "A", "my box", "camera", "Straße"]
 
 
-@pytest.mark.capability("G3.1-pools")
-def test_counts_of_the_scene_are_the_sums_over_its_items():
-    scene = read_scene(DATA / "town.scene")
-    assert len(scene.items) == 31
-    records = [body_record(item.shape) for item in scene.items]
-    assert sum(r.vertex_count for r in records) == len(np.concatenate([i.shape.vertices for i in scene.items]))
-    assert all(r.vertex_count - r.edge_count + r.face_count == 2 for r in records)
-
-
 @pytest.mark.capability("G3.6-demo")
 def test_an_intersection_is_drawn_in_place_of_its_parts():
     scene = parse_scene("""CONE gray revolution solid

@@ -31,7 +31,6 @@ def test_nearer_edges_are_never_darker():
     assert (np.diff(edge_shades(z, z + 0.3, -4.0, 6.0)) >= 0).all()
 
 
-@pytest.mark.capability("G4.4-wireframe")
 def test_edges_without_depth_cueing_have_the_middle_shade():
     assert shade_numbers(MIDDLE, 32) == 16
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.options import DRAWN, KINDS, at_least, between, format_of, kinds
+from vectorplot.cli.options import KINDS, at_least, between, format_of, kinds
 from vectorplot.cli.picture import make_picture
 from vectorplot.cli.view import CAMERA_OPTIONS, PAGE_OPTIONS, CameraOptions, camera_from, page_from, with_options
 
@@ -24,9 +24,20 @@ FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
 @click.option("-o", "--out", required=True, type=click.Path(), metavar="OUT", help="File to write; - for stdout.")
 @click.option("--format", "format_", type=click.Choice(FORMATS), help="Format, where the name of OUT does not tell.")
 @with_options(*CAMERA_OPTIONS, *PAGE_OPTIONS)
-@click.option("--lines", type=kinds, default=",".join(DRAWN), metavar="KIND,...", help=f"Some of {', '.join(KINDS)}.")
+@click.option(
+    "--lines",
+    type=kinds,
+    metavar="KIND,...",
+    help=f"Some of {', '.join(KINDS)}.  [default: all but edges; in wireframes all but intersection]",
+)
 @click.option(
     "--crease-angle", type=at_least(0.0, at_most=180.0), default=25.0, metavar="DEG", help="Sharper edges are creases."
+)
+@click.option(
+    "--style",
+    type=click.Choice(["plain", "wireframe", "depth-cue"]),
+    default="plain",
+    help="Hidden lines removed; or all lines shown, in one shade or by their depth.",
 )
 @click.option("--hidden", type=click.Choice(["none", "dashed", "solid"]), default="none", help="How hidden lines look.")
 @click.option("--halo", type=at_least(0.0), default=0.0, metavar="MM", help="Gap beside lines that lie in front.")
@@ -52,6 +63,7 @@ def draw(scene_file: str, out: str, format_: str | None, quiet: bool, explain: b
             fit=options["fit"],
             lines=options["lines"],
             crease_angle_deg=options["crease_angle"],
+            style=options["style"],
             hidden=options["hidden"],
             halo_mm=options["halo"],
             layers=options["layers"],

@@ -123,6 +123,12 @@ class Fills:
         )
 
     @classmethod
+    def whole_page(cls, width_mm: float, height_mm: float, colour: Colours) -> Fills:
+        """A sheet of paper in a colour (3,)."""
+        corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]) * (width_mm, height_mm)
+        return cls.flat(corners, np.array([0, 4]), colour[None, :], kind=FillKind.BACKGROUND)
+
+    @classmethod
     def joined(cls, *parts: Fills) -> Fills:
         """The polygons of all parts, one part after the other."""
         some = parts or (cls.empty(),)

@@ -60,14 +60,14 @@ def layers_by_kind(paths: Paths) -> tuple[Layer, ...]:
     names = tuple(PENS)
     of_kind = np.array([names.index(KIND_LAYER[kind]) for kind in LineKind])
     which = np.where(paths.hidden_by > 0, names.index("hidden"), of_kind[paths.kind])
-    return _layers(paths, which, [(name, PENS[name], name != "hidden") for name in names])
+    return layers_of(paths, which, [(name, PENS[name], name != "hidden") for name in names])
 
 
 def layers_by_object(paths: Paths, items: Sequence[str]) -> tuple[Layer, ...]:
     """A layer for every item in the order of the scene, and one for hidden lines, without the empty ones at the end."""
     which = np.where(paths.hidden_by > 0, len(items), paths.item)
     pens = [(name, PENS["visible"], True) for name in items]
-    return _layers(paths, which, [*pens, ("hidden", PENS["hidden"], False)])
+    return layers_of(paths, which, [*pens, ("hidden", PENS["hidden"], False)])
 
 
 def layers_by_colour(paths: Paths, colours: Sequence[str]) -> tuple[Layer, ...]:
@@ -81,7 +81,7 @@ def layers_by_colour(paths: Paths, colours: Sequence[str]) -> tuple[Layer, ...]:
     shown = paths.hidden_by == 0
     which[shown] = of_item[paths.item[shown]]
     pens = [(name, Pen(PENS["visible"].width_mm, ink(name)), True) for name in names]
-    return _layers(paths, which, [*pens, ("hidden", PENS["hidden"], False)])
+    return layers_of(paths, which, [*pens, ("hidden", PENS["hidden"], False)])
 
 
 def ink(colour: str) -> str:
@@ -94,7 +94,9 @@ def ink(colour: str) -> str:
     return COLOURS.get(colour.removeprefix("light").removeprefix("dark"), COLOURS["gray"])
 
 
-def _layers(paths: Paths, which: Ints, named: Sequence[tuple[str, Pen, bool]]) -> tuple[Layer, ...]:
+def layers_of(paths: Paths, which: Ints, named: Sequence[tuple[str, Pen, bool]]) -> tuple[Layer, ...]:
+    """The named layers, each with its pen and whether it is plotted, without the empty ones at the end; which (m,): the
+    layer of every stroke."""
     order = np.argsort(which, kind="stable")
     bounds = np.searchsorted(which[order], np.arange(len(named) + 1))
     return tuple(

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair import mesh_report
+from vectorplot.geometry.repair import MeshReport, mesh_report
 from vectorplot.io.scene_surface_writer import curve_text, surface_text
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Item, Scene
@@ -19,11 +19,18 @@ def describe(scene: Scene) -> list[str]:
     """The lines that say what is in a scene: of every item counts, closedness, convexity and size, or which surface it
     is and which lines there are on it, or which curve; then the whole."""
     low, high = scene.bounds
-    lines = [f"{item.name}: {_told(item)}" for item in scene.items]
-    faces = sum(item.mesh.face_count for item in scene.items)
+    reports = [mesh_report(item.shape) if isinstance(item.shape, Mesh) else None for item in scene.items]
+    lines = [f"{item.name}: {_told(item, report)}" for item, report in zip(scene.items, reports, strict=True)]
+    found = [report for report in reports if report is not None]
     curves = sum(is_curve(item.shape) for item in scene.items)
     surfaces = sum(not isinstance(item.shape, Mesh) for item in scene.items) - curves
-    counts = [_number(len(scene.items), "item"), _number(faces, "face"), _number(len(scene.lights), "light")]
+    counts = [
+        _number(len(scene.items), "item"),
+        _number(sum(report.vertices for report in found), "vertex"),
+        _number(sum(report.edges for report in found), "edge"),
+        _number(sum(report.faces for report in found), "face"),
+        _number(len(scene.lights), "light"),
+    ]
     if curves:
         counts.insert(1, _number(curves, "curve"))
     if surfaces:
@@ -33,17 +40,18 @@ def describe(scene: Scene) -> list[str]:
 
 
 def _number(count: int, word: str) -> str:
-    return f"{count} {word}{'' if count == 1 else 's'}"
+    several = "vertices" if word == "vertex" else word + "s"
+    return f"{count} {word if count == 1 else several}"
 
 
 def _size(extents: Iterable[float]) -> str:
     return "size " + " x ".join(f"{extent:.6g}" for extent in extents)
 
 
-def _told(item: Item) -> str:
+def _told(item: Item, report: MeshReport | None) -> str:
     shape = item.shape
-    if isinstance(shape, Mesh):
-        return _counts(shape)
+    if isinstance(shape, Mesh) and report is not None:
+        return _counts(shape, report)
     if is_curve(shape):
         return _curve(shape)
     assert is_parametrised(shape) or is_implicit(shape)
@@ -84,11 +92,10 @@ def _surface(shape: Surface | ImplicitSurface, curves: SurfaceLines) -> str:
     return ", ".join(words) + ", " + ("" if is_parametrised(shape) else "box of ") + _size(high - low)
 
 
-def _counts(mesh: Mesh) -> str:
+def _counts(mesh: Mesh, report: MeshReport) -> str:
     """One line about a mesh. Closed and convex are said of the body with the faces that were taken away."""
-    report = mesh_report(mesh)
     removed = 0 if mesh.present is None else mesh.face_count - int(mesh.present.sum())
-    words = [f"{report.vertices} vertices", _number(report.edges, "edge"), _number(report.faces, "face")]
+    words = [_number(report.vertices, "vertex"), _number(report.edges, "edge"), _number(report.faces, "face")]
     if removed:
         words[-1] += f" ({removed} of them removed)"
     if report.components != 1:

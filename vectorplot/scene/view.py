@@ -12,6 +12,7 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+from vectorplot.scene.pools import pools
 from vectorplot.scene.scene import Scene
 
 ULPS = 16.0
@@ -133,7 +134,6 @@ def look(scene: Scene, camera: Camera) -> View:
     Errors: InputError where the scene is so small, or the eye so far away, that its coordinates have no digits left.
     Degenerate: an empty scene gives a view without points.
     """
-    meshes = [item.mesh for item in scene.items]
     low, high = scene.bounds
     centre, scale = (low + high) / 2.0, float((high - low).max()) / 2.0
     if not scale > 0.0:
@@ -144,12 +144,10 @@ def look(scene: Scene, camera: Camera) -> View:
     noise = ULPS * np.finfo(float).eps * largest / scale
     if noise > 1e-3:
         raise InputError("the scene is too small for its distance from the origin: its coordinates have no digits left")
-    counts = np.array([len(mesh.vertices) for mesh in meshes], dtype=np.intp)
-    first_vertex = np.concatenate([[0], np.cumsum(counts)])
-    points = np.ascontiguousarray((camera.axes / scale) @ (scene.vertices - centre).T)
-    corners, offsets, face_item = _faces(scene, first_vertex)
+    pool = pools(scene)
+    points = np.ascontiguousarray((camera.axes / scale) @ (pool.points - centre).T)
     tolerance = max(ZERO_OF_EXTENT, noise)
-    faces = convex_faces(points, corners, offsets, tolerance)
+    faces = convex_faces(points, pool.corners, pool.offsets, tolerance)
     axes = camera.axes
     target = axes @ ((np.asarray(camera.target) - centre) / scale)
     eye = None if camera.parallel else axes @ ((np.asarray(camera.eye) - centre) / scale)
@@ -159,8 +157,8 @@ def look(scene: Scene, camera: Camera) -> View:
         corners=faces.corners,
         offsets=faces.offsets,
         inner=faces.inner,
-        face_item=face_item[faces.source],
-        item_vertices=first_vertex,
+        face_item=pool.face_item[faces.source],
+        item_vertices=pool.item_vertices,
         occludes=np.array([item.occludes for item in scene.items], dtype=np.bool_),
         eye=eye,
         target=target,
@@ -172,26 +170,3 @@ def look(scene: Scene, camera: Camera) -> View:
         scale=scale,
         axes=axes,
     )
-
-
-def _faces(scene: Scene, first_vertex: Ints) -> tuple[Ints, Ints, Ints]:
-    """Corners, offsets and item of all present faces."""
-    meshes = [item.mesh for item in scene.items]
-    if len(meshes) == 1 and meshes[0].present is None:
-        return meshes[0].corners, meshes[0].offsets, np.zeros(meshes[0].face_count, dtype=np.intp)
-    none = np.zeros(0, dtype=np.intp)
-    corner_counts = np.array([len(m.corners) for m in meshes], dtype=np.intp)
-    corners = np.concatenate([m.corners for m in meshes] or [none]) + np.repeat(first_vertex[:-1], corner_counts)
-    ends = np.concatenate([m.offsets[1:] for m in meshes] or [none])
-    face_counts = np.array([m.face_count for m in meshes], dtype=np.intp)
-    starts = np.concatenate([[0], np.cumsum(corner_counts)])[:-1]
-    offsets = np.concatenate([[0], ends + np.repeat(starts, face_counts)])
-    face_item = np.repeat(np.arange(len(meshes)), face_counts)
-    if all(m.present is None for m in meshes):
-        return corners, offsets, face_item
-    present = np.concatenate(
-        [np.ones(m.face_count, dtype=np.bool_) if m.present is None else m.present for m in meshes]
-    )
-    sizes = np.diff(offsets)
-    kept = np.repeat(present, sizes)
-    return corners[kept], np.concatenate([[0], np.cumsum(sizes[present])]), face_item[present]

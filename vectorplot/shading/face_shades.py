@@ -170,9 +170,14 @@ def depth_limits(view: View) -> tuple[float, float]:
 
     Source: Glaeser, section 4.4; erratum G4-04.
     """
-    if not view.points.shape[1]:
+    return limited_depths(view, view.points[2])
+
+
+def limited_depths(view: View, depths: Floats) -> tuple[float, float]:
+    """Smallest and largest of depths (n,) z in the view, within the same limits. Degenerate: zeros without any."""
+    if not len(depths):
         return 0.0, 0.0
-    low, high = float(view.points[2].min()), float(view.points[2].max())
+    low, high = float(depths.min()), float(depths.max())
     if view.eye is None:
         return low, high
     target, distance = float(view.target[2]), float(view.eye[2] - view.target[2])
