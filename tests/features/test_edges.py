@@ -1,10 +1,11 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.edges import Edges, Faces, mesh_edges, unbalanced_vertices
+from vectorplot.features.edges import Edges, Faces, mesh_edges
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.strokes import LineKind
+from vectorplot.geometry.winding import unbalanced_vertices
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box

@@ -10,14 +10,11 @@ from numpy.typing import NDArray
 
 from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
 from vectorplot.geometry.strokes import LineKind
-from vectorplot.geometry.winding import faces_are_closed
+from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+from vectorplot.geometry.winding import unbalanced_vertices
 
 BLOCK = 1 << 16
 """Faces handled at once: few enough for the processor's cache."""
-
-
-HASH = np.uint64(0x9E3779B97F4A7C15)
-"""Fibonacci hashing: an odd multiplier that scrambles consecutive numbers."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,8 +51,9 @@ def mesh_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: floa
     """The edges of the mesh that are of one of the kinds, each edge once, ordered by its vertices.
 
     An edge is a contour where all its faces lie on one side of it in the image, a boundary with one face only, a
-    crease where two faces turn by more than crease_angle_deg or three meet. It gets the first of the kinds asked for
-    that it is. Neighbours wound in opposite senses are compared as if one were turned over.
+    crease where two faces turn by more than crease_angle_deg or more of them meet, but for layers of one sheet. It gets
+    the first of the kinds asked for that it is. Neighbours wound in opposite senses are compared as if one were turned
+    over.
     Degenerate: diagonals of cut polygons count as contours only; edges between two faces seen edge-on are no contours.
     Source: Glaeser, sections 3.3, 6.1 and 9.3; erratum G3-09.
     """
@@ -79,12 +77,13 @@ def mesh_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: floa
         LineKind.CONTOUR: (count > 1) & ((least >= 0) | (most <= 0)) & (least != most)
         | (count > 1) & (least * most > 0),
         LineKind.BOUNDARY: (count == 1) & outer,
-        LineKind.CREASE: outer & (count > 2),
+        LineKind.CREASE: np.zeros(len(first), dtype=np.bool_),
         LineKind.EDGES: outer,
     }
     if LineKind.CREASE in kinds:
-        pairs = np.flatnonzero((count == 2) & outer)
+        pairs, more = np.flatnonzero((count == 2) & outer), np.flatnonzero((count > 2) & outer)
         is_kind[LineKind.CREASE][pairs] = _sharp_pairs(faces, face, forward, first[pairs], crease_angle_deg)
+        is_kind[LineKind.CREASE][more] = _sharp_fans(faces, half, face, first[more], count[more], crease_angle_deg)
     kind = np.full(len(first), -1)
     for one in sorted(set(kinds) & set(is_kind), reverse=True):
         kind[is_kind[one]] = one
@@ -105,6 +104,27 @@ def _sharp_pairs(faces: Faces, face: Ints, forward: Bools, first: Ints, angle_de
     cosine = one[0] * two[0] + one[1] * two[1] + one[2] * two[2]
     cosine = np.where(forward[first] == forward[first + 1], -cosine, cosine)
     return np.asarray(cosine < np.cos(np.radians(angle_deg)), dtype=np.bool_)
+
+
+def _sharp_fans(faces: Faces, half: Ints, face: Ints, first: Ints, count: Ints, angle_deg: float) -> Bools:
+    """Which edges with count faces from first on are creases: all but those of sheets in layers, where the faces go off
+    in two directions only, opposite within the angle."""
+    if not len(first):
+        return np.zeros(0, dtype=np.bool_)
+    starts = np.cumsum(count) - count
+    use = np.repeat(first - starts, count) + np.arange(count.sum())
+    along = faces.points[:, faces.corners[faces.after(half[use])]] - faces.points[:, faces.corners[half[use]]]
+    inwards = cross(unit_normals(faces, face[use]), along)
+    length = np.sqrt((inwards * inwards).sum(axis=0))
+    inwards /= np.where(length > 0.0, length, 1.0)
+    one = np.repeat(inwards[:, starts], count, axis=1)
+    cosine = (inwards * one).sum(axis=0)
+    across = np.minimum.reduceat(cosine, starts)
+    farthest = np.maximum.reduceat(np.where(cosine == np.repeat(across, count), np.arange(len(use)), -1), starts)
+    two = np.repeat(inwards[:, farthest], count, axis=1)
+    apart = np.minimum(*(((inwards - way) ** 2).sum(axis=0) for way in (one, two)))
+    layered = np.maximum.reduceat(apart, starts) <= ZERO_OF_EXTENT**2
+    return np.asarray(~layered | (across > -np.cos(np.radians(angle_deg))), dtype=np.bool_)
 
 
 def unit_normals(faces: Faces, which: Ints) -> Floats:
@@ -140,21 +160,23 @@ def _candidates(faces: Faces, kinds: Collection[LineKind], angle_deg: float) -> 
     if LineKind.CONTOUR in kinds:
         odd |= _turning_vertices(faces)
     unbalanced = unbalanced_vertices(faces.points.shape[1], faces.corners, faces.offsets)
-    chosen = _both_ends(faces, odd | unbalanced)
+    # One end is enough here: an edge is lost only where chance hides it at both.
+    chosen = _ends_among(faces, unbalanced, np.logical_or)
+    chosen |= _ends_among(faces, odd | unbalanced, np.logical_and)
     if LineKind.CREASE in kinds:
-        chosen |= _both_ends(faces, _sharp_vertices(faces, angle_deg) | unbalanced)
+        chosen |= _ends_among(faces, _sharp_vertices(faces, angle_deg) | unbalanced, np.logical_and)
     return np.flatnonzero(chosen)
 
 
-def _both_ends(faces: Faces, vertices: Bools) -> Bools:
-    """(c,) half-edges with both ends among the vertices."""
+def _ends_among(faces: Faces, vertices: Bools, ends: np.ufunc) -> Bools:
+    """(c,) half-edges with both ends (logical_and) or one end (logical_or) among the vertices."""
     if not vertices.any():
         return np.zeros(len(faces.corners), dtype=np.bool_)
     at_corner = vertices[faces.corners]
     if len(at_corner) == 3 * (len(faces.offsets) - 1):
         rows = at_corner.reshape(-1, 3)
-        return np.asarray((rows & rows[:, [1, 2, 0]]).ravel(), dtype=np.bool_)
-    return np.asarray(at_corner & at_corner[faces.after(np.arange(len(at_corner)))], dtype=np.bool_)
+        return np.asarray(ends(rows, rows[:, [1, 2, 0]]).ravel(), dtype=np.bool_)
+    return np.asarray(ends(at_corner, at_corner[faces.after(np.arange(len(at_corner)))]), dtype=np.bool_)
 
 
 def _turning_vertices(faces: Faces) -> Bools:
@@ -165,26 +187,6 @@ def _turning_vertices(faces: Faces) -> Bools:
     turning = np.zeros_like(chosen)
     turning[faces.corners[chosen[faces.corners] != front]] = True
     return turning
-
-
-def unbalanced_vertices(count: int, corners: Ints, offsets: Ints) -> Bools:
-    """(count,) vertices that do not have an edge going out for every edge coming in: ends of boundaries, of edges
-    with an odd number of faces, and of edges between faces wound in opposite senses. None: the mesh is closed and
-    oriented.
-
-    Edges are told apart by a scrambled number at their other end, large enough that no boundary is missed by chance in
-    practice, small enough (40 bits) that the sums are exact.
-    """
-    if faces_are_closed(count, corners, offsets):
-        return np.zeros(count, dtype=np.bool_)
-    label = ((np.arange(1, count + 1, dtype=np.uint64) * HASH) >> np.uint64(24)).astype(np.float64)
-    at_corner = label[corners]
-    following = next_positions(offsets, np.arange(len(corners)))
-    difference = at_corner[following]
-    before = np.empty_like(at_corner)
-    before[following] = at_corner
-    difference -= before
-    return np.asarray(np.bincount(corners, weights=difference, minlength=count) != 0.0, dtype=np.bool_)
 
 
 def _sharp_vertices(faces: Faces, angle_deg: float) -> Bools:

@@ -12,6 +12,9 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh, next_positions
 
 _PIECE = 1 << 15
 
+LABEL_BITS = 40
+"""Bits of the random numbers of vertices: doubles hold sums of thousands of them exactly."""
+
 
 @dataclass(frozen=True, eq=False)
 class EdgeUses:
@@ -74,6 +77,27 @@ def is_closed_oriented(mesh: Mesh) -> bool:
 def faces_are_closed(vertices: int, corners: Ints, offsets: Ints) -> bool:
     """Whether faces given by their corners (c,) and offsets (f+1,) are closed and oriented; see is_closed_oriented."""
     return int(_circulation(vertices, corners, offsets).sum()) == 0
+
+
+def unbalanced_vertices(vertices: int, corners: Ints, offsets: Ints) -> Bools:
+    """(vertices,) those that do not have an edge going out for every edge coming in: ends of boundaries, of edges with
+    an odd number of faces, and of edges between faces wound in opposite senses. None: the faces are closed and
+    oriented.
+
+    No sort: every edge adds a random number of its other end, going out, and takes it away, coming in. The numbers have
+    LABEL_BITS bits, so that sums over 2^13 edges are exact; an unbalanced vertex passes for a balanced one with a
+    probability of about 2^-40, and both ends of an edge do so with 2^-80.
+    """
+    if faces_are_closed(vertices, corners, offsets):
+        return np.zeros(vertices, dtype=np.bool_)
+    label = (_scrambled(np.arange(vertices, dtype=np.uint64)) >> np.uint64(64 - LABEL_BITS)).astype(np.float64)
+    at_corner = label[corners]
+    following = next_positions(offsets, np.arange(len(corners)))
+    difference = at_corner[following]
+    before = np.empty_like(at_corner)
+    before[following] = at_corner
+    difference -= before
+    return np.asarray(np.bincount(corners, weights=difference, minlength=vertices) != 0.0, dtype=np.bool_)
 
 
 def _circulation(vertices: int, corners: Ints, offsets: Ints) -> NDArray[np.uint64]:

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.features.edges import cross, unbalanced_vertices
+from vectorplot.features.edges import cross
 from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.winding import unbalanced_vertices
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import Floats32, ProjectedFaces, newell
 

@@ -8,9 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from vectorplot.features.edges import unbalanced_vertices
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+from vectorplot.geometry.winding import unbalanced_vertices
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, newell
 
