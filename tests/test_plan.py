@@ -36,6 +36,11 @@ def with_stages(*stages: str) -> list[str]:
     return [*PLAIN[:-1], *stages, PLAIN[-1]]
 
 
+def with_sheets(*stages: str) -> list[str]:
+    """The same of a scene with transparent items."""
+    return [*PLAIN[:3], "transparent sheets", *with_stages(*stages)[3:]]
+
+
 def reports_of(scene: Scene, **options: object) -> list[StageReport]:
     reports: list[StageReport] = []
     paint(scene, CAMERA, explain=reports.append, **options)
@@ -58,10 +63,10 @@ CALLS = [
     (Scene((CUBE, MIRROR)), {}, with_stages("reflections")),
     (Scene((CUBE, MIRROR), (SUN,)), {}, with_stages("shadows", "mirror light", "reflections")),
     (Scene((CUBE, MIRROR), (SUN,)), {"shadows": "none"}, with_stages("reflections")),
-    (Scene((CUBE, CLEAR)), {}, PLAIN),
-    (Scene((CUBE, CLEAR), (SUN,)), {}, with_stages("shadows", "clear shadows")),
-    (Scene((CUBE, GLASS)), {}, with_stages("refraction")),
-    (Scene((CUBE, GLASS), (SUN,)), {"shadows": "none"}, with_stages("refraction")),
+    (Scene((CUBE, CLEAR)), {}, with_sheets()),
+    (Scene((CUBE, CLEAR), (SUN,)), {}, with_sheets("shadows", "clear shadows")),
+    (Scene((CUBE, GLASS)), {}, with_sheets("refraction")),
+    (Scene((CUBE, GLASS), (SUN,)), {"shadows": "none"}, with_sheets("refraction")),
     (Scene((CUBE, BALL)), {}, ["facets", *PLAIN]),
     (Scene((CUBE,)), {"fills": "visible"}, [*PLAIN, "visible fills"]),
     (Scene((CUBE,)), {"lines": ("crease",)}, [*PLAIN, "lines"]),

@@ -93,10 +93,15 @@ def paint(
     projected = walk.run("faces", project_faces, view)
     painted = walk.run("order", painters_order, view, projected, known=known_orders(facets.scene, view))
     _tell_knots(walk, scene, painted)
-    placed = placed_faces(view, painted.faces, page, fit)
-    seen = _Seen(
-        facets.scene, view, projected, placed.framed(painted.faces, page, view.tolerance), placed, _smooth(facets)
-    )
+    faces = painted.faces
+    if walk.calls_for("transparent sheets"):
+        from vectorplot.visibility.painter.gathering import gathered
+
+        item = view.face_item[faces.source]
+        sheet = np.where(opacities(facets.scene.items)[item] < 1.0, item, -1)
+        faces = faces.some(walk.run("transparent sheets", gathered, faces, sheet, view.tolerance))
+    placed = placed_faces(view, faces, page, fit)
+    seen = _Seen(facets.scene, view, projected, placed.framed(faces, page, view.tolerance), placed, _smooth(facets))
     world = page_from_world(view, placed.page_from_image)
     lighting = Lighting(scene.items, view_lights(view, scene.lights), _normals(view, facets, smooth), palette)
     if walk.calls_for("erasing"):

@@ -248,6 +248,8 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
     stages.append(Stage("look", "the scene in the camera's axes, in the unit box"))
     stages.append(Stage("faces", "the faces in the image, and which side they show"))
     stages.append(Stage("order", "back to front; what pierces or overlaps in circles is cut"))
+    if fills != "erasing" and any(item.material.opacity < 1.0 for item in scene.items):
+        stages.append(Stage("transparent sheets", "polygons of transparent items stand together where they can"))
     if fills == "erasing" and any(item.patterns for item in scene.items):
         stages.append(Stage("patterns", "faces carry patterns"))
     if fills == "erasing":

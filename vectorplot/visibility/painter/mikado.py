@@ -26,9 +26,8 @@ def mikado(count: int, before: Ints, after: Ints) -> Mikado:
     each round in ascending order. Linear in the number of demands.
     Source: Glaeser, section 5.6, figure 11; erratum G5-04 (one of the two is enough to go on).
     """
-    edges = np.arange(len(before))
-    later = _Links(count, before, after, edges)
-    earlier = _Links(count, after, before, edges)
+    later = Links(count, before, after)
+    earlier = Links(count, after, before)
     below = np.bincount(after, minlength=count)
     above = np.bincount(before, minlength=count)
     left = np.ones(count, dtype=np.bool_)
@@ -55,12 +54,12 @@ def _ready(things: Ints, waiting_for: Ints, left: Bools) -> Ints:
     return np.asarray(candidates[(waiting_for[candidates] == 0) & left[candidates]], dtype=np.intp)
 
 
-class _Links:
+class Links:
     """The things that each thing is linked to."""
 
-    def __init__(self, count: int, start: Ints, end: Ints, edges: Ints) -> None:
+    def __init__(self, count: int, start: Ints, end: Ints) -> None:
         order = np.argsort(start, kind="stable")
-        self.end = end[edges[order]]
+        self.end = end[order]
         self.first = np.concatenate([[0], np.cumsum(np.bincount(start, minlength=count))])
 
     def of(self, things: Ints) -> Ints:
