@@ -14,12 +14,12 @@ from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.io.read import read
 from vectorplot.plan import StageReport
 from vectorplot.scene.scene import Item, Page, Pattern, Scene
 from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, edge_points, hard_shapes
 from vectorplot.testing.shapes import box, rotated_boxes
+from vectorplot.words import LineKind
 
 DATA = Path(__file__).resolve().parent.parent / "data"
 CUBE = Scene((Item("cube", box((-1, -1, -1), (1, 1, 1)), colour="blue"),))
@@ -161,7 +161,7 @@ def test_layers_by_kind_object_and_colour() -> None:
     assert [layer.name for layer in draw(scene).layers] == ["visible", "contour"]
     assert [layer.name for layer in draw(scene, layers="object").layers] == ["cube", "red"]
     assert [layer.name for layer in draw(scene, layers="colour").layers] == ["blue", "darkorange"]
-    with pytest.raises(InputError, match="expected kind, object or colour"):
+    with pytest.raises(InputError, match="expected one of kind, object, colour"):
         draw(scene, layers="item")
 
 
@@ -271,6 +271,7 @@ def test_models_from_six_views_as_rays_see_them(path: Path, name: str) -> None:
         assert assert_drawing_is_right(drawing, scene, camera, samples=250) > 100
 
 
-def test_one_text_in_place_of_words_is_refused() -> None:
-    with pytest.raises(InputError, match="expected words"):
-        draw(CUBE, lines="contour")
+def test_one_text_names_kinds_of_lines_as_on_the_command_line() -> None:
+    words = draw(CUBE, lines=("contour", "crease"))
+    assert_drawings_equal(draw(CUBE, lines="contour, crease"), words)
+    assert not draw(CUBE, lines="none").layers

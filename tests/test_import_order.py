@@ -14,7 +14,7 @@ import vectorplot
 PACKAGE = Path(vectorplot.__file__).parent
 
 ORDER = [
-    *("errors", "exact", "geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
+    *("errors", "words", "exact", "geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
     *("drawing", "effects", "animation", "backends"),
     *("verbs", "testing", "cli"),
 ]

@@ -11,7 +11,6 @@ from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.testing import (
     assert_drawing_is_right,
@@ -23,6 +22,7 @@ from vectorplot.testing import (
 from vectorplot.testing.shapes import box, honeycomb, prism, scene_of, without
 from vectorplot.testing.surfaces import bumpy_icosphere, grid_graph, torus_mesh
 from vectorplot.testing.triangles import triangulated
+from vectorplot.words import LineKind
 
 LINE = [(10.0, 10.0), (50.0, 10.0), (50.0, 40.0)]
 

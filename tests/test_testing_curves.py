@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.strokes import LineKind, Strokes
+from vectorplot.geometry.strokes import Strokes
 from vectorplot.scene.scene import Light
 from vectorplot.surfaces.cylinder import Cylinder
 from vectorplot.surfaces.ellipsoid import Ellipsoid, Sphere
@@ -30,6 +30,7 @@ from vectorplot.testing import (
     hausdorff,
 )
 from vectorplot.testing.nearest import nearest_places
+from vectorplot.words import LineKind
 
 T = np.linspace(0.0, 2.0 * np.pi, 201)
 BOX = np.array([[-5.0] * 3, [5.0] * 3])

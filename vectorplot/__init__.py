@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from vectorplot.errors import InputError, InputWarning
     from vectorplot.geometry.camera import Camera
     from vectorplot.geometry.mesh import Mesh
-    from vectorplot.geometry.strokes import LineKind, Strokes
+    from vectorplot.geometry.strokes import Strokes
     from vectorplot.io.read import read
     from vectorplot.paint import paint
     from vectorplot.render import render
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
     from vectorplot.scene.surface_lines import Section, SurfaceLines
     from vectorplot.shading.image import Image
+    from vectorplot.words import LineKind
 
 __version__ = "0.1.0"
 
@@ -63,7 +64,7 @@ _HOME = {
     "Item": "scene.scene",
     "Layer": "drawing.drawing",
     "Light": "scene.scene",
-    "LineKind": "geometry.strokes",
+    "LineKind": "words",
     "Material": "scene.scene",
     "Mesh": "geometry.mesh",
     "Page": "scene.scene",

@@ -17,7 +17,6 @@ from vectorplot.drawing.page import mm_per_image, page_from_image, page_from_wor
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.camera import Camera, Point
 from vectorplot.geometry.mesh import Bools, Floats
-from vectorplot.geometry.strokes import LineKind, line_kinds
 from vectorplot.geometry.vectors import cross, normalize
 from vectorplot.plan import StageReport, Walk, plan_draw
 from vectorplot.scene.scene import Page, Scene
@@ -35,6 +34,7 @@ from vectorplot.visibility.lines import (
 from vectorplot.visibility.occluders import solid_items
 from vectorplot.visibility.pairs import Segments
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
+from vectorplot.words import DRAWN, WIRES, LineKind, check_word, line_kinds
 
 if TYPE_CHECKING:
     from vectorplot.visibility.smooth.meetings import SmoothSheet
@@ -44,12 +44,6 @@ LARGER = 1.25
 
 FINEST = 1e-7
 """Chords are no nearer to curves than this part of half the scene's extent, however small a part a picture shows."""
-
-DRAWN = ("contour", "boundary", "crease", "intersection", "pattern", "parameter", "isophote", "section", "curve")
-"""The kinds of lines that are drawn where nothing else is said."""
-
-WIRES = ("contour", "boundary", "crease", "edges", "pattern", "parameter", "isophote", "section", "curve")
-"""Those of a wireframe: every edge, and no line in which things pierce each other."""
 
 
 def default_camera(scene: Scene, up: Point = (0.0, 0.0, 1.0)) -> Camera:
@@ -73,7 +67,7 @@ def draw(
     *,
     page: Page | None = None,
     fit: bool = True,
-    lines: Iterable[str] | None = None,
+    lines: str | Iterable[str] | None = None,
     crease_angle_deg: float = 25.0,
     style: Literal["plain", "wireframe", "depth-cue"] = "plain",
     hidden: Literal["none", "dashed", "solid"] = "none",
@@ -88,10 +82,11 @@ def draw(
 
     camera and page: those of the scene where None, else default_camera and A4. fit: the picture fills the page but
     for its margin; otherwise the page centre is the target and the page height the camera's picture height. lines:
-    words of LineKind, DRAWN or WIRES where None; an item's own come first. crease_angle_deg: sharper edges are creases.
-    style: plain, or a wireframe: nothing hides anything, all lines have the middle shades of their items' palettes, or
-    go by their depth (depth-cue), on a sheet in the scene's background or the darkest gray. hidden: hidden lines are
-    left out, dashed, or solid on a layer of their own. halo_mm: lines end so far beside what is in front of them.
+    words of LineKind, or one text with commas between them, DRAWN or WIRES where None; an item's own come first.
+    crease_angle_deg: sharper edges are creases. style: plain, or a wireframe: nothing hides anything, all lines have the
+    middle shades of their items' palettes, or go by their depth (depth-cue), on a sheet in the scene's background or the
+    darkest gray. hidden: hidden lines are left out, dashed, or solid on a layer of their own. halo_mm: lines end so far
+    beside what is in front of them.
     layers: what shares a layer. curves: strokes of smooth curves are fitted with cubic Béziers and elliptic arcs, or
     stay polylines. tolerance_mm: how far strokes of smooth curves may be off the true curves; their
     points are exact but for the ends of dashes, straight lines are so whatever it is. progress(stage, fraction)
@@ -102,7 +97,7 @@ def draw(
     shows so little of the scene that the tolerance cannot be kept.
     Source: Glaeser, sections 2.1, 4.4 and 7.2.
     """
-    _check_options(hidden, curves, halo_mm, crease_angle_deg, tolerance_mm)
+    _check_options(hidden, layers, curves, halo_mm, crease_angle_deg, tolerance_mm)
     _check_style(style, hidden=hidden != "none", halo_mm=halo_mm > 0.0, layers=layers != "kind")
     kinds = line_kinds((DRAWN if style == "plain" else WIRES) if lines is None else lines)
     camera = camera or scene.camera or default_camera(scene)
@@ -193,11 +188,12 @@ def _straight_lines(
     return joined_lines(found)
 
 
-def _check_options(hidden: str, curves: str, halo_mm: float, crease_angle_deg: float, tolerance_mm: float) -> None:
-    if hidden not in ("none", "dashed", "solid"):
-        raise InputError(f"hidden {hidden!r}: expected none, dashed or solid")
-    if curves not in ("bezier", "polyline"):
-        raise InputError(f"curves {curves!r}: expected bezier or polyline")
+def _check_options(
+    hidden: str, layers: str, curves: str, halo_mm: float, crease_angle_deg: float, tolerance_mm: float
+) -> None:
+    check_word("hidden", hidden, ("none", "dashed", "solid"))
+    check_word("layers", layers, ("kind", "object", "colour"))
+    check_word("curves", curves, ("bezier", "polyline"))
     if not 0.0 <= halo_mm < np.inf:
         raise InputError(f"a halo of {halo_mm:g} mm: expected a width that is finite and not negative")
     if not 0.0 <= crease_angle_deg <= 180.0:
@@ -208,8 +204,7 @@ def _check_options(hidden: str, curves: str, halo_mm: float, crease_angle_deg: f
 
 def _check_style(style: str, **others: bool) -> None:
     """InputError for an unknown style, and for options, by their names, that wireframes leave nothing to do."""
-    if style not in ("plain", "wireframe", "depth-cue"):
-        raise InputError(f"style {style!r}: expected plain, wireframe or depth-cue")
+    check_word("style", style, ("plain", "wireframe", "depth-cue"))
     for name, given in others.items():
         if given and style != "plain":
             raise InputError(f"{name} does not go with the style {style}, which shows all lines, in colours of its own")
@@ -267,6 +262,4 @@ def _layers(scene: Scene, strokes: Paths, layers: str) -> tuple[Layer, ...]:
         return layers_by_object(strokes, [item.name for item in scene.items])
     if layers == "colour":
         return layers_by_colour(strokes, [item.colour for item in scene.items])
-    if layers == "kind":
-        return layers_by_kind(strokes)
-    raise InputError(f"layers {layers!r}: expected kind, object or colour")
+    return layers_by_kind(strokes)

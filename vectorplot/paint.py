@@ -17,7 +17,6 @@ from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, interleav
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Bools, Floats
-from vectorplot.geometry.strokes import LineKind, line_kinds
 from vectorplot.plan import StageReport, Walk, plan_paint
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.view import View, look
@@ -30,6 +29,7 @@ from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
 from vectorplot.visibility.painter.order import Painted, painters_order
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
+from vectorplot.words import LineKind, check_word, line_kinds
 
 if TYPE_CHECKING:
     from vectorplot.effects.decals import Decals
@@ -56,7 +56,7 @@ def paint(
     palette: int = SIZE,
     smooth: bool = True,
     fills: Literal["painted", "visible", "erasing"] = "painted",
-    lines: Iterable[str] = (),
+    lines: str | Iterable[str] = (),
     crease_angle_deg: float = 25.0,
     tolerance_mm: float = 0.02,
     progress: Callable[[str, float], None] | None = None,
@@ -70,7 +70,8 @@ def paint(
     how many shades every colour has. smooth: smooth surfaces are shaded from corner to corner, not face by face.
     fills: polygons painted one over the other, or only what is seen of each, for pens, which cannot paint over things,
     with transparent ones as sparse lines; or blank, each with its edges: hidden lines by erasing.
-    lines: words of LineKind, drawn on top with exact hidden lines; crease_angle_deg: sharper edges are creases.
+    lines: words of LineKind, or one text with commas between them, drawn on top with exact hidden lines;
+    crease_angle_deg: sharper edges are creases.
     tolerance_mm: how far the sides of polygons may be off smooth surfaces and refracted lines. progress(stage,
     fraction) and explain(report) are called while it works.
     Errors: InputError for unknown words and colours, impossible cameras, and widths and counts out of range.
@@ -137,10 +138,10 @@ class _Seen:
 
 def _with_clear_items(scene: Scene) -> Scene:
     """The scene in which light goes through whatever one can see through."""
-    clear = [item.material.word == "transparent" or item.material.opacity < 1.0 for item in scene.items]
-    if not any(see and item.occludes for see, item in zip(clear, scene.items, strict=True)):
+    clear = [item.material.is_clear for item in scene.items]
+    if not any(see and item.hides for see, item in zip(clear, scene.items, strict=True)):
         return scene
-    items = (replace(item, occludes=item.occludes and not see) for see, item in zip(clear, scene.items, strict=True))
+    items = (replace(item, occludes=item.hides and not see) for see, item in zip(clear, scene.items, strict=True))
     return replace(scene, items=tuple(items))
 
 
@@ -155,10 +156,8 @@ def _tell_knots(walk: Walk, scene: Scene, painted: Painted) -> None:
 def _check_options(
     shadows: str, aura_mm: float, palette: int, fills: str, crease_angle_deg: float, tolerance_mm: float
 ) -> None:
-    if shadows not in ("auto", "none"):
-        raise InputError(f"shadows {shadows!r}: expected auto or none")
-    if fills not in ("painted", "visible", "erasing"):
-        raise InputError(f"fills {fills!r}: expected painted, visible or erasing")
+    check_word("shadows", shadows, ("auto", "none"))
+    check_word("fills", fills, ("painted", "visible", "erasing"))
     if not 0.0 <= aura_mm < np.inf:
         raise InputError(f"an aura of {aura_mm:g} mm: expected a width that is finite and not negative")
     if not (2 <= palette <= 256 and float(palette).is_integer()):

@@ -11,8 +11,8 @@ import numpy as np
 
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Item, Scene
+from vectorplot.words import LineKind
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -40,6 +40,15 @@ class StageReport:
     seconds: float
     count: int
     peak_mb: float
+
+    def __str__(self) -> str:
+        """A line of what ``--explain`` prints."""
+        cost = f"{1000.0 * self.seconds:9.1f}  {self.count:9d}  {self.peak_mb:8.1f}"
+        return f"{self.name:<{STAGE_NAME}}  {cost}  {self.why}"
+
+
+STAGE_NAME = 16
+"""So many letters names of stages have at most, mirror light and lines on meshes among them."""
 
 
 def plan_draw(
@@ -109,7 +118,7 @@ def chosen_shadows(scene: Scene, camera: Camera, size: tuple[int, int], fit: boo
 
 def casts_shadow(item: Item) -> bool:
     """Whether an item stops light, as far as it has faces."""
-    return item.occludes and item.material.opacity >= 1.0
+    return item.hides and item.material.opacity >= 1.0
 
 
 def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple[Stage, ...]:
@@ -124,7 +133,7 @@ def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple
         stages.append(Stage("shadows", f"{len(scene.lights)} lights cast them: {how}" + (why and f", as {why}")))
     stages.append(Stage("depth", "which triangle is in front in every pixel"))
     stages.append(Stage("shading", "every visible point once"))
-    if any(item.material.word == "mirror" for item in scene.items):
+    if any(item.material.is_mirror for item in scene.items):
         stages.append(Stage("mirrors", "what mirrors show"))
     if any(item.material.opacity < 1.0 for item in scene.items):
         stages.append(Stage("transparency", "what one sees through"))
@@ -225,7 +234,7 @@ def _shading_stages(scene: Scene, shadows: str) -> list[Stage]:
     clear = any(item.material.opacity < 1.0 for item in scene.items)
     if casts:
         stages.append(Stage("shadows", f"{len(scene.lights)} lights cast them"))
-    mirrors = any(item.material.word == "mirror" and isinstance(item.shape, Mesh) for item in scene.items)
+    mirrors = any(item.material.is_mirror and isinstance(item.shape, Mesh) for item in scene.items)
     if casts and mirrors:
         stages.append(Stage("mirror light", "mirrors throw light back"))
     if any(item.patterns for item in scene.items):

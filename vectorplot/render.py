@@ -13,7 +13,6 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.projection import CoordinateSystem
-from vectorplot.geometry.strokes import line_kinds
 from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, plan_render
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.view import LARGEST, View, look
@@ -27,6 +26,7 @@ from vectorplot.shading.png import Bytes
 from vectorplot.shading.scene_triangles import SceneTriangles, camera_in_view, scene_triangles
 from vectorplot.shading.screen import fitted, raster_size, raster_system
 from vectorplot.shading.supersampling import averaged
+from vectorplot.words import check_word, line_kinds
 
 if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Drawing
@@ -62,7 +62,7 @@ def render(
     shadow_bits: int = 32,
     samples: int = 1,
     crease_angle_deg: float = 25.0,
-    lines: Iterable[str] = (),
+    lines: str | Iterable[str] = (),
     background: str | None = None,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
@@ -73,7 +73,8 @@ def render(
     raster, otherwise the camera's field of vision is its height. lights: in place of those of the scene. shadows: of
     these lights, found with shadow buffers of shadow_size x shadow_size texels of shadow_bits bits, plain ones or such
     that show most of what is near the eye, or exactly; auto: as the view calls for. samples: every pixel is the mean of
-    samples x samples ones. crease_angle_deg: faces that meet at less look round. lines: words of LineKind, drawn over
+    samples x samples ones. crease_angle_deg: faces that meet at less look round. lines: words of
+    LineKind, or one text with commas between them, drawn over
     the picture with exact hidden lines. background: a palette, a plain colour or #rrggbb. progress(stage, fraction) and
     explain(report) are called while it works.
     Errors: InputError for unknown words and colours, impossible cameras, and sizes out of range.
@@ -103,7 +104,7 @@ def render(
     blocked = _blocked(walk, scene, triangles, here, system, fine, how, shadow_size, shadow_bits)
     lighting = lighting_of(view, scene.items, here, blocked)
     opacity = np.array([item.material.opacity for item in scene.items])
-    mirror = np.array([item.material.word == "mirror" for item in scene.items], dtype=np.bool_)
+    mirror = np.array([item.material.is_mirror for item in scene.items], dtype=np.bool_)
     paper = palette(background or scene.background or BACKGROUND)[-1].astype(np.float64)
     picture = picture_of(triangles, system, fine, lighting, opacity, mirror, paper)
     if how == "exact":
@@ -115,8 +116,7 @@ def render(
 
 
 def _check(size: tuple[int, int], shadows: str, samples: int, crease_angle_deg: float) -> None:
-    if shadows not in ("auto", "none", "buffer", "trapezoid", "exact"):
-        raise InputError(f"shadows {shadows!r}: expected auto, none, buffer, trapezoid or exact")
+    check_word("shadows", shadows, ("auto", "none", "buffer", "trapezoid", "exact"))
     if not 1 <= samples <= MOST_SAMPLES:
         raise InputError(f"{samples} samples: expected 1 to {MOST_SAMPLES}")
     if not 0.0 <= crease_angle_deg <= 180.0:

@@ -10,8 +10,8 @@ from backend_samples import drawing_of, paths_of
 from vectorplot.backends.json_file import json_bytes, read_drawing
 from vectorplot.drawing.drawing import Paths
 from vectorplot.errors import InputError
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.save import save
+from vectorplot.words import LineKind
 
 
 def mixed() -> Paths:

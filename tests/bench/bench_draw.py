@@ -17,7 +17,6 @@ import pytest
 from vectorplot.draw import default_camera
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import rotated_boxes
@@ -28,6 +27,7 @@ from vectorplot.visibility.lines import edge_lines, joined_lines
 from vectorplot.visibility.occluders import solid_items
 from vectorplot.visibility.pairs import Segments
 from vectorplot.visibility.projected_faces import project_faces
+from vectorplot.words import LineKind
 
 pytestmark = pytest.mark.bench
 

@@ -4,14 +4,6 @@ import click
 import pytest
 
 from vectorplot.cli import options
-from vectorplot.geometry.strokes import LineKind
-
-
-def test_the_words_for_lines_are_those_of_the_kinds():
-    from vectorplot.draw import DRAWN
-
-    assert options.KINDS == tuple(kind.word for kind in LineKind)
-    assert options.DRAWN == DRAWN
 
 
 @pytest.mark.parametrize(("text", "value"), [("-3,4,5", (-3, 4, 5)), (" 1e3, -.5 ,0", (1000, -0.5, 0))])

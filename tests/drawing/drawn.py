@@ -8,9 +8,9 @@ import numpy as np
 
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.testing.compare import path_segments
+from vectorplot.words import LineKind
 
 EVERY_EDGE = ("contour", "boundary", "crease", "edges", "intersection")
 

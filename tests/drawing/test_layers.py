@@ -3,7 +3,7 @@ from sample_paths import pieces
 
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.layers import layers_by_colour, layers_by_kind, layers_by_object
-from vectorplot.geometry.strokes import LineKind
+from vectorplot.words import LineKind
 
 
 def strokes(kinds, hidden_by=None, item=None):

@@ -47,7 +47,7 @@ def test_they_have_the_colours_of_the_items_and_come_last() -> None:
 
 
 def test_a_scene_without_glass_has_none() -> None:
-    solid = Scene(tuple(item for item in scene().items if item.occludes))
+    solid = Scene(tuple(item for item in scene().items if item.hides))
     view = look(solid, Camera((3, -9, 15), (0, 0, 0)))
     assert len(clear_shadows(view, solid, LIGHTS)) == 0
 

@@ -4,13 +4,13 @@ import pytest
 from vectorplot.features.edges import Edges, Faces, mesh_edges
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.geometry.winding import unbalanced_vertices
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box
 from vectorplot.testing.surfaces import bumpy_icosphere, moebius_strip, torus_mesh
 from vectorplot.visibility.projected_faces import project_faces
+from vectorplot.words import LineKind
 
 ALL = frozenset({LineKind.CONTOUR, LineKind.BOUNDARY, LineKind.CREASE, LineKind.EDGES})
 CAMERA = Camera((5.0, -7.0, 4.0))

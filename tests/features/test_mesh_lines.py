@@ -24,12 +24,12 @@ from vectorplot.features.polygonize import polygonized
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair import mended
 from vectorplot.geometry.solids import box
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.geometry.winding import edge_uses
 from vectorplot.surfaces.ellipsoid import Sphere
 from vectorplot.surfaces.quadric import implicit_cylinder, implicit_sphere
 from vectorplot.surfaces.torus import ImplicitTorus
 from vectorplot.testing import hausdorff
+from vectorplot.words import LineKind
 
 BALL = polygonized(implicit_sphere(1.0, (0.01, 0.02, 0.03)), 24)
 RING = polygonized(ImplicitTorus(3, 1), 32)

@@ -10,10 +10,10 @@ from vectorplot.draw import draw
 from vectorplot.features.edges import Edges, Faces, mesh_edges
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.geometry.winding import unbalanced_vertices
 from vectorplot.io.read import read
 from vectorplot.scene.scene import Item, Scene
+from vectorplot.words import LineKind
 
 Cells = list[list[int]]
 GRIDS = ("triangles", "quadrilaterals", "hexagons")

@@ -19,8 +19,8 @@ from vectorplot.geometry.winding import is_closed_oriented
 from vectorplot.io import scene_language
 from vectorplot.io.scene_language import parse_scene, read_scene
 from vectorplot.io.scene_reserved import RESERVED
-from vectorplot.io.scene_words import PALETTES
 from vectorplot.scene.scene import Light, Page
+from vectorplot.words import PALETTES
 
 DATA = Path(__file__).parents[2] / "data"
 
@@ -212,11 +212,11 @@ def test_physical_properties():
     for word in ("normal", "metallic", "shiny", "reflecting", "mat", "matte", "wood", "plastic", "mirror"):
         item = one(f"A {word} box 1 1 1")
         assert item.material.word == words.get(word, word)
-        assert item.occludes and item.material.opacity == 1.0
+        assert item.hides and item.material.opacity == 1.0
     glass = one("A transparent refraction 1.33 box 1 1 1")
     assert glass.material.word == "transparent" and glass.material.refraction == 1.33
-    assert 0 < glass.material.opacity < 1 and not glass.occludes
-    assert one("A transparent opacity 0.2 occludes yes box 1 1 1").occludes
+    assert 0 < glass.material.opacity < 1 and not glass.hides
+    assert one("A transparent opacity 0.2 occludes yes box 1 1 1").hides
 
 
 def test_lines_and_removed_faces():

@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
-from vectorplot.io.scene_words import COLOURS, PALETTES
 from vectorplot.shading import palettes
 from vectorplot.shading.palettes import LIMITS, PLAIN, colour_map, palette, palette_number, ramp, spectrum
+from vectorplot.words import COLOURS, PALETTES
 
 limit = st.tuples(*[st.floats(0, 1)] * 3)
 

@@ -6,9 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.draw import DRAWN
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing import visible_by_rays
@@ -18,6 +16,7 @@ from vectorplot.visibility.lines import Lines, edge_lines, intersection_lines, j
 from vectorplot.visibility.occluders import solid_items
 from vectorplot.visibility.pairs import Segments
 from vectorplot.visibility.projected_faces import project_faces
+from vectorplot.words import DRAWN, LineKind
 
 EVERY_EDGE = ("contour", "boundary", "crease", "edges", "intersection")
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.surfaces.ellipsoid import Sphere
@@ -13,6 +12,7 @@ from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.family import StraightLines
 from vectorplot.visibility.smooth.parametric_items import sheet_of_parametrised
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
+from vectorplot.words import LineKind
 
 
 def ball_from_above() -> tuple[View, ParametricSheet, float]:

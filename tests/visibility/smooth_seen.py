@@ -6,9 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.draw import DRAWN
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import look
 from vectorplot.visibility.framing import in_frame
@@ -19,6 +17,7 @@ from vectorplot.visibility.pairs import Segments
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.visibility.smooth.smooth_lines import with_curves
 from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
+from vectorplot.words import DRAWN, LineKind
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,6 @@ from smooth_seen import Chords, chords_seen
 from vectorplot.draw import draw
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import View, look
@@ -29,6 +28,7 @@ from vectorplot.surfaces.quadric import (
 from vectorplot.surfaces.torus import ImplicitTorus, Torus
 from vectorplot.testing import assert_drawing_is_right, hausdorff
 from vectorplot.testing.shapes import box, rotation
+from vectorplot.words import LineKind
 
 # Normals may point either way: what stands here for a cosine stands for its negative too.
 LINES = SurfaceLines(isophotes=(-0.6, -0.2, 0.2, 0.6), sections=(Section((0.2, 0.3, 1.0), (-0.5, 0.35)),))

@@ -11,7 +11,6 @@ from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
 from vectorplot.features.polygonize import polygonized
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.plan import plan_draw
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
@@ -20,6 +19,7 @@ from vectorplot.surfaces.quadric import implicit_sphere
 from vectorplot.surfaces.torus import ImplicitTorus
 from vectorplot.testing import assert_drawing_is_right, curves_in_space
 from vectorplot.testing.shapes import box
+from vectorplot.words import LineKind
 
 CUBE = box((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0))
 LEVELS = SurfaceLines(sections=(Section((0.0, 0.0, 1.0), (-0.5, 0.25)),))

@@ -15,12 +15,12 @@ from vectorplot.draw import draw
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.surfaces.ellipsoid import Sphere
 from vectorplot.surfaces.placed import PlacedSurface
 from vectorplot.testing import assert_drawing_is_right
 from vectorplot.testing.shapes import box
+from vectorplot.words import LineKind
 
 SINGLE, IMPLICIT, MIXED = single_surfaces(), implicit_surfaces(), mixed_scenes()
 
@@ -154,7 +154,7 @@ def test_counts_are_of_items(name: str) -> None:
     camera = next(views(scene, 1, 9))
     chords = chords_seen(scene, camera)
     assert len(chords.start)
-    assert chords.hidden_by.max() <= sum(item.occludes for item in scene.items)
+    assert chords.hidden_by.max() <= sum(item.hides for item in scene.items)
 
 
 def test_a_drawing_without_hidden_lines_shows_what_nothing_hides() -> None:

@@ -14,8 +14,8 @@ import numpy as np
 from analytic_sight import sight, torus_polynomial
 
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.surfaces.torus import Torus
+from vectorplot.words import LineKind
 
 SAMPLES = 2048
 BISECTIONS = 34

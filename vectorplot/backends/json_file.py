@@ -18,7 +18,7 @@ from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.pieces import chosen, concatenated, offsets_of, ranges
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Ints
-from vectorplot.geometry.strokes import LineKind
+from vectorplot.words import LineKind
 
 FORMAT = "vectorplot-drawing"
 VERSION = 1

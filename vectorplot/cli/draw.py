@@ -28,7 +28,7 @@ FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
     "--lines",
     type=kinds,
     metavar="KIND,...",
-    help=f"Some of {', '.join(KINDS)}.  [default: all but edges; in wireframes all but intersection]",
+    help=f"Kinds of lines: {KINDS}.  [default: all but edges; in wireframes all but intersection]",
 )
 @click.option(
     "--crease-angle", type=at_least(0.0, at_most=180.0), default=25.0, metavar="DEG", help="Sharper edges are creases."

@@ -15,12 +15,26 @@ from vectorplot.cli.info import info
 from vectorplot.cli.paint import paint
 from vectorplot.cli.render import render
 from vectorplot.errors import InputError
+from vectorplot.words import nearest
 
 BAD_INPUT = 1
 INTERRUPTED = 130
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+class Verbs(click.Group):
+    """The commands; an unknown one is told with the nearest that is known."""
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """The command that is named. Errors: UsageError for an unknown one."""
+        if args and self.get_command(ctx, args[0]) is None and not args[0].startswith("-"):
+            near = nearest(args[0].lower(), self.commands)
+            ctx.fail(f"No such command {args[0]!r}." + (f" Did you mean {near!r}?" if near else ""))
+        return super().resolve_command(ctx, args)
+
+
+@click.group(cls=Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(__version__, prog_name="vectorplot", message="%(prog)s %(version)s")
 def vectorplot() -> None:
     """3-D scenes as exact line drawings: hidden lines by geometry, never by pixels."""
@@ -50,6 +64,9 @@ def run(arguments: Sequence[str]) -> int:
     except click.exceptions.NoArgsIsHelpError as error:
         error.show()
         return error.exit_code
+    except click.NoSuchOption as error:
+        click.UsageError(f"No such option {error.option_name!r}.{meant_option(error)}", error.ctx).show()
+        return error.exit_code
     except click.UsageError as error:
         error.show()
         return error.exit_code
@@ -73,6 +90,15 @@ def run(arguments: Sequence[str]) -> int:
         say("there is not enough memory for this")
         return BAD_INPUT
     return 0
+
+
+def meant_option(error: click.NoSuchOption) -> str:
+    """A hint at the option of the command that an unknown one may have meant, or nothing."""
+    if error.ctx is None:
+        return ""
+    known = [name for option in error.ctx.command.get_params(error.ctx) for name in option.opts if name[:2] == "--"]
+    near = nearest(error.option_name.lstrip("-").lower(), (name[2:] for name in known))
+    return f" Did you mean '--{near}'?" if near else ""
 
 
 def say(text: str) -> None:

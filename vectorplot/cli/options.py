@@ -9,27 +9,12 @@ from typing import TYPE_CHECKING, TypeVar
 import click
 
 from vectorplot.errors import InputError
+from vectorplot.words import LINE_WORDS, line_words
 
 if TYPE_CHECKING:
     from vectorplot.scene.scene import Light
 
 Value = TypeVar("Value")
-
-KINDS = (
-    "contour",
-    "boundary",
-    "crease",
-    "intersection",
-    "edges",
-    "pattern",
-    "parameter",
-    "isophote",
-    "section",
-    "curve",
-)
-
-DRAWN = ("contour", "boundary", "crease", "intersection", "pattern", "parameter", "isophote", "section", "curve")
-"""The kinds of lines that are drawn unless the user says otherwise."""
 
 
 def number(text: str) -> float:
@@ -102,18 +87,16 @@ def pixels(text: str) -> tuple[int, int]:
         raise click.BadParameter(str(error)) from None
 
 
+KINDS = f"some of {', '.join(LINE_WORDS)}; or none"
+"""What help texts say of the values of ``--lines``."""
+
+
 def kinds(text: str) -> tuple[str, ...]:
-    """Kinds of lines with commas between them, each once."""
-    words = [word.strip().lower() for word in text.split(",")]
-    for word in words:
-        if word not in KINDS:
-            raise click.BadParameter(f"{word!r} is none of {', '.join(KINDS)}")
-    return tuple(dict.fromkeys(words))
-
-
-def kinds_or_none(text: str) -> tuple[str, ...]:
     """Kinds of lines with commas between them, each once; nothing for ``none``."""
-    return () if text.strip().lower() == "none" else kinds(text)
+    try:
+        return line_words(text)
+    except InputError as error:
+        raise click.BadParameter(str(error)) from None
 
 
 def light(text: str) -> Light:

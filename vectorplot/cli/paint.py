@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.options import at_least, between, format_of, kinds_or_none, light
+from vectorplot.cli.options import KINDS, at_least, between, format_of, kinds, light
 from vectorplot.cli.picture import make_picture
 from vectorplot.cli.view import CAMERA_OPTIONS, PAGE_OPTIONS, CameraOptions, camera_from, page_from, with_options
 
@@ -41,7 +41,7 @@ FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
     default="painted",
     help="Painted one over the other, only what is seen of each, or blank with edges.",
 )
-@click.option("--lines", type=kinds_or_none, default="none", metavar="KIND,...", help="Lines on top, as those of draw.")
+@click.option("--lines", type=kinds, default="none", metavar="KIND,...", help=f"Lines on top: {KINDS}.")
 @click.option(
     "--crease-angle", type=at_least(0.0, at_most=180.0), default=25.0, metavar="DEG", help="Sharper edges are creases."
 )

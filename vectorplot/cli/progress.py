@@ -82,12 +82,10 @@ def told_warnings(*, quiet: bool) -> Iterator[None]:
 
 def table(reports: Sequence[StageReport]) -> str:
     """What the stages cost, a line each: time, how much came out, the process's peak memory by then, and why."""
-    name = max((len(report.name) for report in reports), default=0)
-    lines = [f"{'stage':<{name}}  {'ms':>9}  {'count':>9}  {'peak MB':>8}  why"]
-    for report in reports:
-        cost = f"{1000.0 * report.seconds:9.1f}  {report.count:9d}  {report.peak_mb:8.1f}"
-        lines.append(f"{report.name:<{name}}  {cost}  {report.why}")
+    from vectorplot.plan import STAGE_NAME
+
+    head = f"{'stage':<{STAGE_NAME}}  {'ms':>9}  {'count':>9}  {'peak MB':>8}  why"
     peak = max((report.peak_mb for report in reports), default=0.0)
     total = sum(report.seconds for report in reports)
-    lines.append(f"{'total':<{name}}  {1000.0 * total:9.1f}  {'':>9}  {peak:8.1f}")
-    return "\n".join(lines)
+    foot = f"{'total':<{STAGE_NAME}}  {1000.0 * total:9.1f}  {'':>9}  {peak:8.1f}"
+    return "\n".join([head, *map(str, reports), foot])

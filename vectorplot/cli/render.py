@@ -40,7 +40,7 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
 @click.option(
     "--crease-angle", type=at_least(0.0, at_most=180.0), default=25.0, metavar="DEG", help="Sharper edges stay sharp."
 )
-@click.option("--lines", type=kinds, metavar="KIND,...", help=f"Lines over the picture: some of {', '.join(KINDS)}.")
+@click.option("--lines", type=kinds, default="none", metavar="KIND,...", help=f"Lines on top: {KINDS}.")
 @click.option("--background", metavar="COLOUR", help="A palette, a plain colour or #rrggbb.  [default: white]")
 @click.option("--explain", is_flag=True, help="Print stages, times, counts and memory on stderr.")
 @click.option("-q", "--quiet", is_flag=True, help="No warnings, no progress bar.")
@@ -65,7 +65,7 @@ def render(scene_file: str, out: str, format_: str | None, quiet: bool, explain:
             shadow_bits=int(options["shadow_bits"]),
             samples=options["samples"],
             crease_angle_deg=options["crease_angle"],
-            lines=options["lines"] or (),
+            lines=options["lines"],
             background=options["background"],
             progress=report.progress,
             explain=report.explain,

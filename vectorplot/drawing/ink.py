@@ -16,7 +16,7 @@ from vectorplot.drawing.pen_order import pen_ordered
 from vectorplot.drawing.pieces import chosen, concatenated
 from vectorplot.drawing.simplify import without_collinear_points
 from vectorplot.geometry.mesh import Floats
-from vectorplot.geometry.strokes import LineKind
+from vectorplot.words import LineKind
 
 COLLINEAR_MM = 1e-4
 """A point that is no further from the straight line between its neighbours is left out. So a stroke moves by less than

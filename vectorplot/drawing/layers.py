@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.pieces import chosen
 from vectorplot.geometry.mesh import Ints
-from vectorplot.geometry.strokes import LineKind
+from vectorplot.words import LineKind
 
 BLACK = "#000000"
 

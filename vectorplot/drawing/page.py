@@ -12,12 +12,12 @@ from vectorplot.drawing.pieces import chosen, concatenated
 from vectorplot.drawing.smooth_duplicates import without_smooth_duplicates
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.visibility.framing import reaches_too_far
 from vectorplot.visibility.hidden_lines import Visibility
 from vectorplot.visibility.lines import Lines
+from vectorplot.words import LineKind
 
 COINCIDENT_MM = 1e-4
 """Strokes that are no further apart than this lie on each other, ends on the same point."""

@@ -20,7 +20,7 @@ CLEAR_LEVEL = 1 << 20
 
 def is_clear(item: Item) -> bool:
     """Whether light goes through an item, but not all of it."""
-    return (item.material.word == "transparent" or item.material.opacity < 1.0) and item.material.opacity > 0.0
+    return item.material.is_clear and item.material.opacity > 0.0
 
 
 def clear_shadows(

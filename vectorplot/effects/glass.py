@@ -39,7 +39,7 @@ def refracting_items(scene: Scene, view: View, projected: ProjectedFaces) -> Boo
 
     Others are transparent without refraction. Source: Glaeser, section 6.6.
     """
-    bends = np.array([item.material.refraction != 1.0 and not item.occludes for item in scene.items], dtype=np.bool_)
+    bends = np.array([item.material.refraction != 1.0 and not item.hides for item in scene.items], dtype=np.bool_)
     if not bends.any():
         return bends
     return bends & solid_items(replace(view, occludes=bends), projected)

@@ -53,7 +53,7 @@ def mirrors(scene: Scene, view: View, projected: ProjectedFaces) -> Mirrors:
 
 def mirror_faces(scene: Scene, view: View) -> Ints:
     """(n,) the faces of the view of items of the material mirror."""
-    shines = np.array([item.material.word == "mirror" for item in scene.items], dtype=np.bool_)
+    shines = np.array([item.material.is_mirror for item in scene.items], dtype=np.bool_)
     return np.flatnonzero(shines[view.face_item]) if len(shines) else np.zeros(0, dtype=np.intp)
 
 

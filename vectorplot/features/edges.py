@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.geometry.winding import unbalanced_vertices
+from vectorplot.words import LineKind
 
 BLOCK = 1 << 16
 """Faces handled at once: few enough for the processor's cache."""

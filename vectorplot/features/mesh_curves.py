@@ -13,8 +13,9 @@ from vectorplot.features.level_segments import level_segments
 from vectorplot.geometry.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
 from vectorplot.geometry.outline import concat
-from vectorplot.geometry.strokes import LineKind, Strokes
+from vectorplot.geometry.strokes import Strokes
 from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
+from vectorplot.words import LineKind
 
 NO_FACE = -1
 

@@ -31,9 +31,6 @@ from vectorplot.scene.scene import Item, Material, Pattern
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 
-OPACITY_OF_TRANSPARENT = 0.5
-"""Opacity of a transparent item that names none."""
-
 _NORMAL = Material()
 
 NEEDED = {
@@ -117,7 +114,6 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
         if error.file is not None:
             raise
         words.fail(draft.kind_index, draft.owner + error.cause)
-    occludes = draft.material != "transparent" if draft.occludes is None else draft.occludes
     return Item(
         draft.name,
         shape,
@@ -125,7 +121,7 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
         _material(draft),
         draft.patterns,
         draft.lines,
-        occludes,
+        draft.occludes,
         curves,
     )
 
@@ -169,11 +165,7 @@ def _polyhedron(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
 def _material(draft: Draft) -> Material:
     if draft.material is None and draft.opacity is None and draft.refraction == 1.0:
         return _NORMAL
-    word = draft.material or "normal"
-    opacity = draft.opacity
-    if opacity is None:
-        opacity = OPACITY_OF_TRANSPARENT if word == "transparent" else 1.0
-    return Material(word, opacity, draft.refraction)
+    return Material(draft.material or "normal", draft.opacity, draft.refraction)
 
 
 def _box(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:

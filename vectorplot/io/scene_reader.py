@@ -19,18 +19,14 @@ from vectorplot.io.scene_curves import (
 from vectorplot.io.scene_item import CAP_WORDS, Draft
 from vectorplot.io.scene_placement import Placement, moved, read_matrix, read_rotation, read_scale
 from vectorplot.io.scene_words import (
-    COLOURS,
     FORM_WORDS,
     KIND_WORDS,
-    LINE_WORDS,
-    MATERIALS,
-    PALETTES,
     SCENE_WORDS,
     SOLID_WORDS,
     Words,
-    close_to,
 )
 from vectorplot.scene.scene import Pattern
+from vectorplot.words import COLOURS, LINE_WORDS, MATERIALS, PALETTES, is_colour, nearest
 
 _HEADER = [*KIND_WORDS, *MATERIALS, *FORM_WORDS]
 
@@ -71,16 +67,13 @@ class ItemReader:
     def colour(self, owner: str) -> str:
         """The colour at the next word; an unknown one is gray."""
         word = self.words[self.at]
-        if word.startswith('"'):
-            name = self.source.string(self.at)
-        elif word in COLOURS:
-            name = word
-        elif not word or word == "," or self.source.is_number(self.at):
+        if not word or word == "," or self.source.is_number(self.at):
             self.source.fail(self.at, f"{owner}: expected a colour, got {self.source.shown(self.at)}")
-        else:
-            near = close_to(word, sorted(COLOURS))
-            known = f"did you mean '{near}'?" if near else f"known: {', '.join(PALETTES)}"
-            self.warn(f"{owner}: unknown colour '{word}', gray is used ({known})")
+        name = self.source.string(self.at)
+        if not is_colour(name):
+            near = nearest(name.lower(), COLOURS)
+            known = f"did you mean '{near}'?" if near else f"known: {', '.join(PALETTES)}, #rrggbb in quotes"
+            self.warn(f"{owner}: unknown colour '{name[:40]}', gray is used ({known})")
             name = "gray"
         self.at += 1
         return name
@@ -97,15 +90,15 @@ class ItemReader:
             expected = f"'{missing}'" if draft.kind != "box" else "three lengths"
             self.fail(f"expected {expected}, got {source.shown(self.at)}", draft)
         plain = word and word not in SCENE_WORDS and word[0] not in '",' and not source.is_number(self.at)
-        near = close_to(word, _HEADER) if plain else None
+        near = nearest(word, _HEADER) if plain else None
         if near:
             self.fail(f"unknown word '{word}', expected '{near}'", draft)
-        if plain and draft.colour is None and close_to(draft.name, list(HANDLERS)) is None:
+        if plain and draft.colour is None and nearest(draft.name, HANDLERS) is None:
             draft.colour = self.colour(draft.name)
             return False
         from vectorplot.io.scene_reserved import RESERVED
 
-        meant = close_to(draft.name, sorted(RESERVED))
+        meant = nearest(draft.name, RESERVED)
         hint = f" (or is '{draft.name}' meant to be '{meant}'?)" if meant else ""
         self.fail(f"expected one of {', '.join(KIND_WORDS)}, got {source.shown(self.at)}{hint}", draft)
 

@@ -11,8 +11,9 @@ from vectorplot.curves.placed import PlacedCurve
 from vectorplot.geometry.solids import IDENTITY
 from vectorplot.io.scene_families import CURVES
 from vectorplot.io.scene_slots import read_family
-from vectorplot.io.scene_words import Words, close_to
+from vectorplot.io.scene_words import Words
 from vectorplot.scene.extent import smooth_bounds
+from vectorplot.words import nearest
 
 _FORMULAS = "curve"
 """The family whose word may be left out: formulas stand right behind the kind."""
@@ -26,7 +27,7 @@ def read_space_curve(words: Words, at: int, owner: str) -> tuple[Curve, int]:
     if name.startswith('"') or words.is_number(at) or name in CURVES[_FORMULAS].slots:
         return read_family(words, at, owner, _FORMULAS, CURVES)
     known = ", ".join(word for word in CURVES if word != _FORMULAS)
-    near = close_to(name, list(CURVES)) if name else None
+    near = nearest(name, list(CURVES)) if name else None
     expected = f"'{near}'" if near else f"three formulas in quotes or one of {known}"
     words.fail(at, f"{owner}curve: expected {expected}, got {words.shown(at)}")
 

@@ -7,9 +7,10 @@ from typing import Any
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import VIEWS, Camera
-from vectorplot.io.scene_words import COLOURS, Words
+from vectorplot.io.scene_words import Words
 from vectorplot.scene.paper import sheet_size
 from vectorplot.scene.scene import Light, Page
+from vectorplot.words import COLOURS, is_colour, nearest
 
 _CAMERA_POINTS = ("eye", "target", "up")
 _CAMERA_NUMBERS = {"twist": "twist_deg", "field_of_vision": "fov_deg", "height": "height"}
@@ -94,10 +95,11 @@ def read_light(words: Words, at: int) -> tuple[Light, int]:
 
 def _light_colour(words: Words, at: int, owner: str) -> tuple[str, int]:
     """The colour at a word, a known one or one in quotes, and the word behind it."""
-    word = words.words[at]
-    if word not in COLOURS and not word.startswith('"'):
-        words.fail(at, f"{owner}expected a colour, got {words.shown(at)}")
-    return words.string(at), at + 1
+    word = words.string(at)
+    if not is_colour(word):
+        near = nearest(word.lower(), COLOURS)
+        words.fail(at, f"{owner}expected a colour{f' (did you mean {near!r}?)' if near else ''}, got {words.shown(at)}")
+    return word, at + 1
 
 
 def read_page(words: Words, at: int) -> tuple[Page, int]:

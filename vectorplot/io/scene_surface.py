@@ -15,11 +15,12 @@ from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
 from vectorplot.io.scene_curves import AXES, CurveDraft
 from vectorplot.io.scene_families import SURFACES
 from vectorplot.io.scene_slots import read_family
-from vectorplot.io.scene_words import Words, close_to
+from vectorplot.io.scene_words import Words
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.surface_lines import Section, SurfaceLines, Vector
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
+from vectorplot.words import nearest
 
 HOLE_GRID = 16
 """Cells of the grid, in each direction of its box, on which the equation of an implicit surface is tried out."""
@@ -31,7 +32,7 @@ def read_surface(words: Words, at: int, owner: str) -> tuple[Surface | ImplicitS
     if name not in SURFACES:
         if not name:
             words.fail(at, f"{owner}expected the name of a surface ({', '.join(SURFACES)}), got {words.shown(at)}")
-        near = close_to(name, list(SURFACES))
+        near = nearest(name, list(SURFACES))
         expected = f"'{near}'" if near else f"one of {', '.join(SURFACES)}"
         words.fail(at, f"{owner}unknown surface {words.shown(at)}, expected {expected}")
     return read_family(words, at + 1, owner, name, SURFACES)

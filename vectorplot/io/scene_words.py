@@ -4,40 +4,15 @@ from __future__ import annotations
 
 import json
 import re
-from difflib import get_close_matches
 from math import isfinite
 from typing import NoReturn
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.strokes import LineKind
-
-PALETTES = ("gray", "green", "yellow", "blue", "pink", "cyan", "magenta", "orange")
-"""The parent palettes; each has a ``light`` and a ``dark`` half too."""
-
-PLAIN_COLOURS = ("white", "black", "red")
-"""Colours without shades."""
-
-COLOURS = frozenset([*PALETTES, *("light" + p for p in PALETTES), *("dark" + p for p in PALETTES), *PLAIN_COLOURS])
-
-MATERIALS = {
-    "normal": "normal",
-    "metallic": "metallic",
-    "shiny": "shiny",
-    "reflecting": "shiny",
-    "mat": "mat",
-    "matte": "mat",
-    "wood": "wood",
-    "plastic": "plastic",
-    "transparent": "transparent",
-    "mirror": "mirror",
-}
-"""Words for physical properties, and the material each one names."""
 
 SOLID_WORDS = ("solid", "voll")
 FORM_WORDS = ("convex", *SOLID_WORDS, "hollow", "general", "concave")
 KIND_WORDS = ("vertices", "revolution", "translation", "box", "intersection", "surface", "curve")
 SCENE_WORDS = ("camera", "light", "page", "background", "title")
-LINE_WORDS = tuple(kind.word for kind in LineKind)
 
 _WORD = re.compile(r'"(?:[^"\\\n]|\\.)*"|,|[^\s,"#]+|(?:#[^\n]*)|"')
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
@@ -176,12 +151,6 @@ class Words:
     def is_number(self, index: int) -> bool:
         """Whether a word begins like a number."""
         return _NUMBER.match(self.words[index]) is not None
-
-
-def close_to(word: str, known: tuple[str, ...] | list[str]) -> str | None:
-    """The known word that another one resembles, or None."""
-    found = get_close_matches(word, known, n=1, cutoff=0.75)
-    return found[0] if found else None
 
 
 def bare_word(text: str) -> bool:

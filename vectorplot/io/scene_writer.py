@@ -12,9 +12,10 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats, Mesh
 from vectorplot.io.scene_reserved import RESERVED
-from vectorplot.io.scene_words import COLOURS, LINE_WORDS, MATERIALS, bare_word
+from vectorplot.io.scene_words import bare_word
 from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
+from vectorplot.words import COLOURS
 
 
 def write_scene(scene: Scene) -> str:
@@ -23,8 +24,7 @@ def write_scene(scene: Scene) -> str:
 
     Every polyhedron is written by its vertices and faces, numbered from 1, surfaces by their words. The text is ASCII;
     what is no bare word of the language is quoted.
-    Errors: InputError for what the language lacks (a material or a kind of line of one's own, a surface of a function
-    in Python).
+    Errors: InputError for what the language lacks: a surface of a function in Python.
     Source: Glaeser, section 3.6; erratum G3-16.
     """
     blocks: list[str] = []
@@ -90,11 +90,8 @@ def _item(item: Item, lights: tuple[Light, ...]) -> str:
     colour = item.colour if item.colour in COLOURS else f"colour {dumps(item.colour)}"
     form = ["general"] if isinstance(item.shape, Mesh) else []
     words = [_name(item.name), colour, *form, *_material(item.material)]
-    words.append(f"occludes {'yes' if item.occludes else 'no'}")
+    words.append(f"occludes {'yes' if item.hides else 'no'}")
     if item.lines is not None:
-        for word in item.lines:
-            if word not in LINE_WORDS:
-                raise InputError(f"{item.name}: '{word}' is no kind of line")
         words.append(f"lines {', '.join(item.lines) or 'none'}")
     return " ".join(words) + _shape(item, lights) + _patterns(item.patterns)
 
@@ -118,8 +115,6 @@ def _shape(item: Item, lights: tuple[Light, ...]) -> str:
 
 
 def _material(material: Material) -> list[str]:
-    if material.word not in MATERIALS.values():
-        raise InputError(f"'{material.word}' is no physical property of the scene language")
     words = [material.word, f"opacity {float(material.opacity)!r}"]
     if material.refraction != 1.0:
         words.append(f"refraction {float(material.refraction)!r}")

@@ -14,22 +14,56 @@ from vectorplot.geometry.mesh import Floats, Mesh
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
+from vectorplot.words import MATERIALS, check_colour, line_words, unknown
+
+OPACITY_OF_TRANSPARENT = 0.5
+"""The opacity of what is transparent where nothing else is said."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Material:
-    """How a surface takes light. word: normal, metallic, shiny, mat, wood, plastic, transparent or mirror;
-    opacity 0 (clear) to 1; refraction: the constant sin(alpha)/sin(beta) of Snell's law."""
+    """How a surface takes light.
 
-    word: str = "normal"
-    opacity: float = 1.0
-    refraction: float = 1.0
+    word: normal, metallic, shiny (or reflecting), mat (or matte), wood, plastic, transparent or mirror; opacity 0
+    (clear) to 1, that of what is transparent a half where none is given, else 1; refraction: the constant
+    sin(alpha)/sin(beta) of Snell's law, positive.
+    Errors: InputError for other words and numbers out of range.
+    """
+
+    word: str
+    opacity: float
+    refraction: float
+
+    def __init__(self, word: str = "normal", opacity: float | None = None, refraction: float = 1.0) -> None:
+        if word not in MATERIALS:
+            raise unknown("material", word, MATERIALS)
+        if opacity is None:
+            opacity = OPACITY_OF_TRANSPARENT if word == "transparent" else 1.0
+        if not 0.0 <= opacity <= 1.0:
+            raise InputError(f"material {word}: an opacity of {opacity:g}: expected 0 to 1")
+        if not 0.0 < refraction < np.inf:
+            raise InputError(f"material {word}: a refraction of {refraction:g}: expected a positive, finite number")
+        object.__setattr__(self, "word", MATERIALS[word])
+        object.__setattr__(self, "opacity", float(opacity))
+        object.__setattr__(self, "refraction", float(refraction))
+
+    @property
+    def is_mirror(self) -> bool:
+        """Whether one sees other things in it."""
+        return self.word == "mirror"
+
+    @property
+    def is_clear(self) -> bool:
+        """Whether one sees through it."""
+        return self.word == "transparent" or self.opacity < 1.0
 
 
 @dataclass(frozen=True)
 class Light:
     """A light source at a point, or with parallel rays coming from the direction ``position``; intensity 0 to 1;
-    colour: white, a palette or #rrggbb; fading: the light of a lamp becomes weaker with the square of the distance."""
+    colour: white, a palette or #rrggbb; fading: the light of a lamp becomes weaker with the square of the distance.
+
+    Errors: InputError for unknown colours and intensities out of range."""
 
     position: tuple[float, float, float]
     parallel: bool = False
@@ -38,25 +72,35 @@ class Light:
     colour: str = "white"
     fading: bool = False
 
+    def __post_init__(self) -> None:
+        check_colour(self.colour, f"light {self.name}: " if self.name else "light: ")
+        if self.intensity is not None and not 0.0 <= self.intensity <= 1.0:
+            raise InputError(f"light {self.name}: an intensity of {self.intensity:g}: expected 0 to 1")
+
 
 @dataclass(frozen=True, eq=False)
 class Pattern:
     """A coloured polygon lying on a face: points (k,2) in the face's own coordinates (origin at its barycentre, x along
-    its first edge, y to the left of it), face an index from 0. Source: Glaeser, section 6.5."""
+    its first edge, y to the left of it), face an index from 0. Errors: InputError for unknown colours. Source:
+    Glaeser, section 6.5."""
 
     name: str
     colour: str
     face: int
     points: Floats
 
+    def __post_init__(self) -> None:
+        check_colour(self.colour, f"pattern {self.name}: ")
+
 
 @dataclass(frozen=True, eq=False)
 class Item:
     """A shape in the scene, and how it is drawn.
 
-    shape: a polyhedron, a smooth surface or a curve in space; colour: the name of a palette; lines: the words of the
-    kinds to draw (None: what the drawing asks for); occludes: whether it hides what is behind it; curves: which lines
-    there are on a smooth surface.
+    shape: a polyhedron, a smooth surface or a curve in space; colour: the name of a palette, a plain colour or #rrggbb;
+    lines: the words of the kinds to draw (None: what the drawing asks for); occludes: whether it hides what is behind
+    it (None: unless its material is transparent); curves: which lines there are on a smooth surface.
+    Errors: InputError for unknown colours and kinds of lines.
     """
 
     name: str
@@ -65,8 +109,18 @@ class Item:
     material: Material = field(default_factory=Material)
     patterns: tuple[Pattern, ...] = ()
     lines: tuple[str, ...] | None = None
-    occludes: bool = True
+    occludes: bool | None = None
     curves: SurfaceLines = NO_LINES
+
+    def __post_init__(self) -> None:
+        check_colour(self.colour, f"{self.name}: ")
+        if self.lines is not None:
+            object.__setattr__(self, "lines", line_words(self.lines))
+
+    @property
+    def hides(self) -> bool:
+        """Whether it hides what is behind it."""
+        return self.material.word != "transparent" if self.occludes is None else self.occludes
 
     @property
     def mesh(self) -> Mesh:
@@ -110,6 +164,10 @@ class Scene:
     page: Page | None = None
     background: str | None = None
     title: str = ""
+
+    def __post_init__(self) -> None:
+        if self.background is not None:
+            check_colour(self.background, "background: ")
 
     def __len__(self) -> int:
         return len(self.items)

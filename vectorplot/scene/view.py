@@ -159,7 +159,7 @@ def look(scene: Scene, camera: Camera) -> View:
         inner=faces.inner,
         face_item=pool.face_item[faces.source],
         item_vertices=pool.item_vertices,
-        occludes=np.array([item.occludes for item in scene.items], dtype=np.bool_),
+        occludes=np.array([item.hides for item in scene.items], dtype=np.bool_),
         eye=eye,
         target=target,
         focus=focus,

@@ -38,5 +38,5 @@ def _faceted_item(item: Item, allowed: Allowed) -> tuple[Item, Floats | None]:
         return replace(item, shape=item.mesh), None
     found = facets(shape, allowed)
     # A mirror that is curved shows something else at every point: its triangles are no mirrors.
-    word = "shiny" if item.material.word == "mirror" else item.material.word
+    word = "shiny" if item.material.is_mirror else item.material.word
     return replace(item, shape=found.mesh, material=replace(item.material, word=word)), np.nan_to_num(found.normals)

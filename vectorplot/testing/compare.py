@@ -6,7 +6,7 @@ import numpy as np
 
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.mesh import Bools, Floats, Ints
-from vectorplot.geometry.strokes import LineKind
+from vectorplot.words import LineKind
 
 Group = tuple[int, bool]
 

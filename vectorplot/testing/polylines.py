@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats, Ints
-from vectorplot.geometry.strokes import LineKind, Strokes
+from vectorplot.geometry.strokes import Strokes
+from vectorplot.words import LineKind
 
 Curves = Drawing | Paths | Strokes | ArrayLike | Sequence[ArrayLike]
 """A polyline (n, 2 or 3), several of them, or what holds polylines. A closed one repeats its first point."""

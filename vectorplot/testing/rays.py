@@ -63,7 +63,7 @@ def sight_rays(camera: Camera, points: Floats, middle: Floats, size: float) -> R
 def occluders(scene: Scene, middle: Floats, size: float, items: Sequence[int] | None) -> tuple[Solids, Solids]:
     """The triangles and the edges of the faces that can hide something, in unit coordinates, near ones together."""
     wanted = range(len(scene.items)) if items is None else items
-    owners = [index for index in wanted if scene.items[index].occludes]
+    owners = [index for index in wanted if scene.items[index].hides]
     triangles, edges = [np.zeros((0, 3, 3))], [np.zeros((0, 2, 3))]
     for index in owners:
         mesh = scene.items[index].mesh

@@ -8,12 +8,12 @@ from numpy.typing import ArrayLike
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats, Ints
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Scene
 from vectorplot.testing.compare import path_segments
 from vectorplot.testing.rays import edges_of_faces
 from vectorplot.testing.sight import visible_by_rays
 from vectorplot.testing.stroke_points import some_of, stroke_points
+from vectorplot.words import LineKind
 
 
 def assert_drawing_is_right(

@@ -51,7 +51,7 @@ def visible_by_rays(scene: Scene, camera: Camera, points: ArrayLike, *, items: S
     eye = None if camera.parallel else (np.asarray(camera.eye) - middle) / size
     for index in range(len(scene.items)) if items is None else items:
         item = scene.items[index]
-        if not item.occludes or not len(targets):
+        if not item.hides or not len(targets):
             continue
         if is_parametrised(item.shape):
             found = surface_hides(item.shape, eye, rays, middle, size)

@@ -10,11 +10,11 @@ from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.features.conditions import CentralContour, ParallelContour
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Bools, Floats, Ints
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.testing.nearest import inside, nearest_places
+from vectorplot.words import LineKind
 
 STEPS = 8
 

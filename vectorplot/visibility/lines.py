@@ -14,12 +14,12 @@ from vectorplot.features.mesh_curves import MeshCurves
 from vectorplot.features.mesh_lines import mesh_isophotes, mesh_plane_sections, mesh_point_light_isophotes
 from vectorplot.features.patterns import pattern_outline
 from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.geometry.winding import pieces_of_faces
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import ProjectedFaces
+from vectorplot.words import LineKind
 
 if TYPE_CHECKING:
     from vectorplot.visibility.smooth.chord_parts import ChordParts

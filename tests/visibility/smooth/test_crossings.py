@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 from smooth_parts import around, ball_from_above, polylines
 
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.visibility.smooth.crossings import crossings
 from vectorplot.visibility.smooth.family import ParameterCurves
+from vectorplot.words import LineKind
 
 
 def behind(line):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from smooth_parts import ball_from_above
 
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.visibility.smooth.edge_sides import covered_sides, turn
+from vectorplot.words import LineKind
 
 
 def test_turns() -> None:

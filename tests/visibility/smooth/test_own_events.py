@@ -8,15 +8,14 @@ import numpy as np
 import pytest
 from smooth_parts import around, ball_from_above, polylines
 
-from vectorplot.draw import DRAWN
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import look
 from vectorplot.surfaces.torus import Torus
 from vectorplot.visibility.smooth.family import ParameterCurves
 from vectorplot.visibility.smooth.own_events import edge_on_curves, own_events
 from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
+from vectorplot.words import DRAWN, LineKind
 
 
 def on_ball(places):

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.geometry.mesh import Bools, Floats, Ints
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
 from vectorplot.visibility.smooth.cubics import cubics
@@ -15,6 +14,7 @@ from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.edge_sides import covered_sides, turn
 from vectorplot.visibility.smooth.events import Events, hopped, on_chord, once
 from vectorplot.visibility.smooth.sheet import Sheet, dot
+from vectorplot.words import LineKind
 
 ROUNDS, HOPS = 8, 3
 """Steps of Newton on one pair of chords; how often the pair may go over to neighbouring chords."""

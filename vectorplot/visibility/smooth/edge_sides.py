@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.geometry.mesh import Floats, Ints
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
 from vectorplot.visibility.smooth.sheet import Sheet
+from vectorplot.words import LineKind
 
 
 def covered_sides(

@@ -25,13 +25,13 @@ from vectorplot.features.implicit_curves import (
 )
 from vectorplot.features.implicit_tracing import ImplicitCurves, ImplicitTracing
 from vectorplot.geometry.mesh import Floats
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.family import Family, NearChords, SpatialCurves
 from vectorplot.visibility.smooth.implicit_sheet import ImplicitSheet
+from vectorplot.words import LineKind
 
 Found = tuple[LineKind, Family, ImplicitCurves]
 

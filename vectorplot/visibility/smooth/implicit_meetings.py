@@ -13,7 +13,6 @@ from vectorplot.features.implicit_curves import implicit_intersection
 from vectorplot.features.implicit_mesh_section import implicit_mesh_section
 from vectorplot.features.sections import intersection
 from vectorplot.geometry.mesh import Floats, Ints, Mesh
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.family import Along, ConditionCurves, SpatialCurves
 from vectorplot.visibility.smooth.implicit_items import as_spatial_curves, tracing_in_world
@@ -22,6 +21,7 @@ from vectorplot.visibility.smooth.meeting_families import ImplicitFaceCurves
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.roots import roots_along
 from vectorplot.visibility.smooth.surface_curves import as_curves
+from vectorplot.words import LineKind
 
 Doubts = tuple[str, ...]
 

@@ -13,7 +13,6 @@ from vectorplot.features.mesh_section import mesh_section
 from vectorplot.features.self_intersection import self_intersections
 from vectorplot.features.surface_intersection import surface_intersection
 from vectorplot.geometry.mesh import Bools, Floats, Mesh
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.surface import Domain
@@ -27,6 +26,7 @@ from vectorplot.visibility.smooth.implicit_sheet import ImplicitSheet
 from vectorplot.visibility.smooth.meeting_families import FaceCurves, SheetsMeet
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.surface_curves import as_curves
+from vectorplot.words import LineKind
 
 SmoothSheet = ParametricSheet | ImplicitSheet
 

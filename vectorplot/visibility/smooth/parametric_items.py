@@ -21,7 +21,6 @@ from vectorplot.features.sections import plane_sections
 from vectorplot.features.singular_lines import singular_lines
 from vectorplot.features.surface_curves import SurfaceCurves
 from vectorplot.features.zero_manifold import JUMPS
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
@@ -31,6 +30,7 @@ from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.family import ConditionCurves, ParameterCurves
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet, parametric_sheet
 from vectorplot.visibility.smooth.surface_curves import as_curves
+from vectorplot.words import LineKind
 
 Found = tuple[LineKind, ConditionCurves | ParameterCurves, SurfaceCurves]
 

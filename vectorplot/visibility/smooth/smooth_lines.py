@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.geometry.mesh import Ints
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.view import View
 from vectorplot.visibility.lines import Lines
 from vectorplot.visibility.smooth.curves import Curves, together
@@ -15,6 +14,7 @@ from vectorplot.visibility.smooth.edge_sides import covered_sides
 from vectorplot.visibility.smooth.family import StraightLines
 from vectorplot.visibility.smooth.hidden_curves import cut_curves, hidden_curves
 from vectorplot.visibility.smooth.traced import TracedScene
+from vectorplot.words import LineKind
 
 OUTLINES = (LineKind.CONTOUR, LineKind.BOUNDARY)
 """Kinds of curves to one side of which there is nothing of their sheet."""

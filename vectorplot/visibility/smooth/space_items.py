@@ -10,13 +10,13 @@ from vectorplot.curves.curve import Curve
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.parameter_lines import MISSED, PROBES
 from vectorplot.geometry.mesh import Bools, Floats
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.family import Along, Chords
 from vectorplot.visibility.smooth.meetings import SmoothSheet
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.sheet import dot
+from vectorplot.words import LineKind
 
 FIRST_CHORDS = 64
 

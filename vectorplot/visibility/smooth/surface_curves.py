@@ -6,10 +6,10 @@ import numpy as np
 
 from vectorplot.features.surface_curves import SurfaceCurves
 from vectorplot.geometry.mesh import Floats
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.family import ConditionCurves, ParameterCurves
 from vectorplot.visibility.smooth.meeting_families import FaceCurves
+from vectorplot.words import LineKind
 
 OnSurface = ConditionCurves | ParameterCurves | FaceCurves
 

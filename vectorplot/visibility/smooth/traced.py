@@ -9,7 +9,6 @@ import numpy as np
 from vectorplot.curves.curve import is_curve
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.geometry.mesh import Bools, Floats
-from vectorplot.geometry.strokes import LineKind
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
@@ -22,6 +21,7 @@ from vectorplot.visibility.smooth.meetings import SmoothSheet, meetings
 from vectorplot.visibility.smooth.parametric_items import curves_of_parametrised, sheet_of_parametrised
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.space_items import space_curve
+from vectorplot.words import LineKind
 
 WIDEST_IMAGE = 4.0
 """Images further than so many focal lengths from the principal point are not looked at closely."""
@@ -51,9 +51,9 @@ def scene_sheets(scene: Scene, view: View) -> tuple[SmoothSheet, ...]:
     sheets: list[SmoothSheet] = []
     for number, item in enumerate(scene.items):
         if is_parametrised(item.shape):
-            sheets.append(sheet_of_parametrised(view, item.shape, number, item.occludes))
+            sheets.append(sheet_of_parametrised(view, item.shape, number, item.hides))
         elif is_implicit(item.shape):
-            sheets.append(implicit_sheet(view, item.shape, number, item.occludes))
+            sheets.append(implicit_sheet(view, item.shape, number, item.hides))
     return tuple(sheets)
 
 
@@ -73,7 +73,7 @@ def traced_scene(
             parts, unsure = curves_of_implicit(scene, view, sheet, number, wanted, tracing)
         doubts += [f"{item.name}: {text}" for text in unsure]
         drawn += [part.some(np.flatnonzero(np.isin(part.kind, list(wanted)))) for part in parts]
-        if item.occludes:
+        if item.hides:
             edges += [part.some(np.flatnonzero(np.isin(part.kind, HIDING))) for part in parts]
     wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
     met = meetings(scene, view, sheets, wants, tracing)

@@ -1,0 +1,159 @@
+"""Words mean the same in Python, in scene files and on the command line."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vectorplot as vp
+from vectorplot.cli.main import run
+from vectorplot.geometry.solids import box
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.shading.illumination import FINISHES
+from vectorplot.shading.palettes import LIMITS, PLAIN, palette
+from vectorplot.words import (
+    COLOURS,
+    DRAWN,
+    LINE_WORDS,
+    MATERIALS,
+    PALETTES,
+    PLAIN_COLOURS,
+    LineKind,
+    line_words,
+    nearest,
+)
+
+SHAPE = box((1.0, 1.0, 1.0))
+COLOUR_WORDS = [*sorted(COLOURS), "#12aB9f"]
+LAMP = vp.Light((4.0, -6.0, 8.0))
+
+
+def of_file(words: str) -> vp.Item:
+    return parse_scene(f"A {words} box 1 1 1").items[0]
+
+
+def test_every_named_colour_has_shades():
+    assert tuple(LIMITS) == PALETTES and tuple(PLAIN) == PLAIN_COLOURS
+    for colour in COLOUR_WORDS:
+        assert palette(colour).shape == (32, 3)
+
+
+def test_every_material_has_a_finish_or_shows_something_else():
+    assert set(MATERIALS.values()) - set(FINISHES) <= {"transparent", "mirror"}
+
+
+@pytest.mark.parametrize("word", MATERIALS)
+def test_a_material_is_the_same_in_python_and_in_files(word):
+    mine, theirs = vp.Item("A", SHAPE, material=vp.Material(word)), of_file(word)
+    assert mine.material == theirs.material and mine.hides == theirs.hides
+
+
+@pytest.mark.parametrize("colour", COLOUR_WORDS)
+def test_a_colour_is_the_same_in_python_in_files_and_in_all_verbs(colour):
+    quoted = f'colour "{colour}"'
+    mine = vp.Scene((vp.Item("A", SHAPE, colour),), (LAMP,))
+    theirs = vp.Scene((of_file(quoted),), (LAMP,))
+    assert of_file(quoted).colour == colour
+    assert [layer.pen for layer in vp.draw(mine, layers="colour").layers] == [
+        layer.pen for layer in vp.draw(theirs, layers="colour").layers
+    ]
+    shown = vp.render(mine, size=(60, 60), samples=1).pixels
+    assert (shown == vp.render(theirs, size=(60, 60), samples=1).pixels).all()
+    painted = {tuple(c) for c in np.asarray(vp.paint(mine).layers[0].marks[0].colours).tolist()}
+    assert painted == {tuple(c) for c in np.asarray(vp.paint(theirs).layers[0].marks[0].colours).tolist()}
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: vp.Item("A", SHAPE, "salmon"),
+        lambda: vp.Item("A", SHAPE, "Blue"),
+        lambda: vp.Item("A", SHAPE, "#12345"),
+        lambda: vp.Item("A", SHAPE, None),
+        lambda: vp.Item("A", SHAPE, lines=("ridge",)),
+        lambda: vp.Pattern("P", "salmon", 0, np.zeros((3, 2))),
+        lambda: vp.Light((0, 0, 1), colour="salmon"),
+        lambda: vp.Light((0, 0, 1), intensity=1.5),
+        lambda: vp.Light((0, 0, 1), intensity=float("nan")),
+        lambda: vp.Scene((), background="salmon"),
+        lambda: vp.Material("glas"),
+        lambda: vp.Material(opacity=1.5),
+        lambda: vp.Material(opacity=float("nan")),
+        lambda: vp.Material(refraction=0.0),
+        lambda: vp.Material(refraction=float("inf")),
+    ],
+)
+def test_what_is_made_of_unknown_words_is_refused_at_once(make):
+    with pytest.raises(vp.InputError):
+        make()
+
+
+@pytest.mark.parametrize("quoted", ["salmon", '"salmon"', '"#12345"'])
+def test_an_unknown_colour_of_a_file_is_gray_with_a_warning_quoted_or_not(quoted):
+    with pytest.warns(vp.InputWarning, match="unknown colour .*, gray is used"):
+        assert of_file(f"colour {quoted}").colour == "gray"
+
+
+@pytest.mark.parametrize("verb", [vp.draw, vp.paint, lambda scene, lines: vp.render(scene, size=(50, 40), lines=lines)])
+def test_kinds_of_lines_are_words_or_a_text_in_all_verbs(verb):
+    scene = vp.Scene((vp.Item("A", SHAPE),))
+    for lines in (("contour", "crease"), "contour,crease", " Contour , crease,crease", "none", ()):
+        verb(scene, lines=lines)
+    for lines in ("contour;crease", "countour", ("contour,crease",), ""):
+        with pytest.raises(vp.InputError, match="line kind"):
+            verb(scene, lines=lines)
+
+
+def test_kinds_come_once_and_none_is_none():
+    assert line_words("crease, Contour,crease") == ("crease", "contour")
+    assert line_words("none") == line_words(("none",)) == line_words(()) == ()
+    assert set(DRAWN) == set(LINE_WORDS) - {"edges"} and LINE_WORDS == tuple(kind.word for kind in LineKind)
+
+
+@pytest.mark.parametrize(
+    ("word", "known", "meant"),
+    [
+        ("contuor", LINE_WORDS, "contour"),
+        ("silhouette", LINE_WORDS, "contour"),
+        ("rotate", ("rotation", "translation"), "rotation"),
+        ("fov", ("field_of_vision", "eye"), "field_of_vision"),
+        ("pen-width", ("fit", "no-fit", "halo"), None),
+        ("output", ("out", "quiet"), "out"),
+        ("x" * 100_000, LINE_WORDS, None),
+    ],
+)
+def test_the_nearest_known_word(word, known, meant):
+    assert nearest(word, known) == meant
+
+
+@pytest.mark.parametrize(
+    ("arguments", "hint"),
+    [
+        (["drw"], "Did you mean 'draw'?"),
+        (["draw", "x", "-o", "y.svg", "--linse", "contour"], "Did you mean '--lines'?"),
+        (["paint", "x", "-o", "y.svg", "--field-of-view", "30"], "Did you mean '--fov'?"),
+        (["draw", "x", "-o", "y.svg", "--lines", "creases"], "did you mean 'crease'?"),
+        (["render", "x", "-o", "y.png", "--lines", "outline"], "did you mean 'contour'?"),
+    ],
+)
+def test_the_command_says_what_may_be_meant(arguments, hint, capsys):
+    assert run(arguments) == 2
+    assert hint in capsys.readouterr().err
+
+
+def test_the_command_does_not_guess_wildly(capsys):
+    assert run(["draw", "x", "-o", "y.svg", "--pen-width", "0.3"]) == 2
+    assert "mean" not in capsys.readouterr().err
+
+
+def test_a_scene_file_says_what_may_be_meant():
+    with pytest.raises(vp.InputError, match="'rotation'"):
+        parse_scene("A box 1 1 1 rotate z 30")
+
+
+def test_explain_reads_the_same_in_python_and_on_the_command_line(capsys):
+    vp.draw(vp.Scene((vp.Item("A", SHAPE),)), explain=print)
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split()[0] == "look" and lines[0].endswith("the scene in the camera's axes, in the unit box")
+    numbers = [line[16:].split()[:3] for line in lines]
+    assert all(float(ms) >= 0 and int(count) >= 0 and float(peak) > 0 for ms, count, peak in numbers)

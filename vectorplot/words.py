@@ -1,0 +1,166 @@
+"""The words of vectorplot, which mean the same in Python, in scene files and on the command line: kinds of lines,
+colours and materials; and which known word an unknown one may have meant."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from difflib import get_close_matches
+from enum import IntEnum
+
+from vectorplot.errors import InputError
+
+
+class LineKind(IntEnum):
+    """What a line is; the smaller value wins where one line is several things at once."""
+
+    CONTOUR = 0
+    """One neighbouring face looks at the eye, the other away from it."""
+    BOUNDARY = 1
+    """An edge of a single face."""
+    CREASE = 2
+    """Two faces meet at an angle sharper than the crease angle."""
+    INTERSECTION = 3
+    """Two shapes, or two parts of one, pierce each other."""
+    EDGES = 4
+    """Any other edge of a face."""
+    PATTERN = 5
+    """The outline of a pattern on a face."""
+    PARAMETER = 6
+    """A line of a parametrised surface along which u or v is constant."""
+    ISOPHOTE = 7
+    """A line of a smooth surface along which it takes the same light."""
+    SECTION = 8
+    """A line in which a plane meets a smooth surface."""
+    CURVE = 9
+    """A curve in space that is an item of its own."""
+
+    @property
+    def word(self) -> str:
+        """The kind as the command line and the JSON file spell it."""
+        return self.name.lower()
+
+    @classmethod
+    def from_word(cls, word: str) -> LineKind:
+        """The kind spelled that way; InputError for another word."""
+        if word.upper() not in cls.__members__:
+            raise unknown("line kind", word, LINE_WORDS)
+        return cls[word.upper()]
+
+
+LINE_WORDS = tuple(kind.word for kind in LineKind)
+"""The kinds of lines as they are spelled."""
+
+
+DRAWN = tuple(word for word in LINE_WORDS if word != LineKind.EDGES.word)
+"""The kinds of lines that are drawn where nothing else is said."""
+
+WIRES = tuple(word for word in LINE_WORDS if word != LineKind.INTERSECTION.word)
+"""Those of a wireframe: every edge, and no line in which things pierce each other."""
+
+
+def line_words(words: str | Iterable[str]) -> tuple[str, ...]:
+    """The kinds of lines that are named, each once: words, or one text with commas between them; ``none`` is no kind.
+
+    Errors: InputError for words that are no kinds of lines.
+    """
+    given = words.split(",") if isinstance(words, str) else list(words)
+    if len(given) == 1 and given[0].strip().lower() == "none":
+        return ()
+    return tuple(dict.fromkeys(LineKind.from_word(word.strip()).word for word in given))
+
+
+def line_kinds(words: str | Iterable[str]) -> frozenset[LineKind]:
+    """The kinds of lines that are named, as of line_words."""
+    return frozenset(map(LineKind.from_word, line_words(words)))
+
+
+PALETTES = ("gray", "green", "yellow", "blue", "pink", "cyan", "magenta", "orange")
+"""The parent palettes; each has a ``light`` and a ``dark`` half too."""
+
+PLAIN_COLOURS = ("white", "black", "red")
+"""Colours without shades."""
+
+COLOURS = frozenset([*PALETTES, *("light" + p for p in PALETTES), *("dark" + p for p in PALETTES), *PLAIN_COLOURS])
+"""All colours that have a name."""
+
+_HEX = re.compile(r"#[0-9a-fA-F]{6}")
+
+
+def is_colour(word: str) -> bool:
+    """Whether a word is the name of a colour, or #rrggbb."""
+    return word in COLOURS or _HEX.fullmatch(word) is not None
+
+
+def check_colour(word: str, owner: str = "") -> None:
+    """An InputError, which begins with its owner, for what is no colour."""
+    if not isinstance(word, str) or not is_colour(word):
+        raise unknown(f"{owner}colour", word, (*PALETTES, *PLAIN_COLOURS), "their light and dark halves, or #rrggbb")
+
+
+MATERIALS = {
+    "normal": "normal",
+    "metallic": "metallic",
+    "shiny": "shiny",
+    "reflecting": "shiny",
+    "mat": "mat",
+    "matte": "mat",
+    "wood": "wood",
+    "plastic": "plastic",
+    "transparent": "transparent",
+    "mirror": "mirror",
+}
+"""Words for physical properties, and the material each one names."""
+
+_MEANT = {
+    "border": "boundary",
+    "cube": "box",
+    "extrude": "translation",
+    "extrusion": "translation",
+    "field_of_view": "field_of_vision",
+    "field-of-view": "fov",
+    "fov": "field_of_vision",
+    "isoline": "section",
+    "lathe": "revolution",
+    "move": "translation",
+    "outline": "contour",
+    "output": "out",
+    "rotate": "rotation",
+    "sharp": "crease",
+    "silhouette": "contour",
+    "transparency": "opacity",
+    "translate": "translation",
+    "verbose": "explain",
+}
+"""Words of other programs, and ours for the same."""
+
+ALIKE = 0.72
+"""Words that share fewer of their letters, as a part of both words' letters, are not taken for each other."""
+
+
+def nearest(word: str, known: Iterable[str]) -> str | None:
+    """The known word that another one resembles or is another program's word for, or None."""
+    words = sorted(known)
+    if _MEANT.get(word) in words:
+        return _MEANT[word]
+    found = get_close_matches(word[:40], words, n=1, cutoff=ALIKE)
+    return found[0] if found else None
+
+
+def unknown(what: str, word: object, known: Iterable[str], more: str = "") -> InputError:
+    """The error for an unknown word: what it should have been, and which known one may be meant.
+
+    more: what else would have been right.
+    """
+    words = list(known)
+    near = nearest(word.lower(), words) if isinstance(word, str) else None
+    hint = f" (did you mean {near!r}?)" if near else ""
+    shown = repr(word) if len(repr(word)) <= 60 else repr(word)[:57] + "..."
+    return InputError(f"{what} {shown}: expected one of {', '.join(words)}{', ' + more if more else ''}{hint}")
+
+
+def check_word(what: str, word: object, known: Iterable[str]) -> None:
+    """An InputError for a word that is none of those known."""
+    words = tuple(known)
+    if word not in words:
+        raise unknown(what, word, words)
