@@ -83,10 +83,10 @@ def draw(
     camera and page: those of the scene where None, else default_camera and A4. fit: the picture fills the page but
     for its margin; otherwise the page centre is the target and the page height the camera's picture height. lines:
     words of LineKind, or one text with commas between them, DRAWN or WIRES where None; an item's own come first.
-    crease_angle_deg: sharper edges are creases. style: plain, or a wireframe: nothing hides anything, all lines have the
-    middle shades of their items' palettes, or go by their depth (depth-cue), on a sheet in the scene's background or the
-    darkest gray. hidden: hidden lines are left out, dashed, or solid on a layer of their own. halo_mm: lines end so far
-    beside what is in front of them.
+    crease_angle_deg: sharper edges are creases. style: plain, or a wireframe: nothing hides anything, all lines have
+    the middle shades of their items' palettes, or go by their depth (depth-cue), on a sheet in the scene's background
+    or the darkest gray. hidden: hidden lines are left out, dashed, or solid on a layer of their own. halo_mm: lines end
+    so far beside what is in front of them.
     layers: what shares a layer. curves: strokes of smooth curves are fitted with cubic Béziers and elliptic arcs, or
     stay polylines. tolerance_mm: how far strokes of smooth curves may be off the true curves; their
     points are exact but for the ends of dashes, straight lines are so whatever it is. progress(stage, fraction)
