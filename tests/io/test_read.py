@@ -87,9 +87,17 @@ def test_a_moebius_band_is_kept_and_said(tmp_path: Path) -> None:
     ("name", "content", "cause"),
     [
         ("empty.obj", "", "the file is empty"),
-        ("shape.step", "\0binary", "unknown suffix '.step', known are .scene .txt .obj"),
-        ("shape.gltf", "{}", "unknown suffix '.gltf'"),
-        ("shape.3mf", "<xml/>", "unknown suffix '.3mf'"),
+        ("shape.step", "ISO-10303-21;", "a STEP file, which is not read; export it as stl, obj, ply, off or glb"),
+        ("shape", "ISO-10303-21;", "a STEP file, which is not read"),
+        ("shape.SCAD", "cube([1,2,3]);", "an OpenSCAD program, which is not read"),
+        ("shape.dxf", "0\nSECTION\n", "a DXF drawing, which is not read"),
+        ("shape.gltf", "{}", "a glTF text with its data beside it, which is not read; save it as one glb file"),
+        ("shape.3mf", "PK\x03\x04", "a 3MF package, which is not read"),
+        ("shape.foo", "BOX bx 1 1 1", "unknown word 'bx', expected 'box' (it was read as a scene: meshes"),
+        ("shape.xyz", "\0\1", "a binary file, neither a scene nor a mesh"),
+        ("shape.model", "  <model/>", "an XML file, which is not read"),
+        ("shape.scene", "%PDF-1.4", "a PDF document, which is not read"),
+        ("shape.txt", "OFF\n3 1 0", "an OFF file, which is not read; give its name the suffix .off"),
         ("flat.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n", "no face with an area (dropped 1 degenerate face)"),
         ("point.obj", "v 1 1 1\nf 1 1 1\n", "no face with an area"),
         ("huge.obj", "v 1e200 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n", "out of range"),
@@ -99,7 +107,7 @@ def test_bad_files(tmp_path: Path, name: str, content: str, cause: str) -> None:
     path = written(tmp_path, name, content)
     with pytest.raises(InputError) as error:
         read(path)
-    assert str(error.value).startswith(f"{path}: ") and cause in str(error.value)
+    assert str(error.value).startswith(f"{path}:") and cause in str(error.value)
 
 
 def test_missing_files_directories_and_impossible_names(tmp_path: Path) -> None:
@@ -128,7 +136,7 @@ def test_info_says_counts_closedness_convexity_and_size(tmp_path: Path) -> None:
     lines = describe(read(written(tmp_path, "cube.obj", CUBE + faces(FACES))))
     assert lines == [
         "cube: 8 vertices, 12 edges, 6 faces, closed, convex, size 1 x 1 x 1",
-        "1 item, 6 faces, 0 lights, size 1 x 1 x 1",
+        "1 item, 8 vertices, 12 edges, 6 faces, 0 lights, size 1 x 1 x 1",
     ]
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.mesh import Ints, Mesh
 from vectorplot.geometry.repair import Mending, is_closed_oriented, mended
+from vectorplot.io.foreign import foreign_kind
 from vectorplot.io.mesh_file import MeshFile, check_file, shown
 from vectorplot.scene.scene import Item, Scene
 
@@ -25,17 +26,15 @@ def read(path: str | os.PathLike[str]) -> Scene:
 
     A mesh file gives one item named after the file, or one for every object (OBJ) or node (glb) if there are several.
     Meshes are mended (see geometry.repair); what was mended, and what could not be, is said in one InputWarning a file.
-    Errors: InputError, one line with the file, the line where there is one, and the cause.
+    Errors: InputError, one line with the file, the line where there is one, and the cause; a file of another kind is
+    named as such.
     """
     path = Path(path)
     check_file(path)
     reader = _mesh_reader(path.suffix.lower())
     if reader is None:
         _check_text(path)
-        from vectorplot.io.scene_language import read_scene
-
-        scene: Scene = read_scene(path)
-        return scene
+        return _scene_text(path)
     try:
         return _mesh_scene(path, reader(path))
     except InputError as error:
@@ -44,6 +43,19 @@ def read(path: str | os.PathLike[str]) -> Scene:
         raise InputError("too large for the memory", file=shown(path)) from None
     except OSError as error:
         raise InputError(error.strerror or "cannot be read", file=shown(path)) from None
+
+
+def _scene_text(path: Path) -> Scene:
+    """The scene that a text describes; what is wrong with it may be that it is none."""
+    from vectorplot.io.scene_language import read_scene
+
+    try:
+        return read_scene(path)
+    except InputError as error:
+        if path.suffix.lower() in SCENE_SUFFIXES:
+            raise
+        cause = f"{error.cause} (it was read as a scene: meshes end in {', '.join(MESH_SUFFIXES)})"
+        raise InputError(cause, file=error.file, line=error.line) from None
 
 
 def _mesh_reader(suffix: str) -> Callable[[Path], MeshFile] | None:
@@ -72,14 +84,11 @@ def _mesh_reader(suffix: str) -> Callable[[Path], MeshFile] | None:
 
 
 def _check_text(path: Path) -> None:
-    """An InputError for a file that cannot be a scene text: other 3-D formats are XML, JSON or binary."""
-    if path.suffix.lower() in SCENE_SUFFIXES:
-        return
+    """An InputError, which names its kind, for a file that cannot be a scene text."""
     with path.open("rb") as file:
-        head = file.read(4096)
-    if b"\0" in head or head.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] in (b"<", b"{"):
-        known = " ".join((*SCENE_SUFFIXES, *MESH_SUFFIXES))
-        raise InputError(f"unknown suffix '{path.suffix}', known are {known}", file=shown(path))
+        kind = foreign_kind(path, file.read(4096))
+    if kind:
+        raise InputError(kind, file=shown(path))
 
 
 def _check_extent(mesh: Mesh) -> None:
