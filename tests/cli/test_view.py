@@ -2,10 +2,15 @@ import click
 import numpy as np
 import pytest
 
+import vectorplot as vp
+from vectorplot.cli.main import run
 from vectorplot.cli.view import CameraOptions, camera_from, page_from
 from vectorplot.draw import default_camera
 from vectorplot.geometry.camera import VIEWS, Camera
 from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.view import look
+from vectorplot.shading.scene_triangles import camera_in_view
+from vectorplot.shading.screen import raster_system
 from vectorplot.testing.shapes import box, scene_of
 
 SCENE = scene_of(BOX=box((0, 0, 0), (2, 1, 1)))
@@ -92,3 +97,39 @@ def test_without_an_eye_models_that_stand_upright_along_y_are_seen_from_above_an
     assert y > 0.3 and z > 0.5 and x > 0.3
     assert np.allclose(camera_from(CameraOptions(up=(0.0, 0.0, 2.0)), SCENE).eye, default_camera(SCENE).eye)
     assert camera_from(CameraOptions(up=(3.0, 0.0, 0.0)), SCENE).direction[0] > 0.3
+
+
+@pytest.mark.capability("G2.2-fov")
+@pytest.mark.parametrize("verb", ["draw", "paint", "render"])
+@pytest.mark.parametrize(
+    ("fov", "word"), [(4, "telephoto"), (9.9, "telephoto"), (10, ""), (15, ""), (40, ""), (60, ""), (61, "distorts")]
+)
+def test_every_verb_tells_of_fields_of_vision_that_do_not_look_natural(verb, fov, word, cube, tmp_path, capsys):
+    out = tmp_path / "out.png"
+    small = ["--size", "20x15"] if verb == "render" else []
+    assert run([verb, str(cube), "-o", str(out), "--fov", str(fov), *small]) == 0
+    told = capsys.readouterr().err
+    assert told.count("\n") == bool(word) and word in told
+    scene = tmp_path / "own.scene"
+    scene.write_text(f"camera eye 3 -9 5 field_of_vision {fov}\nA box 1 1 1", encoding="utf-8")
+    assert run([verb, str(scene), "-o", str(out), *small]) == 0
+    assert capsys.readouterr().err == told
+    assert run([verb, str(scene), "-o", str(out), "--parallel", *small]) == 0
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.capability("G2.2-fov")
+@pytest.mark.parametrize("fov", [5.0, 15.0, 27.0, 40.0, 60.0, 90.0, 150.0])
+def test_a_point_half_the_field_of_vision_up_is_on_the_edge_of_every_verbs_picture(fov):
+    camera = Camera((7.0, -9.0, 4.0), (1.0, 2.0, 0.5), fov_deg=fov, twist_deg=20.0)
+    up = camera.axes[1] * camera.distance * np.tan(np.radians(fov / 2))
+    page = Page(200.0, 120.0, 5.0)
+    for sign in (-1.0, 1.0):
+        point = np.append(np.array(camera.target) + sign * up, 1.0)
+        for verb in (vp.draw, vp.paint):
+            x, y, _, w = verb(SCENE, camera, page=page, fit=False).page_from_world @ point
+            assert (x / w, y / w) == pytest.approx((100.0, 60.0 * (1.0 + sign)), abs=1e-9)
+        view = look(SCENE, camera)
+        system = raster_system(camera_in_view(view, camera), 200, 120)
+        column, row = system.from_world(view.points_of(point[None, :3]).T)[0, :2]
+        assert (column, row) == pytest.approx((99.5, 59.5 + 60.0 * -sign), abs=1e-9)

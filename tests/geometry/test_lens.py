@@ -28,7 +28,6 @@ def test_impossible_lenses_are_refused():
         lens.focal_length_mm(180.0)
 
 
-@pytest.mark.capability("G2.2-fov")
 def test_advice_about_fields_of_vision():
     assert all(lens.advice(fov) is None for fov in (10.0, 15.0, 27.0, 40.0, 60.0))
     assert "distorts" in lens.advice(60.5) and "15 to 40" in lens.advice(60.5)

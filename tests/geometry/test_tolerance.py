@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import ast
 import logging
+import math
+import subprocess
+import sys
 import warnings
 from pathlib import Path
 
 import pytest
 
 import vectorplot
+from vectorplot.cli.main import run
 from vectorplot.errors import InputWarning
 from vectorplot.geometry import tolerance
 
@@ -33,6 +37,66 @@ def test_central_constants_live_in_one_place():
     assert homes == {name: ["geometry/tolerance.py"] for name in CONSTANTS}
     # Double precision: far below the size of what it is added to, and not absorbed by it (erratum G1-06).
     assert 2.0 + tolerance.ZERO_OF_EXTENT > 2.0 and 2.0 + tolerance.ROUNDING > 2.0
+
+
+@pytest.mark.capability("G1.1-convention")
+def test_nobody_writes_pi_or_infinity_down_again():
+    wrong = []
+    for path, tree in trees():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Constant) and isinstance(node.value, int | float) and node.value is not True:
+                value = float(node.value)
+                pi = any(abs(value - times * math.pi) < 1e-3 for times in (0.25, 0.5, 1.0, 2.0))
+                if pi or value in (1e20, float("inf")):
+                    wrong.append((path.as_posix(), node.lineno, value))
+    assert not wrong
+
+
+@pytest.mark.capability("G1.1-convention")
+def test_constants_are_named_in_capitals_and_say_why():
+    """Every number a module holds for others has a name in capitals and a line below it that says what it is."""
+    silent = []
+    for path, tree in trees():
+        for node, after in zip(tree.body, [*tree.body[1:], None], strict=True):
+            if not isinstance(node, ast.Assign) or not all(isinstance(t, ast.Name) for t in node.targets):
+                continue
+            if isinstance(node.value, ast.Constant) and isinstance(node.value.value, float):
+                told = isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant)
+                name = node.targets[0].id
+                if not name.lstrip("_").isupper() or not (told or name.startswith("_")):
+                    silent.append(f"{path.as_posix()}: {name}")
+    assert not silent
+
+
+@pytest.mark.capability("G1.1-convention")
+@pytest.mark.parametrize("verb", ["draw", "paint", "render", "info"])
+def test_memory_that_cannot_be_had_is_one_line(verb, tmp_path, capsys, monkeypatch):
+    def without_memory(*_, **__):
+        raise MemoryError
+
+    monkeypatch.setattr("vectorplot.io.read.read", without_memory)
+    monkeypatch.setattr("vectorplot.cli.info.read", without_memory, raising=False)
+    scene = tmp_path / "a.scene"
+    scene.write_text("A box 1 1 1", encoding="utf-8")
+    out = [] if verb == "info" else ["-o", str(tmp_path / "a.png")]
+    assert run([verb, str(scene), *out]) == 1
+    told = capsys.readouterr()
+    assert told.out == "" and told.err.count("\n") == 1 and "memory" in told.err
+    assert list(tmp_path.iterdir()) == [scene]
+
+
+@pytest.mark.capability("G1.1-convention")
+@pytest.mark.parametrize("verb", ["draw", "paint", "render"])
+def test_the_command_sends_its_messages_to_stderr_and_its_result_to_stdout(verb, tmp_path):
+    scene = tmp_path / "a.scene"
+    scene.write_text("camera eye 9 9 9 field_of_vision 70 A nocolour box 1 1 1", encoding="utf-8")
+    arguments = [sys.executable, "-m", "vectorplot", verb, str(scene), "-o", "-", "--format", "png", "--explain"]
+    messages = tmp_path / "messages.txt"
+    with messages.open("wb") as stream:
+        found = subprocess.run(arguments, stdout=subprocess.PIPE, stderr=stream, check=True)
+    text = messages.read_text(encoding="utf-8")
+    assert found.stdout.startswith(b"\x89PNG")
+    assert "unknown colour 'nocolour'" in text and "distorts" in text and "peak" in text
 
 
 @pytest.mark.capability("G1.1-convention")

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -7,6 +9,7 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
 from vectorplot.geometry import vectors as v
+from vectorplot.shading.lines import whole_pixels
 
 component = st.floats(-1e3, 1e3)
 vector3 = st.tuples(component, component, component).map(np.array)
@@ -37,6 +40,66 @@ def test_the_vector_kit_works_in_the_plane_and_in_space_for_many_at_once():
     assert v.length((3e200, 4e200)) == pytest.approx(5e200, rel=1e-15)
     assert v.length((3e-200, 4e-200)) == pytest.approx(5e-200, rel=1e-15)
     assert v.length((0.0, 0.0, 0.0)) == 0.0
+
+
+@pytest.mark.capability("G1.1-vec")
+@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize("shape", [(), (7,), (3, 5)])
+def test_every_operation_of_the_kit_in_the_plane_and_in_space_for_one_and_for_many(dimension, shape):
+    rng = np.random.default_rng(dimension)
+    a, b = rng.normal(size=(2, *shape, dimension)) * 1e3
+    factor = rng.normal(size=shape)[..., None]
+    each = list(np.ndindex(*shape))
+    found = {
+        "difference": (a - b, lambda p, q, k: [x - y for x, y in zip(p, q, strict=True)]),
+        "sum": (v.translated(a, b), lambda p, q, k: [x + y for x, y in zip(p, q, strict=True)]),
+        "negation": (-a, lambda p, q, k: [-x for x in p]),
+        "scaling": (factor * a, lambda p, q, k: [k * x for x in p]),
+        "copy": (a.copy(), lambda p, q, k: list(p)),
+        "zero": (np.zeros_like(a), lambda p, q, k: [0.0] * dimension),
+        "rounding": (
+            whole_pixels(a).reshape(a.shape) if dimension == 2 else np.rint(a),
+            lambda p, q, k: [*map(round, p)],
+        ),
+        "p + l d": (a + factor * b, lambda p, q, k: [x + k * y for x, y in zip(p, q, strict=True)]),
+        "on the line": (
+            v.point_on_line(a, a + b, factor[..., 0]),
+            lambda p, q, k: [x + k * y for x, y in zip(p, q, strict=True)],
+        ),
+    }
+    for name, (result, expected) in found.items():
+        for at in each:
+            exact = expected(a[at].tolist(), b[at].tolist(), float(factor[at][0]))
+            assert result[at].tolist() == pytest.approx(exact, rel=1e-12, abs=1e-9), name
+    # Pixels are counted from 0: of a point its nearest pixel, of a point between two the upper one.
+    if dimension == 2:
+        assert np.array_equal(whole_pixels(a), np.rint(a).reshape(-1, 2))
+        assert whole_pixels([(0.5, -0.5), (1.5, 2.5)]).tolist() == [[1, 0], [2, 3]]
+    for at in each:
+        p, q = a[at].tolist(), b[at].tolist()
+        assert v.dot(a, b)[at] == pytest.approx(sum(x * y for x, y in zip(p, q, strict=True)), rel=1e-9, abs=1e-6)
+        assert v.length(a)[at] == pytest.approx(math.hypot(*p), rel=1e-14)
+        plane = p[0] * q[1] - p[1] * q[0]
+        assert np.atleast_1d(v.cross(a, b)[at])[-1] == pytest.approx(plane, rel=1e-9, abs=1e-6)
+
+
+@pytest.mark.capability("G1.1-vec")
+@given(st.tuples(component, component).map(np.array), st.tuples(component, component).map(np.array))
+def test_cross_and_dot_obey_lagrange_in_the_plane(a, b):
+    size = v.length(a) * v.length(b)
+    assert v.cross(a, b) ** 2 + v.dot(a, b) ** 2 == pytest.approx(size**2, rel=1e-12, abs=1e-300)
+    assert v.cross(a, a) == 0.0
+
+
+@pytest.mark.capability("G1.1-vec")
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("offset", [0.0, 1e6])
+def test_a_copy_is_no_other_name_and_what_is_given_stays_what_it_was(size, offset):
+    points = offset + size * np.random.default_rng(1).normal(size=(9, 3))
+    kept = points.copy()
+    for result in (v.translated(points, (1, 2, 3)), v.normalize(points), v.cross(points, points[::-1]), -points):
+        result += 1.0
+        assert np.array_equal(points, kept)
 
 
 @pytest.mark.capability("G1.1-line-point")

@@ -59,7 +59,6 @@ def test_a_rubber_band_drawn_twice_vanishes():
         assert (fb.with_rubber_bands(once, start, end, colour).pages == noise.pages).all()
 
 
-@pytest.mark.capability("G4.2-line", "G4.2-poly")
 def test_polygons_are_filled_as_large_as_they_are():
     rng = np.random.default_rng(7)
     for _ in range(200):
@@ -112,7 +111,7 @@ def test_a_linear_ramp_is_reproduced():
     assert (page[row, column, 2] == 255).all()
 
 
-@pytest.mark.capability("G4.2-primitives", "GB.1-port", "G4.1-device")
+@pytest.mark.capability("G4.2-primitives")
 def test_a_device_knows_every_call():
     device = Device(keys="qa").opened(40, 30).cleared(3).with_rgb(9, 255, 0, 10).with_colour(9)
     device = device.with_pixel(5, 6).moved((1, 2, 99.0)).drawn((1, 8)).rubber_band((4, 8)).rubber_band((1, 8))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import reduce
@@ -80,9 +81,14 @@ class CameraOptions:
 
 
 def camera_from(options: CameraOptions, scene: Scene) -> Camera:
-    """The camera of the scene (or the default one) with the user's fields in place of its own."""
+    """The camera of the scene (or the default one) with the user's fields in place of its own.
+
+    An InputWarning says where its field of vision will not look natural.
+    """
     from vectorplot.draw import default_camera
+    from vectorplot.errors import InputWarning
     from vectorplot.geometry.camera import Camera
+    from vectorplot.geometry.lens import advice
 
     upright = options.up if options.up is not None and any(options.up) else (0.0, 0.0, 1.0)
     base = scene.camera or default_camera(scene, upright)
@@ -93,7 +99,7 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
     parallel = options.parallel or (base.parallel and options.fov is None)
     if options.height is not None and not parallel:
         raise click.UsageError("--height needs --parallel")
-    return replace(
+    camera = replace(
         base,
         eye=chosen(options.eye, base.eye),
         target=chosen(options.target, base.target),
@@ -103,6 +109,10 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
         parallel=parallel,
         height=chosen(options.height, base.height) if parallel else None,
     )
+    told = None if parallel else advice(camera.fov_deg)
+    if told is not None:
+        warnings.warn(told, InputWarning, stacklevel=2)
+    return camera
 
 
 def page_from(options: dict[str, Any], scene: Scene) -> Page:

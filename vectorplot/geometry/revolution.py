@@ -21,7 +21,10 @@ MAX_VERTICES = 20_000_000
 """The largest number of vertices: points of the meridian times order."""
 
 FULL_TURN = 360.0
+"""Degrees of a body that closes on itself."""
+
 HALF_TURN = 180.0
+"""Degrees between opposite half-planes through the axis."""
 
 
 def revolution(
