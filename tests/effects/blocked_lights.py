@@ -35,24 +35,36 @@ def face_points(view: View, faces: Ints, count: int, random: np.random.Generator
 
 
 def highest_grade(view: View, decals: Decals, at: FacePoints) -> tuple[Ints, Floats]:
-    """(n,) the highest grade of the decals each point lies in, and how far it is from the nearest side of one."""
+    """(n,) the highest grade of the decals, simple polygons, that each point lies in, and how far it is from the
+    nearest side of one."""
     grade = np.zeros(len(at.face), dtype=np.intp)
     clear = np.full(len(at.face), np.inf)
     normal, _, _ = newell(view, np.arange(view.face_count))
-    normal /= np.sqrt((normal * normal).sum(axis=0))
+    axis = np.abs(normal).argmax(axis=0)
     order = np.argsort(at.face, kind="stable")
     low, high = (np.searchsorted(at.face[order], decals.face, side=side) for side in ("left", "right"))
     for k in np.flatnonzero(high > low).tolist():
         here = order[low[k] : high[k]]
         corners = decals.points[:, decals.offsets[k] : decals.offsets[k + 1]]
         along = np.roll(corners, -1, axis=1) - corners
-        length = np.sqrt((along * along).sum(axis=0))
-        inward = np.cross(normal[:, decals.face[k]], along.T).T[:, length > 1e-12] / length[length > 1e-12]
-        arm = at.points[:, here][:, None] - corners[:, length > 1e-12][:, :, None]
-        distance = (inward[:, :, None] * arm).sum(axis=0).min(axis=0)
-        grade[here[distance > 0.0]] = np.maximum(grade[here[distance > 0.0]], decals.grade[k])
-        clear[here] = np.minimum(clear[here], np.abs(distance))
+        points = at.points[:, here]
+        share = (along[:, :, None] * (points[:, None] - corners[:, :, None])).sum(axis=0)
+        share = np.clip(share / np.maximum((along * along).sum(axis=0), 1e-300)[:, None], 0.0, 1.0)
+        arm = points[:, None] - corners[:, :, None] - share * along[:, :, None]
+        clear[here] = np.minimum(clear[here], np.sqrt((arm * arm).sum(axis=0)).min(axis=0))
+        u, v = (int(axis[decals.face[k]]) + np.array([1, 2])) % 3
+        inside = _crossings(corners[[u, v]], along[[u, v]], points[[u, v]]) % 2 == 1
+        grade[here[inside]] = np.maximum(grade[here[inside]], decals.grade[k])
     return grade, clear
+
+
+def _crossings(corners: Floats, along: Floats, points: Floats) -> Ints:
+    """(n,) how many sides of a polygon a ray along the first axis from each point meets."""
+    before = corners[1][:, None] <= points[1]
+    after = (corners[1] + along[1])[:, None] <= points[1]
+    share = (points[1] - corners[1][:, None]) / np.where(along[1] == 0.0, 1.0, along[1])[:, None]
+    ahead = corners[0][:, None] + share * along[0][:, None] > points[0]
+    return np.asarray(((before != after) & ahead).sum(axis=0))
 
 
 def scene_triangles(view: View) -> Floats:

@@ -54,12 +54,13 @@ def sight_rays(view: View, image: Floats) -> tuple[Floats, Floats]:
 
 
 def topmost(points: Floats, offsets: Ints, samples: Floats) -> Ints:
-    """(n,) the last polygon (convex, 2 or more rows) that contains each sample (2,n), -1 for none."""
+    """(n,) the last polygon (simple, 2 or more rows) that contains each sample (2,n), -1 for none."""
     found = np.full(samples.shape[1], -1)
     for k in range(len(offsets) - 1):
         ring = points[:2, offsets[k] : offsets[k + 1]]
-        along = np.roll(ring, -1, axis=1) - ring
-        turn = np.sign((ring[0] * np.roll(ring[1], -1) - ring[1] * np.roll(ring[0], -1)).sum())
-        side = along[0][:, None] * (samples[1] - ring[1][:, None]) - along[1][:, None] * (samples[0] - ring[0][:, None])
-        found[(turn != 0.0) & (turn * side >= 0.0).all(axis=0)] = k
+        after = np.roll(ring, -1, axis=1)
+        crossed = (ring[1][:, None] <= samples[1]) != (after[1][:, None] <= samples[1])
+        rise = np.where(after[1] == ring[1], 1.0, after[1] - ring[1])[:, None]
+        reached = ring[0][:, None] + (samples[1] - ring[1][:, None]) / rise * (after[0] - ring[0])[:, None]
+        found[(crossed & (reached > samples[0])).sum(axis=0) % 2 == 1] = k
     return found

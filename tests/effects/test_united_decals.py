@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 from blocked_lights import wrong_points
 
+from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals import Decals, no_decals
-from vectorplot.effects.shadows import shadow_decals
+from vectorplot.effects.shadow_grades import shadow_decals_of
+from vectorplot.effects.shadows import cast_shadows, shadow_decals
 from vectorplot.effects.united_decals import disjoint_decals, united_decals
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.plane_cuts import polygon_areas
@@ -39,7 +41,8 @@ def area(view: View, decals: Decals) -> float:
 def test_the_shadow_of_a_ring_is_united_to_a_region_with_a_hole_cut_open() -> None:
     ring = torus_mesh().transformed(np.diag([1, 1, 1, 1.0]) + np.pad([[0, 0, 0, 3.0]], ((2, 1), (0, 0))))
     view = look(numbered([box((-6, -6, -3), (6, 6, -2)), ring]), Camera((2, -9, 15), (0, 0, 0)))
-    decals = shadow_decals(view, (Light((0.0, 0.0, 1.0), parallel=True),))
+    single = cast_shadows(view, (Light((0.0, 0.0, 1.0), parallel=True),))
+    decals = shadow_decals_of(single, FillKind.SHADOW)
     on_floor = decals.of(np.flatnonzero(view.face_item[decals.face] == 0))
     united = united_decals(view, on_floor)
     assert 2 <= len(united) <= 4 < len(on_floor)

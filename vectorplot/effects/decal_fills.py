@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.drawing.fills import FillKind
 from vectorplot.drawing.painted import Overlay, Placed, fills_on_page
+from vectorplot.effects.convex_decals import convex_decals
 from vectorplot.effects.decals import Decals
 from vectorplot.effects.laying import Laid, laid
 from vectorplot.effects.shadow_shades import shadow_shades
@@ -16,7 +17,7 @@ from vectorplot.geometry.mesh import Floats, Ints, next_positions
 from vectorplot.scene.view import View
 from vectorplot.shading.depth_cueing import MIDDLE
 from vectorplot.shading.face_shades import Shades
-from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
+from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities, smooth_faces
 from vectorplot.shading.palettes import Colours, shaded_colours
 from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, unmapped
 
@@ -31,6 +32,7 @@ def decal_fills(
     """
     opaque = opacities(lighting.items)[view.face_item[decals.face]] >= 1.0
     decals = decals.of(np.flatnonzero(opaque | (decals.kind == FillKind.PATTERN)))
+    decals = convex_decals(view, decals, smooth_faces(view, lighting.normals))
     parts = laid(view, decals, faces.points, faces.offsets, faces.source)
     points = unmapped(view, parts.points)
     shades = corner_shades_of(view, lighting, points, parts.offsets, decals.face[parts.decal])

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.drawing.fills import FillKind
+from vectorplot.effects.convex_decals import convex_decals
 from vectorplot.effects.decals import Decals, joined_decals, no_decals
 from vectorplot.effects.light_system import FacePlanes, LightSystem, light_system
 from vectorplot.effects.patterns import in_shadows
@@ -69,10 +70,12 @@ def mirror_light(
     """
     projected = project_faces(view) if projected is None else projected
     found = []
+    # They are what shadows of the scene's own lights are clipped with.
+    everywhere = np.ones(view.face_count, dtype=np.bool_)
     for number, double in enumerate(doubles):
         lit = _through_windows(view, mirrors, double, number, projected)
         if len(lit):
-            dark = in_shadows(view, lit, _obscured(view, mirrors, double))
+            dark = in_shadows(view, lit, convex_decals(view, _obscured(view, mirrors, double), everywhere))
             nothing = np.zeros(len(dark), dtype=np.intp)
             found += [lit, replace(dark, light=nothing - 1, grade=nothing, lacking=nothing)]
     return joined_decals(*found)

@@ -25,9 +25,10 @@ def scene_shadows(
     from vectorplot.effects.shadow_grades import graded, shadow_decals_of
     from vectorplot.effects.shadows import cast_shadows
 
-    shadows = graded(view, cast_shadows(view, lights, receivers=receivers, projected=projected), len(lights))
-    dark = shadow_decals_of(shadows, FillKind.SHADOW)
-    return dark if aura == 0.0 else joined_decals(dark, shadow_borders(view, shadows, aura))
+    single = cast_shadows(view, lights, receivers=receivers, projected=projected)
+    cells = graded(view, single)
+    dark = shadow_decals_of(cells, FillKind.SHADOW)
+    return dark if aura == 0.0 else joined_decals(dark, shadow_borders(view, single, cells, aura))
 
 
 def scene_mirror_light(

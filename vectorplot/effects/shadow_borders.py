@@ -5,87 +5,105 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.drawing.fills import FillKind
-from vectorplot.effects.decals import Decals, joined_decals
-from vectorplot.effects.shadow_grades import Shadows, upright_planes
+from vectorplot.effects.decals import Decals, no_decals
+from vectorplot.effects.shadow_grades import Shadows, joined_shadows
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Floats, Ints, next_positions
-from vectorplot.geometry.plane_cuts import Parts, PlaneBundles, cut_by_planes, planes_of
+from vectorplot.geometry.plane_cuts import PlaneBundles, cut_by_planes, planes_of
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import corner_positions
 
 STRAIGHT_SINE = 1e-3
 """A corner that turns by an angle with a smaller sine needs no bevel."""
 
+BEVEL_REACH = 2.0
+"""No point of a border is farther from the box of its shadow than so many widths: two sides and the bevel between them
+meet within 1.5 widths."""
 
-def shadow_borders(view: View, shadows: Shadows, width: float) -> Decals:
-    """Strips around shadows of every grade, in the image as wide as the width, to be painted before them.
+EVERYWHERE = 1e30
+"""As far as boxes reach that have no end."""
 
-    Each strip is a whole polygon, larger than its shadow, which is painted over it; it ends where its face does, and
-    around a shadow of a higher grade where all but one of its lights shine. lacking: the lights that do not get there
-    at all; light: the one that gets there in part; grade: that of the shadow.
+
+def shadow_borders(view: View, single: Shadows, cells: Shadows, width: float) -> Decals:
+    """Strips around shadows, in the image as wide as the width, to be painted before them.
+
+    single: the shadows of single lights; cells: those of all grades, as graded makes them. Strips lie on what their
+    light reaches: faces, and on them cells that lack other lights; each is a whole polygon, larger than what is seen of
+    it, that darker cells are painted over. lacking: the lights that do not get there at all; light: the one that gets
+    there in part; grade: that of the shadow beside it.
     Errors: InputError for a width that is negative or not finite.
     Degenerate: no borders for width zero, and around faces that are dark as wholes.
     Source: Glaeser, section 6.3 (aura).
     """
     if not 0.0 <= width < np.inf:
         raise InputError(f"a border of width {width:g}: expected a number that is not negative")
-    grade = shadows.grade
-    found = []
-    for k in range(1, int(grade.max(initial=0)) + 1 if width > 0.0 else 1):
-        for left_out in range(k):
-            found.append(_strips(view, shadows, np.flatnonzero((grade == k) & ~shadows.whole), k, left_out, width))
-    return joined_decals(*found)
-
-
-def _strips(view: View, shadows: Shadows, which: Ints, grade: int, left_out: int, width: float) -> Decals:
-    """The strips of shadows of one grade towards one of the lights that they lack."""
-    around = _widened(view, shadows, which, width)
-    kept = np.flatnonzero(np.diff(around.first))
-    light = shadows.parents[left_out, which]
-    others = [shadows.parents[row, which] for row in range(grade) if row != left_out]
-    if others:
-        points, offsets = shadows.points, shadows.offsets
-        parts = cut_by_planes(points, offsets, around, others[0][kept], kept, view.tolerance)
-        borders = upright_planes(view, shadows)
-        for other in others[1:]:
-            parts = _again(view, parts, borders, other)
-    else:
-        position, offsets = corner_positions(view.offsets, shadows.face[which])
-        points = view.points[:, view.corners[position]]
-        parts = cut_by_planes(points, offsets, around, kept, kept, view.tolerance)
-    strip = kept[parts.pair]
-    lacking = shadows.lacking[which[strip]] & ~shadows.lacking[light[strip]]
-    count = np.zeros(len(strip), dtype=np.intp)
+    single = single.some(np.flatnonzero(~single.whole))
+    if width == 0.0 or not len(single):
+        return no_decals()
+    around = _widened(view, single, width)
+    ground = _lit_somewhere(view, single, cells)
+    strip, on = _neighbours(view, single, ground, width)
+    useful = (np.diff(around.first) > 0)[strip] & (ground.face[on] == single.face[strip])
+    useful &= ground.lacking[on] & single.lacking[strip] == 0
+    strip, on = strip[useful], on[useful]
+    parts = cut_by_planes(ground.points, ground.offsets, around, on, strip, view.tolerance)
+    strip, on = strip[parts.pair], on[parts.pair]
+    grade = ground.grade[on] + 1
     return Decals(
         parts.points,
         parts.offsets,
-        shadows.face[which[strip]],
-        count + int(FillKind.SHADOW_BORDER),
-        count + grade,
-        np.log2(shadows.lacking[light[strip]]).astype(np.intp),
-        count - 1,
-        count + 2 * grade - 1,
-        lacking=lacking,
+        ground.face[on],
+        np.full(len(on), int(FillKind.SHADOW_BORDER), dtype=np.intp),
+        grade,
+        np.log2(single.lacking[strip]).astype(np.intp),
+        np.full(len(on), -1, dtype=np.intp),
+        2 * grade - 1,
+        lacking=ground.lacking[on],
     )
 
 
-def _again(view: View, parts: Parts, borders: PlaneBundles, other: Ints) -> Parts:
-    """Parts cut once more, by the borders of other shadows."""
-    cut = cut_by_planes(parts.points, parts.offsets, borders, np.arange(len(parts)), other[parts.pair], view.tolerance)
-    return Parts(cut.points, cut.offsets, parts.pair[cut.pair], cut.whole)
+def _lit_somewhere(view: View, single: Shadows, cells: Shadows) -> Shadows:
+    """The faces that shadows fall on, as polygons that lack no light, and the cells on them."""
+    face = np.unique(single.face)
+    position, offsets = corner_positions(view.offsets, face)
+    bare = np.zeros(len(face), dtype=np.intp)
+    faces = Shadows(view.points[:, view.corners[position]], offsets, face, bare, bare == 0)
+    return joined_shadows([faces, cells.some(np.flatnonzero(np.isin(cells.face, face)))])
 
 
-def _widened(view: View, shadows: Shadows, which: Ints, width: float) -> PlaneBundles:
+def _neighbours(view: View, single: Shadows, ground: Shadows, width: float) -> tuple[Ints, Ints]:
+    """Pairs of shadows and polygons that are no farther apart in the image than the width, as far as boxes tell."""
+    import shapely
+
+    left, bottom, right, top = _image_boxes(view, ground)
+    tree = shapely.STRtree(shapely.box(left, bottom, right, top), node_capacity=16)
+    left, bottom, right, top = _image_boxes(view, single)
+    reach = BEVEL_REACH * width
+    strip, on = tree.query(shapely.box(left - reach, bottom - reach, right + reach, top + reach))
+    return strip, on
+
+
+def _image_boxes(view: View, shadows: Shadows) -> Floats:
+    """(4,m) smallest x and y, largest x and y in the image; of what reaches behind the near plane, everything."""
+    image = view.image_of(shadows.points)
+    starts = shadows.offsets[:-1]
+    boxes = np.concatenate([extreme.reduceat(image, starts, axis=1) for extreme in (np.minimum, np.maximum)])
+    if view.eye is not None:
+        behind = np.minimum.reduceat(view.depth_of(shadows.points), starts) <= view.near
+        boxes[:, behind] = np.array([[-1.0], [-1.0], [1.0], [1.0]]) * EVERYWHERE
+    return boxes
+
+
+def _widened(view: View, shadows: Shadows, width: float) -> PlaneBundles:
     """The planes through the eye and the sides of images of shadows, moved outwards by the width, and across their
     corners as far outside. Bundles without planes: of shadows that reach behind the near plane, or have no image."""
-    position, offsets = corner_positions(shadows.offsets, which)
-    points = shadows.points[:, position]
+    points, offsets = shadows.points, shadows.offsets
     image = view.image_of(points)
-    near = np.minimum.reduceat(view.depth_of(points), offsets[:-1]) <= view.near if len(which) else which > 0
-    along = image[:, next_positions(offsets, np.arange(len(position)))] - image
+    near = np.minimum.reduceat(view.depth_of(points), offsets[:-1]) <= view.near
+    along = image[:, next_positions(offsets, np.arange(points.shape[1]))] - image
     long = (along * along).sum(axis=0) > view.tolerance * view.tolerance
     long &= ~np.repeat(near, np.diff(offsets))
-    counts = np.add.reduceat(long, offsets[:-1]).astype(np.intp) if len(which) else which
+    counts = np.add.reduceat(long, offsets[:-1]).astype(np.intp)
     long &= np.repeat(counts >= 3, np.diff(offsets))
     counts = np.where(counts >= 3, counts, 0)
     ends = np.concatenate([[0], np.cumsum(counts)])
@@ -93,9 +111,8 @@ def _widened(view: View, shadows: Shadows, which: Ints, width: float) -> PlaneBu
     along /= np.sqrt((along * along).sum(axis=0))
     lines, owner = _outer_lines(image, along, ends, width)
     order = np.argsort(owner, kind="stable")
-    first = np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=len(which)))])
-    planes = _sight_planes(view, lines[:, order])
-    return PlaneBundles(planes, first)
+    first = np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=len(shadows)))])
+    return PlaneBundles(_sight_planes(view, lines[:, order]), first)
 
 
 def _outer_lines(image: Floats, along: Floats, ends: Ints, width: float) -> tuple[Floats, Ints]:

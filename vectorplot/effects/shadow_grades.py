@@ -1,46 +1,48 @@
-"""Shadows of several lights on the same faces: where they overlap it is darker."""
+"""Shadows of several lights on the same faces: where they overlap it is darker.
+
+On every face the borders of all shadows make one arrangement of cells, each of which lacks the same lights all over.
+There are no more of them than the borders and their crossings ask for, however many lights there are.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+import warnings
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals import Decals
-from vectorplot.features.edges import cross
-from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
-from vectorplot.geometry.plane_cuts import Parts, PlaneBundles, crossings_of, cut_by_planes, planes_of, polygon_areas
+from vectorplot.effects.face_frames import FaceFrames
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.plane_cuts import Parts
+from vectorplot.geometry.regions import cells_of, corners_of, polygons_of, unions, without_holes, without_splinters
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import corner_positions
-from vectorplot.visibility.projected_faces import newell
 
-PITCH = 4.0
-"""Faces are spread out on a plane at this distance from each other, so that one tree holds them all: no face of a
-view is wider than twice the root of 3."""
+POLYGONS_AT_ONCE = 1 << 15
+"""About so many shadows are cut into cells at once; those of one face always are."""
 
-OUTWARDS = np.array([[-1.0], [1.0], [-1.0], [1.0]])
-"""Which way the sides of a box look: smallest and largest x, smallest and largest y."""
+MANY_CELLS = 100_000
+"""From here on a warning tells what takes long."""
 
-POLYGONS_AT_ONCE = 1 << 14
-"""Polygons whose partners are looked up at once."""
+MOST_CELLS = 3_000_000
+"""More are refused: a file with them would have about a gigabyte."""
 
 
 @dataclass(frozen=True, eq=False)
 class Shadows:
-    """Convex polygons on faces: points (3,c) in the view, offsets (m+1,); face (m,) of the view; lacking (m,): the
-    lights that do not get there, bit k for light k; whole (m,): it is the whole face; parents (g,m): the shadows of
-    grade 1, in the order of their lights, that it is the common part of, -1 where there are fewer."""
+    """Polygons on faces: points (3,c) in the view, offsets (m+1,); face (m,) of the view; lacking (m,): the lights that
+    do not get there, bit k for light k; whole (m,): it is the whole face. Those that one light casts are convex."""
 
     points: Floats
     offsets: Ints
     face: Ints
     lacking: Ints
     whole: Bools
-    parents: Ints
 
     def __len__(self) -> int:
         return len(self.face)
@@ -48,31 +50,17 @@ class Shadows:
     @classmethod
     def of_light(cls, parts: Parts, face: Ints, light: int) -> Shadows:
         """Parts of faces that one light does not reach."""
-        lacking = np.full(len(face), 1 << light, dtype=np.intp)
-        return cls(parts.points, parts.offsets, face, lacking, parts.whole, np.zeros((0, len(face)), dtype=np.intp))
+        return cls(parts.points, parts.offsets, face, np.full(len(face), 1 << light, dtype=np.intp), parts.whole)
 
     @property
     def grade(self) -> Ints:
         """(m,) how many lights each lacks."""
         return np.bitwise_count(self.lacking).astype(np.intp)
 
-    @cached_property
-    def area(self) -> Floats:
-        """(m,) twice their areas."""
-        normal, _ = polygon_areas(self.points, self.offsets)
-        return np.asarray(np.sqrt((normal * normal).sum(axis=0)), dtype=np.float64)
-
     def some(self, which: Ints) -> Shadows:
         """Some of them, in the order asked for."""
         position, offsets = corner_positions(self.offsets, which)
-        return Shadows(
-            self.points[:, position],
-            offsets,
-            self.face[which],
-            self.lacking[which],
-            self.whole[which],
-            self.parents[:, which],
-        )
+        return Shadows(self.points[:, position], offsets, self.face[which], self.lacking[which], self.whole[which])
 
     def without_needless(self) -> Shadows:
         """The same without those on faces that another shadow for want of the same lights covers whole."""
@@ -89,141 +77,165 @@ def joined_shadows(shadows: Sequence[Shadows]) -> Shadows:
     """All shadows one after the other."""
     none = np.zeros(0, dtype=np.intp)
     if not shadows:
-        return Shadows(np.zeros((3, 0)), np.zeros(1, dtype=np.intp), none, none, none.astype(np.bool_), none[None][:0])
+        return Shadows(np.zeros((3, 0)), np.zeros(1, dtype=np.intp), none, none, none.astype(np.bool_))
     sizes = np.concatenate([np.diff(s.offsets) for s in shadows])
-    rows = max(len(s.parents) for s in shadows)
-    parents = [np.pad(s.parents, ((0, rows - len(s.parents)), (0, 0)), constant_values=-1) for s in shadows]
     return Shadows(
         np.concatenate([s.points for s in shadows], axis=1),
         np.concatenate([[0], np.cumsum(sizes)]),
         np.concatenate([s.face for s in shadows]),
         np.concatenate([s.lacking for s in shadows]),
         np.concatenate([s.whole for s in shadows]),
-        np.concatenate(parents, axis=1),
     )
 
 
-def graded(view: View, shadows: Shadows, lights: int) -> Shadows:
-    """Shadows of grade 1, and after them the common parts of those of different lights, of grade 2, 3 and so on up to
-    the number of lights.
+def graded(view: View, shadows: Shadows) -> Shadows:
+    """The cells of the arrangement of shadows of single lights, face by face: simple polygons, each with all the lights
+    that do not get there, to be painted in the order of their grades.
 
-    Source: Glaeser, section 6.3, figure 6.
+    A face that lights do not reach at all comes as a whole, for want of these; other cells overlap only where one of a
+    higher grade fills a hole of a lower one. So at any point the polygon of the highest grade tells what lacks there.
+    A shadow that is alone on its face keeps every digit; cells move by less than a few tolerances.
+    Errors: InputError for more than MOST_CELLS cells; an InputWarning from MANY_CELLS on. There are as many of them as
+    the arrangement has: with m shadows on a face that all cross each other about m squared.
+    Degenerate: cells narrower than a few tolerances are left out.
+    Source: Glaeser, section 6.3, figure 6 (shadows of higher grades).
     """
-    if lights > 1:
-        shadows = without_covered(view, shadows)
-    single = replace(shadows, parents=np.arange(len(shadows))[None])
-    grades = [single]
-    if lights < 2 or not len(shadows):
-        return single
-    tree, borders = _FaceTree.of(view, single), upright_planes(view, single)
-    while len(grades) < lights and len(grades[-1]):
-        grades.append(_next_grade(view, grades[-1], single, tree, borders).without_needless())
-    return joined_shadows(grades)
-
-
-def without_covered(view: View, shadows: Shadows) -> Shadows:
-    """The same without those that lie in another one on the same face for want of the same lights.
-
-    Of those that cover each other the first one stays.
-    """
-    if not len(shadows):
-        return shadows
-    tree, borders = _FaceTree.of(view, shadows), upright_planes(view, shadows)
-    covered = np.zeros(len(shadows), dtype=np.bool_)
-    for low in range(0, len(shadows), POLYGONS_AT_ONCE):
-        lot = shadows.some(np.arange(low, min(low + POLYGONS_AT_ONCE, len(shadows))))
-        mine, other = tree.partners(tree.box[:, low : low + POLYGONS_AT_ONCE])
-        same = np.flatnonzero((shadows.lacking[other] == lot.lacking[mine]) & (other != mine + low))
-        mine, other = mine[same], other[same]
-        inner = tree.box[:, mine + low] * OUTWARDS
-        inside = np.flatnonzero((inner <= tree.box[:, other] * OUTWARDS + view.tolerance).all(axis=0))
-        mine, other = mine[inside], other[inside]
-        found = crossings_of(lot.points, lot.offsets, borders, mine, other, view.tolerance)
-        within = found.pair[found.whole]
-        mine, other = mine[within] + low, other[within]
-        # What covers it is not covered itself, or else the cover of that one covers it too.
-        area = shadows.area
-        larger = (area[other] > area[mine]) | ((area[other] == area[mine]) & (other < mine))
-        covered[mine[larger]] = True
-    return shadows.some(np.flatnonzero(~covered))
-
-
-def _next_grade(view: View, shadows: Shadows, single: Shadows, tree: _FaceTree, borders: PlaneBundles) -> Shadows:
-    """The common parts of shadows with those of grade 1 of lights with higher numbers."""
-    found = []
-    for low in range(0, len(shadows), POLYGONS_AT_ONCE):
-        lot = shadows.some(np.arange(low, min(low + POLYGONS_AT_ONCE, len(shadows))))
-        mine, other = tree.partners(_laid_out(view, lot))
-        later = np.flatnonzero(single.lacking[other] > lot.lacking[mine])
-        mine, other = mine[later], other[later]
-        parts = cut_by_planes(lot.points, lot.offsets, borders, mine, other, view.tolerance)
-        mine, other = mine[parts.pair], other[parts.pair]
-        found.append(
-            Shadows(
-                parts.points,
-                parts.offsets,
-                lot.face[mine],
-                lot.lacking[mine] | single.lacking[other],
-                lot.whole[mine] & single.whole[other],
-                np.concatenate([lot.parents[:, mine], other[None]]),
-            )
-        )
+    whole = np.flatnonzero(shadows.whole)
+    faces, number = np.unique(shadows.face, return_inverse=True)
+    dark = np.zeros(len(faces), dtype=np.intp)
+    np.bitwise_or.at(dark, number[whole], shadows.lacking[whole])
+    first = np.unique(number[whole], return_index=True)[1]
+    found = [_lacking(shadows.some(whole[first]), dark[number[whole[first]]])]
+    part = np.flatnonzero(~shadows.whole)
+    several = np.bincount(number[part], minlength=len(faces))[number[part]] > 1
+    alone = part[~several]
+    found.append(_lacking(shadows.some(alone), shadows.lacking[alone] | dark[number[alone]]))
+    crowd = part[several]
+    count = 0
+    for lot in _lots(number[crowd]):
+        here = crowd[lot]
+        cells = _arranged(view, shadows.some(here))
+        count += len(cells)
+        if count > MOST_CELLS:
+            raise InputError(f"shadows overlap in more than {MOST_CELLS} parts: fewer lights, or the verb render")
+        found.append(_lacking(cells, cells.lacking | dark[np.searchsorted(faces, cells.face)]))
+    if count > MANY_CELLS:
+        warnings.warn(f"shadows overlap in {count} parts: large, and slow to paint", InputWarning, stacklevel=2)
     return joined_shadows(found)
 
 
-def upright_planes(view: View, shadows: Shadows) -> PlaneBundles:
-    """The planes upright on the faces through the sides of shadows, positive inside."""
-    normal, _ = polygon_areas(shadows.points, shadows.offsets)
-    sizes = np.diff(shadows.offsets)
-    owner = np.repeat(np.arange(len(sizes)), sizes)
-    after = next_positions(shadows.offsets, np.arange(shadows.points.shape[1]))
-    along = shadows.points[:, after] - shadows.points
-    kept = np.flatnonzero((along * along).sum(axis=0) > view.tolerance * view.tolerance)
-    # The area vector only tells the direction: divided by its length it does not vanish for small shadows.
-    unit = normal / np.sqrt((normal * normal).sum(axis=0))
-    planes = planes_of(cross(unit[:, owner[kept]], along[:, kept]), shadows.points[:, kept])
-    counts = np.bincount(owner[kept], minlength=len(sizes))
-    return PlaneBundles(planes, np.concatenate([[0], np.cumsum(counts)]))
+def _lacking(shadows: Shadows, lacking: Ints) -> Shadows:
+    """The same polygons for want of these lights."""
+    return Shadows(shadows.points, shadows.offsets, shadows.face, lacking, shadows.whole)
 
 
-@dataclass(frozen=True, eq=False)
-class _FaceTree:
-    """A tree over shadows, laid out so that only those on one face come together: box (4,m), smallest and largest x,
-    smallest and largest y."""
-
-    tree: Any
-    box: Floats
-
-    @classmethod
-    def of(cls, view: View, shadows: Shadows) -> _FaceTree:
-        import shapely
-
-        box = _laid_out(view, shadows)
-        left, right, bottom, top = box
-        return cls(shapely.STRtree(shapely.box(left, bottom, right, top), node_capacity=16), box)
-
-    def partners(self, box: Floats) -> tuple[Ints, Ints]:
-        """Pairs of boxes and shadows in the tree on the same face that they overlap."""
-        import shapely
-
-        left, right, bottom, top = box
-        mine, other = self.tree.query(shapely.box(left, bottom, right, top))
-        return mine, other
+def _lots(group: Ints) -> Iterator[Ints]:
+    """Numbers of what has some group (n,), whole groups together, in lots of about POLYGONS_AT_ONCE."""
+    order = np.argsort(group, kind="stable")
+    ends = np.append(np.flatnonzero(np.diff(group[order])) + 1, len(order))
+    begin = 0
+    while begin < len(order):
+        one, many = np.searchsorted(ends, [begin, begin + POLYGONS_AT_ONCE], side="right")
+        end = int(ends[max(one, many - 1)])
+        yield order[begin:end]
+        begin = end
 
 
-def _laid_out(view: View, shadows: Shadows) -> Floats:
-    """(4,m) boxes of shadows, seen along the axis that their face is steepest to, each face on a field of its own."""
-    normal, _, _ = newell(view, shadows.face)
-    sizes = np.diff(shadows.offsets)
-    axis = np.argmax(np.abs(normal), axis=0)
-    position = np.arange(shadows.points.shape[1])
-    row, column = np.divmod(shadows.face, int(np.sqrt(view.face_count)) + 1)
-    result = []
-    for step, field in ((1, column), (2, row)):
-        x = shadows.points[np.repeat((axis + step) % 3, sizes), position]
-        for extreme in (np.minimum, np.maximum):
-            result.append(extreme.reduceat(x, shadows.offsets[:-1]) + PITCH * field)
-    return np.stack(result)
+def _arranged(view: View, shadows: Shadows) -> Shadows:
+    """The cells of shadows that are no whole faces, several on each of their faces."""
+    frames = FaceFrames.of(view, shadows.face)
+    owner = np.repeat(np.arange(len(shadows)), np.diff(shadows.offsets))
+    polygons = polygons_of(frames.flat(shadows.points, owner), shadows.offsets)
+    faces, leader, number = np.unique(shadows.face, return_index=True, return_inverse=True)
+    light, lacking = np.unique(shadows.lacking, return_inverse=True)
+    key, of = np.unique(number * len(light) + lacking, return_inverse=True)
+    on, light_of = np.divmod(key, len(light))
+    one = (np.bincount(on) == 1)[on]
+    region = np.empty(len(key), dtype=object)
+    for some, grid in ((one, view.tolerance), (~one, None)):
+        mine = np.flatnonzero(some[of])
+        # The borders of several regions are brought to a grid when they meet.
+        region[some] = unions(polygons[mine], np.searchsorted(np.flatnonzero(some), of[mine]), grid)
+    cells, cell, missing = _cells(region, on, light[light_of], view.tolerance)
+    cells, which = without_holes(cells, np.arange(len(cells)))
+    flat, offsets = corners_of(cells)
+    lead = leader[cell[which]]
+    points = frames.lifted(flat, np.repeat(lead, np.diff(offsets)))
+    return Shadows(points, offsets, faces[cell[which]], missing[which], np.zeros(len(which), dtype=np.bool_))
+
+
+def _cells(region: Any, on: Ints, light: Ints, tolerance: float) -> tuple[Any, Ints, Ints]:
+    """Regions on faces on (r,), ascending, that lack one light each, as cells: polygons (k,), their faces, and the
+    lights that they lack; one region is its own cell."""
+    one = (np.bincount(on) == 1)[on]
+    parts, of = without_splinters(region[one], tolerance)
+    several = np.flatnonzero(~one)
+    if not len(several):
+        return parts, on[one][of], light[one][of]
+    faces, group = np.unique(on[several], return_inverse=True)
+    cells, cell = cells_of(region[several], group, tolerance)
+    missing = _missing(cells, cell, region[several], group, light[several])
+    cells, cell, missing = _without_filled_holes(cells, cell, missing, tolerance)
+    return (
+        np.concatenate([parts, cells]),
+        np.concatenate([on[one][of], faces[cell]]),
+        np.concatenate([light[one][of], missing]),
+    )
+
+
+def _missing(cells: Any, cell: Ints, region: Any, on: Ints, light: Ints) -> Ints:
+    """(k,) which lights cells on faces cell (k,) lack: those with a region on face on (r,) that covers them."""
+    import shapely
+
+    inner = shapely.get_coordinates(shapely.point_on_surface(cells))
+    missing = np.zeros(len(cells), dtype=np.intp)
+    shapely.prepare(region)
+    for bit in np.unique(light).tolist():
+        own = np.flatnonzero(light == bit)
+        place = np.minimum(np.searchsorted(on[own], cell), len(own) - 1)
+        here = np.flatnonzero(on[own][place] == cell)
+        inside = shapely.contains_xy(region[own[place[here]]], *inner[here].T)
+        missing[here[inside]] |= bit
+    return missing
+
+
+def _without_filled_holes(cells: Any, cell: Ints, missing: Ints, tolerance: float) -> tuple[Any, Ints, Ints]:
+    """The cells that lack lights, on faces cell (k,), without those holes in which all lack more of them."""
+    import shapely
+
+    grade = np.bitwise_count(missing).astype(np.intp)
+    pierced = np.flatnonzero((shapely.get_num_interior_rings(cells) > 0) & (missing > 0))
+    if len(pierced):
+        rings, owner = shapely.get_rings(cells[pierced], return_index=True)
+        outer = np.concatenate([[True], owner[1:] != owner[:-1]])
+        holes, owner = shapely.polygons(rings[~outer]), owner[~outer]
+        least = _least_inside(holes, cell[pierced[owner]], shapely.point_on_surface(cells), cell, grade)
+        open_still = least <= grade[pierced[owner]]
+        filled = shapely.polygons(rings[outer])
+        left = np.unique(owner[open_still])
+        if len(left):
+            cut = shapely.multipolygons(holes[open_still], indices=np.searchsorted(left, owner[open_still]))
+            filled[left] = shapely.difference(filled[left], cut)
+        cells[pierced] = filled
+    kept = np.flatnonzero(missing)
+    parts, of = without_splinters(cells[kept], tolerance)
+    return parts, cell[kept[of]], missing[kept[of]]
+
+
+def _least_inside(holes: Any, hole_face: Ints, inner: Any, cell: Ints, grade: Ints) -> Ints:
+    """(h,) the smallest grade of the cells with inner points (k,) in holes (h,) of their face."""
+    import shapely
+
+    # Side by side on a line, so that one tree holds all faces.
+    width = 2.0 * float(np.ptp(shapely.get_coordinates(holes), axis=0).max(initial=0.0)) + 16.0
+    places = shapely.get_coordinates(inner)
+    tree = shapely.STRtree(shapely.points(places[:, 0] + width * cell, places[:, 1]))
+    xy, of = shapely.get_coordinates(holes, return_index=True)
+    moved = shapely.set_coordinates(holes.copy(), np.stack([xy[:, 0] + width * hole_face[of], xy[:, 1]], axis=1))
+    hole, found = tree.query(moved, predicate="intersects")
+    least = np.full(len(holes), np.iinfo(np.intp).max)
+    np.minimum.at(least, hole, grade[found])
+    return least
 
 
 def shadow_decals_of(shadows: Shadows, kind: FillKind) -> Decals:

@@ -176,4 +176,4 @@ def shadow_decals(
     Source: Glaeser, section 6.3, figure 6.
     """
     shadows = cast_shadows(view, lights, casters=casters, projected=projected)
-    return shadow_decals_of(graded(view, shadows, len(lights)), FillKind.SHADOW)
+    return shadow_decals_of(graded(view, shadows), FillKind.SHADOW)

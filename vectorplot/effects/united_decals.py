@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from vectorplot.effects.decals import Decals
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.effects.face_frames import FaceFrames
+from vectorplot.geometry.mesh import Ints
 from vectorplot.geometry.regions import corners_of, unions, without_holes, without_splinters
 from vectorplot.scene.view import View
-from vectorplot.visibility.projected_faces import newell
 
 
 def united_decals(view: View, decals: Decals) -> Decals:
@@ -22,9 +22,9 @@ def united_decals(view: View, decals: Decals) -> Decals:
     """
     if not len(decals):
         return decals
-    frame = _frames(view, decals)
-    region, leader = _regions(decals, frame, view.tolerance)
-    return _listed(decals, frame, region, leader, view.tolerance)
+    frames = FaceFrames.of(view, decals.face)
+    region, leader = _regions(decals, frames, view.tolerance)
+    return _listed(decals, frames, region, leader, view.tolerance)
 
 
 def disjoint_decals(view: View, decals: Decals) -> Decals:
@@ -33,8 +33,8 @@ def disjoint_decals(view: View, decals: Decals) -> Decals:
 
     if not len(decals):
         return decals
-    frame = _frames(view, decals)
-    region, leader = _regions(decals, frame, view.tolerance)
+    frames = FaceFrames.of(view, decals.face)
+    region, leader = _regions(decals, frames, view.tolerance)
     faces, face = np.unique(decals.face[leader], return_inverse=True)
     level = decals.level[leader]
     above: Any = np.full(len(faces), shapely.Polygon(), dtype=object)
@@ -45,28 +45,16 @@ def disjoint_decals(view: View, decals: Decals) -> Decals:
         covered, of = np.unique(face[here], return_inverse=True)
         number = np.concatenate([of, np.arange(len(covered))])
         above[covered] = unions(np.concatenate([own, above[covered]]), number, view.tolerance)
-    return _listed(decals, frame, region, leader, view.tolerance)
+    return _listed(decals, frames, region, leader, view.tolerance)
 
 
-def _frames(view: View, decals: Decals) -> Floats:
-    """(3,3,m) a corner of the face of each decal, and two unit vectors across its normal."""
-    normal, _, first = newell(view, decals.face)
-    normal /= np.sqrt((normal * normal).sum(axis=0))
-    axis = np.eye(3)[:, np.argmin(np.abs(normal), axis=0)]
-    along = np.cross(axis, normal, axis=0)
-    along /= np.sqrt((along * along).sum(axis=0))
-    return np.stack([view.points[:, first], along, np.cross(normal, along, axis=0)])
-
-
-def _regions(decals: Decals, frame: Floats, tolerance: float) -> tuple[Any, Ints]:
+def _regions(decals: Decals, frames: FaceFrames, tolerance: float) -> tuple[Any, Ints]:
     """The union of the decals that are alike, in the frames of their faces, and for each the first of its decals."""
     import shapely
 
     sizes = np.diff(decals.offsets)
-    origin, along, left = np.repeat(frame, sizes, axis=2)
-    arm = decals.points - origin
-    flat = np.stack([(arm * along).sum(axis=0), (arm * left).sum(axis=0)], axis=1)
-    rings = shapely.linearrings(flat, indices=np.repeat(np.arange(len(sizes)), sizes))
+    owner = np.repeat(np.arange(len(sizes)), sizes)
+    rings = shapely.linearrings(frames.flat(decals.points, owner).T, indices=owner)
     columns = (decals.face, decals.kind, decals.level, decals.lights_lacking, decals.light, decals.colour)
     _, leader, group = np.unique(
         np.stack([*columns, decals.opacities], axis=1), axis=0, return_index=True, return_inverse=True
@@ -74,10 +62,9 @@ def _regions(decals: Decals, frame: Floats, tolerance: float) -> tuple[Any, Ints
     return unions(shapely.polygons(rings), group, tolerance), leader
 
 
-def _listed(decals: Decals, frame: Floats, region: Any, leader: Ints, tolerance: float) -> Decals:
+def _listed(decals: Decals, frames: FaceFrames, region: Any, leader: Ints, tolerance: float) -> Decals:
     """Regions, in the frames of the decals that lead them, as decals without holes."""
     parts, of = without_splinters(region, tolerance)
     parts, of = without_holes(parts, leader[of])
-    (x, y), offsets = corners_of(parts)
-    origin, along, left = np.repeat(frame[:, :, of], np.diff(offsets), axis=2)
-    return replace(decals.of(of), points=origin + x * along + y * left, offsets=offsets)
+    flat, offsets = corners_of(parts)
+    return replace(decals.of(of), points=frames.lifted(flat, np.repeat(of, np.diff(offsets))), offsets=offsets)

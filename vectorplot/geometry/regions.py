@@ -36,6 +36,21 @@ def unions(polygons: Any, group: Ints, grid: float | None) -> Any:
     return shapely.union_all(several[:, None], axis=1, grid_size=grid)
 
 
+def cells_of(regions: Any, group: Ints, tolerance: float) -> tuple[Any, Ints]:
+    """The cells that the borders of the regions (n,) of each of the groups 0, 1, ... cut the plane into, those without
+    bounds left out: polygons (k,), and the group of each; no two of a group overlap by more than a few tolerances.
+
+    Borders move by less than that. Degenerate: narrower cells are left out; corners where nothing turns, too.
+    """
+    import shapely
+
+    order = np.argsort(group, kind="stable")
+    borders = shapely.geometrycollections(shapely.boundary(regions[order]), indices=group[order])
+    lines = shapely.union_all(borders[:, None], axis=1, grid_size=tolerance)
+    cells, of = without_splinters(shapely.polygonize(lines[:, None]), tolerance)
+    return shapely.simplify(cells, WIDTH_KEPT * tolerance), of
+
+
 def without_splinters(regions: Any, tolerance: float) -> tuple[Any, Ints]:
     """The polygons that regions (n,) consist of, and the region of each; parts narrower than a few tolerances are left
     out, and holes that narrow filled."""
