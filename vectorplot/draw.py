@@ -20,6 +20,7 @@ from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.vectors import cross, normalize
 from vectorplot.plan import StageReport, Walk, plan_draw
 from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.seams import without_seams
 from vectorplot.scene.view import View, look
 from vectorplot.visibility.framing import in_frame
 from vectorplot.visibility.hidden_lines import Visibility, counted_parts, visible_parts
@@ -100,6 +101,7 @@ def draw(
     _check_options(hidden, layers, curves, halo_mm, crease_angle_deg, tolerance_mm)
     _check_style(style, hidden=hidden != "none", halo_mm=halo_mm > 0.0, layers=layers != "kind")
     kinds = line_kinds((DRAWN if style == "plain" else WIRES) if lines is None else lines)
+    scene = without_seams(scene)
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
     walk = Walk(plan_draw(scene, kinds, hidden, halo_mm, style), explain, progress)

@@ -19,6 +19,7 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.plan import StageReport, Walk, plan_paint
 from vectorplot.scene.scene import Light, Page, Scene
+from vectorplot.scene.seams import without_seams
 from vectorplot.scene.view import View, look
 from vectorplot.shading.face_shades import Shades, item_colours, view_lights
 from vectorplot.shading.faceted import FacetedScene, faceted
@@ -81,7 +82,7 @@ def paint(
     Source: Glaeser, chapters 4.5, 5 and 6.
     """
     _check_options(shadows, aura_mm, palette, fills, crease_angle_deg, tolerance_mm)
-    scene = scene if lights is None else replace(scene, lights=tuple(lights))
+    scene = without_seams(scene if lights is None else replace(scene, lights=tuple(lights)))
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
     kinds = line_kinds(lines)

@@ -15,6 +15,7 @@ from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.projection import CoordinateSystem
 from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, plan_render
 from vectorplot.scene.scene import Light, Page, Scene
+from vectorplot.scene.seams import without_seams
 from vectorplot.scene.view import LARGEST, View, look
 from vectorplot.shading.face_shades import view_lights
 from vectorplot.shading.faceted import FacetedScene, faceted
@@ -86,7 +87,7 @@ def render(
     kinds = tuple(kind.word for kind in sorted(line_kinds(lines)))
     _check_whole(columns=size[0], rows=size[1], samples=samples, shadow_size=shadow_size)
     _check(size, shadows, samples, crease_angle_deg)
-    scene = scene if lights is None else replace(scene, lights=tuple(lights))
+    scene = without_seams(scene if lights is None else replace(scene, lights=tuple(lights)))
     _check_lights(scene.lights)
     camera = camera or scene.camera or default_camera(scene)
     how, why = chosen_shadows(scene, camera, size, fit) if shadows == "auto" else (shadows, "")

@@ -18,7 +18,7 @@ def without_degenerate(mesh: Mesh) -> tuple[Mesh, int]:
     In a mesh of triangles, one without area whose third corner lies in its longest side first trades places with the
     neighbour there, which is split at that corner: so no hole is left between the sides.
     """
-    mesh, dropped = _without_stutter(mesh)
+    mesh, dropped = without_stutter(mesh)
     thin = _thin_faces(mesh)
     dropped += int(thin.sum())
     for _ in range(_ROUNDS if mesh.is_triangular else 0):
@@ -66,7 +66,7 @@ def chosen_faces(mesh: Mesh, chosen: Bools) -> Mesh:
     return Mesh(mesh.vertices, corners, offsets, None if mesh.present is None else mesh.present[chosen])
 
 
-def _without_stutter(mesh: Mesh) -> tuple[Mesh, int]:
+def without_stutter(mesh: Mesh) -> tuple[Mesh, int]:
     """The mesh without corners equal to the next one, and the number of faces that left fewer than three."""
     if mesh.is_triangular:
         a, b, c = mesh.corners[0::3], mesh.corners[1::3], mesh.corners[2::3]

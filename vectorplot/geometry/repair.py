@@ -21,7 +21,15 @@ from vectorplot.geometry.winding import (
     turned_faces,
 )
 
-__all__ = ["Mending", "MeshReport", "is_closed_oriented", "mended", "mesh_report", "welded"]
+__all__ = [
+    "Mending",
+    "MeshReport",
+    "is_closed_oriented",
+    "mended",
+    "mesh_report",
+    "welded",
+    "without_loose_vertices",
+]
 
 
 @dataclass(frozen=True)
@@ -165,7 +173,7 @@ def mended(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:
         turn = inside_out(mesh, piece, number)
         if turn.any():
             mesh, mending = turned_faces(mesh, turn), replace(mending, turned=int(turn.sum()))
-    return _without_loose_vertices(mesh), mending
+    return without_loose_vertices(mesh), mending
 
 
 def welded(mesh: Mesh) -> tuple[Mesh, int]:
@@ -176,7 +184,7 @@ def welded(mesh: Mesh) -> tuple[Mesh, int]:
 
 def _welded_where_open(mesh: Mesh, precision: float) -> tuple[Mesh, EdgeUses, Mending]:
     """The mesh with equal vertices made one, and close ones on its border; its edges; and what was done."""
-    mesh, count = welded(_without_loose_vertices(mesh))
+    mesh, count = welded(without_loose_vertices(mesh))
     mesh, dropped = without_degenerate(mesh) if count else (mesh, 0)
     uses = edge_uses(mesh)
     rim = _ends(mesh, uses, uses.count == 1)
@@ -247,7 +255,7 @@ def _with_own_vertices(mesh: Mesh, piece: Ints, shared: Ints) -> Mesh:
     return Mesh(np.concatenate([mesh.vertices, mesh.vertices[twins[0]]]), corners, mesh.offsets, mesh.present)
 
 
-def _without_loose_vertices(mesh: Mesh) -> Mesh:
+def without_loose_vertices(mesh: Mesh) -> Mesh:
     """The mesh without vertices that no face names."""
     used = np.zeros(len(mesh.vertices), dtype=np.bool_)
     used[mesh.corners] = True

@@ -133,10 +133,10 @@ def close_points(points: Floats, tolerance: float) -> Ints:
         step += 1
     one = np.concatenate([pair[0] for pair in pairs]) if pairs else np.zeros(0, dtype=np.intp)
     other = np.concatenate([pair[1] for pair in pairs]) if pairs else np.zeros(0, dtype=np.intp)
-    return _chained(len(points), one, other)
+    return chained(len(points), one, other)
 
 
-def _chained(count: int, one: Ints, other: Ints) -> Ints:
+def chained(count: int, one: Ints, other: Ints) -> Ints:
     """(count,) the smallest member of every point's cluster; clusters are small, so labels settle in a few rounds."""
     label = np.arange(count)
     while True:

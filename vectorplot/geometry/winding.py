@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,30 +93,47 @@ def unbalanced_vertices(vertices: int, corners: Ints, offsets: Ints) -> Bools:
         return np.zeros(vertices, dtype=np.bool_)
     label = (_scrambled(np.arange(vertices, dtype=np.uint64)) >> np.uint64(64 - LABEL_BITS)).astype(np.float64)
     at_corner = label[corners]
-    following = next_positions(offsets, np.arange(len(corners)))
-    difference = at_corner[following]
-    before = np.empty_like(at_corner)
-    before[following] = at_corner
-    difference -= before
+    size = _common_size(offsets)
+    if size:
+        rows = at_corner.reshape(-1, size)
+        difference = (rows[:, np.arange(1, size + 1) % size] - rows[:, np.arange(size) - 1]).ravel()
+    else:
+        following = next_positions(offsets, np.arange(len(corners)))
+        difference = at_corner[following]
+        before = np.empty_like(at_corner)
+        before[following] = at_corner
+        difference -= before
     return np.asarray(np.bincount(corners, weights=difference, minlength=vertices) != 0.0, dtype=np.bool_)
 
 
 def _circulation(vertices: int, corners: Ints, offsets: Ints) -> NDArray[np.uint64]:
     """(f,) the sum of r(a) s(b) - r(b) s(a) over the edges of every face, modulo 2^64."""
-    numbers = np.arange(2 * vertices, dtype=np.uint64)
-    r, s = _scrambled(numbers).reshape(2, -1)
-    faces = len(offsets) - 1
-    if len(corners) != 3 * faces:
-        following = corners[next_positions(offsets, np.arange(len(corners)))]
-        terms = r[corners] * s[following] - r[following] * s[corners]
-        return np.add.reduceat(terms, offsets[:-1])
-    sums = np.zeros(faces, dtype=np.uint64)
-    for start in range(0, faces, _PIECE):
-        some = corners[3 * start : 3 * (start + _PIECE)]
-        ra, rb, rc = r[some].reshape(-1, 3).T
-        sa, sb, sc = s[some].reshape(-1, 3).T
-        sums[start : start + _PIECE] = ra * (sb - sc) + rb * (sc - sa) + rc * (sa - sb)
+    # Both numbers of a vertex lie side by side, so that the processor fetches them at once.
+    numbers = _scrambled(np.arange(2 * vertices, dtype=np.uint64))
+    size = _common_size(offsets)
+    if not size:
+        r, s = numbers.reshape(-1, 2)[corners].T
+        following = next_positions(offsets, np.arange(len(corners)))
+        terms = r * s[following] - r[following] * s
+        return np.add.reduceat(terms, offsets[:-1]) if len(terms) else terms
+    packed, faces = numbers.view(np.complex128), corners.reshape(-1, size)
+    sums = np.zeros(len(faces), dtype=np.uint64)
+    for start in range(0, len(faces), _PIECE):
+        some = np.ascontiguousarray(faces[start : start + _PIECE].T)
+        first, *others = (np.take(packed, corner).view(np.uint64) for corner in some)
+        for arm in others:
+            arm -= first
+        sums[start : start + _PIECE] = sum(a[0::2] * b[1::2] - a[1::2] * b[0::2] for a, b in pairwise(others))
     return sums
+
+
+def _common_size(offsets: Ints) -> int:
+    """How many corners all faces have; 0 if not all have the same number, or there are none."""
+    faces = len(offsets) - 1
+    size = int(offsets[1]) if faces else 0
+    if int(offsets[-1]) != size * faces or (size > 3 and (np.diff(offsets) != size).any()):
+        return 0
+    return size
 
 
 def _scrambled(numbers: NDArray[np.uint64]) -> NDArray[np.uint64]:

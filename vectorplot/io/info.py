@@ -6,11 +6,13 @@ from collections.abc import Iterable
 
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
+from vectorplot.geometry.degenerate import without_stutter
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair import MeshReport, mesh_report
+from vectorplot.geometry.repair import MeshReport, mesh_report, without_loose_vertices
 from vectorplot.io.scene_surface_writer import curve_text, surface_text
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.seams import without_seams
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 
@@ -19,7 +21,11 @@ def describe(scene: Scene) -> list[str]:
     """The lines that say what is in a scene: of every item counts, closedness, convexity and size, or which surface it
     is and which lines there are on it, or which curve; then the whole."""
     low, high = scene.bounds
-    reports = [mesh_report(item.shape) if isinstance(item.shape, Mesh) else None for item in scene.items]
+    joined = without_seams(scene)
+    reports = [
+        _report(item.shape, one.shape) if isinstance(item.shape, Mesh) and isinstance(one.shape, Mesh) else None
+        for item, one in zip(scene.items, joined.items, strict=True)
+    ]
     lines = [f"{item.name}: {_told(item, report)}" for item, report in zip(scene.items, reports, strict=True)]
     found = [report for report in reports if report is not None]
     curves = sum(is_curve(item.shape) for item in scene.items)
@@ -37,6 +43,11 @@ def describe(scene: Scene) -> list[str]:
         counts.insert(1, _number(surfaces, "surface"))
     lines.append(f"{', '.join(counts)}, {_size(high - low)}")
     return lines
+
+
+def _report(mesh: Mesh, joined: Mesh) -> MeshReport:
+    """The report on a mesh as it is with its seams joined, without what that leaves over."""
+    return mesh_report(mesh if joined is mesh else without_loose_vertices(without_stutter(joined)[0]))
 
 
 def _number(count: int, word: str) -> str:
