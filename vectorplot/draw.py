@@ -18,7 +18,7 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.camera import Camera, Point
 from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.vectors import cross, normalize
-from vectorplot.plan import StageReport, Walk, plan_draw
+from vectorplot.plan import StageReport, Walk, plan_cuts, plan_draw
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.seams import without_seams
 from vectorplot.scene.view import View, look
@@ -104,7 +104,8 @@ def draw(
     scene = without_seams(scene)
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
-    walk = Walk(plan_draw(scene, kinds, hidden, halo_mm, style), explain, progress)
+    walk = Walk((*plan_cuts(camera), *plan_draw(scene, kinds, hidden, halo_mm, style)), explain, progress)
+    scene = seen_part(walk, scene, camera)
     view = walk.run("look", look, scene, camera)
     faces = walk.run("faces", project_faces, view)
     solid = solid_items(view, faces)
@@ -137,6 +138,15 @@ def draw(
     pens = walk.run("pen", inked, sorted_layers, hidden, world, tolerance_mm if curves == "bezier" else None)
     names = tuple(item.name for item in scene.items)
     return Drawing(page.width_mm, page.height_mm, pens, names, scene.title, world)
+
+
+def seen_part(walk: Walk, scene: Scene, camera: Camera) -> Scene:
+    """What the camera's near and far plane leave of a scene."""
+    if not walk.calls_for("cuts"):
+        return scene
+    from vectorplot.effects.cuts import between_planes
+
+    return walk.run("cuts", between_planes, scene, camera)
 
 
 def lines_in_place(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from vectorplot.draw import default_camera, lines_in_place
+from vectorplot.draw import default_camera, lines_in_place, seen_part
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.page import allowed_in_space, page_from_world
@@ -17,7 +17,7 @@ from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, interleav
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Bools, Floats
-from vectorplot.plan import StageReport, Walk, plan_paint
+from vectorplot.plan import StageReport, Walk, plan_cuts, plan_paint
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seams import without_seams
 from vectorplot.scene.view import View, look
@@ -86,7 +86,8 @@ def paint(
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
     kinds = line_kinds(lines)
-    walk = Walk(plan_paint(scene, shadows, fills, kinds), explain, progress)
+    walk = Walk((*plan_cuts(camera), *plan_paint(scene, shadows, fills, kinds)), explain, progress)
+    scene = seen_part(walk, scene, camera)
     facets = FacetedScene(scene, (None,) * len(scene.items))
     if walk.calls_for("facets"):
         facets = walk.run("facets", faceted, scene, allowed_in_space(scene, camera, page, fit, tolerance_mm))

@@ -51,6 +51,12 @@ STAGE_NAME = 16
 """So many letters names of stages have at most, mirror light and lines on meshes among them."""
 
 
+def plan_cuts(camera: Camera) -> tuple[Stage, ...]:
+    """The stage before all others where the camera has a near or a far plane."""
+    given = [f"{name} {depth:g}" for name, depth in (("near", camera.near), ("far", camera.far)) if depth is not None]
+    return (Stage("cuts", f"the camera has {' and '.join(given)}"),) if given else ()
+
+
 def plan_draw(
     scene: Scene, kinds: frozenset[LineKind], hidden: str, halo_mm: float, style: str = "plain"
 ) -> tuple[Stage, ...]:

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from vectorplot.draw import default_camera
+from vectorplot.draw import default_camera, seen_part
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.projection import CoordinateSystem
-from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, plan_render
+from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, plan_cuts, plan_render
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seams import without_seams
 from vectorplot.scene.view import LARGEST, View, look
@@ -91,7 +91,8 @@ def render(
     _check_lights(scene.lights)
     camera = camera or scene.camera or default_camera(scene)
     how, why = chosen_shadows(scene, camera, size, fit) if shadows == "auto" else (shadows, "")
-    walk = Walk(plan_render(scene, how, bool(kinds), why), explain, progress)
+    walk = Walk((*plan_cuts(camera), *plan_render(scene, how, bool(kinds), why)), explain, progress)
+    scene = seen_part(walk, scene, camera)
     fine = (size[0] * samples, size[1] * samples)
     facets = FacetedScene(scene, (None,) * len(scene.items))
     if walk.calls_for("facets"):

@@ -151,5 +151,5 @@ def test_an_empty_scene_gives_an_empty_sheet():
 
 
 def test_an_unknown_style_is_an_error():
-    with pytest.raises(vp.InputError, match="style 'wires': expected plain, wireframe or depth-cue"):
+    with pytest.raises(vp.InputError, match="style 'wires': expected one of plain, wireframe, depth-cue"):
         vp.draw(bodies(), style="wires")

@@ -31,6 +31,8 @@ CAMERA_OPTIONS = (
     click.option(
         "--height", type=between(0.0, math.inf), metavar="H", help="World units over the page, when parallel."
     ),
+    click.option("--near", type=between(0.0, math.inf), metavar="D", help="What is nearer to the eye is cut off."),
+    click.option("--far", type=between(0.0, math.inf), metavar="D", help="What is farther from the eye is cut off."),
     click.option(
         "--view", type=click.Choice(VIEW_WORDS), help="A main view in place of --eye, parallel unless --fov is given."
     ),
@@ -62,12 +64,14 @@ class CameraOptions:
     fov: float | None = None
     parallel: bool = False
     height: float | None = None
+    near: float | None = None
+    far: float | None = None
     view: str | None = None
 
     @classmethod
     def of(cls, options: dict[str, Any]) -> CameraOptions:
         """What a command with CAMERA_OPTIONS was told. Bad usage for options that contradict each other."""
-        names = ("eye", "target", "up", "twist", "fov", "parallel", "height", "view")
+        names = ("eye", "target", "up", "twist", "fov", "parallel", "height", "near", "far", "view")
         found = cls(**{name: options[name] for name in names})
         found.check()
         return found
@@ -95,7 +99,7 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
     if options.view is not None:
         named = Camera.view(options.view, target=chosen(options.target, base.target), distance=base.distance)
         height = base.height if base.parallel else None
-        base = replace(named, fov_deg=base.fov_deg, height=height)
+        base = replace(named, fov_deg=base.fov_deg, height=height, near=base.near, far=base.far)
     parallel = options.parallel or (base.parallel and options.fov is None)
     if options.height is not None and not parallel:
         raise click.UsageError("--height needs --parallel")
@@ -108,6 +112,8 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
         fov_deg=chosen(options.fov, base.fov_deg),
         parallel=parallel,
         height=chosen(options.height, base.height) if parallel else None,
+        near=chosen(options.near, base.near),
+        far=chosen(options.far, base.far),
     )
     told = None if parallel else advice(camera.fov_deg)
     if told is not None:

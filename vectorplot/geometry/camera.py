@@ -34,9 +34,10 @@ class Camera:
     up: a direction that is up in the picture; without it z is up (straight from above or below: as if the eye stood on
     the positive x-axis). twist_deg turns the camera about its principal ray, on top of either. fov_deg: the full
     angle over the picture height. parallel: rays parallel to eye - target; height is then the height of the picture in
-    world units (None: as the central projection from this eye would have in the plane through the target).
+    world units (None: as the central projection from this eye would have in the plane through the target). near, far:
+    how far from the eye, along the line to the target, what is seen begins and ends (None: all before the eye).
     Errors: InputError for an eye in the target, an up vector along the view, a field of vision outside 0 to 180
-    degrees, a height that is not positive, and numbers that are not finite.
+    degrees, a height that is not positive, planes that leave nothing, and numbers that are not finite.
     Source: Glaeser, section 2.1, equations 1 to 5; the twist is his tau.
     """
 
@@ -47,6 +48,8 @@ class Camera:
     fov_deg: float = 30.0
     parallel: bool = False
     height: float | None = None
+    near: float | None = None
+    far: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("eye", "target", "up"):
@@ -62,6 +65,12 @@ class Camera:
             raise InputError(f"camera: field of vision {self.fov_deg:g} must lie between 0 and 180 degrees")
         if self.height is not None and not 0.0 < self.height < np.inf:
             raise InputError(f"camera: height {self.height:g} must be positive and finite")
+        for name in ("near", "far"):
+            depth = getattr(self, name)
+            if depth is not None and not 0.0 < depth < np.inf:
+                raise InputError(f"camera: {name} {depth:g} must be positive and finite")
+        if self.near is not None and self.far is not None and not self.near < self.far:
+            raise InputError(f"camera: near {self.near:g} must be less than far {self.far:g}")
         if self.eye == self.target or not self.distance > 0.0:
             raise InputError("camera: the eye is in the target")
         if self.up is not None:

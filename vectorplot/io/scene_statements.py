@@ -13,7 +13,7 @@ from vectorplot.scene.scene import Light, Page
 from vectorplot.words import COLOURS, is_colour, nearest
 
 _CAMERA_POINTS = ("eye", "target", "up")
-_CAMERA_NUMBERS = {"twist": "twist_deg", "field_of_vision": "fov_deg", "height": "height"}
+_CAMERA_NUMBERS = {"twist": "twist_deg", "field_of_vision": "fov_deg", "height": "height", "near": "near", "far": "far"}
 _CAMERA_WORDS = (*_CAMERA_POINTS, *_CAMERA_NUMBERS, "parallel", "view")
 
 

@@ -71,6 +71,7 @@ def _camera(camera: Camera) -> str:
         words.append("parallel")
     if camera.height is not None:
         words.append(f"height {float(camera.height)!r}")
+    words.extend(f"{name} {float(depth)!r}" for name, depth in (("near", camera.near), ("far", camera.far)) if depth)
     return " ".join(words)
 
 
