@@ -2,21 +2,39 @@
 
 from __future__ import annotations
 
+_HEAD, _TAIL = 300, 700
+"""A longer message keeps so many of its first and of its last letters: what it is about, and the cause."""
+
 
 class InputError(ValueError):
     """Bad input: names the file, the line (from 1) and the cause.
 
-    ``str(error)`` is one line such as ``pencil.scene:12: CONE: expected a number, got 'x'``. The command prints it
-    on stderr and exits with status 1; library users catch it as ValueError.
+    ``str(error)`` is one line such as ``pencil.scene:12: CONE: expected a number, got 'x'``, which a terminal shows and
+    does not obey, whatever names the input holds. The command prints it on stderr and exits with status 1; library
+    users catch it as ValueError.
     """
 
     def __init__(self, cause: str, *, file: str | None = None, line: int | None = None) -> None:
-        self.cause = " ".join(cause.split())
-        self.file = file
+        self.cause = _shortened(printable(cause))
+        self.file = None if file is None else printable(file)
         self.line = line
-        where = "" if file is None else f"{file}: " if line is None else f"{file}:{line}: "
+        where = "" if file is None else f"{self.file}: " if line is None else f"{self.file}:{line}: "
         super().__init__(where + self.cause)
 
 
 class InputWarning(UserWarning):
     """Input that was mended or read loosely: one line, printed on stderr by the command."""
+
+    def __init__(self, message: str) -> None:
+        super().__init__(_shortened(printable(message)))
+
+
+def printable(text: str) -> str:
+    """The text in one line of letters that show: blanks of all kinds become one, and ? stands for everything that could
+    steer a terminal (control characters of both sets, marks of direction, halves of surrogate pairs)."""
+    line = " ".join(text.split())
+    return line if line.isprintable() else "".join(letter if letter.isprintable() else "?" for letter in line)
+
+
+def _shortened(line: str) -> str:
+    return line if len(line) <= _HEAD + _TAIL else f"{line[:_HEAD]} ... {line[-_TAIL:]}"

@@ -9,6 +9,7 @@ from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 
+from vectorplot.errors import printable
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Scene
@@ -44,7 +45,7 @@ class StageReport:
     def __str__(self) -> str:
         """A line of what ``--explain`` prints."""
         cost = f"{1000.0 * self.seconds:9.1f}  {self.count:9d}  {self.peak_mb:8.1f}"
-        return f"{self.name:<{STAGE_NAME}}  {cost}  {self.why}"
+        return f"{self.name:<{STAGE_NAME}}  {cost}  {printable(self.why)}"
 
 
 STAGE_NAME = 16

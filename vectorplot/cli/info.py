@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from vectorplot.cli.progress import told_warnings
+from vectorplot.errors import printable
 
 
 @click.command(short_help="Say what a scene or mesh file holds.")
@@ -17,4 +18,4 @@ def info(file: str, quiet: bool) -> None:
 
     with told_warnings(quiet=quiet):
         lines = describe(read(file))
-    click.echo("\n".join(lines))
+    click.echo("\n".join(map(printable, lines)))

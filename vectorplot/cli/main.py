@@ -14,7 +14,7 @@ from vectorplot.cli.draw import draw
 from vectorplot.cli.info import info
 from vectorplot.cli.paint import paint
 from vectorplot.cli.render import render
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, printable
 from vectorplot.words import nearest
 
 BAD_INPUT = 1
@@ -65,10 +65,10 @@ def run(arguments: Sequence[str]) -> int:
         error.show()
         return error.exit_code
     except click.NoSuchOption as error:
-        click.UsageError(f"No such option {error.option_name!r}.{meant_option(error)}", error.ctx).show()
+        say_usage(error, f"No such option {error.option_name!r}.{meant_option(error)}")
         return error.exit_code
     except click.UsageError as error:
-        error.show()
+        say_usage(error, error.format_message())
         return error.exit_code
     except KeyboardInterrupt:
         if sys.stderr.isatty():
@@ -101,10 +101,16 @@ def meant_option(error: click.NoSuchOption) -> str:
     return f" Did you mean '--{near}'?" if near else ""
 
 
+def say_usage(error: click.UsageError, cause: str) -> None:
+    """Print how the command is used, and on one line what was wrong."""
+    if error.ctx is not None:
+        click.echo(f"{error.ctx.get_usage()}\nTry '{error.ctx.command_path} --help' for help.\n", err=True)
+    click.echo(f"Error: {printable(cause)}", err=True)
+
+
 def say(text: str) -> None:
     """Print one line on stderr, whatever the text holds."""
-    line = "".join(letter if letter.isprintable() else " " for letter in " ".join(text.split()))
-    click.echo(f"vectorplot: {line}", err=True)
+    click.echo(f"vectorplot: {printable(text)}", err=True)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ import time
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -21,6 +22,9 @@ PATIENCE_S = 0.5
 
 INTERVAL_S = 0.05
 """The bar moves no more often than this."""
+
+WARNINGS = 50
+"""So many warnings are printed, the others counted."""
 
 
 class Progress:
@@ -66,7 +70,7 @@ def progress_bar(*, quiet: bool) -> Iterator[Progress | None]:
 
 @contextmanager
 def told_warnings(*, quiet: bool) -> Iterator[None]:
-    """Print every InputWarning of the work as one line on stderr, after the work.
+    """Print every InputWarning of the work, up to WARNINGS of them, as one line on stderr, after the work.
 
     Work that fails says why in one line, and nothing else.
     """
@@ -75,9 +79,11 @@ def told_warnings(*, quiet: bool) -> Iterator[None]:
         yield
     if quiet:
         return
-    lines = [" ".join(str(entry.message).split()) for entry in caught if issubclass(entry.category, InputWarning)]
-    for line in dict.fromkeys(lines):
+    lines = dict.fromkeys(str(entry.message) for entry in caught if issubclass(entry.category, InputWarning))
+    for line in islice(lines, WARNINGS):
         click.echo(f"vectorplot: warning: {line}", err=True)
+    if len(lines) > WARNINGS:
+        click.echo(f"vectorplot: warning: {len(lines) - WARNINGS} more like these", err=True)
 
 
 def table(reports: Sequence[StageReport]) -> str:

@@ -116,12 +116,15 @@ def _first_equal(points: NDArray[Any]) -> Ints:
 def close_points(points: Floats, tolerance: float) -> Ints:
     """(n,) for every point the smallest position among the points it is chained to by steps of at most tolerance.
 
-    Points are sorted along a direction in general position, so that only neighbours in that order are compared.
+    Points are sorted along a direction in general position, so that only neighbours in that order are compared, and of
+    these none that has only points of its own chain about it: a crowd within the tolerance costs a few rounds.
     """
     heights = points @ np.array([0.5773, 0.6132, 0.5393])
     order = np.argsort(heights, kind="stable")
     ordered, rising = points[order], heights[order]
-    pairs: list[tuple[Ints, Ints]] = []
+    stop = np.searchsorted(rising, np.nextafter(rising + tolerance, np.inf), side="right")
+    label = np.arange(len(points))
+    one, other = [label[:0]], [label[:0]]
     step = 1
     near = np.arange(len(points))
     while len(near):
@@ -129,21 +132,35 @@ def close_points(points: Floats, tolerance: float) -> Ints:
         near = near[rising[near + step] - rising[near] <= tolerance]
         gap = ordered[near + step] - ordered[near]
         hit = near[np.einsum("ij,ij->i", gap, gap) <= tolerance * tolerance]
-        pairs.append((order[hit], order[hit + step]))
+        one.append(order[hit])
+        other.append(order[hit + step])
+        if step & (step - 1) == 0:
+            label = _chained(label, np.concatenate(one), np.concatenate(other))
+            one, other = [label[:0]], [label[:0]]
+            near = near[_runs_end(label[order])[near] < stop[near]]
         step += 1
-    one = np.concatenate([pair[0] for pair in pairs]) if pairs else np.zeros(0, dtype=np.intp)
-    other = np.concatenate([pair[1] for pair in pairs]) if pairs else np.zeros(0, dtype=np.intp)
-    return chained(len(points), one, other)
+    return _chained(label, np.concatenate(one), np.concatenate(other))
+
+
+def _runs_end(values: Ints) -> Ints:
+    """(n,) for every place the first place behind the run of equal values that it is in."""
+    ends = np.append(np.flatnonzero(values[1:] != values[:-1]) + 1, len(values))
+    return ends[np.searchsorted(ends, np.arange(len(values)), side="right")]
 
 
 def chained(count: int, one: Ints, other: Ints) -> Ints:
-    """(count,) the smallest member of every point's cluster; clusters are small, so labels settle in a few rounds."""
-    label = np.arange(count)
+    """(count,) the smallest member of every point's cluster, of points that are chained by pairs."""
+    return _chained(np.arange(count), one, other)
+
+
+def _chained(label: Ints, one: Ints, other: Ints) -> Ints:
+    """(n,) the labels after chaining pairs of points: the smallest of every cluster; they settle in a few rounds."""
     while True:
-        lower = np.minimum(label[one], label[other])
+        # Whole clusters are chained, not single points: what stands for a cluster gets the smaller label.
+        a, b = label[one], label[other]
         before = label.copy()
-        np.minimum.at(label, one, lower)
-        np.minimum.at(label, other, lower)
+        np.minimum.at(label, a, np.minimum(a, b))
+        np.minimum.at(label, b, np.minimum(a, b))
         label = label[label]
         if np.array_equal(label, before):
             return label

@@ -85,11 +85,11 @@ class Parser:
     def _fail(self, index: int, cause: str) -> NoReturn:
         start = self._starts[index]
         token = self._tokens[index] or self._text[start : start + 1]
-        got = f"got '{_printable(token[:40])}'" if token else "got the end"
+        got = f"got '{token[:40]}'" if token else "got the end"
         around = self._text[max(start - 20, 0) : start + 20]
         before = "..." if start > 20 else ""
         after = "..." if start + 20 < len(self._text) else ""
-        place = f"position {start + 1} of '{before}{_printable(around)}{after}'"
+        place = f"position {start + 1} of '{before}{around}{after}'"
         raise InputError(f"{place}: {cause}, {got}", file=self._file, line=self._line)
 
     def _enter(self) -> None:
@@ -179,7 +179,3 @@ def _unknown(kind: str, name: str, known: tuple[str, ...]) -> str:
     close = get_close_matches(name[:40], known, n=1, cutoff=0.6)
     meant = f"did you mean '{close[0]}'" if close else "known are " + " ".join(known)
     return f"unknown {kind} ({meant})"
-
-
-def _printable(text: str) -> str:
-    return "".join(c if c.isprintable() else " " if c.isspace() else "?" for c in text)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import struct
 from pathlib import Path
@@ -15,39 +14,39 @@ from vectorplot.geometry.mesh import Floats, Ints, Mesh
 from vectorplot.geometry.weld import distinct_points
 from vectorplot.io.mesh_file import FLOAT32, MeshFile, file_bytes, shown
 
+MAX_TRIANGLES = 20_000_000
+"""Nodes that show one mesh many times show no more triangles together than this, or than the file has bytes."""
+
 _JSON, _BINARY = 0x4E4F534A, 0x004E4942
-_COMPONENT_BYTES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
-_COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
-# Nothing of these is drawn, and images are the usual place of addresses outside the file.
-_UNUSED = (
-    "images",
-    "textures",
-    "samplers",
-    "materials",
-    "animations",
-    "skins",
-    "cameras",
-    "extensions",
-    "extensionsUsed",
-)
+_INDICES = {5121: "<u1", 5123: "<u2", 5125: "<u4"}
+_POSITIONS = {5126: "<f4"}
+_COMPONENTS = {"SCALAR": 1, "VEC3": 3}
+_TRIANGLES, _STRIP, _FAN = 4, 5, 6
+
+Body = tuple[Floats, Ints]
+"""Points (n,3), and triangles (t,3) of their numbers."""
 
 
 def read_glb(path: Path) -> MeshFile:
     """The triangles of a glb file, a part for every node with a mesh, turned from y up (glTF) to z up.
 
-    Nothing outside the file is opened, whatever it says. Errors: InputError for a truncated file, data in other files,
-    sizes that the file does not hold, compressed or sparse data, coordinates that are not finite, indices out of range.
+    Nothing outside the file is opened, whatever it says, and nothing in it is unpacked. Errors: InputError for a
+    truncated file, data in other files or in addresses (data:), sizes that the file does not hold, compressed or sparse
+    data, coordinates that are not finite, indices out of range, more than MAX_TRIANGLES.
     Source: Khronos, glTF 2.0 specification, sections 3 and 4.
     """
     name = shown(path)
     try:
         tree, binary = _chunks(name, file_bytes(path))
         _check(name, tree, len(binary))
-        parts = _parts(name, _bare(tree), binary)
-    except (KeyError, IndexError, TypeError, AttributeError, RecursionError) as error:
-        raise InputError(f"damaged glTF: {type(error).__name__} {error}", file=name) from None
+        parts = _parts(name, tree, binary)
+    except InputError:
+        raise
+    except (KeyError, IndexError, TypeError, AttributeError, ValueError, OverflowError) as error:
+        # The tree may have anything anywhere: what is not as it must be shows when it is used.
+        _fail(name, f"damaged glTF: {type(error).__name__} {error}")
     if not parts:
-        raise InputError("no triangles in this file", file=name)
+        _fail(name, "no triangles in this file")
     vertex_starts = np.cumsum([0, *(len(vertices) for _, vertices, _ in parts)])
     first_faces = np.cumsum([0, *(len(triangles) for _, _, triangles in parts)])
     triangles = np.concatenate([part[2] + start for part, start in zip(parts, vertex_starts[:-1], strict=True)])
@@ -75,7 +74,8 @@ def _chunks(name: str, data: bytes) -> tuple[dict[str, Any], bytes]:
         size, kind = struct.unpack_from("<II", data, position)
         if position + 8 + size > total:
             _fail(name, f"truncated: the chunk at byte {position} announces {size} bytes")
-        chunks.setdefault(kind, data[position + 8 : position + 8 + size])
+        if kind in (_JSON, _BINARY) and kind not in chunks:
+            chunks[kind] = data[position + 8 : position + 8 + size]
         position += 8 + size
     try:
         tree = json.loads(chunks.get(_JSON, b""))
@@ -87,7 +87,7 @@ def _chunks(name: str, data: bytes) -> tuple[dict[str, Any], bytes]:
 
 
 def _check(name: str, tree: dict[str, Any], size: int) -> None:
-    """Everything that trimesh would take on trust."""
+    """What must hold for all of the file: data within its bytes, nodes that form trees."""
     if tree.get("extensionsRequired"):
         _fail(name, f"needs the extension {tree['extensionsRequired'][0]}, which is not read")
     for k, buffer in enumerate(tree.get("buffers", [])):
@@ -95,119 +95,155 @@ def _check(name: str, tree: dict[str, Any], size: int) -> None:
             _fail(name, f"buffer {k} lies outside the binary chunk ({str(buffer['uri'])[:60]!r}): not followed")
     for k, view in enumerate(tree.get("bufferViews", [])):
         begin, length, step = view.get("byteOffset", 0), view["byteLength"], view.get("byteStride", 4)
-        if view["buffer"] != 0 or not _within(begin, length, size) or not 4 <= step <= 252:
+        if view["buffer"] != 0 or not _within(begin, length, size) or type(step) is not int or not 4 <= step <= 252:
             _fail(name, f"buffer view {k} reaches beyond the {size} bytes of the binary chunk")
-    for mesh in tree.get("meshes", []):
-        for primitive in mesh["primitives"]:
-            for accessor in (primitive["attributes"]["POSITION"], primitive.get("indices")):
-                if accessor is not None:
-                    _check_accessor(name, tree, accessor)
-    _check_nodes(name, tree)
+    nodes, mesh_count = tree.get("nodes", []), len(tree.get("meshes", []))
+    for k, node in enumerate(nodes):
+        if not 0 <= node.get("mesh", 0) < max(mesh_count, 1):
+            _fail(name, f"node {k} shows mesh {node['mesh']}, which does not exist")
+    children = [child for node in nodes for child in node.get("children", [])]
+    roots = [root for scene in tree.get("scenes", []) for root in set(scene.get("nodes", []))]
+    if len(set(children)) != len(children) or set(children) & set(roots):
+        _fail(name, "a node has two parents")
 
 
 def _within(begin: Any, length: Any, size: int) -> bool:
     return type(begin) is int and type(length) is int and begin >= 0 and length >= 0 and begin + length <= size
 
 
-def _check_accessor(name: str, tree: dict[str, Any], k: int) -> None:
-    accessor = tree["accessors"][k]
-    if k < 0 or "sparse" in accessor or "bufferView" not in accessor or accessor["bufferView"] < 0:
-        _fail(name, f"accessor {k} is sparse or empty, which is not read")
-    view = tree["bufferViews"][accessor["bufferView"]]
-    item = _COMPONENT_BYTES[accessor["componentType"]] * _COMPONENTS[accessor["type"]]
-    count = accessor["count"]
-    step = view.get("byteStride", item)
-    length = step * (count - 1) + item if type(count) is int and count > 0 else -1
-    if step < item or not _within(accessor.get("byteOffset", 0), length, view["byteLength"]):
-        _fail(name, f"accessor {k} announces {count} items, more than its buffer view holds")
-
-
-def _check_nodes(name: str, tree: dict[str, Any]) -> None:
-    """Nodes must form trees: a node that is its own ancestor would never end."""
-    for k, node in enumerate(tree.get("nodes", [])):
-        if not 0 <= node.get("mesh", 0) < max(len(tree.get("meshes", [])), 1):
-            _fail(name, f"node {k} shows mesh {node['mesh']}, which does not exist")
-    children = [child for node in tree.get("nodes", []) for child in node.get("children", [])]
-    roots = [root for scene in tree.get("scenes", []) for root in set(scene.get("nodes", []))]
-    if len(set(children)) != len(children) or set(children) & set(roots):
-        _fail(name, "a node has two parents")
-
-
-def _bare(tree: dict[str, Any]) -> dict[str, Any]:
-    """The tree with positions, indices and nodes alone."""
-    bare = {key: value for key, value in tree.items() if key not in _UNUSED}
-    bare["meshes"] = [
-        {
-            "name": f"mesh{k}",
-            "primitives": [
-                {
-                    "attributes": {"POSITION": primitive["attributes"]["POSITION"]},
-                    **{key: primitive[key] for key in ("indices", "mode") if key in primitive},
-                }
-                for primitive in mesh["primitives"]
-                if primitive.get("mode", 4) in (4, 5)
-            ],
-        }
-        for k, mesh in enumerate(tree.get("meshes", []))
-    ]
-    plain = ("name", "children", "mesh", "matrix", "translation", "rotation", "scale")
-    bare["nodes"] = [{key: node[key] for key in plain if key in node} for node in tree.get("nodes", [])]
-    return bare
-
-
 def _parts(name: str, tree: dict[str, Any], binary: bytes) -> list[tuple[str, Floats, Ints]]:
     """Name, vertices in world coordinates and triangles of every node with triangles, in the order of the file."""
-    # trimesh keeps no order and makes names of its own: nodes are called by their numbers in between.
-    titles = [str(node.get("name", "")) for node in tree["nodes"]]
-    for k, node in enumerate(tree["nodes"]):
-        node["name"] = str(k)
-    pieces: dict[int, list[tuple[Floats, Ints]]] = {}
-    for node, matrix, vertices, triangles in _placed(name, tree, binary):
-        if triangles.min() < 0 or triangles.max() >= len(vertices):
-            _fail(name, f"node {node}: an index names vertex {triangles.max()}, there are {len(vertices)}")
-        if not (np.isfinite(vertices).all() and np.isfinite(matrix).all()):
-            _fail(name, f"node {node}: a coordinate is not a finite number")
-        if np.linalg.det(matrix[:3, :3]) < 0.0:
-            triangles = triangles[:, ::-1]
-        x, y, z = (vertices @ matrix[:3, :3].T + matrix[:3, 3]).T
-        pieces.setdefault(node, []).append((np.stack([x, -z, y], axis=1), triangles))
-    return [(titles[node], *_one_body(pieces[node])) for node in sorted(pieces)]
+    bodies: dict[int, Body] = {}
+    parts: list[tuple[str, Floats, Ints]] = []
+    total, most = 0, max(MAX_TRIANGLES, len(binary))
+    for number, matrix in _matrices(tree):
+        node = tree["nodes"][number]
+        mesh = node["mesh"]
+        if mesh not in bodies:
+            bodies[mesh] = _body(name, tree, binary, mesh, most)
+        points, triangles = bodies[mesh]
+        if not len(triangles):
+            continue
+        total += len(triangles)
+        if total > most:
+            _fail(name, f"its nodes show more than {most} triangles")
+        with np.errstate(all="ignore"):
+            x, y, z = (points @ matrix[:3, :3].T + matrix[:3, 3]).T
+            mirrored = np.linalg.det(matrix[:3, :3]) < 0.0
+        vertices = np.stack([x, -z, y], axis=1)
+        if not np.isfinite(vertices).all():
+            _fail(name, f"node {number}: a coordinate is not a finite number")
+        parts.append((str(node.get("name", "")), vertices, triangles[:, ::-1] if mirrored else triangles))
+    return parts
 
 
-def _one_body(pieces: list[tuple[Floats, Ints]]) -> tuple[Floats, Ints]:
-    """Vertices and triangles of the primitives of a node together.
+def _matrices(tree: dict[str, Any]) -> list[tuple[int, Floats]]:
+    """The nodes of the scene that show a mesh, in the order of the file, with their 4x4 matrices to the world."""
+    nodes = tree.get("nodes", [])
+    if "scenes" in tree:
+        roots = list(dict.fromkeys(tree["scenes"][tree.get("scene", 0)].get("nodes", [])))
+    else:
+        children = {child for node in nodes for child in node.get("children", [])}
+        roots = [k for k in range(len(nodes)) if k not in children]
+    found: dict[int, Floats] = {}
+    waiting = [(root, np.eye(4)) for root in roots]
+    while waiting:
+        number, above = waiting.pop()
+        if type(number) is not int or number < 0:
+            raise IndexError(f"node {number}")
+        node = nodes[number]
+        with np.errstate(all="ignore"):
+            matrix = above @ _matrix(node)
+        waiting += [(child, matrix) for child in node.get("children", [])]
+        if "mesh" in node:
+            found[number] = matrix
+    return sorted(found.items())
+
+
+def _matrix(node: dict[str, Any]) -> Floats:
+    """(4,4) the matrix of a node to its parent: as it stands, or a scaling, then a rotation, then a translation."""
+    if "matrix" in node:
+        return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
+    matrix = np.eye(4)
+    if "rotation" in node:
+        x, y, z, w = np.array(node["rotation"], dtype=np.float64).reshape(4)
+        length = x * x + y * y + z * z + w * w
+        s = 2.0 / length if length > 0.0 else 0.0
+        matrix[:3, :3] = [
+            [1.0 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
+            [s * (x * y + z * w), 1.0 - s * (x * x + z * z), s * (y * z - x * w)],
+            [s * (x * z - y * w), s * (y * z + x * w), 1.0 - s * (x * x + y * y)],
+        ]
+    if "scale" in node:
+        matrix[:3, :3] *= np.array(node["scale"], dtype=np.float64).reshape(3)
+    if "translation" in node:
+        matrix[:3, 3] = np.array(node["translation"], dtype=np.float64).reshape(3)
+    return matrix
+
+
+def _body(name: str, tree: dict[str, Any], binary: bytes, mesh: int, most: int) -> Body:
+    """The triangles of all primitives of a mesh, most of them at most.
 
     Vertices are doubled wherever normals, colours or primitives meet: equal points become one vertex.
     """
-    starts = np.cumsum([0, *(len(vertices) for vertices, _ in pieces)])
-    points = np.concatenate([vertices for vertices, _ in pieces])
-    triangles = np.concatenate([piece[1] + start for piece, start in zip(pieces, starts[:-1], strict=True)])
-    first, number = distinct_points(points)
-    return points[first], number[triangles]
+    points, triangles = [np.zeros((0, 3))], [np.zeros((0, 3), dtype=np.intp)]
+    start = total = 0
+    for primitive in tree["meshes"][mesh]["primitives"]:
+        if primitive.get("mode", _TRIANGLES) not in (_TRIANGLES, _STRIP, _FAN):
+            continue
+        own, corners = _primitive(name, tree, binary, mesh, primitive)
+        points.append(own)
+        triangles.append(corners + start)
+        start, total = start + len(own), total + len(corners)
+        if total > most:
+            _fail(name, f"mesh {mesh} has more than {most} triangles")
+    all_points = np.concatenate(points)
+    first, number = distinct_points(all_points)
+    return all_points[first], number[np.concatenate(triangles)]
 
 
-def _placed(name: str, tree: dict[str, Any], binary: bytes) -> list[tuple[int, Floats, Floats, Ints]]:
-    """Node, its 4x4 matrix, vertices and triangles of every primitive, as trimesh reads them."""
-    import trimesh
+def _primitive(name: str, tree: dict[str, Any], binary: bytes, mesh: int, primitive: dict[str, Any]) -> Body:
+    """The points that a primitive uses, and its triangles."""
+    positions = _accessor(name, tree, binary, primitive["attributes"]["POSITION"], "VEC3", _POSITIONS)
+    if "indices" in primitive:
+        indices = _accessor(name, tree, binary, primitive["indices"], "SCALAR", _INDICES)[:, 0].astype(np.intp)
+        if len(indices) and indices.max() >= len(positions):
+            _fail(name, f"mesh {mesh}: an index names vertex {indices.max()}, there are {len(positions)}")
+        used, indices = np.unique(indices, return_inverse=True)
+        positions = positions[used]
+    else:
+        indices = np.arange(len(positions))
+    if not np.isfinite(positions).all():
+        _fail(name, f"mesh {mesh}: a coordinate is not a finite number")
+    return positions.astype(np.float64), _corners(indices, primitive.get("mode", _TRIANGLES))
 
-    text = json.dumps(tree).encode()
-    text += b" " * (-len(text) % 4)
-    binary += b"\0" * (-len(binary) % 4)
-    head = struct.pack("<4sIIII", b"glTF", 2, 28 + len(text) + len(binary), len(text), _JSON)
-    packed = head + text + struct.pack("<II", len(binary), _BINARY) + binary
-    try:
-        scene = trimesh.load_scene(io.BytesIO(packed), file_type="glb", process=False)
-        order = {geometry: k for k, geometry in enumerate(scene.geometry)}
-        # A node with several primitives becomes several nodes, called by its name, _ and a random number.
-        found = [(int(node.split("_")[0]), *scene.graph[node]) for node in scene.graph.nodes_geometry]
-        found.sort(key=lambda entry: (entry[0], order[entry[2]]))
-    except Exception as error:
-        # Whatever trimesh trips over was in the file.
-        _fail(name, f"damaged glTF: {type(error).__name__} {error}")
-    placed = []
-    for node, matrix, geometry in found:
-        shape = scene.geometry[geometry]
-        if isinstance(shape, trimesh.Trimesh) and len(shape.faces):
-            vertices = np.asarray(shape.vertices, dtype=np.float64)
-            placed.append((node, np.asarray(matrix), vertices, np.asarray(shape.faces, dtype=np.intp)))
-    return placed
+
+def _corners(indices: Ints, mode: int) -> Ints:
+    """(t,3) the triangles of a list, a strip (every other triangle turned) or a fan of vertices."""
+    if mode == _TRIANGLES:
+        return indices[: len(indices) // 3 * 3].reshape(-1, 3)
+    first = np.arange(max(len(indices) - 2, 0))
+    if mode == _FAN:
+        return indices[np.stack([np.zeros_like(first), first + 1, first + 2], axis=1)]
+    odd = first % 2
+    return indices[np.stack([first, first + 1 + odd, first + 2 - odd], axis=1)]
+
+
+def _accessor(
+    name: str, tree: dict[str, Any], binary: bytes, k: int, kind: str, types: dict[int, str]
+) -> np.ndarray[Any, Any]:
+    """(count, components) the items of an accessor, a view of the bytes."""
+    accessor = tree["accessors"][k]
+    if k < 0 or "sparse" in accessor or "bufferView" not in accessor or accessor["bufferView"] < 0:
+        _fail(name, f"accessor {k} is sparse or empty, which is not read")
+    if accessor["type"] != kind or accessor["componentType"] not in types:
+        _fail(name, f"accessor {k} is a {accessor['type']} of type {accessor['componentType']}, which is not read here")
+    number = np.dtype(types[accessor["componentType"]])
+    view = tree["bufferViews"][accessor["bufferView"]]
+    count, begin, size = accessor["count"], accessor.get("byteOffset", 0), number.itemsize * _COMPONENTS[kind]
+    step = view.get("byteStride", size)
+    length = step * (count - 1) + size if type(count) is int and count > 0 else -1
+    if step < size or not _within(begin, length, view["byteLength"]):
+        _fail(name, f"accessor {k} announces {count} items, more than its buffer view holds")
+    offset = view.get("byteOffset", 0) + begin
+    return np.ndarray((count, _COMPONENTS[kind]), number, binary, offset, (step, number.itemsize))

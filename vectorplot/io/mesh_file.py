@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import NoReturn, TypeVar
 
 import numpy as np
 
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, printable
 from vectorplot.geometry.mesh import Floats, Ints, Mesh
 from vectorplot.io.numerals import PAD, Bytes, NumeralError, decimals, integers, padded
 
@@ -37,7 +38,7 @@ class MeshFile:
 
 def shown(path: Path) -> str:
     """The path as one line of a message."""
-    return " ".join("".join(c if c.isprintable() else "?" for c in str(path)).split())
+    return printable(str(path))
 
 
 def file_bytes(path: Path) -> bytes:
@@ -208,7 +209,7 @@ def text_file(path: Path) -> TextFile:
 def check_announced(name: str, announced: dict[str, int], least_bytes: int, size: int) -> None:
     """An InputError if a file of size bytes cannot hold what it announces, which takes least_bytes or more."""
     if least_bytes > size:
-        what = " and ".join(f"{count} {kind}" for kind, count in announced.items())
+        what = " and ".join(f"{count} {kind}" for kind, count in islice(announced.items(), 10))
         raise InputError(f"announces {what}, but has only {size} bytes (truncated, or a wrong count)", file=name)
 
 

@@ -87,7 +87,7 @@ def integers(text: Bytes, starts: Ints, ends: Ints) -> Ints:
     np.negative(values, out=values, where=negative)
     for index in np.flatnonzero(~good).tolist():
         word = text[starts[index] : ends[index]].tobytes()
-        if not word.lstrip(b"+-").isdigit() or len(word) > 18:
+        if not word[word[:1] in (b"+", b"-") :].isdigit() or len(word) > 18:
             raise NumeralError(index, f"expected an integer, got {_quoted(word)}")
         values[index] = int(word)
     return values
@@ -176,6 +176,5 @@ def _float_or_nan(word: bytes) -> float:
 
 
 def _quoted(word: bytes) -> str:
-    """The word in quotes, shortened, without control characters."""
-    shown = "".join(c if c.isprintable() else "?" for c in word[:40].decode("utf-8", "replace"))
-    return f"'{shown}{'...' if len(word) > 40 else ''}'"
+    """The word in quotes, shortened."""
+    return f"'{word[:40].decode('utf-8', 'replace')}{'...' if len(word) > 40 else ''}'"

@@ -56,9 +56,10 @@ def _read_lines(lines: Lines, found: _Found) -> None:
     letters = lines.text[lines.starts[lines.first]]
     single = lines.ends[lines.first] - lines.starts[lines.first] == 1
     is_vertex, is_face = single & (letters == ord("v")), single & (letters == ord("f"))
-    for line in np.flatnonzero(single & (letters == ord("o"))).tolist():
-        name = _rest_of_line(lines, int(lines.first[line]))
-        found.objects.append((name, found.face_count + int(is_face[:line].sum())))
+    objects = np.flatnonzero(single & (letters == ord("o")))
+    faces_before = found.face_count + np.concatenate([[0], np.cumsum(is_face)])[objects]
+    for line, first_face in zip(objects.tolist(), faces_before.tolist(), strict=True):
+        found.objects.append((_rest_of_line(lines, int(lines.first[line])), first_face))
     _read_faces(lines, is_vertex, is_face, found)
     _read_vertices(lines, is_vertex, found)
 

@@ -21,10 +21,11 @@ from vectorplot.io.mesh_file import (
     text_file,
 )
 
-# The keyword may be missing, or stand in one line with the counts (ModelNet writes it without a blank).
+# The keyword may be missing, or stand in one line with the counts (ModelNet writes it without a blank). What a part of
+# this pattern has taken it keeps (++ and *+): a header that does not fit is refused after one reading.
 _HEADER = re.compile(
-    rb"(?:\s*#[^\n]*\n)*\s*(?P<word>[A-Za-z0-9]*OFF)?(?P<binary>\s+BINARY)?(?:\s+|#[^\n]*(?:\n|$))*"
-    rb"(?P<vertices>[+-]?\d+)\s+(?P<faces>[+-]?\d+)(?:[ \t]+[+-]?\d+)?[ \t]*(?:#[^\n]*)?(?:\r?\n|$)"
+    rb"(?:\s++|#[^\n]*+)*+(?P<word>[A-Za-z0-9]*?OFF)?+(?P<binary>\s++BINARY)?+(?:\s++|#[^\n]*+)*+"
+    rb"(?P<vertices>[+-]?\d++)\s++(?P<faces>[+-]?\d++)(?:[ \t]++[+-]?\d++)?+[ \t]*+(?:#[^\n]*+)?+(?:\r?\n|$)"
 )
 _PLAIN = {b"", b"OFF", b"COFF", b"NOFF", b"CNOFF", b"STOFF", b"STCOFF", b"STNOFF", b"STCNOFF"}
 
@@ -53,7 +54,7 @@ def read_off(path: Path) -> MeshFile:
 
 
 def _header(text: TextFile) -> tuple[TextFile, int, int]:
-    match = _HEADER.match(text.data[:65536])
+    match = _HEADER.match(text.data)
     if match is None:
         raise InputError("expected OFF and the numbers of vertices and faces", file=text.name, line=1)
     word = match["word"] or b""

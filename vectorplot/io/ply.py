@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import accumulate
 from pathlib import Path
 from typing import Any
 
@@ -107,6 +108,8 @@ def _indices_place(text: TextFile, face: _Element) -> int:
     place = max(face.place(name) for name in _INDICES)
     if place < 0 or not face.properties[place].count_kind:
         raise InputError("a face needs the list vertex_indices", file=text.name)
+    if face.properties[place].kind.startswith("f"):
+        raise InputError("the vertex_indices of a face must be integers", file=text.name)
     return place
 
 
@@ -115,7 +118,8 @@ def _header(text: TextFile) -> _Header:
     if text.data[:3] != b"ply" or text.data[3:4] not in (b"\n", b"\r"):
         raise InputError("expected ply in the first line", file=text.name, line=1)
     form, position = "", 0
-    elements: list[_Element] = []
+    counts: dict[str, int] = {}
+    properties: dict[str, dict[str, _Property]] = {}
     while True:
         end = text.data.find(b"\n", position)
         if end < 0 or end - position > 4096:
@@ -124,45 +128,51 @@ def _header(text: TextFile) -> _Header:
         if words == ["end_header"]:
             break
         try:
-            form = _header_line(words, form, elements)
+            form = _header_line(words, form, counts, properties)
         except ValueError as error:
             text.fail(position, str(error))
         position = end + 1
     if not form:
         text.fail(position, "the header names no format")
-    header = _Header(form, tuple(elements), end + 1)
-    counts = {element.name: element.count for element in elements}
+    elements = tuple(_Element(name, count, tuple(properties[name].values())) for name, count in counts.items())
+    header = _Header(form, elements, end + 1)
     least = sum(element.count * _least_bytes(form, element) for element in elements)
     check_announced(text.name, counts, least - (form == "ascii"), len(text.data) - header.body)
     return header
 
 
-def _header_line(words: list[str], form: str, elements: list[_Element]) -> str:
-    """The form after this line; elements grows. Errors: ValueError with the cause."""
+def _header_line(
+    words: list[str], form: str, counts: dict[str, int], properties: dict[str, dict[str, _Property]]
+) -> str:
+    """The form after this line; the counts of the elements and their properties, by their names, grow.
+
+    Errors: ValueError with the cause.
+    """
     match words:
         case [] | ["ply"] | ["comment" | "obj_info", *_]:
             pass
         case ["format", "ascii" | "binary_little_endian" | "binary_big_endian" as found, "1.0"]:
             return found
         case ["element", name, count] if count.isascii() and count.isdigit() and len(count) < 30:
-            elements.append(_Element(name, int(count), ()))
-        case ["property", "list", count_kind, kind, name] if elements and {count_kind, kind} <= _TYPES.keys():
-            _add(elements, _Property(name, _TYPES[kind], _TYPES[count_kind]))
-        case ["property", kind, name] if elements and kind in _TYPES:
-            _add(elements, _Property(name, _TYPES[kind]))
+            if name in counts:
+                raise ValueError(f"element {name} stands twice")
+            counts[name], properties[name] = int(count), {}
+        case ["property", "list", count_kind, kind, name] if counts and {count_kind, kind} <= _TYPES.keys():
+            _add(properties[next(reversed(counts))], _Property(name, _TYPES[kind], _TYPES[count_kind]))
+        case ["property", kind, name] if counts and kind in _TYPES:
+            _add(properties[next(reversed(counts))], _Property(name, _TYPES[kind]))
         case _:
-            shown = "".join(c if c.isprintable() else "?" for c in " ".join(words)[:60])
-            raise ValueError(f"'{shown}' is no line of a PLY header (format, element, property, comment)")
+            line = " ".join(words)[:60]
+            raise ValueError(f"'{line}' is no line of a PLY header (format, element, property, comment)")
     return form
 
 
-def _add(elements: list[_Element], entry: _Property) -> None:
-    last = elements[-1]
-    if last.place(entry.name) >= 0:
+def _add(properties: dict[str, _Property], entry: _Property) -> None:
+    if entry.name in properties:
         raise ValueError(f"property {entry.name} stands twice")
     if entry.count_kind.startswith("f"):
         raise ValueError(f"the count of the list {entry.name} must be an integer")
-    elements[-1] = _Element(last.name, last.count, (*last.properties, entry))
+    properties[entry.name] = entry
 
 
 def _least_bytes(form: str, element: _Element) -> int:
@@ -211,14 +221,17 @@ def _binary_body(text: TextFile, header: _Header, axes: list[int], place: int) -
             found, position = _list_records(text, order, element, position, wanted)
             lists = found if wanted >= 0 else lists
             continue
-        kinds = np.dtype([(entry.name, order + entry.kind) for entry in element.properties])
-        end = position + kinds.itemsize * element.count
-        _check_end(text, element, end)
+        starts = list(accumulate((np.dtype(entry.kind).itemsize for entry in element.properties), initial=0))
+        step = starts[-1]
+        _check_end(text, element, position + step * element.count)
         if element.name == "vertex":
-            records = np.frombuffer(text.data, kinds, element.count, position)
-            vertices = np.stack([records[element.properties[axis].name] for axis in axes], axis=1).astype(np.float64)
-            _check_finite(text, vertices, position, kinds.itemsize)
-        position = end
+            kinds = [order + element.properties[axis].kind for axis in axes]
+            places = [starts[axis] for axis in axes]
+            read = np.dtype({"names": ["x", "y", "z"], "formats": kinds, "offsets": places, "itemsize": step})
+            records = np.frombuffer(text.data, read, element.count, position)
+            vertices = np.stack([records[axis] for axis in "xyz"], axis=1).astype(np.float64)
+            _check_finite(text, vertices, position, step)
+        position += step * element.count
     assert lists is not None
     return vertices, *_checked_faces(text, lists, len(vertices), face_start)
 
@@ -272,18 +285,14 @@ def _equal_records(
     entry = element.properties[place]
     before = sum(np.dtype(other.kind).itemsize for other in element.properties[:place])
     length = int(np.frombuffer(text.data, order + entry.count_kind, 1, position + before)[0])
-    fields: list[Any] = []
-    for k, other in enumerate(element.properties):
-        if k == place:
-            fields.append(("length", order + entry.count_kind))
-            fields.append(("items", order + entry.kind, (max(length, 0),)))
-        else:
-            fields.append((f"other{k}", order + other.kind))
     least = sum(np.dtype(other.kind).itemsize for other in element.properties if other is not entry)
-    size = least + np.dtype(entry.count_kind).itemsize + max(length, 0) * np.dtype(entry.kind).itemsize
+    after = before + np.dtype(entry.count_kind).itemsize
+    size = least + after - before + max(length, 0) * np.dtype(entry.kind).itemsize
     if length < 0 or position + size * element.count > len(text.data):
         return None
-    records = np.frombuffer(text.data, np.dtype(fields), element.count, position)
+    formats: list[Any] = [order + entry.count_kind, (order + entry.kind, (length,))]
+    read = np.dtype({"names": ["length", "items"], "formats": formats, "offsets": [before, after], "itemsize": size})
+    records = np.frombuffer(text.data, read, element.count, position)
     if (records["length"] != length).any():
         return None
     items = records["items"].reshape(-1).astype(np.intp)

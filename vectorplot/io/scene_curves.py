@@ -23,11 +23,12 @@ class Planes:
 @dataclass(frozen=True)
 class CurveDraft:
     """What has been read about the lines of an item so far. index: the first word about them; lit_index: the one that
-    names the light of the isophotes. 0: there is none."""
+    names the light of the isophotes; 0: there is none. section_count: the sections of all planes together."""
 
     index: int = 0
     lines: SurfaceLines = NO_LINES
     planes: tuple[Planes, ...] = ()
+    section_count: int = 0
     lit_index: int = 0
 
     def __bool__(self) -> bool:
@@ -86,10 +87,11 @@ def _planes(words: Words, start: int, at: int, owner: str, draft: CurveDraft, no
         unit = Section(normal, offsets).normal
     except InputError as error:
         words.fail(start, owner + error.cause)
-    total = sum(max(planes.count, len(planes.offsets)) for planes in draft.planes) + max(count, len(offsets))
+    total = draft.section_count + max(count, len(offsets))
     if total > MAX_LINES:
         words.fail(start, f"{owner}sections: {total} of them, expected at most {MAX_LINES}")
-    return _with_lines(replace(draft, planes=(*draft.planes, Planes(unit, count, offsets))), start, draft.lines), at
+    planes = (*draft.planes, Planes(unit, count, offsets))
+    return _with_lines(replace(draft, planes=planes, section_count=total), start, draft.lines), at
 
 
 def _count_or_list(words: Words, at: int, owner: str, what: str) -> tuple[int, tuple[float, ...], int]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 import numpy as np
 
@@ -59,7 +59,7 @@ class Draft:
     kind: str | None = None
     kind_index = 0
     hollow = False
-    shown_caps: tuple[str, ...] = ()
+    shown_caps: frozenset[str] = frozenset()
     placement: Placement = IDENTITY
     angle_deg = FULL_TURN
     lengths: tuple[float, ...] | list[float] | None = None
@@ -72,7 +72,6 @@ class Draft:
     edges: list[list[int]] | None = None
     parts: tuple[str, ...] | None = None
     removed: list[int] | None = None
-    patterns: tuple[Pattern, ...] = ()
     lines: tuple[str, ...] | None = None
     occludes: bool | None = None
     surface: Surface | ImplicitSurface | None = None
@@ -83,6 +82,7 @@ class Draft:
         self.name = name
         self.index = index
         self.owner = name + ": "
+        self.patterns: list[Pattern] = []
 
     def missing(self) -> str | None:
         """The first word that the item still needs, or None."""
@@ -91,7 +91,7 @@ class Draft:
         return next((word for word in NEEDED[self.kind] if getattr(self, word) is None), None)
 
     @property
-    def caps(self) -> tuple[str, ...]:
+    def caps(self) -> Collection[str]:
         """Which ends of a swept body are there."""
         return self.shown_caps if self.hollow else BOTH_CAPS
 
@@ -119,7 +119,7 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
         shape,
         "gray" if draft.colour is None else draft.colour,
         _material(draft),
-        draft.patterns,
+        tuple(draft.patterns),
         draft.lines,
         draft.occludes,
         curves,
@@ -244,7 +244,7 @@ def _without_faces(mesh: Mesh, removed: list[int]) -> Mesh:
     return Mesh(mesh.vertices, mesh.corners, mesh.offsets, present)
 
 
-def _check_patterns(patterns: tuple[Pattern, ...], mesh: Mesh) -> None:
+def _check_patterns(patterns: Sequence[Pattern], mesh: Mesh) -> None:
     for pattern in patterns:
         if not 0 <= pattern.face < mesh.face_count:
             cause = f"there is no face {pattern.face + 1}, faces run from 1 to {mesh.face_count}"

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 
 from vectorplot.curves.curve import is_curve
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, printable
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.scene_item import Draft, finished
 from vectorplot.io.scene_reader import ItemReader
 from vectorplot.io.scene_statements import read_camera, read_light, read_page
 from vectorplot.io.scene_words import SCENE_WORDS, Words
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Item, Light, Scene
 
 MAX_FILE_BYTES = 64 << 20
 """The largest scene file that is read."""
@@ -27,7 +29,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
 
     Errors: InputError with file, line, item and the word expected. Source: Glaeser, chapter 3 and section 6.5.
     """
-    name = " ".join("".join(c if c.isprintable() else "?" for c in str(path)).split())
+    name = printable(str(path))
     file = Path(path)
     try:
         if file.stat().st_size > MAX_FILE_BYTES:
@@ -59,6 +61,7 @@ class _Reader(ItemReader):
         super().__init__(words)
         self.items: list[Item] = []
         self.parts: set[int] = set()
+        self.lights: list[Light] = []
         self.settings = Scene(items=())
         self.set: set[str] = set()
         self.lit: list[tuple[int, Draft]] = []
@@ -70,10 +73,11 @@ class _Reader(ItemReader):
                 self.statement(word)
             else:
                 self.item()
+        numbers = {light.name: k for k, light in reversed(list(enumerate(self.lights)))} if self.lit else {}
         for place, draft in self.lit:
-            self.items[place] = self.lit_item(self.items[place], draft)
+            self.items[place] = self.lit_item(self.items[place], draft, numbers)
         shown = [item for place, item in enumerate(self.items) if place not in self.parts] if self.parts else self.items
-        return replace(self.settings, items=tuple(shown))
+        return replace(self.settings, items=tuple(shown), lights=tuple(self.lights))
 
     def statement(self, word: str) -> None:
         """camera, light, page, background or title, and what follows it."""
@@ -86,7 +90,7 @@ class _Reader(ItemReader):
             self.settings = replace(now, camera=camera)
         elif word == "light":
             light, self.at = read_light(source, self.at)
-            self.settings = replace(now, lights=(*now.lights, light))
+            self.lights.append(light)
         elif word == "page":
             page, self.at = read_page(source, self.at)
             self.settings = replace(now, page=page)
@@ -119,16 +123,17 @@ class _Reader(ItemReader):
         if len(self.items) > MAX_ITEMS:
             self.source.fail(draft.index, f"{draft.owner}more than {MAX_ITEMS} items")
 
-    def lit_item(self, item: Item, draft: Draft) -> Item:
-        """An item with isophotes of the light that its draft names, or counts from 1; lights may come after items."""
+    def lit_item(self, item: Item, draft: Draft, numbers: Mapping[str, int]) -> Item:
+        """An item with isophotes of the light that its draft names, or counts from 1; lights may come after items.
+
+        numbers: of the lights from 0, by their names."""
         at = draft.curves.lit_index
-        name, lights = self.source.string(at), self.settings.lights
-        names = [light.name for light in lights]
-        if self.words[at].isdecimal() and 1 <= int(name) <= len(lights):
+        name, count = self.source.string(at), len(self.lights)
+        if self.words[at].isdecimal() and len(name) <= len(str(count)) and 1 <= int(name) <= count:
             index = int(name) - 1
-        elif name in names:
-            index = names.index(name)
+        elif name in numbers:
+            index = numbers[name]
         else:
-            known = ", ".join(filter(None, names)) or f"{len(names)} without names"
-            self.source.fail(at, f"{draft.owner}there is no light '{name}' (lights: {known})")
+            known = ", ".join(filter(None, islice(numbers, 10))) or f"{count} without names"
+            self.source.fail(at, f"{draft.owner}there is no light {self.source.shown(at)} (lights: {known})")
         return replace(item, curves=replace(item.curves, light=index))

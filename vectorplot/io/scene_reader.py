@@ -142,7 +142,7 @@ class ItemReader:
         self.at += 1
 
     def _read_cap(self, draft: Draft) -> None:
-        draft.shown_caps = (*draft.shown_caps, CAP_WORDS[self.words[self.at]])
+        draft.shown_caps |= {CAP_WORDS[self.words[self.at]]}
         self.at += 1
 
     def _read_box(self, draft: Draft) -> None:
@@ -320,7 +320,7 @@ class ItemReader:
             if len(columns[0]) < 3:
                 self.fail(f"polygon {name} has {len(columns[0])} points, expected three or more", draft)
             self.at = end
-            draft.patterns = (*draft.patterns, Pattern(name, colour, face - 1, np.array(columns).T.copy()))
+            draft.patterns.append(Pattern(name, colour, face - 1, np.array(columns).T.copy()))
         if face is None:
             self.fail(f"patterns: expected 'face' and its number, got {source.shown(self.at)}", draft)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from functools import cached_property
 from math import isfinite
 from typing import NoReturn
 
@@ -14,7 +15,10 @@ FORM_WORDS = ("convex", *SOLID_WORDS, "hollow", "general", "concave")
 KIND_WORDS = ("vertices", "revolution", "translation", "box", "intersection", "surface", "curve")
 SCENE_WORDS = ("camera", "light", "page", "background", "title")
 
-_WORD = re.compile(r'"(?:[^"\\\n]|\\.)*"|,|[^\s,"#]+|(?:#[^\n]*)|"')
+# A string that is not closed is one word too, up to the end of its line. Nothing is tried twice: what these patterns
+# have taken they keep (++ and *+), so that the time grows with the text, whatever the text.
+_STRING = re.compile(r'"(?:[^"\\\n]++|\\.)*+"')
+_WORD = re.compile(r'"(?:[^"\\\n]++|\\.)*+"?|,|[^\s,"#]++|#[^\n]*+')
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
 _NUMBER = re.compile(r"[-+.]*\d")
 
@@ -40,20 +44,26 @@ class Words:
         if "#" in text:
             words = [word for word in words if word[0] != "#"]
         self.words: list[str] = words
-        if '"' in text and '"' in words:
-            self.fail(words.index('"'), 'a string lacks its closing "')
+        if '"' in text:
+            unclosed = (k for k, word in enumerate(words) if word[0] == '"' and not _STRING.fullmatch(word))
+            if (first := next(unclosed, None)) is not None:
+                self.fail(first, 'a string lacks its closing "')
         words.extend([""] * PADDING)
 
     def line(self, index: int) -> int:
         """The line, from 1, on which a word stands; for a word behind the last one the last line."""
-        seen = -1
-        end = len(self._text.rstrip())
+        return self._lines[min(index, len(self._lines) - 1)]
+
+    @cached_property
+    def _lines(self) -> list[int]:
+        """The lines of all words, then the last line that holds anything; made when the first one is asked for."""
+        lines, line, end = [], 1, 0
         for match in _WORD.finditer(self._text):
-            seen += not match[0].startswith("#")
-            if seen == index:
-                end = match.start()
-                break
-        return self._text.count("\n", 0, end) + 1
+            line += self._text.count("\n", end, match.start())
+            end = match.start()
+            if self._text[end] != "#":
+                lines.append(line)
+        return [*lines, line + self._text.count("\n", end, len(self._text.rstrip()))]
 
     def fail(self, index: int, cause: str) -> NoReturn:
         """Raise InputError with file and line of a word."""
