@@ -16,7 +16,7 @@ from vectorplot.drawing.page import allowed_in_space, page_from_world
 from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, interleaved, placed_faces
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Bools, Floats
+from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_paint
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seams import without_seams
@@ -94,8 +94,10 @@ def paint(
     facets = replace(facets, scene=_with_clear_items(facets.scene))
     view = walk.run("look", look, facets.scene, camera)
     projected = walk.run("faces", project_faces, view)
-    painted = walk.run("order", painters_order, view, projected, known=known_orders(facets.scene, view))
+    known, groups = known_orders(facets.scene, view), _groups(scene)
+    painted = walk.run("order", painters_order, view, projected, known=known, group=groups)
     _tell_knots(walk, scene, painted)
+    _tell_groups(walk, scene, painted)
     faces = painted.faces
     if walk.calls_for("transparent sheets"):
         from vectorplot.visibility.painter.gathering import gathered
@@ -145,6 +147,23 @@ def _with_clear_items(scene: Scene) -> Scene:
         return scene
     items = (replace(item, occludes=item.hides and not see) for see, item in zip(clear, scene.items, strict=True))
     return replace(scene, items=tuple(items))
+
+
+def _groups(scene: Scene) -> Ints | None:
+    """(i,) the number of each item's group, -1 for none; None where there are no groups."""
+    names = sorted({item.group for item in scene.items} - {""})
+    number = {"": -1, **{name: k for k, name in enumerate(names)}}
+    return np.array([number[item.group] for item in scene.items], dtype=np.intp) if names else None
+
+
+def _tell_groups(walk: Walk, scene: Scene, painted: Painted) -> None:
+    """Tell the listener which groups stay together, and which do not."""
+    names = sorted({item.group for item in scene.items} - {""})
+    undone = [names[k] for k in painted.undone]
+    if kept := [name for name in names if name not in undone]:
+        walk.tell("groups", f"{', '.join(kept)}: ordered as wholes, then within", len(kept))
+    if undone:
+        walk.tell("groups undone", f"{', '.join(undone)}: something else comes between", len(undone))
 
 
 def _tell_knots(walk: Walk, scene: Scene, painted: Painted) -> None:

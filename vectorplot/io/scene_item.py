@@ -74,6 +74,7 @@ class Draft:
     removed: list[int] | None = None
     lines: tuple[str, ...] | None = None
     occludes: bool | None = None
+    group: str | None = None
     surface: Surface | ImplicitSurface | None = None
     curve: Curve | None = None
     curves = CurveDraft()
@@ -123,6 +124,7 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
         draft.lines,
         draft.occludes,
         curves,
+        draft.group or "",
     )
 
 

@@ -281,6 +281,14 @@ class ItemReader:
         draft.occludes = word == "yes"
         self.at += 1
 
+    def _read_group(self, draft: Draft) -> None:
+        self._once(draft, "group")
+        word = self.words[self.at]
+        if word in ("", ",", *SCENE_WORDS) or word in HANDLERS or self.source.is_number(self.at):
+            self.fail(f"group: expected the name of a group, got {self.source.shown(self.at)}", draft)
+        draft.group = self.source.string(self.at)
+        self.at += 1
+
     def _read_opacity(self, draft: Draft) -> None:
         self._once(draft, "opacity")
         opacity = self.source.number(self.at, draft.owner, "opacity")
@@ -372,6 +380,7 @@ HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
     "patterns": ItemReader._read_patterns,
     "lines": ItemReader._read_lines,
     "occludes": ItemReader._read_occludes,
+    "group": ItemReader._read_group,
     "scale": _modifier(read_scale),
     "matrix": _modifier(read_matrix),
     "surface": ItemReader._read_surface,

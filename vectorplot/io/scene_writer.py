@@ -92,6 +92,8 @@ def _item(item: Item, lights: tuple[Light, ...]) -> str:
     form = ["general"] if isinstance(item.shape, Mesh) else []
     words = [_name(item.name), colour, *form, *_material(item.material)]
     words.append(f"occludes {'yes' if item.hides else 'no'}")
+    if item.group:
+        words.append(f"group {_name(item.group)}")
     if item.lines is not None:
         words.append(f"lines {', '.join(item.lines) or 'none'}")
     return " ".join(words) + _shape(item, lights) + _patterns(item.patterns)

@@ -99,7 +99,8 @@ class Item:
 
     shape: a polyhedron, a smooth surface or a curve in space; colour: the name of a palette, a plain colour or #rrggbb;
     lines: the words of the kinds to draw (None: what the drawing asks for); occludes: whether it hides what is behind
-    it (None: unless its material is transparent); curves: which lines there are on a smooth surface.
+    it (None: unless its material is transparent); curves: which lines there are on a smooth surface;
+    group: a name that items share which stay together in the painter's order.
     Errors: InputError for unknown colours and kinds of lines.
     """
 
@@ -111,6 +112,7 @@ class Item:
     lines: tuple[str, ...] | None = None
     occludes: bool | None = None
     curves: SurfaceLines = NO_LINES
+    group: str = ""
 
     def __post_init__(self) -> None:
         check_colour(self.colour, f"{self.name}: ")

@@ -76,6 +76,15 @@ def grouped_order(count: int, before: Ints, after: Ints, group: Ints) -> ObjectO
     owner = np.asarray(group, dtype=np.intp)
     if owner.shape != (count,):
         raise InputError(f"{count} objects need as many groups")
+    within = np.empty(count, dtype=np.intp)
+    within[mikado(count, before, after).order] = np.arange(count)
+    rank, undone = group_ranks(count, before, after, owner)
+    return ObjectOrder(np.lexsort((within, rank)), gordian_knots(count, before, after), undone=undone)
+
+
+def group_ranks(count: int, before: Ints, after: Ints, owner: Ints) -> tuple[Ints, tuple[int, ...]]:
+    """(n,) the ranks of groups among each other, and of what belongs to none, equal for what lies in a circle; and the
+    groups that were undone, as in grouped_order. owner (n,): the group of each thing, -1 for none."""
     undone: set[int] = set()
     while True:
         whole = (owner >= 0) & ~np.isin(owner, list(undone))
@@ -86,10 +95,5 @@ def grouped_order(count: int, before: Ints, after: Ints, group: Ints) -> ObjectO
         circled = np.bincount(rank, minlength=1)[rank[unit]] > 1 if count else np.zeros(0, dtype=np.bool_)
         broken = set(owner[circled & whole].tolist())
         if not broken:
-            break
+            return rank[unit], tuple(sorted(undone))
         undone |= broken
-    within = mikado(count, before[~across], after[~across]).order
-    place = np.empty(count, dtype=np.intp)
-    place[within] = np.arange(count)
-    order = np.lexsort((place, unit, rank[unit]))
-    return ObjectOrder(order, gordian_knots(count, before, after), undone=tuple(sorted(undone)))

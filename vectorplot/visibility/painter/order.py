@@ -22,6 +22,7 @@ from vectorplot.visibility.painter.face_pairs import (
     drawn_before,
     face_relations,
 )
+from vectorplot.visibility.painter.groups import group_ranks
 from vectorplot.visibility.painter.image_faces import (
     ImageFaces,
     corner_positions,
@@ -30,6 +31,7 @@ from vectorplot.visibility.painter.image_faces import (
     joined,
 )
 from vectorplot.visibility.painter.mikado import component_ranks
+from vectorplot.visibility.painter.splitting import dense
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 
 PAIRS_AT_ONCE = 1 << 20
@@ -40,18 +42,23 @@ PAIRS_AT_ONCE = 1 << 20
 class Painted:
     """Polygons back to front: faces, whose points (3,c) are places in the image and heights above it, and whose source
     is the face of the view that each one is or is a part of. uncut: how many there were before the cutting; knots (i,):
-    the items that pierce one another, or lie on one another in circles."""
+    the items that pierce one another, or lie on one another in circles; undone: groups that could not stay together."""
 
     faces: ImageFaces
     uncut: int
     knots: Ints
+    undone: tuple[int, ...] = ()
 
     def __len__(self) -> int:
         return len(self.faces)
 
 
 def painters_order(
-    view: View, projected: ProjectedFaces | None = None, *, known: Mapping[int, Ints] | None = None
+    view: View,
+    projected: ProjectedFaces | None = None,
+    *,
+    known: Mapping[int, Ints] | None = None,
+    group: Ints | None = None,
 ) -> Painted:
     """The faces that can be seen, in an order in which each may be painted over those before it.
 
@@ -61,17 +68,19 @@ def painters_order(
     two faces in the same place is seen.
     known: for items whose structure tells the order (graph_order, ring_order) all faces of the view that each has, back
     to front. It is used where nothing else overlaps the item in the image; then none of its faces is compared.
+    group (i,): the group of each item, -1 for none: first the groups are put in order, then what is in each, but for
+    those that lie on other things in a circle.
     Errors: InputError where a known order is not one of the item's faces.
     Degenerate: faces seen edge-on are left out.
-    Source: Glaeser, sections 5.1, 5.5 and 5.6; Newell, Newell and Sancha (1972).
+    Source: Glaeser, sections 5.1 and 5.5 to 5.7; Newell, Newell and Sancha (1972).
     """
     projected = project_faces(view) if projected is None else projected
     faces = image_faces(view, drawn_faces(view, projected))
     if known:
         lone, faces = _known_apart(view, faces, known)
-        rest = _ordered(view, projected, faces)
-        return Painted(joined(lone, rest.faces), len(lone) + rest.uncut, rest.knots)
-    return _ordered(view, projected, faces)
+        rest = _ordered(view, projected, faces, group)
+        return Painted(joined(lone, rest.faces), len(lone) + rest.uncut, rest.knots, rest.undone)
+    return _ordered(view, projected, faces, group)
 
 
 def _known_apart(view: View, faces: ImageFaces, known: Mapping[int, Ints]) -> tuple[ImageFaces, ImageFaces]:
@@ -95,11 +104,18 @@ def _known_apart(view: View, faces: ImageFaces, known: Mapping[int, Ints]) -> tu
     return faces.some(apart[in_order]), faces.some(np.flatnonzero(~lone[item]))
 
 
-def _ordered(view: View, projected: ProjectedFaces, faces: ImageFaces) -> Painted:
+def _ordered(view: View, projected: ProjectedFaces, faces: ImageFaces, group_of_item: Ints | None) -> Painted:
     """The painter's order of some faces of a view."""
     things = _things(view, projected, faces)
     before, after = _demands(view, faces, things)
     rank = _ranks(faces, things, before, after)
+    undone: tuple[int, ...] = ()
+    if group_of_item is not None:
+        owner = np.full(len(rank), -1, dtype=np.intp)
+        owner[things.of_face] = group_of_item[view.face_item[faces.source]]
+        of_group, undone = group_ranks(len(rank), before, after, owner)
+        # What is in a circle has one rank in both, since a group in a circle is undone.
+        rank = dense(of_group, rank)
     circled = np.bincount(rank, minlength=1)[rank] > 1
     loose = np.flatnonzero(circled[things.of_face])
     rest = np.flatnonzero(~circled[things.of_face])
@@ -113,7 +129,7 @@ def _ordered(view: View, projected: ProjectedFaces, faces: ImageFaces) -> Painte
     whole = joined(faces.some(rest), pieces)
     places = np.concatenate([np.zeros(len(rest), dtype=np.intp), place])
     order = np.lexsort((whole.rank, places, group_of_source[whole.source]))
-    return Painted(whole.some(order), len(faces), np.unique(view.face_item[pieces.source]))
+    return Painted(whole.some(order), len(faces), np.unique(view.face_item[pieces.source]), undone)
 
 
 @dataclass(frozen=True, eq=False)
