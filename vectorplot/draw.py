@@ -156,10 +156,11 @@ def lines_in_place(
     lines: Iterable[str],
     place: Callable[[View], Floats],
     *,
+    fit: bool,
     crease_angle_deg: float,
     tolerance_mm: float,
-) -> tuple[Layer, ...]:
-    """The visible lines of a scene in layers by kind, where a picture of it already has its place on the page.
+) -> Paths:
+    """The visible parts of the lines of a scene, as they come, where a picture of it already has its place on the page.
 
     place: the (3,3) matrix from the image of a view of the scene to the page. All else as of draw.
     """
@@ -171,10 +172,9 @@ def lines_in_place(
     straight = _straight_lines(walk, scene, view, faces, solid, kinds, crease_angle_deg)
     tolerance = 0.5 * tolerance_mm / float(placed[0, 0])
     every = _with_curves(walk, scene, view, _sheets(walk, scene, view), kinds, straight, tolerance)
-    framed, _ = in_frame(view, every, page, True)
+    framed, _ = in_frame(view, every, page, fit)
     seen = _visibility(walk, view, faces, solid, framed)
-    strokes = strokes_on_page(view, framed, seen, placed)
-    return inked(layers_by_kind(strokes), "none", page_from_world(view, placed), tolerance_mm)
+    return strokes_on_page(view, framed, seen, placed)
 
 
 def _straight_lines(

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from vectorplot.draw import default_camera, lines_in_place, seen_part
-from vectorplot.drawing.drawing import Drawing, Layer, Pen
+from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Colours, FillKind, Fills
+from vectorplot.drawing.ink import inked
+from vectorplot.drawing.layers import layers_by_kind
 from vectorplot.drawing.page import allowed_in_space, page_from_world
 from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, interleaved, placed_faces
 from vectorplot.errors import InputError
@@ -24,13 +26,13 @@ from vectorplot.scene.view import View, look
 from vectorplot.shading.face_shades import Shades, item_colours, view_lights
 from vectorplot.shading.faceted import FacetedScene, faceted
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
-from vectorplot.shading.palettes import SIZE
+from vectorplot.shading.palettes import SIZE, shaded_colours
 from vectorplot.shading.palettes import palette as shades_of
 from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
 from vectorplot.visibility.painter.order import Painted, painters_order
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
-from vectorplot.words import LineKind, check_word, line_kinds
+from vectorplot.words import LINE_WORDS, LineKind, check_word, line_kinds
 
 if TYPE_CHECKING:
     from vectorplot.effects.decals import Decals
@@ -70,9 +72,9 @@ def paint(
     place of those of the scene. shadows: whether lights cast any. aura_mm: the width of their soft borders. palette:
     how many shades every colour has. smooth: smooth surfaces are shaded from corner to corner, not face by face.
     fills: polygons painted one over the other, or only what is seen of each, for pens, which cannot paint over things,
-    with transparent ones as sparse lines; or blank, each with its edges: hidden lines by erasing.
-    lines: words of LineKind, or one text with commas between them, drawn on top with exact hidden lines;
-    crease_angle_deg: sharper edges are creases.
+    with transparent ones as sparse lines; or blank, with the visible lines on them: hidden lines by erasing.
+    lines: words of LineKind, or one text with commas between them, drawn on top with exact hidden lines, or on blank
+    polygons (none: all kinds); crease_angle_deg: sharper edges are creases.
     tolerance_mm: how far the sides of polygons may be off smooth surfaces and refracted lines. progress(stage,
     fraction) and explain(report) are called while it works.
     Errors: InputError for unknown words and colours, impossible cameras, and widths and counts out of range.
@@ -106,11 +108,12 @@ def paint(
         sheet = np.where(opacities(facets.scene.items)[item] < 1.0, item, -1)
         faces = faces.some(walk.run("transparent sheets", gathered, faces, sheet, view.tolerance))
     placed = placed_faces(view, faces, page, fit)
-    seen = _Seen(facets.scene, view, projected, placed.framed(faces, page, view.tolerance), placed, _smooth(facets))
+    seen = _Seen(facets.scene, view, projected, placed.framed(faces, page, view.tolerance), placed)
     world = page_from_world(view, placed.page_from_image)
     lighting = Lighting(scene.items, view_lights(view, scene.lights), _normals(view, facets, smooth), palette)
+    ruler = _Ruler(camera, page, seen, fit, crease_angle_deg, tolerance_mm)
     if walk.calls_for("erasing"):
-        polygons = _erased(walk, seen, lighting)
+        polygons = _erased(walk, seen, scene, ruler, kinds or line_kinds(LINE_WORDS), palette)
     else:
         polygons = _shaded(walk, seen, lighting, page, aura_mm, tolerance_mm)
     if walk.calls_for("visible fills"):
@@ -123,21 +126,65 @@ def paint(
         polygons = walk.run("screen door", screened, polygons, PEN.width_mm, world)
     layers = [Layer("fills", PEN, (polygons,))]
     if walk.calls_for("lines"):
-        layers += walk.run("lines", _lines, scene, camera, page, seen, kinds, crease_angle_deg, tolerance_mm)
+        layers += walk.run("lines", ruler.layers, scene, kinds)
     return Drawing(page.width_mm, page.height_mm, tuple(layers), tuple(i.name for i in scene.items), scene.title, world)
 
 
 @dataclass(frozen=True, eq=False)
 class _Seen:
     """What is painted: a scene without smooth surfaces, its view, its faces in the image, the polygons of the picture
-    back to front, where the picture goes, and (i,) which items were smooth surfaces."""
+    back to front, and where the picture goes."""
 
     scene: Scene
     view: View
     projected: ProjectedFaces
     faces: ImageFaces
     placed: Placed
-    smooth: Bools
+
+
+@dataclass(frozen=True, eq=False)
+class _Ruler:
+    """How the lines of a scene come to be on a picture of it, by the same camera, where its polygons have their
+    place."""
+
+    camera: Camera
+    page: Page
+    seen: _Seen
+    fit: bool
+    crease_angle_deg: float
+    tolerance_mm: float
+
+    def layers(self, scene: Scene, kinds: frozenset[LineKind]) -> tuple[Layer, ...]:
+        """The visible lines in layers by kind."""
+        return inked(layers_by_kind(self._found(scene, kinds)), "none", self._world, self.tolerance_mm)
+
+    def strokes(self, scene: Scene, kinds: frozenset[LineKind]) -> Paths:
+        """The visible lines as polylines."""
+        (layer,) = inked((Layer("", PEN, (self._found(scene, kinds),)),), "none", self._world)
+        return layer.strokes[0]
+
+    @property
+    def _world(self) -> Floats:
+        return page_from_world(self.seen.view, self.seen.placed.page_from_image)
+
+    def _found(self, scene: Scene, kinds: frozenset[LineKind]) -> Paths:
+        words = [kind.word for kind in kinds]
+        return lines_in_place(
+            scene,
+            self.camera,
+            self.page,
+            words,
+            self._place,
+            fit=self.fit,
+            crease_angle_deg=self.crease_angle_deg,
+            tolerance_mm=self.tolerance_mm,
+        )
+
+    def _place(self, view: View) -> Floats:
+        own = self.seen.view
+        # The same rays in views of other units: a length in the image is one in the world, or a slope times the focus.
+        unit = view.scale / own.scale if own.eye is None else own.focus / view.focus
+        return np.asarray(self.seen.placed.page_from_image @ np.diag([unit, unit, 1.0]))
 
 
 def _with_clear_items(scene: Scene) -> Scene:
@@ -198,33 +245,50 @@ def _normals(view: View, facets: FacetedScene, smooth: bool) -> Floats:
     return np.asarray(view.axes @ np.concatenate([np.zeros((0, 3)), *parts]).T)
 
 
-def _smooth(facets: FacetedScene) -> Bools:
-    """(i,) which items are made of facets."""
-    return np.array([normals is not None for normals in facets.normals], dtype=np.bool_)
-
-
 def _shades(seen: _Seen, lighting: Lighting) -> Shades:
     faces = seen.faces
     points = unmapped(seen.view, faces.points)
     return corner_shades_of(seen.view, lighting, points, faces.offsets, faces.source)
 
 
-def _erased(walk: Walk, seen: _Seen, lighting: Lighting) -> Fills:
-    """Blank polygons with their edges, and the outlines of the patterns on them."""
-    from vectorplot.drawing.erased import erased_fills
+def _erased(walk: Walk, seen: _Seen, scene: Scene, ruler: _Ruler, kinds: frozenset[LineKind], size: int) -> Fills:
+    """Blank polygons, and the lines of the scene on them."""
+    from vectorplot.drawing.erased import erased_fills, line_fills
+
+    view, faces = seen.view, seen.faces
+    blank = fills_on_page(
+        view,
+        faces.points,
+        faces.offsets,
+        seen.placed,
+        colours=np.repeat(_paper(scene), faces.points.shape[1], axis=0),
+        opacity=np.ones(len(faces)),
+        item=view.face_item[faces.source],
+        kind=np.full(len(faces), int(FillKind.BACKGROUND)),
+    )
+    drawn = walk.run("outlines", _coloured_strokes, scene, ruler, kinds, size)
+    lines = Fills.joined(*(line_fills(strokes, ink) for strokes, ink in drawn))
+    return walk.run("erasing", erased_fills, blank, lines, PEN.width_mm)
+
+
+def _coloured_strokes(
+    scene: Scene, ruler: _Ruler, kinds: frozenset[LineKind], size: int
+) -> list[tuple[Paths, Colours]]:
+    """The visible lines of a scene, and their inks (m,3): the middle shades of the palettes of items, and of those of
+    patterns."""
+    from vectorplot.drawing.pieces import chosen
     from vectorplot.shading.depth_cueing import MIDDLE
 
-    scene, view, faces, placed = seen.scene, seen.view, seen.faces, seen.placed
-    outlines = []
-    if walk.calls_for("patterns"):
-        from vectorplot.effects.decal_fills import decal_outlines
-        from vectorplot.effects.patterns import pattern_decals
-
-        patterns = walk.run("patterns", pattern_decals, scene, view)
-        outlines.append(decal_outlines(view, lighting, patterns, faces, placed))
-    items = np.arange(len(scene.items))
-    ink = item_colours(scene.items, items, np.full(len(items), MIDDLE), lighting.size)
-    return walk.run("erasing", erased_fills, view, faces, placed, _paper(scene), ink, seen.smooth, outlines)
+    strokes = ruler.strokes(scene, kinds)
+    plain = chosen(strokes, strokes.kind != LineKind.PATTERN)
+    found = [(plain, item_colours(scene.items, plain.item, np.full(len(plain), MIDDLE), size))]
+    colours = dict.fromkeys(pattern.colour for item in scene.items for pattern in item.patterns)
+    for colour in colours if (strokes.kind == LineKind.PATTERN).any() else ():
+        items = (replace(i, patterns=tuple(p for p in i.patterns if p.colour == colour)) for i in scene.items)
+        strokes = ruler.strokes(replace(scene, items=tuple(items)), kinds)
+        own = chosen(strokes, strokes.kind == LineKind.PATTERN)
+        found.append((own, shaded_colours((colour,), np.zeros_like(own.item), np.full(len(own), MIDDLE), size)))
+    return found
 
 
 def _shaded(walk: Walk, seen: _Seen, lighting: Lighting, page: Page, aura_mm: float, tolerance_mm: float) -> Fills:
@@ -331,29 +395,6 @@ def _fills(
         clear = refracting_items(seen.scene, view, seen.projected)[item]
         fills, overlays = tinted(fills, clear, opacity, _paper(seen.scene)[0], overlays)
     return Fills.joined(*_background(seen.scene, page), interleaved(fills, overlays))
-
-
-def _lines(
-    scene: Scene,
-    camera: Camera,
-    page: Page,
-    seen: _Seen,
-    kinds: frozenset[LineKind],
-    crease_angle_deg: float,
-    tolerance_mm: float,
-) -> tuple[Layer, ...]:
-    """The lines of the scene, where the polygons have their place."""
-
-    def place(view: View) -> Floats:
-        own = seen.view
-        # The same rays in views of other units: a length in the image is one in the world, or a slope times the focus.
-        unit = view.scale / own.scale if own.eye is None else own.focus / view.focus
-        return np.asarray(seen.placed.page_from_image @ np.diag([unit, unit, 1.0]))
-
-    words = [kind.word for kind in kinds]
-    return lines_in_place(
-        scene, camera, page, words, place, crease_angle_deg=crease_angle_deg, tolerance_mm=tolerance_mm
-    )
 
 
 def _paper(scene: Scene) -> Colours:

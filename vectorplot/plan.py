@@ -266,16 +266,15 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
     stages.append(Stage("order", "back to front; what pierces or overlaps in circles is cut"))
     if fills != "erasing" and any(item.material.opacity < 1.0 for item in scene.items):
         stages.append(Stage("transparent sheets", "polygons of transparent items stand together where they can"))
-    if fills == "erasing" and any(item.patterns for item in scene.items):
-        stages.append(Stage("patterns", "faces carry patterns"))
     if fills == "erasing":
-        stages.append(Stage("erasing", "faces in the colour of the paper, and their edges"))
+        stages.append(Stage("outlines", "the visible lines of the scene"))
+        stages.append(Stage("erasing", "faces in the colour of the paper, and the lines on them"))
     else:
         stages += _shading_stages(scene, shadows)
     if fills == "visible":
         stages.append(Stage("visible fills", "each without what is painted over it"))
         if any(item.material.opacity < 1.0 for item in scene.items):
             stages.append(Stage("screen door", "transparent polygons become sparse lines"))
-    if kinds:
+    if kinds and fills != "erasing":
         stages.append(Stage("lines", ", ".join(sorted(kind.word for kind in kinds)) + " on top"))
     return tuple(stages)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind, Fills
@@ -98,10 +99,10 @@ def test_erasing_leaves_blank_faces_and_their_edges() -> None:
     drawing = vp.paint(scene, fills="erasing")
     fills = drawing.layers[0].fills[0]
     lines = np.diff(fills.offsets) == 2
-    assert (fills.kind[lines] == FillKind.EDGE).all() and (fills.kind[~lines] == FillKind.FACE).all()
+    assert (fills.kind[lines] == FillKind.EDGE).all() and (fills.kind[~lines] == FillKind.BACKGROUND).all()
     first = fills.colours[fills.offsets[:-1]]
     assert (first[~lines] == 255).all() and (first[lines] < 255).any(axis=1).all()
-    assert lines.sum() > 9 and not lines[0]
+    assert lines.sum() >= 9 and not lines[0]
     colours = {pattern.colour for item in scene.items for pattern in item.patterns}
     assert len(np.unique(first[lines], axis=0)) >= len(colours)
 
@@ -122,11 +123,23 @@ def test_the_tolerance_decides_how_many_facets_there_are() -> None:
 
 def test_erasing_draws_the_outlines_of_smooth_surfaces_and_none_of_their_facets() -> None:
     scene = vp.read(DATA / "torus.scene")
-    fills = vp.paint(scene, fills="erasing").layers[0].fills[0]
+    fills = vp.paint(scene, fills="erasing", lines=("contour",)).layers[0].fills[0]
     lines = np.flatnonzero(np.diff(fills.offsets) == 2)
     points = fills.points3d[fills.offsets[lines]]
     ring = points * [1.0, 1.0, 0.0]
     normal = points - 3.0 * ring / np.linalg.norm(ring, axis=1, keepdims=True)
     sight = np.asarray(scene.camera.eye) - points
     cosine = (normal * sight).sum(axis=1) / np.linalg.norm(sight, axis=1)
-    assert 50 < len(lines) < 1000 and np.abs(cosine).max() < 0.2
+    assert 50 < len(lines) < 1000 and np.abs(cosine).max() < 1e-3
+
+
+def test_erasing_puts_lines_after_all_polygons_that_touch_them() -> None:
+    scene = vp.read(DATA / "interpenetrating.scene")
+    fills = vp.paint(scene, fills="erasing").layers[0].fills[0]
+    shapes = [shapely.Polygon(p) for p in np.split(fills.points, fills.offsets[1:-1]) if len(p) > 2]
+    places = np.flatnonzero(np.diff(fills.offsets) > 2)
+    lines = np.flatnonzero(np.diff(fills.offsets) == 2)
+    for line in lines.tolist():
+        near = shapely.distance(shapely.LineString(fills.points[fills.offsets[line] : fills.offsets[line + 1]]), shapes)
+        assert (places[near < 0.149] < line).all()
+    assert (np.diff(lines) > 1).any()

@@ -41,7 +41,9 @@ FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
     default="painted",
     help="Painted one over the other, only what is seen of each, or blank with edges.",
 )
-@click.option("--lines", type=kinds, default="none", metavar="KIND,...", help=f"Lines on top: {KINDS}.")
+@click.option(
+    "--lines", type=kinds, default="none", metavar="KIND,...", help=f"Lines on top, or on blank polygons: {KINDS}."
+)
 @click.option(
     "--crease-angle", type=at_least(0.0, at_most=180.0), default=25.0, metavar="DEG", help="Sharper edges are creases."
 )

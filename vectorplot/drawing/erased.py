@@ -1,78 +1,61 @@
-"""Hidden lines by painting, on the page: every face erases what is behind it, and then its edges are drawn."""
+"""Hidden lines by painting, on the page: blank faces back to front, and the lines on each of them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
+from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import Colours, FillKind, Fills
-from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, interleaved
-from vectorplot.geometry.mesh import Bools
-from vectorplot.scene.view import View
-from vectorplot.shading.face_shades import shows_inside
-from vectorplot.visibility.painter.erasing import erasing_edges
-from vectorplot.visibility.painter.image_faces import ImageFaces
+from vectorplot.drawing.painted import Overlay, interleaved
+from vectorplot.geometry.mesh import Ints
 
 
-def drawn_sides(view: View, faces: ImageFaces, smooth: Bools) -> Bools:
-    """(c,) the sides of the faces of a view, from each corner to the next, that are drawn: edges of polyhedra; of the
-    facets of smooth items (i,) only outlines, sides that no other painted facet that shows the same side has."""
-    drawn = ~view.inner
-    of_smooth = smooth[view.face_item]
-    if not of_smooth.any():
-        return drawn
-    shown = np.zeros(view.face_count, dtype=np.bool_)
-    shown[faces.source] = True
-    face = np.repeat(np.arange(view.face_count), view.face_sizes)
-    side = np.flatnonzero(of_smooth[face] & shown[face])
-    start, end = view.corners[side], view.corners[view.after(side)]
-    # Neighbours that show the same side run along a common side in opposite directions.
-    there, back = start * view.points.shape[1] + end, end * view.points.shape[1] + start
-    inside = shows_inside(view)[face[side]]
-    paired = np.isin(2 * there + inside, 2 * back + inside)
-    drawn = drawn & ~of_smooth[face]
-    drawn[side[~paired]] = True
-    return np.asarray(drawn)
+def erased_fills(blank: Fills, lines: Fills, width_mm: float) -> Fills:
+    """Blank polygons back to front, with visible lines of two corners, so wide, between them.
 
-
-def erased_fills(
-    view: View,
-    faces: ImageFaces,
-    placed: Placed,
-    paper: Colours,
-    ink: Colours,
-    smooth: Bools,
-    overlays: Sequence[Overlay] = (),
-) -> Fills:
-    """Painted polygons in the colour of the paper (1,3), each followed by its edges, lines of two corners, and by what
-    else is drawn on it; ink (i,3): the colours of the edges of items; smooth (i,): those made of facets.
-
+    A line comes right after the last of the polygons that touch it, so that none takes away half of its width:
+    polygons may end beside a line anywhere, along its face or where the painter cut another one.
     Source: Glaeser, section 7.1, figure 1.
     """
-    erased = erasing_edges(view, faces, drawn_sides(view, faces, smooth))
-    count = len(erased)
-    after = np.repeat(np.arange(len(faces)), np.diff(erased.first))
-    item = view.face_item[faces.source]
-    blank = fills_on_page(
-        view,
-        faces.points,
-        faces.offsets,
-        placed,
-        colours=np.repeat(paper, faces.points.shape[1], axis=0),
-        opacity=np.ones(len(faces)),
-        item=item,
-        # A seam around a facet would take half of the outline beside it away, which is not drawn again.
-        kind=np.where(smooth[item], int(FillKind.BACKGROUND), int(FillKind.FACE)),
+    if not len(blank):
+        return lines
+    return interleaved(blank, [Overlay(lines, _last_touching(blank, lines, width_mm / 2.0))])
+
+
+def line_fills(strokes: Paths, ink: Colours) -> Fills:
+    """Every straight part of strokes as a line of two corners in the ink (m,3) of its stroke."""
+    sizes = np.diff(strokes.offsets)
+    owner = np.repeat(np.arange(len(strokes)), sizes)
+    start = np.arange(len(strokes.points))
+    end = start + 1
+    last = strokes.offsets[1:][sizes > 0] - 1
+    end[last] = strokes.offsets[:-1][sizes > 0]
+    drawn = np.ones(len(start), dtype=np.bool_)
+    drawn[last] = strokes.closed[sizes > 0]
+    start, end, owner = start[drawn], end[drawn], owner[drawn]
+    ends = np.stack([start, end], axis=1).ravel()
+    return Fills(
+        strokes.points[ends],
+        2 * np.arange(len(start) + 1),
+        np.repeat(ink[owner], 2, axis=0),
+        np.ones(len(start)),
+        strokes.item[owner],
+        strokes.points3d[ends],
+        np.full(len(start), int(FillKind.EDGE)),
     )
-    edges = fills_on_page(
-        view,
-        np.stack([erased.start, erased.end], axis=2).reshape(3, -1),
-        np.arange(0, 2 * count + 1, 2),
-        placed,
-        colours=np.repeat(ink[item[after]], 2, axis=0),
-        opacity=np.ones(count),
-        item=item[after],
-        kind=np.full(count, int(FillKind.EDGE)),
-    )
-    return interleaved(blank, [Overlay(edges, after), *overlays])
+
+
+def _last_touching(polygons: Fills, lines: Fills, distance: float) -> Ints:
+    """(n,) the last of the polygons that come so near to each line; the first of all where none does."""
+    import shapely
+
+    sizes = np.diff(polygons.offsets)
+    full = np.flatnonzero(sizes >= 3)
+    corner = np.repeat(sizes >= 3, sizes)
+    rings = shapely.linearrings(polygons.points[corner], indices=np.repeat(np.arange(len(full)), sizes[full]))
+    tree = shapely.STRtree(shapely.polygons(rings))
+    segments = shapely.linestrings(lines.points.reshape(-1, 2, 2))
+    line, polygon = tree.query(segments, predicate="dwithin", distance=distance)
+    found = np.zeros(len(lines), dtype=np.intp)
+    np.maximum.at(found, line, full[polygon])
+    return found

@@ -13,9 +13,8 @@ from vectorplot.effects.decals import Decals
 from vectorplot.effects.laying import Laid, laid
 from vectorplot.effects.shadow_shades import shadow_shades
 from vectorplot.effects.windows import SeenThrough
-from vectorplot.geometry.mesh import Floats, Ints, next_positions
+from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.scene.view import View
-from vectorplot.shading.depth_cueing import MIDDLE
 from vectorplot.shading.face_shades import Shades
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities, smooth_faces
 from vectorplot.shading.palettes import Colours, shaded_colours
@@ -91,24 +90,3 @@ def _colours(view: View, lighting: Lighting, decals: Decals, parts: Laid, shade:
     if len(own):
         found[own] = shaded_colours(decals.colours, colour[own], shade[..., own], lighting.size)
     return found
-
-
-def decal_outlines(view: View, lighting: Lighting, decals: Decals, faces: ImageFaces, placed: Placed) -> Overlay:
-    """The sides of decals as lines of two corners, in the middle of their palettes, after what is painted of their
-    faces. Source: Glaeser, section 7.1."""
-    parts = laid(view, decals, faces.points, faces.offsets, faces.source)
-    corner = np.arange(parts.points.shape[1])
-    after = next_positions(parts.offsets, corner) if len(corner) else corner
-    owner = np.repeat(np.arange(len(parts)), np.diff(parts.offsets))
-    ends = np.stack([parts.points, parts.points[:, after]], axis=2).reshape(3, -1)
-    fills = fills_on_page(
-        view,
-        ends,
-        np.arange(0, 2 * len(corner) + 1, 2),
-        placed,
-        colours=np.repeat(_colours(view, lighting, decals, parts, np.full(len(corner), MIDDLE)), 2, axis=0),
-        opacity=np.ones(len(corner)),
-        item=view.face_item[decals.face[parts.decal]][owner],
-        kind=np.full(len(corner), int(FillKind.EDGE)),
-    )
-    return Overlay(fills, parts.piece[owner])

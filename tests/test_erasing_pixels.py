@@ -1,0 +1,79 @@
+"""Hidden lines by painting, as pixels, against the exact lines of draw on all scenes of data/, from several sides."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from scipy.ndimage import grey_dilation
+
+import vectorplot as vp
+from vectorplot.backends.cairo import png_bytes
+from vectorplot.draw import default_camera
+from vectorplot.drawing.drawing import Drawing, Layer, Pen
+from vectorplot.drawing.fills import FillKind
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Floats
+from vectorplot.scene.scene import Scene
+from vectorplot.words import LINE_WORDS
+
+SCENES = sorted((Path(__file__).resolve().parent.parent / "data").glob("*.scene"))
+PAGE, PEN, DPI = vp.Page(120.0, 90.0, 5.0), Pen(0.3), 100.0
+ROUGH = 0.1
+"""Tolerance in mm: lines and facets are off by a fifth of a pixel."""
+STEP = 80
+"""Ink may differ by so many of 255: lines are cut into parts, whose ends are round."""
+
+
+def ink(drawing: Drawing) -> Floats:
+    """(rows,columns) how dark pixels are, 0 to 255."""
+    return 255.0 - np.asarray(Image.open(io.BytesIO(png_bytes(drawing, DPI))).convert("L"))
+
+
+def erased(scene: Scene, camera: Camera) -> Floats:
+    """The picture of hidden lines by painting with black lines."""
+    drawing = vp.paint(
+        replace(scene, background=None), camera, page=PAGE, fit=False, fills="erasing", tolerance_mm=ROUGH
+    )
+    (layer,) = drawing.layers
+    (fills,) = layer.fills
+    lines = np.repeat(fills.kind == FillKind.EDGE, np.diff(fills.offsets))
+    black = replace(fills, colours=np.where(lines[:, None], 0, np.full(3, 255)).astype(np.uint8))
+    return ink(replace(drawing, layers=(replace(layer, pen=PEN, marks=(black,)),)))
+
+
+def exact(scene: Scene, camera: Camera) -> Floats:
+    """The picture of all lines with exact hidden lines, drawn with one pen."""
+    drawing = vp.draw(scene, camera, page=PAGE, fit=False, lines=LINE_WORDS, curves="polyline", tolerance_mm=ROUGH)
+    return ink(replace(drawing, layers=tuple(Layer(layer.name, PEN, layer.marks) for layer in drawing.layers)))
+
+
+def cameras(scene: Scene) -> list[Camera]:
+    low, high = scene.bounds
+    middle, size = tuple((low + high) / 2.0), float(np.linalg.norm(high - low))
+    return [
+        scene.camera or default_camera(scene),
+        Camera.view("iso", middle, size),
+        Camera.view("front", middle, size),
+        Camera(tuple(np.asarray(middle) + size * np.array([-0.9, 0.7, 0.4])), middle, fov_deg=40.0),
+    ]
+
+
+@pytest.mark.capability("G7.1-screen-hl")
+@pytest.mark.hard(20, 21)
+@pytest.mark.filterwarnings("ignore::vectorplot.errors.InputWarning")
+@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
+def test_what_painting_leaves_of_the_lines_are_the_exact_lines(path: Path) -> None:
+    scene = vp.read(path)
+    views = cameras(scene)
+    # Curves take their time: of smooth scenes one view is enough.
+    for number, camera in enumerate(views if all(item.mesh.face_count for item in scene.items) else views[:1]):
+        left, wanted = erased(scene, camera), exact(scene, camera)
+        missing = wanted - grey_dilation(left, 3)
+        extra = left - grey_dilation(wanted, 3)
+        assert wanted.any()
+        assert missing.max() <= STEP and extra.max() <= STEP, number
