@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from pixel_rays import stopped
@@ -12,10 +14,11 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.projection import CoordinateSystem
 from vectorplot.scene.scene import Light
 from vectorplot.shading import shadow_map as maps
-from vectorplot.shading.screen import front_facing, raster_system
+from vectorplot.shading.screen import raster_system
 from vectorplot.shading.seen_region import focus_of_depths, region_in_picture, seen_region
-from vectorplot.shading.shadow_buffer import LONGEST, is_inside, light_system, shadow_buffer, shape_of
+from vectorplot.shading.shadow_buffer import LONGEST, ShadowBuffer, is_inside, light_system, shadow_buffer, shape_of
 from vectorplot.shading.shadow_map import (
+    in_texels,
     light_plane,
     shadow_map,
     standard_frame,
@@ -24,6 +27,7 @@ from vectorplot.shading.shadow_map import (
     vertices_with_own_depth,
 )
 from vectorplot.shading.shadow_rays import blocked_exactly
+from vectorplot.shading.trapezoid import focus_area
 from vectorplot.testing.surfaces import bumpy_icosphere
 
 SUN = Light((1.0, -1.5, 2.0), parallel=True)
@@ -101,22 +105,39 @@ def test_a_convex_body_casts_no_shadow_on_itself():
         assert not blocked_exactly(light, places, found.triangle, points, corners)[facing].any()
 
 
-@pytest.mark.capability("N6-z")
-def test_back_faces_alone_need_no_bias():
-    points, corners = triangles_of(box((0, 0, 0), (1, 1, 1)), floor(4.0, -0.5))
+@pytest.mark.capability("N6-z", "N2-orientation")
+@pytest.mark.parametrize("frame", ["standard", "trapezoid"])
+@pytest.mark.parametrize("light", [SUN, FAR_LAMP], ids=["parallel", "lamp"])
+@pytest.mark.parametrize("seed", range(3))
+def test_faces_that_turn_away_need_no_margin_and_all_faces_do(frame, light, seed):
+    """Closed bodies on a closed floor: front faces culled while the map is made, no acne without any correction."""
+    random = np.random.default_rng(seed)
+    lows = np.concatenate([random.uniform(-2, 2, (5, 2)), np.zeros((5, 1))], axis=1)
+    boxes = [box(low, low + random.uniform(0.3, 1.2, 3)) for low in lows]
+    points, corners = triangles_of(box((-5, -5, -0.6), (5, 5, -0.1)), *boxes)
     camera = Camera((5, -9, 8), (0.5, 0.5, 0))
     found, places, normals = visible(points, corners, camera)
-    away = ~front_facing(points, corners, (*SUN.position, 0.0))
-    exact = blocked_exactly(SUN, places, found.triangle, points, corners)
-    _, facing = stopped(points, corners, places, normals, SUN)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(maps, "SLOPE_BIAS", 0.0)
-        patch.setattr(maps, "CONSTANT_BIAS", 0.0)
-        wrong = {
-            name: (shadow_buffer(SUN, points, part, size=512).blocks(places, normals) != exact)[facing].mean()
-            for name, part in (("all", corners), ("away", corners[away]))
-        }
-    assert wrong["away"] < 0.01 < 0.2 < wrong["all"]
+    exact = blocked_exactly(light, places, found.triangle, points, corners)
+    _, facing = stopped(points, corners, places, normals, light)
+    region = seen_region(raster_system(camera, COLUMNS, ROWS), COLUMNS, ROWS, bounds(points))
+    options = {"size": 512, "frame": frame, "region": region}
+    away = shadow_buffer(light, points, corners, casting="away", **options)
+    assert not away.maps[0].biased
+    assert (away.blocks(places, normals) != exact)[facing].mean() < 0.02
+    acne = shadow_buffer(light, points, corners, **options)
+    acne = ShadowBuffer(tuple(replace(one, biased=False) for one in acne.maps))
+    assert (acne.blocks(places, normals) != exact)[facing].mean() > 0.1
+
+
+@pytest.mark.capability("N6-z")
+@pytest.mark.parametrize("shift", [0.0, 1e3, 1e6])
+def test_the_scene_is_centred_before_a_light(shift):
+    """Wherever it stands, depths count from the middle of the scene: nothing of their digits is lost."""
+    points, corners = triangles_of(box((0, 0, 0), (1, 1, 1)), floor(4.0, -0.5))
+    one, other = (shadow_buffer(SUN, points + move, corners, size=64).maps[0] for move in (0.0, shift))
+    middle = points.mean(axis=0)
+    assert np.allclose(other.system.rotated(middle + shift), one.system.rotated(middle), atol=1e-6)
+    assert (one.code > 0).mean() == pytest.approx((other.code > 0).mean(), abs=0.01)
 
 
 @pytest.mark.hard(18, 19)
@@ -328,6 +349,29 @@ def test_a_frustum_without_taper_falls_to_the_rectangle():
     assert np.linalg.matrix_rank(matrix) == 3
     buffer = shadow_buffer(SUN, points, corners, size=512, frame="trapezoid", region=region)
     assert np.isfinite(buffer.maps[0].depth_code.maximum)
+
+
+@pytest.mark.capability("R-nonsquare")
+@pytest.mark.parametrize("light", [SUN, Light((150.0, -200.0, 250.0))], ids=["parallel", "lamp"])
+def test_maps_grow_as_their_focus_shrinks(light):
+    points, corners = triangles_of(box((0, 0, 0), (1, 1, 1)), box((0, 30, 0), (1, 31, 1)), floor(40.0, -0.1))
+    texels = []
+    for height in (12.0, 6.0, 3.0, 1.5):
+        camera = Camera((0, -9, height), (0, 10, 0), fov_deg=50.0)
+        region = seen_region(raster_system(camera, COLUMNS, ROWS), COLUMNS, ROWS, bounds(points))
+        given = {"size": 256, "frame": "trapezoid", "region": region}
+        plain, grown = (shadow_buffer(light, points, corners, **given, **more) for more in ({}, {"wanted_focus": 0.6}))
+        (one,), (two,) = plain.maps, grown.maps
+        assert one.code.size <= two.code.size <= 16.1 * one.code.size
+        texels.append(two.code.size / one.code.size)
+        frame = np.linalg.inv(in_texels(np.eye(3), *two.code.shape[::-1])) @ two.texel_from_light
+        share = focus_area(frame, light_plane(two.system, region.focus_points))
+        assert share * two.code.size >= 0.58 * 256**2 or two.code.size >= 15.9 * one.code.size
+    assert max(texels) > 1.05, "one of these views needs more"
+    with pytest.raises(InputError, match="out of range"):
+        shadow_buffer(light, points, corners, **given, wanted_focus=1.5)
+    with pytest.raises(InputError, match="casting"):
+        shadow_buffer(light, points, corners, casting="front")
 
 
 @pytest.mark.capability("R-nonsquare")

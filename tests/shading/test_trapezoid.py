@@ -16,6 +16,7 @@ from vectorplot.shading.trapezoid import (
     convex_hull,
     eta_of_focus,
     focus_area,
+    focus_distance,
     line_of_sight,
     mapped,
     rectangle,
@@ -78,7 +79,7 @@ def test_the_second_sample_call_of_the_notes_is_a_rectangle():
         assert np.abs(mapped(matrix, near) - SQUARE).max() < 2e-4, "affine, or all but"
 
 
-@pytest.mark.capability("N2-axis", "N2-topbase", "N2-focus", "N2-eta")
+@pytest.mark.capability("N2-axis", "N2-topbase", "N2-eta")
 def test_the_trapezoid_of_a_hull():
     assert np.hypot(*AXIS.direction) == pytest.approx(1.0, abs=1e-15)
     focus = 3.0 - AXIS.top
@@ -89,7 +90,7 @@ def test_the_trapezoid_of_a_hull():
     assert (inner.top, inner.base) == (AXIS.top, AXIS.base), "hull points, or all of them"
 
 
-@pytest.mark.capability("N2-corners", "N2-sides", "N2-orientation")
+@pytest.mark.capability("N2-corners", "N2-sides")
 def test_the_corners_of_the_trapezoid():
     eta = eta_of_focus(AXIS.length, 3.0 - AXIS.top)
     corners = trapezoid(HULL, AXIS, eta)
@@ -260,6 +261,48 @@ def test_beside_the_duelling_position_the_map_turns_no_faster_than_the_axis(besi
     images = np.array([image for image, _ in turning_maps(angles[np.abs(angles) < 1.5], beside)])
     speed = np.abs(np.diff(images, axis=0)).max(axis=(1, 2)) / np.diff(angles)[0]
     assert speed.max() < 80.0 + 3.0 / beside
+
+
+@pytest.mark.capability("N2-focus")
+def test_the_focus_of_the_centre_of_its_far_plane_and_of_its_hull():
+    assert focus_distance(AXIS, AXIS.origin + 3.0 * AXIS.direction) == pytest.approx(3.61014693679292, abs=1e-12), (
+        "TV58"
+    )
+    for seed in range(60):
+        image, (near, far, focus) = random_frustum(seed)
+        axis = line_of_sight(image, near, far)
+        share = np.linalg.norm(focus - near) / np.linalg.norm(far - near)
+        far_corners = image[:4] + share * (image[4:] - image[:4])
+        simple = focus_distance(axis, far_corners.mean(axis=0))
+        assert simple == pytest.approx((focus - near) @ axis.direction - axis.top, abs=1e-9)
+        hull = focus_distance(axis, np.concatenate([image[:4], far_corners]))
+        # The farthest corner of all that is in focus, whatever order they come in, lies behind that centre.
+        every = np.concatenate([image[:4], far_corners])[::-1]
+        assert hull == pytest.approx(((every - axis.origin) @ axis.direction).max() - axis.top, abs=1e-9)
+        assert simple - 1e-9 <= hull <= axis.length + 1e-9
+        if not 0.0 < simple < 0.8 * axis.length or not hull < 0.8 * axis.length:
+            continue
+        for distance in (simple, hull):
+            eta = eta_of_focus(axis.length, distance)
+            at = axis.origin + (axis.top + distance) * axis.direction
+            corners = trapezoid(image, axis, eta)
+            assert mapped(square_map(corners).matrix, at)[1] == pytest.approx(0.6, abs=1e-6), "on the 80 % line"
+
+
+@pytest.mark.capability("N2-orientation")
+@pytest.mark.parametrize("seed", range(120))
+def test_corners_run_counter_clockwise_and_maps_turn_nothing_over(seed):
+    image, (near, far, focus) = random_frustum(seed)
+    axis = line_of_sight(image, near, far)
+    for corners in (
+        rectangle(image, axis),
+        bounding_trapezoid(image, axis, focus_distance(axis, focus)),
+        *(trapezoid(image, axis, eta * axis.length) for eta in (0.05, 0.5, 5.0)),
+    ):
+        assert area(corners) > 0.0
+        moved = corners.mean(axis=0) + 0.3 * (corners - corners.mean(axis=0))
+        found = mapped(square_map(corners).matrix, moved)
+        assert area(found) > 0.0, "a triangle that faces the lamp faces it in the map too"
 
 
 @pytest.mark.capability("R-80")

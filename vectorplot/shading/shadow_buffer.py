@@ -17,6 +17,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.projection import CoordinateSystem
 from vectorplot.scene.scene import Light
+from vectorplot.shading.screen import front_facing
 from vectorplot.shading.seen_region import SeenRegion
 from vectorplot.shading.shadow_map import (
     ShadowMap,
@@ -27,7 +28,7 @@ from vectorplot.shading.shadow_map import (
     standard_frame,
     trapezoid_frame,
 )
-from vectorplot.shading.trapezoid import searched_line
+from vectorplot.shading.trapezoid import adapted_size, focus_area, searched_line
 
 Frame = Literal["standard", "box", "trapezoid"]
 
@@ -68,17 +69,24 @@ def shadow_buffer(
     bits: int = 32,
     frame: Frame = "standard",
     region: SeenRegion | None = None,
+    casting: Literal["all", "away"] = "all",
+    wanted_focus: float | None = None,
 ) -> ShadowBuffer:
     """The shadow buffer of a light for triangles (t, 3) of world points (n, 3).
 
     size: the map has as many texels as a square of this side, and is as wide against its height as what it shows; or
     size: columns, and rows; bits: 8, 16 or 32 for a depth; frame: the map shows the
     whole scene, the box about what is seen, or the trapezoid around it, of which most is what is near the eye; region:
-    what the camera sees, for the latter two. A lamp within the scene has six maps of half the size, whole ones.
+    what the camera sees, for the latter two. casting: all faces, or, where all bodies are closed, only those that turn
+    away from the light: then depths need no margin. wanted_focus: a trapezoidal map grows until what is in focus gets
+    such a part of as many texels as size says, to four times the size at most. A lamp within the scene has six maps of
+    half the size, whole ones.
     Errors: InputError for impossible sizes, bits and frames, for a tapered map without a region.
     Degenerate: where nothing is seen, and where the eye's line of sight runs behind the lamp, the map is standard.
     Source: Glaeser, section 8.6; Martin and Tan, recipe.
     """
+    if casting not in ("all", "away"):
+        raise InputError(f"casting {casting!r}: expected all or away")
     if frame not in ("standard", "box", "trapezoid"):
         raise InputError(f"frame {frame!r}: expected standard, box or trapezoid")
     if frame != "standard" and region is None:
@@ -86,14 +94,26 @@ def shadow_buffer(
     p = np.asarray(points, dtype=np.float64).reshape(-1, 3)
     if not len(p):
         return ShadowBuffer(())
+    biased = casting == "all"
+    if not biased:
+        corners = corners[~front_facing(p, corners, (*light.position, 0.0 if light.parallel else 1.0))]
     if is_inside(light, p):
         half = max(size // 2, 4), max((rows or size) // 2, 4)
-        maps = (_side_map(light, way, p, corners, half, bits) for way in SIDES)
+        maps = (_side_map(light, way, p, corners, half, bits, biased) for way in SIDES)
         return ShadowBuffer(tuple(maps))
     system = light_system(light, p)
     matrix = _frame(system, p, frame, region)
+    if wanted_focus is not None and region is not None and len(region.points):
+        size = adapted_size(size, _focus_share(system, matrix, region), wanted_focus, int(LONGEST) * size)
     columns, rows = shape_of(matrix, size) if rows is None else (size, rows)
-    return ShadowBuffer((shadow_map(system, matrix, p, corners, columns, rows, bits=bits),))
+    return ShadowBuffer((shadow_map(system, matrix, p, corners, columns, rows, bits=bits, biased=biased),))
+
+
+def _focus_share(system: CoordinateSystem, frame: Floats, region: SeenRegion) -> float:
+    """What part of a map what is in focus fills; none of it where some is behind the lamp."""
+    if not (system.homogeneous(region.focus_points)[:, 3] > 0.0).all():
+        return 0.0
+    return focus_area(frame, light_plane(system, region.focus_points))
 
 
 def shape_of(frame: Floats, size: int) -> tuple[int, int]:
@@ -144,12 +164,16 @@ def is_inside(light: Light, points: Floats) -> bool:
     return bool((cosine <= WIDEST_COSINE * np.linalg.norm(arm, axis=1) * np.linalg.norm(middle)).any())
 
 
-def _side_map(light: Light, way: Floats, points: Floats, corners: Ints, size: tuple[int, int], bits: int) -> ShadowMap:
+def _side_map(
+    light: Light, way: Floats, points: Floats, corners: Ints, size: tuple[int, int], bits: int, biased: bool
+) -> ShadowMap:
     """The map of a quarter turn about one direction from a lamp."""
     place = np.asarray(light.position, dtype=np.float64)
     reach = float(np.abs(points - place).max()) or 1.0
     system = CoordinateSystem.of_light(place, place + reach * way)
-    return shadow_map(system, np.diag([1.0 / reach, 1.0 / reach, 1.0]), points, corners, *size, bits=bits)
+    return shadow_map(
+        system, np.diag([1.0 / reach, 1.0 / reach, 1.0]), points, corners, *size, bits=bits, biased=biased
+    )
 
 
 def _frame(system: CoordinateSystem, points: Floats, frame: Frame, region: SeenRegion | None) -> Floats:

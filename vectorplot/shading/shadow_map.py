@@ -23,7 +23,7 @@ from vectorplot.shading.depth_buffer import depth_codes
 from vectorplot.shading.depth_code import DepthCode
 from vectorplot.shading.screen import NEAR, HalfSpace, screen_triangles
 from vectorplot.shading.seen_region import SeenRegion
-from vectorplot.shading.trapezoid import Axis, line_of_sight, taper_of_focus, tapered_map
+from vectorplot.shading.trapezoid import Axis, focus_distance, line_of_sight, taper_of_focus, tapered_map
 from vectorplot.shading.trapezoid_matrix import four_by_four
 
 STEEPEST = 0.5
@@ -50,13 +50,15 @@ class ShadowMap:
     """The depths that a lamp sees.
 
     system: the lamp's; texel_from_light (3, 3): (x, y, 1) of its image plane to column, row and weight; code (rows,
-    columns) uint8, uint16 or uint32: 0 where the lamp sees nothing; depth_code: what the codes mean.
+    columns) uint8, uint16 or uint32: 0 where the lamp sees nothing; depth_code: what the codes mean; biased:
+    whether depths are compared with a margin, against faces that shade themselves.
     """
 
     system: CoordinateSystem
     texel_from_light: Floats
     code: NDArray[np.unsignedinteger[Any]]
     depth_code: DepthCode
+    biased: bool = True
 
     @cached_property
     def light_from_texel(self) -> Floats:
@@ -95,7 +97,7 @@ def region_axis(system: CoordinateSystem, region: SeenRegion) -> tuple[Axis, flo
     images = light_plane(system, region.points)
     near, far, focus = light_plane(system, np.stack([region.near, region.far, region.focus]))
     axis = line_of_sight(images, near, far)
-    return axis, float(axis.along(focus)) - axis.top, images
+    return axis, focus_distance(axis, focus), images
 
 
 def trapezoid_frame(system: CoordinateSystem, region: SeenRegion, line: float) -> Floats:
@@ -127,6 +129,7 @@ def shadow_map(
     *,
     bits: int = 32,
     near: float = NEAR,
+    biased: bool = True,
 ) -> ShadowMap:
     """The map of triangles (t, 3) of world points (n, 3).
 
@@ -150,7 +153,7 @@ def shadow_map(
     code = np.zeros((rows, columns), dtype=f"uint{bits}")
     depth_code = _code(depth, bits)
     code[seen] = depth_code.code(depth)
-    return ShadowMap(system, matrix, code, depth_code)
+    return ShadowMap(system, matrix, code, depth_code, biased)
 
 
 def vertices_with_own_depth(system: CoordinateSystem, texel_from_light: Floats, points: ArrayLike) -> Floats:
@@ -219,6 +222,8 @@ def _behind(found: ShadowMap, depth: Floats, inverse: Floats, points: Floats, no
     by_x, by_y = slopes(found.system, points, normals)
     by_column = np.abs(by_x * (inverse[0, 0] - x * inverse[2, 0]) + by_y * (inverse[1, 0] - y * inverse[2, 0]))
     by_row = np.abs(by_x * (inverse[0, 1] - x * inverse[2, 1]) + by_y * (inverse[1, 1] - y * inverse[2, 1]))
+    if not found.biased:
+        return np.asarray(ahead & (z < stored - found.depth_code.step))
     bias = SLOPE_BIAS * weight * np.maximum(by_column, by_row) + _constant_bias(found, z)
     return np.asarray(ahead & (z < stored - bias))
 

@@ -80,6 +80,16 @@ def line_of_sight(points: ArrayLike, near: ArrayLike, far: ArrayLike) -> Axis:
     return Axis(n, direction, float(t.min()), float(t.max()))
 
 
+def focus_distance(axis: Axis, points: ArrayLike) -> float:
+    """How far behind the top line the focus lies: of the centre of its far plane alone, or, the authors' way, of the
+    corners (n, 2) of what is in focus, the farthest of which counts.
+
+    Source: Ressler, equation 5.
+    """
+    p = np.asarray(points, dtype=np.float64).reshape(-1, 2)
+    return float(np.max(axis.along(p))) - axis.top
+
+
 def eta_of_focus(length: float, focus: float, line: float = FOCUS_LINE) -> float:
     """How far before the top line the sides meet, so that what lies at the distance focus behind it comes onto the
     focus line of the map.
