@@ -14,7 +14,7 @@ from vectorplot.effects.light_system import FacePlanes, LightSystem, light_syste
 from vectorplot.effects.patterns import in_shadows
 from vectorplot.effects.reflections import Mirrors, doubled, half_of_view
 from vectorplot.effects.shadows import shadow_decals
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.plane_cuts import PlaneBundles, cut_by_planes, planes_of
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
@@ -125,22 +125,27 @@ def _window_volumes(view: View, mirrors: Mirrors, plane: int, window: Ints, syst
 
 def _obscured(view: View, mirrors: Mirrors, double: LightDouble) -> Decals:
     """The shadows that the scene before a mirror and its double behind it cast in the light of a double."""
-    before, source = _casting_half(view, mirrors.heights(double.plane, view.points), view)
-    behind, _ = _casting_half(view, mirrors.heights(double.plane, view.points), doubled(view, mirrors, double.plane))
+    height = mirrors.heights(double.plane, view.points)
+    # Light leaves through the mirror, which in a body is not above its plane, and of an open thing is.
+    pane = np.zeros(view.face_count, dtype=np.bool_)
+    pane[mirrors.face[mirrors.plane == double.plane]] = True
+    before, source = _casting_half(view, height, pane, view)
+    behind, _ = _casting_half(view, height, pane, doubled(view, mirrors, double.plane))
     shadows = shadow_decals(joined_views(before, behind), [double.light])
     ours = np.flatnonzero(shadows.face < before.face_count)
     shadows = shadows.of(ours)
     return replace(shadows, face=source[shadows.face])
 
 
-def _casting_half(view: View, height: Floats, placed: View) -> tuple[View, Ints]:
-    """The occluding faces of a view on the upper side of a plane, as they stand in a view of the same faces."""
+def _casting_half(view: View, height: Floats, pane: Bools, placed: View) -> tuple[View, Ints]:
+    """The occluding faces of a view on the upper side of a plane, but for the panes (f,) of the mirror in it, as they
+    stand in a view of the same faces."""
     items = len(view.item_vertices) - 1
     upright = np.zeros(items)
     filled = np.flatnonzero(np.diff(view.item_vertices))
     if len(filled):
         upright[filled] = np.minimum.reduceat(height, view.item_vertices[:-1][filled])
-    return half_of_view(placed, height, view.occludes[view.face_item], upright >= -view.tolerance)
+    return half_of_view(placed, height, view.occludes[view.face_item] & ~pane, upright >= -view.tolerance)
 
 
 def joined_views(one: View, two: View) -> View:
