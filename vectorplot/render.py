@@ -25,8 +25,9 @@ from vectorplot.shading.palettes import palette
 from vectorplot.shading.picture import Picture, opaque_buffer, picture_of, shaded, with_glass, with_mirrors
 from vectorplot.shading.png import Bytes
 from vectorplot.shading.scene_triangles import SceneTriangles, camera_in_view, scene_triangles
-from vectorplot.shading.screen import fitted, raster_size, raster_system
-from vectorplot.shading.supersampling import averaged
+from vectorplot.shading.screen import LARGEST_RASTER_PIXELS, LARGEST_SIDE_PIXELS, fitted, raster_size, raster_system
+from vectorplot.shading.supersampling import averaged_light
+from vectorplot.visibility.painter.image_faces import outer_sides
 from vectorplot.words import check_word, line_kinds
 
 if TYPE_CHECKING:
@@ -34,6 +35,9 @@ if TYPE_CHECKING:
 
 SIZE = (800, 600)
 """Columns and rows of a picture if nobody says otherwise."""
+
+SAMPLES = 2
+"""Along each side of a pixel, unless told otherwise."""
 
 MOST_SAMPLES = 8
 """Along each side of a pixel."""
@@ -61,7 +65,7 @@ def render(
     shadows: Literal["auto", "none", "buffer", "trapezoid", "exact"] = "auto",
     shadow_size: int = 1024,
     shadow_bits: int = 32,
-    samples: int = 1,
+    samples: int | None = None,
     crease_angle_deg: float = 25.0,
     lines: str | Iterable[str] = (),
     background: str | None = None,
@@ -73,11 +77,11 @@ def render(
     camera: that of the scene where None, else default_camera. size: columns and rows. fit: the picture fills the
     raster, otherwise the camera's field of vision is its height. lights: in place of those of the scene. shadows: of
     these lights, found with shadow buffers of shadow_size x shadow_size texels of shadow_bits bits, plain ones or such
-    that show most of what is near the eye, or exactly; auto: as the view calls for. samples: every pixel is the mean of
-    samples x samples ones. crease_angle_deg: faces that meet at less look round. lines: words of
-    LineKind, or one text with commas between them, drawn over
-    the picture with exact hidden lines. background: a palette, a plain colour or #rrggbb. progress(stage, fraction) and
-    explain(report) are called while it works.
+    that show most of what is near the eye, or exactly; auto: as the view calls for. samples: every pixel is the mean
+    light of samples x samples ones (None: 2 x 2, where there is room for so many). crease_angle_deg: faces that meet at
+    less look round. lines: words of LineKind, or one text with commas between them, drawn over the picture with exact
+    hidden lines. background: a palette, a plain colour or #rrggbb. progress(stage, fraction) and explain(report) are
+    called while it works.
     Errors: InputError for unknown words and colours, impossible cameras, and sizes out of range.
     Degenerate: an empty scene gives the background. Where the scene reaches behind the eye, or more than 60 degrees off
     the principal ray, a fitted picture shows the camera's field of vision. A scene without lights is lit from the eye's
@@ -85,6 +89,7 @@ def render(
     Source: Glaeser, sections 4.5, 6.4, 7.3, 8.5 and 8.6; Martin and Tan; Ressler.
     """
     kinds = tuple(kind.word for kind in sorted(line_kinds(lines)))
+    samples = _usual_samples(size) if samples is None else samples
     _check_whole(columns=size[0], rows=size[1], samples=samples, shadow_size=shadow_size)
     _check(size, shadows, samples, crease_angle_deg)
     scene = without_seams(scene if lights is None else replace(scene, lights=tuple(lights)))
@@ -108,13 +113,19 @@ def render(
     opacity = np.array([item.material.opacity for item in scene.items])
     mirror = np.array([item.material.is_mirror for item in scene.items], dtype=np.bool_)
     paper = palette(background or scene.background or BACKGROUND)[-1].astype(np.float64)
-    picture = picture_of(triangles, system, fine, lighting, opacity, mirror, paper)
+    picture = picture_of(triangles, system, fine, lighting, opacity, mirror, outer_sides(view), paper)
     if how == "exact":
         picture = replace(picture, points_at_once=EXACT_POINTS_AT_ONCE)
     pixels = _pixels(walk, picture, samples)
     if walk.calls_for("lines"):
         pixels = walk.run("lines", _with_lines, pixels, scene, camera, view, system, kinds, crease_angle_deg, samples)
-    return Image(walk.run("average", _averaged, pixels, samples), scene.title)
+    return Image(walk.run("average", averaged_light, pixels, samples), scene.title)
+
+
+def _usual_samples(size: tuple[int, int]) -> int:
+    """Along each side of a pixel where nobody says how many."""
+    fine = (size[0] * SAMPLES, size[1] * SAMPLES)
+    return SAMPLES if max(fine) <= LARGEST_SIDE_PIXELS and fine[0] * fine[1] <= LARGEST_RASTER_PIXELS else 1
 
 
 def _check(size: tuple[int, int], shadows: str, samples: int, crease_angle_deg: float) -> None:
@@ -237,7 +248,3 @@ def _placed(drawing: Drawing, view: View, system: CoordinateSystem, columns: int
             marks.append(replace(paths, points=np.stack([flat[:, 0] + 0.5, rows - 0.5 - flat[:, 1]], axis=1)))
         layers.append(Layer(layer.name, replace(layer.pen, width_mm=width), tuple(marks)))
     return replace(drawing, width_mm=float(columns), height_mm=float(rows), layers=tuple(layers))
-
-
-def _averaged(pixels: Bytes, samples: int) -> Bytes:
-    return pixels if samples == 1 else np.rint(averaged(pixels, samples)).astype(np.uint8)

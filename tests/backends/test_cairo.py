@@ -151,7 +151,8 @@ def test_the_png_has_its_resolution_and_a_white_page(sample):
     png = png_bytes(sample, dpi=200)
     width, height = struct.unpack(">II", png[16:24])
     assert (width, height) == (round(120 / 25.4 * 200), round(80 / 25.4 * 200))
-    assert png[37:41] == b"pHYs" and struct.unpack(">IIB", png[41:50]) == (7874, 7874, 1)
+    assert png[37:41] == b"sRGB" and png[41] == 0
+    assert png[50:54] == b"pHYs" and struct.unpack(">IIB", png[54:63]) == (7874, 7874, 1)
     assert np.median(grey_of_png(png)) == 1.0
 
 

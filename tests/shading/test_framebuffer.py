@@ -16,7 +16,7 @@ from vectorplot.shading.device import Device
 from vectorplot.shading.framebuffer import Framebuffer
 from vectorplot.shading.lines import line_pixels
 from vectorplot.shading.png import png_bytes
-from vectorplot.shading.supersampling import averaged
+from vectorplot.shading.supersampling import averaged, averaged_light
 
 PLACES = st.tuples(st.integers(-40, 60), st.integers(-40, 60))
 
@@ -176,3 +176,12 @@ def test_finer_pictures_are_averaged():
     assert (averaged(fine, 1) == fine).all()
     with pytest.raises(InputError, match="squares"):
         averaged(fine, 4)
+
+
+def test_means_of_light_keep_even_colours_and_are_brighter_than_means_of_numbers():
+    every = np.repeat(np.repeat(np.arange(256, dtype=np.uint8)[:, None, None], 3, axis=2), 4, axis=1)
+    assert (averaged_light(np.repeat(every, 4, axis=0), 4)[:, 0, 0] == np.arange(256)).all()
+    half = np.zeros((2, 2, 3), dtype=np.uint8)
+    half[:, 0] = 255
+    assert averaged_light(half, 2).tolist() == [[[188, 188, 188]]]
+    assert (averaged_light(half, 1) == half).all()

@@ -13,8 +13,6 @@ from __future__ import annotations
 import io
 import math
 import re
-import struct
-import zlib
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,6 +23,7 @@ from vectorplot.backends.sheet import Lines, Sheet, sheet
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import SEAM_MM
 from vectorplot.errors import InputError
+from vectorplot.shading.png import DPI, with_meaning
 
 if TYPE_CHECKING:
     import cairo
@@ -77,8 +76,8 @@ def pdf_bytes(drawing: Drawing) -> bytes:
     return stream.getvalue()
 
 
-def png_bytes(drawing: Drawing, dpi: float = 150.0) -> bytes:
-    """The drawing as a PNG picture on white, with its resolution in the file.
+def png_bytes(drawing: Drawing, dpi: float = DPI) -> bytes:
+    """The drawing as a PNG picture on white, in sRGB and with its resolution in the file.
 
     Errors: InputError as vectorplot.backends.sheet, and for a picture too large to make. Degenerate: an empty drawing
     is a white page; a page smaller than a pixel has one.
@@ -102,7 +101,7 @@ def png_bytes(drawing: Drawing, dpi: float = 150.0) -> bytes:
     _ink(context, page, scale, page.height * scale, max(SEAM_MM * 1000.0 * scale, 1.0))
     stream = io.BytesIO()
     surface.write_to_png(stream)
-    return _with_resolution(stream.getvalue(), dpi)
+    return with_meaning(stream.getvalue(), dpi)
 
 
 def _postscript(page: Sheet, *, eps: bool) -> bytes:
@@ -188,12 +187,3 @@ def _stroke(context: cairo.Context[Any], lines: Lines, scale: float, height: flo
             context.stroke()
         start = end
     context.stroke()
-
-
-def _with_resolution(png: bytes, dpi: float) -> bytes:
-    """The picture with a pHYs chunk after its header, so that it prints at its true size."""
-    per_metre = min(round(dpi / 0.0254), 0x7FFFFFFF)
-    data = b"pHYs" + struct.pack(">IIB", per_metre, per_metre, 1)
-    chunk = struct.pack(">I", 9) + data + struct.pack(">I", zlib.crc32(data))
-    after_header = 8 + 4 + 4 + 13 + 4  # signature; length, name, data and checksum of IHDR
-    return png[:after_header] + chunk + png[after_header:]

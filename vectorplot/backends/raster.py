@@ -17,7 +17,7 @@ from vectorplot.geometry.clipping import Polygons
 from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.shading.coverage import GUARD_BAND
 from vectorplot.shading.lines import line_pixels
-from vectorplot.shading.png import Bytes
+from vectorplot.shading.png import DPI, Bytes
 from vectorplot.shading.png import png_bytes as pixels_as_png
 from vectorplot.shading.scan_lines import polygon_pixels, with_specks_grown
 from vectorplot.shading.screen import raster_size
@@ -30,7 +30,7 @@ HAIRLINE = 1.5
 """Strokes thinner than so many pixels are lines of single pixels."""
 
 
-def png_bytes(drawing: Drawing, dpi: float = 150.0, samples: int = 3) -> bytes:
+def png_bytes(drawing: Drawing, dpi: float = DPI, samples: int = 3) -> bytes:
     """The drawing as a PNG picture on white, averaged from samples x samples pixels each.
 
     Errors: InputError for a resolution that gives too many pixels.
@@ -41,7 +41,7 @@ def png_bytes(drawing: Drawing, dpi: float = 150.0, samples: int = 3) -> bytes:
     columns, rows = raster_size(columns * samples, rows * samples)
     blank = np.full((rows, columns, 3), 255, dtype=np.uint8)
     fine = painted(blank, drawing)
-    return pixels_as_png(np.rint(averaged(fine, samples)).astype(np.uint8))
+    return pixels_as_png(np.rint(averaged(fine, samples)).astype(np.uint8), dpi=dpi)
 
 
 def painted(picture: Bytes, drawing: Drawing) -> Bytes:

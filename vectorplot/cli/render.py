@@ -36,7 +36,7 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
 @click.option("--shadows", type=click.Choice(SHADOWS), default="auto", help="How shadows are found.")
 @click.option("--shadow-size", type=click.IntRange(8, 8192), default=1024, metavar="N", help="Texels along a map.")
 @click.option("--shadow-bits", type=click.Choice(["8", "16", "32"]), default="32", help="Of a depth in a shadow map.")
-@click.option("--samples", type=click.IntRange(1, 8), default=1, metavar="N", help="N x N samples in every pixel.")
+@click.option("--samples", type=click.IntRange(1, 8), metavar="N", help="N x N samples in every pixel.  [default: 2]")
 @click.option(
     "--crease-angle", type=at_least(0.0, at_most=180.0), default=25.0, metavar="DEG", help="Sharper edges stay sharp."
 )

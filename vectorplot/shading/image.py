@@ -5,18 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from vectorplot.errors import InputError
-from vectorplot.shading.png import Bytes, png_bytes
+from vectorplot.shading.png import DPI, Bytes, png_bytes
 
 
 @dataclass(frozen=True, eq=False)
 class Image:
-    """pixels (rows, columns, 3) uint8: red, green and blue, row 0 on top; title: what it shows.
+    """pixels (rows, columns, 3) uint8: red, green and blue, row 0 on top; title: what it shows; dpi: the dots
+    per inch that its file says, those of drawings saved as pixels unless told otherwise.
 
     Errors: InputError for other shapes or types.
     """
 
     pixels: Bytes
     title: str = ""
+    dpi: float = DPI
 
     def __post_init__(self) -> None:
         if self.pixels.dtype != "uint8" or self.pixels.ndim != 3 or self.pixels.shape[2] != 3 or not self.pixels.size:
@@ -37,7 +39,7 @@ class Image:
 
     def png(self) -> bytes:
         """The picture as a PNG file. The same picture gives the same bytes."""
-        return png_bytes(self.pixels)
+        return png_bytes(self.pixels, dpi=self.dpi)
 
     def _repr_png_(self) -> bytes:
         return self.png()

@@ -14,7 +14,7 @@ from vectorplot.shading.barycentrics import points_in_pixels, visible_points
 from vectorplot.shading.depth_buffer import DepthBuffer, layers_before, strip
 from vectorplot.shading.lighting import Lighting, shaded_points
 from vectorplot.shading.scene_triangles import SceneTriangles
-from vectorplot.shading.screen import HalfSpace, ScreenTriangles, screen_triangles
+from vectorplot.shading.screen import HalfSpace, ScreenTriangles, front_facing, screen_triangles
 
 Colours = NDArray[np.float32]
 
@@ -33,7 +33,9 @@ class Picture:
     """What a picture is made of.
 
     system: view coordinates to pixels; homogeneous (n, 4): the triangles' points there; screen: the triangles there;
-    opacity (i,) and mirror (i,) of every item; background (3,); points_at_once: so many points are shaded together.
+    opacity (i,) and mirror (i,) of every item; outer_side (i,): 1 and -1 for those of which only the outside is seen,
+    wound as it should be or inside out, 0 for others; background (3,); points_at_once: so many points are
+    shaded together.
     """
 
     triangles: SceneTriangles
@@ -45,6 +47,7 @@ class Picture:
     lighting: Lighting
     opacity: Floats
     mirror: Bools
+    outer_side: Ints
     background: Floats
     points_at_once: int = POINTS_AT_ONCE
 
@@ -61,12 +64,13 @@ def picture_of(
     lighting: Lighting,
     opacity: Floats,
     mirror: Bools,
+    outer_side: Ints,
     background: Floats,
 ) -> Picture:
     """A picture of size columns x rows."""
     homogeneous = system.homogeneous(triangles.points)
     screen = screen_triangles(homogeneous, triangles.corners)
-    return Picture(triangles, system, homogeneous, screen, *size, lighting, opacity, mirror, background)
+    return Picture(triangles, system, homogeneous, screen, *size, lighting, opacity, mirror, outer_side, background)
 
 
 def opaque_buffer(picture: Picture, top: int, bottom: int) -> DepthBuffer:
@@ -91,7 +95,8 @@ def shaded(picture: Picture, buffer: DepthBuffer) -> Colours:
 
 
 def with_glass(picture: Picture, buffer: DepthBuffer, colours: Colours) -> Colours:
-    """The colours with the transparent triangles that are before a buffer, each as a veil of its opacity."""
+    """The colours with the transparent triangles that are before a buffer, each as a veil of its opacity: a
+    closed body covers what is behind it once, wherever the line of sight enters it."""
     result = colours.reshape(-1, 3).copy()
     _veil(picture, buffer, result, np.ones(len(result), dtype=np.bool_))
     return result.reshape(colours.shape)
@@ -100,7 +105,7 @@ def with_glass(picture: Picture, buffer: DepthBuffer, colours: Colours) -> Colou
 def _veil(picture: Picture, buffer: DepthBuffer, colours: Colours, wanted: Bools) -> None:
     """Lay the transparent triangles of the picture that are before a buffer over the colours (p, 3) of its wanted (p,)
     pixels: changes them."""
-    clear = picture.opacity[picture.triangles.item[buffer.triangles.source]] < 1.0
+    clear = _veils(picture)[buffer.triangles.source]
     pixel, triangle, _ = layers_before(buffer, clear)
     pixel, triangle = pixel[wanted[pixel]], triangle[wanted[pixel]]
     for begin in range(0, len(pixel), picture.points_at_once):
@@ -108,6 +113,17 @@ def _veil(picture: Picture, buffer: DepthBuffer, colours: Colours, wanted: Bools
         found = points_in_pixels(buffer, pixel[part], triangle[part], picture.homogeneous, picture.triangles.corners)
         made = shaded_points(picture.triangles, found, picture.lighting)
         blend(colours, pixel[part], made.colours, picture.opacity[picture.triangles.item[found.triangle]])
+
+
+def _veils(picture: Picture) -> Bools:
+    """(t,) which triangles of the scene are veils: those that one sees through, of closed bodies their outsides."""
+    triangles = picture.triangles
+    clear = picture.opacity[triangles.item] < 1.0
+    side = picture.outer_side[triangles.item]
+    body = np.flatnonzero(clear & (side != 0))
+    outside = front_facing(triangles.points, triangles.corners[body], picture.lighting.eye) == (side[body] > 0)
+    clear[body[~outside]] = False
+    return np.asarray(clear)
 
 
 def blend(picture: Colours, pixel: Ints, colours: ArrayLike, opacity: Floats) -> None:

@@ -12,14 +12,27 @@ from vectorplot.errors import InputError
 
 COMPRESSION = 6
 
+DPI = 150.0
+"""The dots per inch of pictures for which nobody says another number."""
+
+SIGNATURE = b"\x89PNG\r\n\x1a\n"
+
+HEADER_END = len(SIGNATURE) + 4 + 4 + 13 + 4
+"""Behind the first chunk: its length, name, data and checksum."""
+
+PERCEPTUAL = 0
+"""How a device should bring colours into its own range."""
+
+METRES_PER_INCH = 0.0254
+
 Bytes = NDArray[np.uint8]
 
 
-def png_bytes(pixels: ArrayLike, colours: ArrayLike | None = None) -> bytes:
-    """The picture as a PNG file: row 0 on top.
+def png_bytes(pixels: ArrayLike, colours: ArrayLike | None = None, dpi: float | None = None) -> bytes:
+    """The picture as a PNG file: row 0 on top, colours in sRGB.
 
     pixels uint8: (rows, columns, 3) red, green and blue; (rows, columns) gray, or with colours (n, 3) uint8 indices
-    into them. The same pixels give the same bytes.
+    into them; dpi: the dots per inch that it says, None for none. The same pixels give the same bytes.
     Errors: InputError for other shapes or types, for an empty picture, for an index without a colour.
     Source: W3C, Portable Network Graphics, sections 5 and 11.
     """
@@ -36,9 +49,26 @@ def png_bytes(pixels: ArrayLike, colours: ArrayLike | None = None) -> bytes:
     rows, columns = p.shape[:2]
     # Every row starts with the number of its filter: none.
     data = np.concatenate([np.zeros((rows, 1), dtype=np.uint8), p.reshape(rows, -1)], axis=1)
-    header = _chunk(b"IHDR", struct.pack(">IIBBBBB", columns, rows, 8, kind, 0, 0, 0))
+    header = _chunk(b"IHDR", struct.pack(">IIBBBBB", columns, rows, 8, kind, 0, 0, 0)) + meaning(dpi)
     body = _chunk(b"IDAT", zlib.compress(data.tobytes(), COMPRESSION))
-    return b"\x89PNG\r\n\x1a\n" + header + table + body + _chunk(b"IEND", b"")
+    return SIGNATURE + header + table + body + _chunk(b"IEND", b"")
+
+
+def meaning(dpi: float | None) -> bytes:
+    """The chunks that come right after a picture's header: that its colours are sRGB, and its dots per inch, if any.
+
+    Source: W3C, Portable Network Graphics, sections 11.3.3.5 and 11.3.5.3.
+    """
+    colours = _chunk(b"sRGB", bytes([PERCEPTUAL]))
+    if dpi is None:
+        return colours
+    per_metre = min(max(round(dpi / METRES_PER_INCH), 1), 0x7FFFFFFF)
+    return colours + _chunk(b"pHYs", struct.pack(">IIB", per_metre, per_metre, 1))
+
+
+def with_meaning(png: bytes, dpi: float) -> bytes:
+    """A PNG file of another maker that says what its colours and its size are."""
+    return png[:HEADER_END] + meaning(dpi) + png[HEADER_END:]
 
 
 def _chunk(name: bytes, data: bytes) -> bytes:

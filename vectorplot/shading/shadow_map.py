@@ -229,12 +229,18 @@ def _behind(found: ShadowMap, depth: Floats, inverse: Floats, points: Floats, no
 
 
 def _constant_bias(found: ShadowMap, depth: Floats) -> Floats:
-    """(n,) a step of the code, and the same length of space at all depths (n,)."""
+    """(n,) a step of the code, and the same length of space at all depths (n,); never less than the rounding of what
+    the map shows: a lamp that sees one plane only has no depth."""
     code, d = found.depth_code, found.system.distance
+    rows, columns = found.code.shape
+    texel = found.light_from_texel / found.light_from_texel[2, 2]
+    wide = float(np.hypot(texel[0, 0], texel[1, 0])) * columns + float(np.hypot(texel[0, 1], texel[1, 1])) * rows
     if d == INFINITE:
-        return np.full(len(depth), CONSTANT_BIAS * (code.maximum - code.minimum) + code.step)
+        rounding = ZERO_OF_EXTENT * (wide + np.abs(depth))
+        return np.asarray(CONSTANT_BIAS * (code.maximum - code.minimum) + code.step + rounding)
+    rounding = ZERO_OF_EXTENT * (wide / d + 1.0 + np.abs(depth))
     nearest, farthest = d / (1.0 + code.maximum), d / (1.0 + code.minimum)
-    return np.asarray(CONSTANT_BIAS * (farthest - nearest) / d * (1.0 + depth) ** 2 + code.step)
+    return np.asarray(CONSTANT_BIAS * (farthest - nearest) / d * (1.0 + depth) ** 2 + code.step + rounding)
 
 
 def slopes(system: CoordinateSystem, points: Floats, normals: Floats) -> tuple[Floats, Floats]:

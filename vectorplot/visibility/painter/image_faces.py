@@ -107,6 +107,21 @@ def drawn_faces(view: View, faces: ProjectedFaces) -> Ints:
     return np.flatnonzero(kept & (outside | ~culled[view.face_item]))
 
 
+def outer_sides(view: View) -> Ints:
+    """(i,) 1 for items that are seen from outside only and wound that way, -1 for such wound inside out, 0 for all
+    others: those that do not close, and those that reach behind the near plane, in which the eye may be."""
+    whole = np.flatnonzero(closed_items(view)[view.face_item])
+    area, _, first = newell(view, whole)
+    sixfold = np.bincount(
+        view.face_item[whole], (area * view.points[:, first]).sum(axis=0), minlength=len(view.item_vertices) - 1
+    )
+    side = np.sign(sixfold).astype(np.intp)
+    if view.eye is not None:
+        behind = np.flatnonzero(view.depth <= view.near)
+        side[np.searchsorted(view.item_vertices, behind, side="right") - 1] = 0
+    return side
+
+
 def image_faces(view: View, which: Ints) -> ImageFaces:
     """Some faces of the view in the image, cut off at the near plane; those seen edge-on are left out.
 
