@@ -17,6 +17,7 @@ from vectorplot.drawing.layers import layers_by_kind
 from vectorplot.drawing.page import allowed_in_space, page_from_world
 from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, interleaved, placed_faces
 from vectorplot.errors import InputError
+from vectorplot.features.facets import Within
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_paint
@@ -25,6 +26,7 @@ from vectorplot.scene.seams import without_seams
 from vectorplot.scene.view import View, look
 from vectorplot.shading.face_shades import Shades, item_colours, view_lights
 from vectorplot.shading.faceted import FacetedScene, faceted
+from vectorplot.shading.fineness import picture_fineness
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
 from vectorplot.shading.palettes import SIZE, shaded_colours
 from vectorplot.shading.palettes import palette as shades_of
@@ -92,7 +94,12 @@ def paint(
     scene = seen_part(walk, scene, camera)
     facets = FacetedScene(scene, (None,) * len(scene.items))
     if walk.calls_for("facets"):
-        facets = walk.run("facets", faceted, scene, allowed_in_space(scene, camera, page, fit, tolerance_mm))
+        allowed = allowed_in_space(scene, camera, page, fit, tolerance_mm)
+        # Where each triangle has one shade they have to be so small that nobody sees it.
+        shaded = smooth and fills == "painted"
+        casts = shadows != "none" and bool(scene.lights)
+        demand = picture_fineness(scene, camera, casts, allowed) if shaded else lambda number: Within(allowed)
+        facets = walk.run("facets", faceted, scene, demand)
     facets = replace(facets, scene=_with_clear_items(facets.scene))
     view = walk.run("look", look, facets.scene, camera)
     projected = walk.run("faces", project_faces, view)

@@ -10,6 +10,7 @@ import numpy as np
 
 from vectorplot.draw import default_camera, seen_part
 from vectorplot.errors import InputError
+from vectorplot.features.facets import Within
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.projection import CoordinateSystem
@@ -101,7 +102,8 @@ def render(
     fine = (size[0] * samples, size[1] * samples)
     facets = FacetedScene(scene, (None,) * len(scene.items))
     if walk.calls_for("facets"):
-        facets = walk.run("facets", faceted, scene, _allowed(scene, camera, fine, fit))
+        demand = Within(_allowed(scene, camera, fine, fit))
+        facets = walk.run("facets", faceted, scene, lambda number: demand)
     view = walk.run("look", look, facets.scene, camera)
     triangles = walk.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
     system = raster_system(camera_in_view(view, camera), *fine)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.facets import facets
+from vectorplot.features.facets import Within, facets
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.surfaces.cylinder import Cone
 from vectorplot.surfaces.ellipsoid import Sphere
@@ -18,8 +18,8 @@ from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.torus import ImplicitTorus, Torus
 
 
-def within(tolerance: float):
-    return lambda points: np.full(points.shape[:-1], tolerance)
+def within(tolerance: float) -> Within:
+    return Within(lambda points: np.full(points.shape[:-1], tolerance))
 
 
 def edges_of(mesh: Mesh) -> np.ndarray:
@@ -92,7 +92,7 @@ def test_what_is_no_surface_is_an_error() -> None:
 def test_what_is_far_from_the_eye_may_be_coarse() -> None:
     long = graph(lambda x, y: np.sin(3.0 * x), Domain(0.0, 10.0, 0.0, 1.0))
     near = facets(long, within(1e-4)).mesh.face_count
-    far = facets(long, lambda points: 1e-4 * np.maximum(1.0, 10.0 * points[..., 0])).mesh.face_count
+    far = facets(long, Within(lambda points: 1e-4 * np.maximum(1.0, 10.0 * points[..., 0]))).mesh.face_count
     assert far < 0.7 * near
 
 

@@ -5,15 +5,20 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.curves.circle import Circle
+from vectorplot.features.facets import Within
 from vectorplot.scene.scene import Item, Material, Scene
 from vectorplot.shading.faceted import faceted
 from vectorplot.surfaces.torus import Torus
 from vectorplot.testing.shapes import box
 
 
+def within(tolerance: float):
+    return lambda number: Within(lambda points: np.full(points.shape[:-1], tolerance))
+
+
 def test_smooth_items_become_meshes_with_their_true_normals():
     items = (Item("BOX", box((0, 0, 0), (1, 1, 1))), Item("RING", Torus(3.0, 1.0), "blue"))
-    made = faceted(Scene(items, title="Both"), lambda points: np.full(points.shape[:-1], 0.01))
+    made = faceted(Scene(items, title="Both"), within(0.01))
     assert made.scene.title == "Both"
     assert made.scene.items[0].shape is items[0].shape
     assert made.normals[0] is None
@@ -28,7 +33,7 @@ def test_smooth_items_become_meshes_with_their_true_normals():
 
 
 def test_a_curve_has_no_faces():
-    made = faceted(Scene((Item("CIRCLE", Circle()),)), lambda points: np.ones(points.shape[:-1]))
+    made = faceted(Scene((Item("CIRCLE", Circle()),)), within(1.0))
     assert made.scene.items[0].mesh.face_count == 0
     assert made.normals == (None,)
 
@@ -38,5 +43,5 @@ def test_the_triangles_of_a_curved_mirror_are_no_plane_mirrors():
         Item("RING", Torus(3.0, 1.0), material=Material("mirror")),
         Item("PANE", box((0, 0, 0), (1, 1, 1)), material=Material("mirror")),
     )
-    made = faceted(Scene(items), lambda points: np.full(points.shape[:-1], 0.1))
+    made = faceted(Scene(items), within(0.1))
     assert [item.material.word for item in made.scene.items] == ["shiny", "mirror"]

@@ -1,4 +1,4 @@
-"""Smooth surfaces as fine meshes that know the true normals at their vertices."""
+"""Smooth surfaces as meshes that know the true normals at their vertices, as fine as is asked for and no finer."""
 
 from __future__ import annotations
 
@@ -8,30 +8,42 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.errors import InputError
+from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, Vertices, refined
 from vectorplot.features.grid_triangulation import triangulate_surface
-from vectorplot.features.polygonize import settled_mesh
+from vectorplot.features.poles import Pole, poles
+from vectorplot.features.polygonize import onto_surface, settled_mesh
 from vectorplot.features.tessellation import grid_numbers
-from vectorplot.geometry.mesh import Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Floats, Mesh
 from vectorplot.surfaces.normals import unit_normals
-from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
+from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, is_implicit, is_parametrised
 
-FEWEST, MOST = 8, 1024
-"""Cells in each direction, at least and at most."""
+FEWEST, USUAL, FINEST = (2, 4), 16, 1024
+"""Columns, and rows, of the first grid: so many at least for open and for closed surfaces, doubled until they are
+enough, or as many as is usual; more where most sides are too coarse even then."""
 
-MOST_CELLS = 1 << 19
-"""Cells of a surface at most; beyond it the tolerance is not kept."""
+HALF = 0.5
+"""By how many times sides of the first grid may be too coarse, in the mean, so that its diagonals are fine enough."""
 
-IMPLICIT_CELLS = (32, 160)
-"""Cells along the longest side of an implicit surface's box, at least and at most."""
+MOST = 0.75
+"""Part of the sides that are too coarse when all of them are made finer."""
 
+MOST_TRIANGLES = 1 << 19
+"""Triangles of a surface at most; beyond it nothing is made finer."""
+
+IMPLICIT_CELLS = 32
+"""Cells along the longest side of an implicit surface's box."""
 
 Allowed = Callable[[Floats], Floats]
 """How far (...) triangles may be off a surface at points (..., 3)."""
 
+TURN = np.radians(8.5)
+"""By so much the normals at the ends of a side may differ, or flat shades would come out jagged."""
 
-TURN, JUMP, LOOKS = np.radians(6.0), np.radians(45.0), 64
-"""Normals turn by no more than the one from a vertex to its neighbours, or shades would come out jagged; where they
-turn by more than the other between two of so many points in each direction, they jump."""
+JUMP = np.radians(45.0)
+"""Normals that differ by more at neighbouring looks jump, as on creases: finer sides would not help."""
+
+INSIDE = 0.75
+"""In the middle of a triangle the surface may be farther off than over its sides, by a third."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,158 +54,185 @@ class Facets:
     normals: Floats
 
 
-def facets(shape: Surface | ImplicitSurface, allowed: Allowed) -> Facets:
-    """Triangles that are no farther from a smooth surface than is allowed, every vertex on it.
+@dataclass(frozen=True)
+class Within:
+    """Triangles that are no farther from the surface than is allowed, and on which normals turn by no more than TURN,
+    or nearly so: along rulings they turn though sides lie on the surface."""
+
+    allowed: Allowed
+
+    def folds(self, points: Floats, normals: Floats) -> Floats:
+        """None."""
+        return np.zeros((0, len(points)))
+
+    @property
+    def outlines(self) -> int:
+        """None."""
+        return 0
+
+    def border_excess(self, edges: Edges) -> Floats:
+        """(k,n) as Demand: borders are as all sides."""
+        return np.zeros(edges.t.shape)
+
+    def excess(self, edges: Edges) -> Floats:
+        """(k,n) as Demand: the larger one of the distances and the turning of the normals, as parts of their limits."""
+        far = off_chords(edges) / (INSIDE * self.allowed(edges.at.points))
+        return np.asarray(np.maximum(far, turning(edges) / TURN))
+
+
+def off_chords(edges: Edges) -> Floats:
+    """(k,n) how far the surface is from the sides themselves, at the vertices over them."""
+    chord = edges.end.points - edges.start.points
+    length = np.linalg.norm(chord, axis=-1, keepdims=True)
+    way = np.divide(chord, length, out=np.zeros_like(chord), where=length > 0.0)
+    arm = edges.at.points - edges.start.points
+    along = np.clip((arm * way).sum(axis=-1, keepdims=True), 0.0, length)
+    return np.asarray(np.linalg.norm(arm - along * way, axis=-1))
+
+
+def turning(edges: Edges) -> Floats:
+    """(n,) by how much normals turn from end to end, as far as they do so smoothly."""
+    nodes = np.stack((edges.start.normals, *edges.at.normals[: len(LOOKS)], edges.end.normals))
+    steps = np.arccos(np.clip((nodes[1:] * nodes[:-1]).sum(axis=-1), -1.0, 1.0))
+    smooth = np.isfinite(steps) & (steps < JUMP)
+    return np.asarray(np.where(smooth, steps, 0.0).sum(axis=0))
+
+
+def facets(shape: Surface | ImplicitSurface, demand: Demand) -> Facets:
+    """Triangles of a smooth surface as fine as the demand says, every vertex on the surface.
 
     Triangles turn as u to v does; those of an implicit surface are counter-clockwise from where F > 0. Vertices on
-    seams and at poles are one. Triangles are small enough for smooth shades, too: normals turn little on them.
-    Error: MOST_CELLS and MOST bound the triangles; distances are measured on some of the cells. Details
-    smaller than a FEWESTth of the domain, or a cell of an implicit surface, may be missed.
+    seams and at poles are one; neighbours of different sizes share their vertices.
+    Error: the demand is kept at LOOKS of every side, and where it crosses a fold; what is smaller may be missed, and
+    with more than MOST_TRIANGLES it is not kept. Sides that lead into a hole end at its rim.
     Errors: InputError for what is no smooth surface.
-    Degenerate: triangles with a corner in a hole, and those without area, are left out.
+    Degenerate: triangles in holes, and those without area, are left out.
     Source: Glaeser, section 8.4 (polygonised surfaces).
     """
     if is_parametrised(shape):
-        return _parametrised(shape, allowed)
+        net = _first_net(shape, demand)
+        return _facets(refined(net, _Patch(shape, tuple(poles(shape))), demand, MOST_TRIANGLES))
     if is_implicit(shape):
-        return _implicit(shape, allowed)
+        return _facets(refined(_implicit_net(shape), _Level(shape), demand, MOST_TRIANGLES))
     raise InputError(f"a {type(shape).__name__} is no smooth surface")
 
 
-def _parametrised(surface: Surface, allowed: Allowed) -> Facets:
-    columns, rows = _fineness(surface, allowed)
-    u, v = np.meshgrid(*surface.domain.grid(columns, rows), indexing="ij")
-    points = np.asarray(surface.points(u, v), dtype=np.float64)
+def _facets(net: Net) -> Facets:
+    triangles = net.triangles[net.vertices.known[net.triangles].all(axis=1)]
+    used, corners = np.unique(triangles, return_inverse=True)
+    vertices = net.vertices.some(used)
+    return Facets(Mesh.from_triangles(vertices.points, corners.reshape(-1, 3)), vertices.normals)
+
+
+@dataclass(frozen=True, eq=False)
+class _Patch:
+    """A parametrised surface between vertices whose places are (u, v)."""
+
+    surface: Surface
+    poles: tuple[Pole, ...]
+
+    def __call__(self, start: Vertices, end: Vertices, t: Floats) -> Vertices:
+        domain = self.surface.domain
+        first, last = self._without_poles(start.places, end.places)
+        way = last - first
+        for axis, (closed, size) in enumerate(zip((domain.closed_u, domain.closed_v), domain.size, strict=True)):
+            if closed:
+                way[:, axis] -= size * np.round(way[:, axis] / size)
+        return self.at(_wrapped(domain, first + t[:, None] * way))
+
+    def at(self, places: Floats) -> Vertices:
+        """The vertices at some places (n,2)."""
+        with np.errstate(all="ignore"):
+            points = np.array(self.surface.points(places[:, 0], places[:, 1]), dtype=np.float64)
+            normals = unit_normals(self.surface, places[:, 0], places[:, 1])
+        return Vertices(places, points, normals)
+
+    def _without_poles(self, start: Floats, end: Floats) -> tuple[Floats, Floats]:
+        """Places of the ends of sides: all of the line that is a pole is one point, and a side goes straight to it."""
+        first, last = start.copy(), end.copy()
+        for pole in self.poles:
+            for own, other in ((first, end), (last, start)):
+                at = own[:, pole.axis] == pole.place
+                own[at, 1 - pole.axis] = other[at, 1 - pole.axis]
+        return first, last
+
+
+def _wrapped(domain: Domain, places: Floats) -> Floats:
+    """Places moved by whole periods into the domain."""
+    starts = (domain.u_start, domain.v_start)
+    for axis, (closed, size) in enumerate(zip((domain.closed_u, domain.closed_v), domain.size, strict=True)):
+        if closed:
+            places[:, axis] -= size * np.floor((places[:, axis] - starts[axis]) / size)
+    return places
+
+
+def _first_net(surface: Surface, demand: Demand) -> Net:
+    """A grid that has as few columns and rows as it may, but not so few that something between its lines is missed."""
+    domain, patch = surface.domain, _Patch(surface, ())
+    columns = _enough(lambda count: _lines(patch, count, across=True), domain.closed_u, demand)
+    rows = _enough(lambda count: _lines(patch, count, across=False), domain.closed_v, demand)
+    places = np.stack(np.meshgrid(*domain.grid(columns, rows), indexing="ij"), axis=-1)
     number = grid_numbers(surface, columns, rows).ravel()
-    cut, _ = triangulate_surface(points, closed_u=surface.domain.closed_u, closed_v=surface.domain.closed_v)
-    triangles, flat = number[cut], points.reshape(-1, 3)
-    good = np.isfinite(flat[triangles]).all(axis=(1, 2))
-    good &= (triangles != np.roll(triangles, -1, axis=1)).all(axis=1)
-    used, corners = np.unique(triangles[good], return_inverse=True)
-    normals = unit_normals(surface, u.ravel()[used], v.ravel()[used])
-    return Facets(Mesh.from_triangles(flat[used], corners), normals)
+    vertices = patch.at(places.reshape(-1, 2))
+    grid = vertices.points.reshape(columns + 1, rows + 1, 3)
+    cut, _ = triangulate_surface(grid, closed_u=domain.closed_u, closed_v=domain.closed_v)
+    triangles = number[cut]
+    triangles = triangles[(triangles != np.roll(triangles, -1, axis=1)).all(axis=1)]
+    return Net(vertices, triangles)
 
 
-def _fineness(surface: Surface, allowed: Allowed) -> tuple[int, int]:
-    """Columns and rows of a grid that is close enough: a chord's distance falls like the square of its length.
-
-    The diagonal of a cell bends as much as both its sides together, and more where the cell is twisted.
-    """
-    columns = rows = FEWEST
-    for _ in range(4):
-        across, along = _excesses(surface, allowed, columns, rows)
-        worst = max(across, along, _twist(surface, allowed, columns, rows))
-        if worst <= 1.0:
-            break
-        across, along = _shared(across, along, worst)
-        columns, rows = _more(columns, across), _more(rows, along)
-    turning_columns, turning_rows = _turning(surface)
-    columns, rows = max(columns, turning_columns), max(rows, turning_rows)
-    while columns * rows > MOST_CELLS:
-        columns, rows = columns // 2 + 1, rows // 2 + 1
-    return columns, rows
+def _enough(lines: Callable[[int], Edges], closed: bool, demand: Demand) -> int:
+    """How many parts of lines of a grid are enough to begin with."""
+    count = FEWEST[int(closed)]
+    while True:
+        excess = np.nan_to_num(demand.excess(lines(count)), nan=2.0).max(axis=0)
+        if count < USUAL:
+            if excess.max() <= 1.0:
+                return count
+            count *= 2
+            continue
+        most = float(np.quantile(excess, 1.0 - MOST))
+        if most <= 1.2 * HALF or count == FINEST:
+            return count
+        # Distances fall with the square of the length, what turns along rulings with the length itself.
+        count = min(int(np.ceil(count * np.sqrt(most / HALF))), FINEST)
 
 
-def _turning(surface: Surface) -> tuple[int, int]:
-    """Columns and rows of a grid from point to point of which normals turn by no more than TURN, or nearly so: along
-    rulings they may turn though chords lie on the surface. Normals that jump, as on creases, tell nothing."""
-    u, v = np.meshgrid(*surface.domain.grid(LOOKS, LOOKS), indexing="ij")
-    normals = unit_normals(surface, u.ravel(), v.ravel()).reshape(*u.shape, 3)
-    counts = []
-    for grid in (normals, normals.swapaxes(0, 1)):
-        with np.errstate(invalid="ignore"):
-            turn = np.arccos(np.clip((grid[1:] * grid[:-1]).sum(axis=-1), -1.0, 1.0))
-        smooth = turn[np.isfinite(turn) & (turn < JUMP)]
-        largest = float(np.quantile(smooth, 0.98)) if len(smooth) else 0.0
-        counts.append(min(int(np.ceil(LOOKS * largest / TURN)), MOST))
-    return counts[0], counts[1]
+def _lines(patch: _Patch, count: int, across: bool) -> Edges:
+    """Some lines of a grid in so many parts each, along u (across) or along v."""
+    domain = patch.surface.domain
+    u, v = domain.grid(*((count, USUAL) if across else (USUAL, count)))
+    places = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1)
+    places = places if across else places.swapaxes(0, 1)
+    first, last = places[:-1].reshape(-1, 2), places[1:].reshape(-1, 2)
+    t = np.repeat(np.array(LOOKS)[:, None], len(first), axis=1)
+    at = patch.at((first + t[..., None] * (last - first)).reshape(-1, 2))
+    looks = Vertices(*(some.reshape(*t.shape, -1) for some in (at.places, at.points, at.normals)))
+    return Edges(patch.at(first), patch.at(last), looks, t, np.full(t.shape, NONE))
 
 
-def _more(count: int, excess: float) -> int:
-    return count if excess <= 1.0 else min(int(np.ceil(count * np.sqrt(1.05 * excess))), MOST)
+@dataclass(frozen=True, eq=False)
+class _Level:
+    """An implicit surface between vertices; the places of vertices are the points."""
+
+    surface: ImplicitSurface
+
+    def __call__(self, start: Vertices, end: Vertices, t: Floats) -> Vertices:
+        first, last = start.points, end.points
+        low, high = np.asarray(self.surface.box, dtype=np.float64)
+        fixed = (first == last) & ((first == low) | (first == high))
+        length = np.linalg.norm(last - first, axis=1)
+        points, _ = onto_surface(self.surface, first + t[:, None] * (last - first), reach=length, fixed=fixed)
+        return self.at(np.clip(points, low, high))
+
+    def at(self, points: Floats) -> Vertices:
+        """The vertices at some points (n,3) of the surface."""
+        with np.errstate(all="ignore"):
+            slopes = np.asarray(self.surface.gradients(points), dtype=np.float64)
+            normals = slopes / np.linalg.norm(slopes, axis=1, keepdims=True)
+        return Vertices(points, points, normals)
 
 
-def _shared(across: float, along: float, worst: float) -> tuple[float, float]:
-    """By how much finer, squared, columns and rows must be, so that what remains is within the tolerance together.
-
-    across, along: the excesses of chords; worst: the largest of all, diagonals included.
-    """
-    sides = across + along
-    if worst > sides:
-        across, along = across + (worst - sides) / 2.0, along + (worst - sides) / 2.0
-    else:
-        across, along = across * worst / sides, along * worst / sides
-    # With as few cells as possible both have half of the tolerance, unless one needs less than that as it is.
-    if min(across, along) <= 0.5:
-        return (1.0, along / (1.0 - across)) if across <= along else (across / (1.0 - along), 1.0)
-    return 2.0 * across, 2.0 * along
-
-
-def _twist(surface: Surface, allowed: Allowed, columns: int, rows: int) -> float:
-    """By how many times the middles of diagonals are farther off the surface than is allowed; the worst of some
-    cells."""
-    u, v = surface.domain.grid(2 * columns, 2 * rows)
-    at_u, at_v = (1 + 2 * np.arange(0, count, max(1, count // 24)) for count in (columns, rows))
-    grids = {
-        (i, j): np.asarray(surface.points(*np.meshgrid(u[at_u + i], v[at_v + j], indexing="ij")), dtype=np.float64)
-        for i, j in ((0, 0), (-1, -1), (1, 1), (-1, 1), (1, -1))
-    }
-    middle = grids[0, 0]
-    normals = unit_normals(surface, *(some.ravel() for some in np.meshgrid(u[at_u], v[at_v], indexing="ij")))
-    worst = 0.0
-    for one, other in (((-1, -1), (1, 1)), ((-1, 1), (1, -1))):
-        with np.errstate(invalid="ignore"):
-            off = middle - 0.5 * (grids[one] + grids[other])
-            far = np.abs((off * normals.reshape(off.shape)).sum(axis=-1)) / allowed(middle)
-        worst = max(worst, float(np.where(np.isfinite(far), far, 0.0).max(initial=0.0)))
-    return worst
-
-
-def _excesses(surface: Surface, allowed: Allowed, columns: int, rows: int) -> tuple[float, float]:
-    """By how many times the middles of chords are farther off the surface than is allowed, along u and along v; the
-    worst of some rows and columns."""
-    u, v = surface.domain.grid(2 * columns, 2 * rows)
-    few_u, few_v = u[:: max(1, columns // 16)], v[:: max(1, rows // 16)]
-    across = _excess(surface.points(*np.meshgrid(u, few_v, indexing="ij")), allowed)
-    along = _excess(np.swapaxes(surface.points(*np.meshgrid(few_u, v, indexing="ij")), 0, 1), allowed)
-    return across, along
-
-
-def _excess(points: Floats, allowed: Allowed) -> float:
-    with np.errstate(invalid="ignore"):
-        off = points[1::2] - 0.5 * (points[:-1:2] + points[2::2])
-        along = points[2::2] - points[:-1:2]
-        length = np.linalg.norm(along, axis=-1, keepdims=True)
-        along = np.divide(along, length, out=np.zeros_like(along), where=length > 0.0)
-        off = off - (off * along).sum(axis=-1, keepdims=True) * along
-        long = np.linalg.norm(off, axis=-1) / allowed(points[1::2])
-    return float(np.where(np.isfinite(long), long, 0.0).max(initial=0.0))
-
-
-def _implicit(surface: ImplicitSurface, allowed: Allowed) -> Facets:
-    fewest, most = IMPLICIT_CELLS
-    mesh, _ = settled_mesh(surface, fewest)
-    excess = _implicit_excess(surface, mesh, allowed)
-    if excess > 1.0:
-        mesh, _ = settled_mesh(surface, min(int(np.ceil(fewest * np.sqrt(excess))), most))
-    return Facets(mesh, _unit_gradients(surface, mesh.vertices))
-
-
-def _implicit_excess(surface: ImplicitSurface, mesh: Mesh, allowed: Allowed) -> float:
-    """By how many times the middles of triangles are farther off the surface than is allowed, to first order."""
-    middles = mesh.vertices[_triangles(mesh)].mean(axis=1)
-    if not len(middles):
-        return 0.0
-    with np.errstate(all="ignore"):
-        off = np.abs(surface.values(middles)) / np.linalg.norm(surface.gradients(middles), axis=1) / allowed(middles)
-    return float(np.quantile(np.where(np.isfinite(off), off, 0.0), 0.99))
-
-
-def _triangles(mesh: Mesh) -> Ints:
-    return np.asarray(mesh.corners.reshape(-1, 3))
-
-
-def _unit_gradients(surface: ImplicitSurface, points: Floats) -> Floats:
-    with np.errstate(all="ignore"):
-        slopes = np.asarray(surface.gradients(points), dtype=np.float64)
-        return np.asarray(slopes / np.linalg.norm(slopes, axis=1, keepdims=True))
+def _implicit_net(surface: ImplicitSurface) -> Net:
+    mesh, _ = settled_mesh(surface, IMPLICIT_CELLS)
+    return Net(_Level(surface).at(mesh.vertices), mesh.corners.reshape(-1, 3))

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.features.facets import Allowed, facets
+from vectorplot.features.edge_splitting import Demand
+from vectorplot.features.facets import facets
 from vectorplot.geometry.mesh import Floats
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
@@ -22,21 +24,28 @@ class FacetedScene:
     normals: tuple[Floats | None, ...]
 
 
-def faceted(scene: Scene, allowed: Allowed) -> FacetedScene:
-    """The scene with meshes in place of smooth surfaces. allowed: how far triangles may be off the true surface.
+def faceted(scene: Scene, demand: Callable[[int], Demand]) -> FacetedScene:
+    """The scene with meshes in place of smooth surfaces. demand: how fine the triangles of an item have to be, by its
+    number.
 
     Errors: as of features.facets. Degenerate: a curve has no faces.
     Source: Glaeser, section 8.4 (polygonised surfaces and their normals).
     """
-    made = [_faceted_item(item, allowed) for item in scene.items]
+    made = [_faceted_item(item, demand, number) for number, item in enumerate(scene.items)]
     return FacetedScene(replace(scene, items=tuple(item for item, _ in made)), tuple(normals for _, normals in made))
 
 
-def _faceted_item(item: Item, allowed: Allowed) -> tuple[Item, Floats | None]:
+def without_curved_mirror(item: Item) -> Item:
+    """The item, but shiny if it is a mirror that is curved: it shows something else at every point, and its triangles
+    are no mirrors."""
+    if not item.material.is_mirror or not (is_parametrised(item.shape) or is_implicit(item.shape)):
+        return item
+    return replace(item, material=replace(item.material, word="shiny"))
+
+
+def _faceted_item(item: Item, demand: Callable[[int], Demand], number: int) -> tuple[Item, Floats | None]:
     shape = item.shape
     if not (is_parametrised(shape) or is_implicit(shape)):
         return replace(item, shape=item.mesh), None
-    found = facets(shape, allowed)
-    # A mirror that is curved shows something else at every point: its triangles are no mirrors.
-    word = "shiny" if item.material.is_mirror else item.material.word
-    return replace(item, shape=found.mesh, material=replace(item.material, word=word)), np.nan_to_num(found.normals)
+    found = facets(shape, demand(number))
+    return replace(without_curved_mirror(item), shape=found.mesh), np.nan_to_num(found.normals)

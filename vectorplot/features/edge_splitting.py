@@ -1,0 +1,284 @@
+"""Triangles of a smooth surface made finer by splitting their sides, until none is too coarse.
+
+A side is split for both of its triangles or for none, so triangles of different sizes share all of their vertices.
+Where it crosses a place in which the surface folds over, seen from somewhere, it is split there, so that sides come to
+lie along outlines; otherwise in the middle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from vectorplot.features.tessellation import edges_of
+from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.vectors import cross
+
+LOOKS = (0.25, 0.5, 0.75)
+"""Where sides are compared with the surface, and where they cross a fold. Smaller details may be missed."""
+
+ROUNDS = 40
+"""Times that triangles are divided at most: what jumps is never fine enough."""
+
+STEPS = 4
+"""Steps of the false position to a fold."""
+
+NEAR = 1.0 / 64.0
+"""Part of a side below which what is found on it is its end."""
+
+ON = 0.03
+"""A vertex is on a fold, or next to it, where the function of the fold is no larger."""
+
+RIM_STEPS = 30
+"""Halvings of the part of a side in which a hole begins."""
+
+FIRST = 0.3
+"""Of the sides of a triangle those are split first that are worse than this part of the worst one."""
+
+NONE = -1
+"""No fold."""
+
+
+@dataclass(frozen=True, eq=False)
+class Vertices:
+    """Points of a surface: places (..., d) that tell where they are on it, points (..., 3), unit normals (..., 3); NaN
+    in holes."""
+
+    places: Floats
+    points: Floats
+    normals: Floats
+
+    def some(self, which: Ints | Bools) -> Vertices:
+        """Those with these numbers."""
+        return Vertices(self.places[which], self.points[which], self.normals[which])
+
+    def joined(self, other: Vertices) -> Vertices:
+        """These and others behind them."""
+        return Vertices(
+            np.concatenate((self.places, other.places)),
+            np.concatenate((self.points, other.points)),
+            np.concatenate((self.normals, other.normals)),
+        )
+
+    @property
+    def known(self) -> Bools:
+        """(...,) which are not in holes."""
+        return np.asarray(np.isfinite(self.points).all(axis=-1), dtype=np.bool_)
+
+
+Between = Callable[[Vertices, Vertices, Floats], Vertices]
+"""The vertices (n,) of the surface at parts t (n,) of the way from some vertices (n,) to others."""
+
+
+@dataclass(frozen=True, eq=False)
+class Edges:
+    """Sides of triangles, n of them: their ends, and k vertices of the surface over each of them: at (k,n), at parts t
+    (k,n) of the way; fold (k,n): the number of a fold that such a one lies on or next to, NONE for most."""
+
+    start: Vertices
+    end: Vertices
+    at: Vertices
+    t: Floats
+    fold: Ints
+
+
+class Demand(Protocol):
+    """How fine triangles have to be."""
+
+    @property
+    def outlines(self) -> int:
+        """How many folds, the first ones, are seen as outlines."""
+        ...
+
+    def folds(self, points: Floats, normals: Floats) -> Floats:
+        """(s,n) functions of points (n,3) with unit normals (n,3) that are zero where the surface folds over, one for
+        each place from where it is seen."""
+        ...
+
+    def excess(self, edges: Edges) -> Floats:
+        """(k,n) by how many times sides are too coarse at the vertices over them; up to 1 is fine enough."""
+        ...
+
+    def border_excess(self, edges: Edges) -> Floats:
+        """(k,n) the same for sides along borders and outlines."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Net:
+    """Triangles (t,3) of vertices (v,)."""
+
+    vertices: Vertices
+    triangles: Ints
+
+
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """What was found of sides (n,): key, ascending; rows (3,n): by how many times they are too coarse, and would be as
+    borders; at which part of the way from the lower vertex they are to be split."""
+
+    key: Ints
+    rows: Floats
+
+    def joined(self, key: Ints, rows: Floats) -> _Found:
+        """This, and what was found of others."""
+        every = np.concatenate((self.key, key))
+        order = np.argsort(every)
+        return _Found(every[order], np.concatenate((self.rows, rows), axis=1)[:, order])
+
+
+def refined(net: Net, between: Between, demand: Demand, most: int) -> Net:
+    """The triangles divided until all of their sides are fine enough, or there are so many that the next division would
+    make more than most. They keep the sense in which they turn.
+
+    Of a triangle the worst side is split first, so that it has a better shape for the others.
+    Degenerate: sides that lead into a hole are cut at its rim; triangles in holes stay, with vertices that are NaN.
+    """
+    found = _Found(np.zeros(0, dtype=np.intp), np.zeros((3, 0)))
+    for _ in range(ROUNDS):
+        count = len(net.vertices.points)
+        edges, sides, uses = edges_of(net.triangles, count)
+        key = edges[:, 0] << 32 | edges[:, 1]
+        new = np.flatnonzero(~np.isin(key, found.key))
+        found = found.joined(key[new], _splits(net, edges[new], between, demand))
+        excess, as_border, part = found.rows[:, np.searchsorted(found.key, key)]
+        border = (uses == 1) | _outlines(net, sides, len(edges), demand)
+        excess = np.where(border, np.maximum(excess, as_border), excess)
+        of_sides = excess[sides]
+        first = (of_sides > 1.0) & (of_sides >= FIRST * of_sides.max(axis=1, keepdims=True))
+        which = np.unique(sides[first])
+        middle = np.full(len(edges), -1, dtype=np.intp)
+        middle[which] = count + np.arange(len(which))
+        if not len(which) or len(net.triangles) + int((middle[sides] >= 0).sum()) > most:
+            break
+        ends = net.vertices.some(edges[which, 0]), net.vertices.some(edges[which, 1])
+        vertices = net.vertices.joined(between(*ends, part[which]))
+        net = Net(vertices, _divided(net.triangles, middle[sides], vertices))
+    return net
+
+
+def _outlines(net: Net, sides: Ints, count: int, demand: Demand) -> Bools:
+    """(e,) the sides one triangle of which shows its front and the other its back to a place from where they are
+    seen."""
+    corners = net.vertices.points[net.triangles]
+    normals = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    front = demand.folds(corners.mean(axis=1), normals)[: demand.outlines] > 0.0
+    found = np.zeros(count, dtype=np.bool_)
+    for own in front:
+        fronts = np.bincount(sides[own].ravel(), minlength=count)
+        found |= (fronts > 0) & (fronts < np.bincount(sides.ravel(), minlength=count))
+    return found
+
+
+def _splits(net: Net, edges: Ints, between: Between, demand: Demand) -> Floats:
+    """(3,n) by how many times sides are too coarse, and would be as borders; at which part they are to be split."""
+    start, end = net.vertices.some(edges[:, 0]), net.vertices.some(edges[:, 1])
+    found = np.repeat([[0.0], [0.0], [0.5]], len(edges), axis=1)
+    inside = np.flatnonzero(start.known & end.known)
+    if len(inside):
+        found[:, inside] = _in_sight(start.some(inside), end.some(inside), between, demand)
+    rim = np.flatnonzero(start.known != end.known)
+    if len(rim):
+        part = _rim(start.some(rim), end.some(rim), between)
+        found[:, rim] = np.where(part > 0.0, np.inf, 0.0), np.zeros(len(rim)), part
+    return found
+
+
+def _in_sight(start: Vertices, end: Vertices, between: Between, demand: Demand) -> Floats:
+    """As _splits, for sides both ends of which are known."""
+    count = len(start.points)
+    looks = [between(start, end, np.full(count, t)) for t in LOOKS]
+    values = np.stack([demand.folds(some.points, some.normals) for some in (start, *looks, end)], axis=1)
+    root, number = _roots(start, end, values, between, demand)
+    t = np.stack([*(np.full(count, t) for t in LOOKS), root])
+    looks.append(between(start, end, root))
+    at = Vertices(*(np.stack(some) for some in zip(*((v.places, v.points, v.normals) for v in looks), strict=True)))
+    on = np.abs(values[:, [0, -1]]) <= ON
+    # A side that only touches a fold has it near by, on one of its triangles.
+    touching = (np.abs(values[:, 1:-1]) <= ON) & ~on.any(axis=1, keepdims=True)
+    fold = np.full(t.shape, NONE)
+    for own, some in enumerate(touching):
+        fold[:-1][some] = own
+    fold[-1] = number
+    edges = Edges(start, end, at, t, fold)
+    excess = np.nan_to_num(demand.excess(edges), nan=0.0)
+    as_border = np.nan_to_num(demand.border_excess(edges), nan=0.0).max(axis=0)
+    part = np.full(count, 0.5)
+    at_fold = np.flatnonzero((excess[-1] > 1.0) & (number != NONE))
+    # A side that begins at a fold has a vertex there.
+    at_fold = at_fold[~on[number[at_fold], :, at_fold].any(axis=1)]
+    part[at_fold] = root[at_fold]
+    worst = excess.max(axis=0)
+    # A hole between two points that are in none.
+    hole = np.flatnonzero(~at.known.all(axis=0))
+    part[hole], worst[hole] = t[np.argmin(at.known[:, hole], axis=0), hole], np.inf
+    return np.stack((worst, as_border, part))
+
+
+def _roots(start: Vertices, end: Vertices, values: Floats, between: Between, demand: Demand) -> tuple[Floats, Ints]:
+    """(n,) the part of each side at which it crosses a fold, and the number of the fold; 0.5 and NONE for most.
+
+    values (s,k,n): the functions of folds at the ends and the looks between them.
+    """
+    count = values.shape[2]
+    part, number = np.full(count, 0.5), np.full(count, NONE)
+    with np.errstate(invalid="ignore"):
+        crossed = (values[:, 1:] * values[:, :-1] < 0.0).reshape(-1, count)
+    which = np.flatnonzero(crossed.any(axis=0)) if len(crossed) else np.zeros(0, dtype=np.intp)
+    if not len(which):
+        return part, number
+    fold, step = np.divmod(np.argmax(crossed[:, which], axis=0), values.shape[1] - 1)
+    nodes = np.array((0.0, *LOOKS, 1.0))
+    low, high = nodes[step], nodes[step + 1]
+    at_low, at_high = values[fold, step, which], values[fold, step + 1, which]
+    first, last = start.some(which), end.some(which)
+    for _ in range(STEPS):
+        t = low + (high - low) * at_low / (at_low - at_high)
+        found = between(first, last, t)
+        at_t = demand.folds(found.points, found.normals)[fold, np.arange(len(which))]
+        before = at_t * at_low > 0.0
+        # The end that stays is weighted less, or it would stay for ever.
+        at_high, at_low = np.where(before, 0.5 * at_high, at_t), np.where(before, at_t, 0.5 * at_low)
+        low, high = np.where(before, t, low), np.where(before, high, t)
+    good = (t > NEAR) & (t < 1.0 - NEAR)
+    part[which[good]], number[which[good]] = t[good], fold[good]
+    return part, number
+
+
+def _rim(start: Vertices, end: Vertices, between: Between) -> Floats:
+    """The last parts of sides, one end of which is in a hole, that are not in it; 0 next to the other end."""
+    known = start.known
+    low, high = np.where(known, 0.0, 1.0), np.where(known, 1.0, 0.0)
+    for _ in range(RIM_STEPS):
+        t = 0.5 * (low + high)
+        good = between(start, end, t).known
+        low, high = np.where(good, t, low), np.where(good, high, t)
+    return np.where(np.abs(low - np.where(known, 0.0, 1.0)) > NEAR, low, 0.0)
+
+
+def _divided(triangles: Ints, middle: Ints, vertices: Vertices) -> Ints:
+    """Triangles divided by new vertices middle (t,3) on their sides, -1 for none on the side from a corner on."""
+    count = (middle >= 0).sum(axis=1)
+    parts = [triangles[count == 0]]
+    # Turned round so that the first side is split and, of two, the last one is not.
+    first = np.select(
+        [(count == 1) | (count == 3), (count == 2)],
+        [np.argmax(middle >= 0, axis=1), (np.argmin(middle >= 0, axis=1) + 1) % 3],
+    )
+    turn = (first[:, None] + np.arange(3)) % 3
+    corner, middle = np.take_along_axis(triangles, turn, axis=1), np.take_along_axis(middle, turn, axis=1)
+    (a, b, c), (d, _, _) = corner[count == 1].T, middle[count == 1].T
+    parts += [np.stack((a, d, c), axis=1), np.stack((d, b, c), axis=1)]
+    (a, b, c), (d, e, _) = corner[count == 2].T, middle[count == 2].T
+    parts.append(np.stack((d, b, e), axis=1))
+    quad = np.stack((a, d, e, c))
+    with np.errstate(invalid="ignore"):
+        p = vertices.points[quad]
+        other = np.linalg.norm(p[1] - p[3], axis=-1) < np.linalg.norm(p[0] - p[2], axis=-1)
+    parts += [np.where(other, (a, d, c), (a, d, e)).T, np.where(other, (d, e, c), (e, c, a)).T]
+    (a, b, c), (d, e, f) = corner[count == 3].T, middle[count == 3].T
+    parts += [np.stack(some, axis=1) for some in ((a, d, f), (d, b, e), (f, e, c), (d, e, f))]
+    return np.concatenate(parts)
