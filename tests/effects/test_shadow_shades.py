@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.effects.shadow_shades import shadow_shades
+from vectorplot.effects.shadow_shades import LEVELS, shadow_shades
 from vectorplot.shading.illumination import REDUCED, shades
 
 SHARES = st.lists(st.floats(0.0, 3.0), min_size=3, max_size=3)
@@ -33,9 +33,12 @@ def test_shades_fall_with_every_light_that_is_lacking_and_rise_with_depth(
     assert all(a >= b - 1e-12 for a, b in pairwise(grades))
     if min(share) > 1e-3:
         assert grades[0] > grades[1] > grades[2] > grades[3]
-    soft = shadow_shades(one, [0.5, 0.7, 0.4], [2], dimmed=[0])[0]
+    soft = [shadow_shades(one, [0.5, 0.7, 0.4], [2], dimmed=[0], step=[k])[0] for k in range(1, LEVELS)]
     full = shadow_shades(one, [0.5, 0.7, 0.4], [2])[0]
-    assert full >= soft >= shadow_shades(one, [0.5, 0.7, 0.4], [3])[0]
+    dark = shadow_shades(one, [0.5, 0.7, 0.4], [3])[0]
+    steps = np.diff([full, *soft, dark])
+    assert (steps <= 1e-12).all() and steps[1:-1].min() == pytest.approx(steps[1:-1].max(), abs=1e-12)
+    assert steps.min() >= 1.01 * (dark - full) / (LEVELS - 1) - 1e-12
     brighter = shadow_shades(one + np.array(more)[:, None], [0.5, 0.7, 0.4], [7])[0]
     assert brighter >= grades[3] - 1e-12
     deeper = [shadow_shades(one, [0.5, 0.7, 0.4], [3], cue)[0] for cue in (0.0, 0.1, 0.2)]

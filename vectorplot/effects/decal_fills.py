@@ -11,13 +11,13 @@ from vectorplot.drawing.painted import Overlay, Placed, fills_on_page
 from vectorplot.effects.convex_decals import convex_decals
 from vectorplot.effects.decals import Decals
 from vectorplot.effects.laying import Laid, laid
-from vectorplot.effects.shadow_shades import shadow_shades
+from vectorplot.effects.shadow_shades import LEVELS, shadow_shades
 from vectorplot.effects.windows import SeenThrough
 from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.shading.face_shades import Shades
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities, smooth_faces
-from vectorplot.shading.palettes import Colours, shaded_colours
+from vectorplot.shading.palettes import COLOUR_MAP, Colours, shaded_colours
 from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, unmapped
 
 
@@ -58,7 +58,8 @@ def _shades(decals: Decals, parts: Laid, shades: Shades) -> Floats:
     lacking = np.repeat(decals.lights_lacking[parts.decal], sizes)
     border = decals.kind[parts.decal] == FillKind.SHADOW_BORDER
     dimmed = np.repeat(np.where(border, decals.light[parts.decal], -1), sizes)
-    dark = shadow_shades(shades.shares, shades.intensity, lacking, shades.cue, dimmed=dimmed)
+    step = np.repeat(np.where(border, decals.level[parts.decal] % LEVELS, 1), sizes)
+    dark = shadow_shades(shades.shares, shades.intensity, lacking, shades.cue, dimmed=dimmed, step=step)
     return np.where((lacking > 0) | (dimmed >= 0), dark, shades.total)
 
 
@@ -82,10 +83,15 @@ def _with_double(
 
 
 def _colours(view: View, lighting: Lighting, decals: Decals, parts: Laid, shade: Floats) -> Colours:
-    """(c,3) the colours at the corners of parts of decals: their own, or those of their faces."""
+    """(c,3) the colours at the corners of parts of decals: their own, or those of their faces; in the soft borders of
+    shadows without steps of palettes."""
     sizes = np.diff(parts.offsets)
     colour = np.repeat(decals.colour[parts.decal], sizes)
-    found = colours_of(view, lighting, np.repeat(decals.face[parts.decal], sizes), shade)
+    face = np.repeat(decals.face[parts.decal], sizes)
+    found = colours_of(view, lighting, face, shade)
+    soft = np.flatnonzero(np.repeat(decals.kind[parts.decal] == FillKind.SHADOW_BORDER, sizes))
+    if len(soft):
+        found[soft] = colours_of(view, replace(lighting, size=COLOUR_MAP), face[soft], shade[..., soft])
     own = np.flatnonzero(colour >= 0)
     if len(own):
         found[own] = shaded_colours(decals.colours, colour[own], shade[..., own], lighting.size)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.drawing.fills import FillKind
-from vectorplot.effects.decals import Decals, no_decals
+from vectorplot.effects.decals import Decals, joined_decals, no_decals
 from vectorplot.effects.shadow_grades import Shadows, joined_shadows
+from vectorplot.effects.shadow_shades import LEVELS
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Floats, Ints, next_positions
 from vectorplot.geometry.plane_cuts import PlaneBundles, cut_by_planes, planes_of
@@ -25,12 +26,13 @@ EVERYWHERE = 1e30
 
 
 def shadow_borders(view: View, single: Shadows, cells: Shadows, width: float) -> Decals:
-    """Strips around shadows, in the image as wide as the width, to be painted before them.
+    """Strips around shadows, in the image as wide as the width, to be painted before them: the narrower, the darker.
 
     single: the shadows of single lights; cells: those of all grades, as graded makes them. Strips lie on what their
     light reaches: faces, and on them cells that lack other lights; each is a whole polygon, larger than what is seen of
     it, that darker cells are painted over. lacking: the lights that do not get there at all; light: the one that gets
-    there in part; grade: that of the shadow beside it.
+    there in part; grade: that of the shadow beside it; level: a multiple of LEVELS for what it lies on, and the step,
+    1 at the outer side to LEVELS - 1 beside the shadow.
     Errors: InputError for a width that is negative or not finite.
     Degenerate: no borders for width zero, and around faces that are dark as wholes.
     Source: Glaeser, section 6.3 (aura).
@@ -40,24 +42,31 @@ def shadow_borders(view: View, single: Shadows, cells: Shadows, width: float) ->
     single = single.some(np.flatnonzero(~single.whole))
     if width == 0.0 or not len(single):
         return no_decals()
-    around = _widened(view, single, width)
     ground = _lit_somewhere(view, single, cells)
     strip, on = _neighbours(view, single, ground, width)
-    useful = (np.diff(around.first) > 0)[strip] & (ground.face[on] == single.face[strip])
+    useful = ground.face[on] == single.face[strip]
     useful &= ground.lacking[on] & single.lacking[strip] == 0
     strip, on = strip[useful], on[useful]
+    steps = np.arange(1, LEVELS)
+    return joined_decals(*(_step(view, single, ground, strip, on, width, step) for step in steps.tolist()))
+
+
+def _step(view: View, single: Shadows, ground: Shadows, strip: Ints, on: Ints, width: float, step: int) -> Decals:
+    """The strips of one step: those of the first one are as wide as the border, and hardly dark."""
+    around = _widened(view, single, width * (LEVELS - step) / (LEVELS - 1))
+    there = (np.diff(around.first) > 0)[strip]
+    strip, on = strip[there], on[there]
     parts = cut_by_planes(ground.points, ground.offsets, around, on, strip, view.tolerance)
     strip, on = strip[parts.pair], on[parts.pair]
-    grade = ground.grade[on] + 1
     return Decals(
         parts.points,
         parts.offsets,
         ground.face[on],
         np.full(len(on), int(FillKind.SHADOW_BORDER), dtype=np.intp),
-        grade,
+        ground.grade[on] + 1,
         np.log2(single.lacking[strip]).astype(np.intp),
         np.full(len(on), -1, dtype=np.intp),
-        2 * grade - 1,
+        LEVELS * ground.grade[on] + step,
         lacking=ground.lacking[on],
     )
 

@@ -16,6 +16,7 @@ import numpy as np
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals import Decals
 from vectorplot.effects.face_frames import FaceFrames
+from vectorplot.effects.shadow_shades import LEVELS
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.plane_cuts import Parts
@@ -239,7 +240,7 @@ def _least_inside(holes: Any, hole_face: Ints, inner: Any, cell: Ints, grade: In
 
 
 def shadow_decals_of(shadows: Shadows, kind: FillKind) -> Decals:
-    """Shadows as decals, higher grades above."""
+    """Shadows as decals, higher grades above, with levels between them for the steps of soft borders."""
     grade = shadows.grade
     none = np.full(len(shadows), -1, dtype=np.intp)
     light = np.where(grade == 1, np.log2(np.maximum(shadows.lacking, 1)).astype(np.intp), -1)
@@ -251,6 +252,6 @@ def shadow_decals_of(shadows: Shadows, kind: FillKind) -> Decals:
         grade,
         light,
         none,
-        2 * grade,
+        LEVELS * grade,
         lacking=shadows.lacking,
     )
