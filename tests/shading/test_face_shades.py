@@ -13,7 +13,8 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Light, Material, Scene
 from vectorplot.scene.view import look
 from vectorplot.shading import face_shades as fs
-from vectorplot.shading.illumination import AMBIENT, DARK_SIDE, FINISHES, REDUCED, distance_factor
+from vectorplot.shading import fading
+from vectorplot.shading.illumination import AMBIENT, DARK_SIDE, FINISHES, REDUCED
 from vectorplot.shading.palettes import palette
 from vectorplot.testing.shapes import box, rotation
 from vectorplot.testing.surfaces import torus_mesh
@@ -234,22 +235,42 @@ def test_light_of_lamps_fades_and_parallel_light_does_not():
     view, lights, found = shaded(given_scene)
     points = fs.face_middles(view)
     assert np.array_equal(fs.faded(view, found, lights, points).shares, found.shares)
-    fading = tuple(replace(light, fading=True) for light in lights)
-    faded = fs.faded(view, found, fading, points)
-    assert np.array_equal(faded.shares, fs.face_shades(view, given_scene.items, fading).shares)
+    lamps = tuple(replace(light, fading=True) for light in lights)
+    faded = fs.faded(view, found, lamps, points)
+    assert np.array_equal(faded.shares, fs.face_shades(view, given_scene.items, lamps).shares)
     assert np.array_equal(faded.shares[1], found.shares[1])
-    middle = given_scene.bounds.mean(axis=0)
-    lamp = np.array(LIGHTS[0].position) - middle
-    distance = np.linalg.norm(lamp)
-    depth = (given_scene.vertices - middle) @ (lamp / distance)
-    of_faces = view.world_of(points) - middle
-    expected = distance_factor(distance, of_faces @ (lamp / distance), depth.max())
-    assert np.allclose(faded.shares[0], found.shares[0] * expected, rtol=1e-12)
-    assert (faded.shares[0] <= found.shares[0]).all()
-    amid = (Light((0.5, 0.5, 0.5)),)
-    view, lights, found = shaded(replace(given_scene, lights=amid))
-    fading = tuple(replace(light, fading=True) for light in lights)
-    assert np.array_equal(fs.faded(view, found, fading, points).shares, found.shares)
+    lamp = np.array(LIGHTS[0].position)
+    farthest = np.linalg.norm(given_scene.vertices - lamp, axis=1).max()
+    nearest = np.linalg.norm(np.clip(lamp, (-1, -1, 0), (0, 0, 3)) - lamp)
+    far = np.linalg.norm(view.world_of(points) - lamp, axis=1)
+    expected = np.minimum(1.0, max(nearest, 0.25 * farthest) / far) ** 2
+    assert np.allclose(faded.shares[0], found.shares[0] * expected, rtol=1e-9) and (expected < 1.0).any()
+
+
+@pytest.mark.capability("G4.5-distance")
+def test_a_fading_lamp_amid_the_scene_lights_what_is_near_and_less_what_is_far():
+    things = Scene((Item("floor", box((-3, -3, -1), (3, 3, 0))), Item("tower", box((-1, -1, 0), (0, 0, 3)))))
+    for place in ((0.5, 0.5, 0.1), (0.5, 0.5, 2.9), (2.0, 2.0, 2.5)):
+        nearest = min(place[2], np.linalg.norm(np.clip(place, (-1, -1, 0), (0, 0, 3)) - place))
+        reach = max(nearest, 0.25 * np.linalg.norm(things.vertices - place, axis=1).max())
+        view, (lamp,), found = shaded(replace(things, lights=(Light(place, fading=True),)))
+        assert fading.lamp_reach(view, lamp) * view.scale == pytest.approx(reach)
+        points = fs.face_middles(view)
+        far = np.linalg.norm(view.world_of(points) - place, axis=1)
+        plain = shaded(replace(things, lights=(Light(place),)))[2]
+        assert np.allclose(found.shares[0], plain.shares[0] * np.minimum(1.0, reach / far) ** 2, rtol=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_distances_from_triangles_are_those_of_their_nearest_points(seed):
+    random = np.random.default_rng(seed)
+    points, place = random.normal(size=(3, 30)), random.normal(size=3)
+    corners = random.integers(0, 30, (40, 3))
+    found = fading._distances(place, points, corners)
+    weights = random.dirichlet((0.4, 0.4, 0.4), 20000)
+    sampled = np.einsum("wk,ctk->cwt", weights, points[:, corners])
+    nearest = np.sqrt(((sampled - place[:, None, None]) ** 2).sum(axis=0)).min(axis=0)
+    assert (found <= nearest + 1e-12).all() and np.allclose(found, nearest, atol=0.03)
 
 
 @pytest.mark.capability("G4.5-depth")

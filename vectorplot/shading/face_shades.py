@@ -17,12 +17,12 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.curve_light import UPPER_LEFT
 from vectorplot.scene.scene import Item, Light
 from vectorplot.scene.view import View
+from vectorplot.shading.fading import fading_factors, lamp_reach
 from vectorplot.shading.illumination import (
     FINISHES,
     Finish,
     backlit,
     depth_cue,
-    distance_factor,
     facing,
     fitting,
     homogeneous_light,
@@ -146,21 +146,13 @@ def point_shades(
 
 
 def faded(view: View, found: Shades, lights: Sequence[Light], points: Floats) -> Shades:
-    """The shades of points (3,n), the light of fading lamps weaker with the square of the distance; the point of the
-    scene that is nearest to such a lamp keeps what it has.
+    """The shades of points (3,n), the light of fading lamps weaker with the square of the distance beyond their reach.
 
-    Depths are those of the lamp's system, which looks at the middle of the scene. Parallel light does not fade, nor
-    does that of a lamp that stands amid the scene.
-    Source: Glaeser, section 4.5, equation 4, figure 5.
+    Parallel light does not fade. Source: Glaeser, section 4.5, equation 4, figure 5.
     """
     shares = found.shares.copy()
     for row, light in zip(shares, lights, strict=True):
-        place = np.array(light.position)
-        distance = float(np.sqrt(place @ place))
-        axis = place / distance if distance > 0.0 else place
-        nearest = float((axis @ view.points).max(initial=-np.inf))
-        if light.fading and not light.parallel and -np.inf < nearest < distance:
-            row *= distance_factor(distance, np.minimum(axis @ points, nearest), nearest)
+        row *= fading_factors(light, lamp_reach(view, light), points)
     return replace(found, shares=shares)
 
 

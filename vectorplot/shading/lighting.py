@@ -16,6 +16,7 @@ from vectorplot.scene.view import View
 from vectorplot.shading.barycentrics import VisiblePoints
 from vectorplot.shading.corner_normals import face_normals, unit
 from vectorplot.shading.face_shades import depth_limits, light_colours, view_eye
+from vectorplot.shading.fading import fading_factors, lamp_reach
 from vectorplot.shading.illumination import (
     FINISHES,
     Finish,
@@ -38,13 +39,14 @@ class Lighting:
     """What colours depend on besides the points.
 
     lights, and for each which points it does not reach (none: it reaches all); eye: (x, y, z, 1), or (x, y, z, 0) for
-    parallel rays to there; palette (i,), finish (i,) of every item, in palettes (k, 256, 3) and finishes; depths: the
-    limits of what is brighter because it is near.
+    parallel rays to there; reach: of each light, how far it goes before it fades; palette (i,), finish (i,) of every
+    item, in palettes (k, 256, 3) and finishes; depths: the limits of what is brighter because it is near.
     """
 
     lights: tuple[Light, ...]
     blocked: tuple[Blocked, ...]
     eye: tuple[float, float, float, float]
+    reach: tuple[float, ...]
     palette: Ints
     palettes: Colours
     finish: Ints
@@ -71,7 +73,8 @@ def lighting_of(view: View, items: Sequence[Item], lights: tuple[Light, ...], bl
     names, number = _numbered([item.colour for item in items])
     palettes = np.array([palette(name, COLOUR_MAP) for name in names], dtype=np.uint8).reshape(-1, COLOUR_MAP, 3)
     finishes = tuple(FINISHES.get(word, Finish()) for word in words)
-    return Lighting(lights, blocked, view_eye(view), number, palettes, finish, finishes, depth_limits(view))
+    reach = tuple(lamp_reach(view, light) for light in lights)
+    return Lighting(lights, blocked, view_eye(view), reach, number, palettes, finish, finishes, depth_limits(view))
 
 
 def _numbered(values: Sequence[str]) -> tuple[list[str], Ints]:
@@ -100,6 +103,7 @@ def shaded_points(triangles: SceneTriangles, found: VisiblePoints, lighting: Lig
         if lighting.blocked:
             dark = lighting.blocked[number](places, faces, found.triangle)
             share[dark] = _dark_shares(lighting, item[dark], alpha[dark])
+        share *= fading_factors(light, lighting.reach[number], places.T)
         total += strength[number][:, None] * share
     low, high = lighting.depths
     cue = depth_cue(places[:, 2], low, high - low)
