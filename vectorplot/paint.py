@@ -15,7 +15,7 @@ from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.ink import inked
 from vectorplot.drawing.layers import layers_by_kind
 from vectorplot.drawing.page import allowed_in_space, page_from_world
-from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, interleaved, placed_faces
+from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, placed_faces, stacked
 from vectorplot.errors import InputError
 from vectorplot.features.facets import Within
 from vectorplot.geometry.camera import Camera
@@ -303,8 +303,9 @@ def _shaded(walk: Walk, seen: _Seen, lighting: Lighting, page: Page, aura_mm: fl
     shades = walk.run("shades", _shades, seen, lighting)
     aura = aura_mm / float(seen.placed.page_from_image[0, 0])
     decals, lighting = _decals(walk, seen, lighting, aura)
-    overlays = _overlays(walk, seen, lighting, decals, aura, tolerance_mm)
-    return walk.run("fills", _fills, walk, seen, lighting, shades, overlays, page)
+    laid = _laid(seen, lighting, decals)
+    overlays = _overlays(walk, seen, lighting, aura, tolerance_mm)
+    return walk.run("fills", _fills, walk, seen, lighting, shades, laid, overlays, page)
 
 
 def _decals(walk: Walk, seen: _Seen, lighting: Lighting, aura: float) -> tuple[tuple[Decals, ...], Lighting]:
@@ -333,18 +334,21 @@ def _decals(walk: Walk, seen: _Seen, lighting: Lighting, aura: float) -> tuple[t
     return tuple(found), lighting
 
 
-def _overlays(
-    walk: Walk, seen: _Seen, lighting: Lighting, decals: tuple[Decals, ...], aura: float, tolerance_mm: float
-) -> tuple[Overlay, ...]:
-    """What is painted right after polygons of the picture: what lies on them, and what they show.
+def _laid(seen: _Seen, lighting: Lighting, decals: tuple[Decals, ...]) -> tuple[Overlay, ...]:
+    """What lies on the polygons of the picture."""
+    if not decals:
+        return ()
+    from vectorplot.effects.decal_fills import decal_fills
+
+    return tuple(decal_fills(seen.view, lighting, some, seen.faces, seen.placed) for some in decals)
+
+
+def _overlays(walk: Walk, seen: _Seen, lighting: Lighting, aura: float, tolerance_mm: float) -> tuple[Overlay, ...]:
+    """What polygons of the picture show, painted right after them and what lies on them.
 
     aura: the width of soft borders of shadows in the image.
     """
     found = []
-    if decals:
-        from vectorplot.effects.decal_fills import decal_fills
-
-        found += [decal_fills(seen.view, lighting, some, seen.faces, seen.placed) for some in decals]
     if walk.calls_for("reflections"):
         from vectorplot.effects.double_decals import double_decals
         from vectorplot.effects.reflection_fills import reflection_fills
@@ -379,9 +383,15 @@ def _overlays(
 
 
 def _fills(
-    walk: Walk, seen: _Seen, lighting: Lighting, shades: Shades, overlays: tuple[Overlay, ...], page: Page
+    walk: Walk,
+    seen: _Seen,
+    lighting: Lighting,
+    shades: Shades,
+    laid: tuple[Overlay, ...],
+    overlays: tuple[Overlay, ...],
+    page: Page,
 ) -> Fills:
-    """The polygons of the picture on the page, with all that is painted between them."""
+    """The polygons of the picture on the page, with what lies on them and what is painted between them."""
     view, faces = seen.view, seen.faces
     item = view.face_item[faces.source]
     opacity = opacities(seen.scene.items)[item]
@@ -400,8 +410,14 @@ def _fills(
         from vectorplot.effects.glass_fills import tinted
 
         clear = refracting_items(seen.scene, view, seen.projected)[item]
-        fills, overlays = tinted(fills, clear, opacity, _paper(seen.scene)[0], overlays)
-    return Fills.joined(*_background(seen.scene, page), interleaved(fills, overlays))
+        fills, both = tinted(fills, clear, opacity, _paper(seen.scene)[0], (*laid, *overlays))
+        laid, overlays = both[: len(laid)], both[len(laid) :]
+    with_decals = Overlay(fills, np.arange(len(fills)))
+    if laid:
+        from vectorplot.drawing.flattened import flattened
+
+        with_decals = flattened(fills, laid, page_from_world(view, seen.placed.page_from_image))
+    return Fills.joined(*_background(seen.scene, page), stacked([with_decals, *overlays]).fills)
 
 
 def _paper(scene: Scene) -> Colours:

@@ -26,17 +26,21 @@ class Overlay:
     after: Ints
 
 
+def stacked(overlays: Sequence[Overlay]) -> Overlay:
+    """All polygons by what they come after; of several after one polygon those of the first overlay come first."""
+    place = np.concatenate([overlay.after for overlay in overlays])
+    order = np.argsort(place, kind="stable")
+    return Overlay(Fills.joined(*(overlay.fills for overlay in overlays)).some(order), place[order])
+
+
 def overlaid(base: Overlay, overlays: Sequence[Overlay]) -> Overlay:
     """The polygons of base with those of the overlays, which come after polygons of base, between them; of several
     after one polygon those of the first overlay come first."""
     overlays = [overlay for overlay in overlays if len(overlay.fills)]
     if not overlays:
         return base
-    every = Fills.joined(base.fills, *(overlay.fills for overlay in overlays))
-    place = np.concatenate([np.arange(len(base.fills)), *(overlay.after for overlay in overlays)])
-    turn = np.repeat(np.arange(len(overlays) + 1), [len(base.fills), *(len(overlay.fills) for overlay in overlays)])
-    order = np.lexsort((turn, place))
-    return Overlay(every.some(order), base.after[place[order]])
+    every = stacked([Overlay(base.fills, np.arange(len(base.fills))), *overlays])
+    return Overlay(every.fills, base.after[every.after])
 
 
 def interleaved(base: Fills, overlays: Sequence[Overlay]) -> Fills:

@@ -8,7 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.drawing.painted import Overlay, Placed, overlaid
+from vectorplot.drawing.flattened import flattened
+from vectorplot.drawing.page import page_from_world
+from vectorplot.drawing.painted import Overlay, Placed
 from vectorplot.effects.decal_fills import decal_fills
 from vectorplot.effects.decals import Decals
 from vectorplot.effects.reflections import DIMMED, Mirrors, doubled, reflections
@@ -52,8 +54,12 @@ def reflection_fills(
 def _of_double(
     mirrored: View, lighting: Lighting, decals: Sequence[Decals], seen: SeenThrough, placed: Placed
 ) -> Overlay:
-    overlays = [decal_fills(mirrored, lighting, some, seen, placed) for some in decals]
-    whole = overlaid(seen_fills(mirrored, lighting, seen, placed, FillKind.REFLECTION), overlays)
+    shown = seen_fills(mirrored, lighting, seen, placed, FillKind.REFLECTION)
+    laid = [decal_fills(mirrored, lighting, some, seen, placed) for some in decals]
+    whole = shown
+    if laid:
+        flat = flattened(shown.fills, laid, page_from_world(mirrored, placed.page_from_image))
+        whole = Overlay(flat.fills, shown.after[flat.after])
     count = len(whole.fills)
     dimmed = np.rint(DIMMED * whole.fills.colours).astype(np.uint8)
     return replace(whole, fills=replace(whole.fills, colours=dimmed, kind=np.full(count, int(FillKind.REFLECTION))))

@@ -11,8 +11,8 @@ import numpy as np
 
 from vectorplot.geometry.mesh import Floats, Ints
 
-POLYGON = 3
-"""The number of shapely's type."""
+POLYGON, MULTIPOLYGON = 3, 6
+"""The numbers of shapely's types."""
 
 WIDTH_KEPT = 4.0
 """Parts and holes of regions that are narrower than so many tolerances are splinters."""
@@ -49,6 +49,22 @@ def cells_of(regions: Any, group: Ints, tolerance: float) -> tuple[Any, Ints]:
     lines = shapely.union_all(borders[:, None], axis=1, grid_size=tolerance)
     cells, of = without_splinters(shapely.polygonize(lines[:, None]), tolerance)
     return shapely.simplify(cells, WIDTH_KEPT * tolerance), of
+
+
+def areas_of(regions: Any) -> Any:
+    """(n,) the areas among what regions (n,) consist of: intersections may have points and lines too."""
+    import shapely
+
+    mixed = ~np.isin(shapely.get_type_id(regions), (POLYGON, MULTIPOLYGON))
+    if not mixed.any():
+        return regions
+    result = regions.copy()
+    result[mixed] = shapely.Polygon()
+    parts, of = shapely.get_parts(regions, return_index=True)
+    kept = mixed[of] & (shapely.get_type_id(parts) == POLYGON)
+    which = np.unique(of[kept])
+    result[which] = shapely.multipolygons(parts[kept], indices=np.searchsorted(which, of[kept]))
+    return result
 
 
 def without_splinters(regions: Any, tolerance: float) -> tuple[Any, Ints]:

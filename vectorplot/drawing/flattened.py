@@ -1,0 +1,298 @@
+"""Polygons and what lies on them, painted so that nothing shines through at their borders.
+
+Viewers cover a pixel on the border of a polygon in part. Where a polygon is painted light and then dark up to its
+border, some of the light is left there: a light line runs between it and its dark neighbour. So each polygon gets what
+is seen at its border once: what is hidden there by what lies on it is cut away, and what one can see through is mixed
+with what lies below it. Farther inside the lower polygons stay whole, so that nothing from behind them is seen where
+those that lie on them end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vectorplot.drawing.fills import FillKind, Fills
+from vectorplot.drawing.painted import Overlay, stacked
+from vectorplot.drawing.visible_fills import GRID_MM, in_space
+from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+from vectorplot.geometry.regions import areas_of, corners_of, polygons_of, unions, without_holes, without_splinters
+
+MARGIN_MM = 0.5
+"""So far inside a polygon its border is not in the same pixel, from 72 dots per inch on, its seam included."""
+
+ROUNDING_MM = 1e-7
+"""Corners of what is cut lie on a grid of so many mm."""
+
+CLEARANCE_MM = 1e-3
+"""What is cut away is wider by this than what lies above it: of two sides that nearly coincide nothing is left between
+them, which would be drawn as wide as a seam."""
+
+
+def flattened(base: Fills, overlays: Sequence[Overlay], page_from_world: Floats) -> Overlay:
+    """The polygons of base with what lies on them, each after the one it lies on: the same picture, but that no more
+    than one of them covers a place near the border of a polygon of base.
+
+    overlays: polygons inside those of base that they come after, in the order in which they lie on each other.
+    page_from_world (4,4) as in Drawing. Polygons of one colour that follow each other on the same one become one. What
+    lies on polygons that one can see through stays as it is.
+    Error: corners move by ROUNDING_MM at most; parts narrower than a few of GRID_MM are left out.
+    Degenerate: what is covered as a whole is left out.
+    """
+    opaque = (base.opacity >= 1.0) & (base.kind != FillKind.BACKGROUND)
+    layers = _uncovered(base, stacked([Overlay(base, np.arange(len(base))), *overlays]), opaque)
+    changed = opaque[layers.after] & _reaching_borders(base, layers)[layers.after]
+    which = np.flatnonzero(changed)
+    if not len(which):
+        return layers
+    stack = Overlay(layers.fills.some(which), layers.after[which])
+    cut = _cut_apart(base, stack, page_from_world)
+    rest = np.flatnonzero(~changed)
+    return stacked([Overlay(layers.fills.some(rest), layers.after[rest]), cut])
+
+
+def _uncovered(base: Fills, layers: Overlay, opaque: Bools) -> Overlay:
+    """The polygons without those that lie below one as large as that of base."""
+    if len(layers.fills) == len(base):
+        return layers
+    area, _ = _measures(layers.fills)
+    whole, around = _measures(base)
+    covers = (area >= whole[layers.after] - GRID_MM * around[layers.after]) & (layers.fills.opacity >= 1.0)
+    number = np.arange(len(area))
+    top = np.full(len(base), -1, dtype=np.intp)
+    np.maximum.at(top, layers.after[covers], number[covers])
+    kept = np.flatnonzero((number >= top[layers.after]) | ~opaque[layers.after])
+    return Overlay(layers.fills.some(kept), layers.after[kept])
+
+
+def _measures(fills: Fills) -> tuple[Floats, Floats]:
+    """(m,) the areas and (m,) the perimeters of polygons."""
+    if not len(fills):
+        return np.zeros(0), np.zeros(0)
+    start, sizes = fills.offsets[:-1], np.diff(fills.offsets)
+    arm = fills.points - np.repeat(fills.points[start], sizes, axis=0)
+    after = arm[next_positions(fills.offsets, np.arange(len(arm)))]
+    area = np.add.reduceat(arm[:, 0] * after[:, 1] - arm[:, 1] * after[:, 0], start)
+    return np.abs(area) / 2.0, np.add.reduceat(np.hypot(*(after - arm).T), start)
+
+
+def _reaching_borders(base: Fills, layers: Overlay) -> Bools:
+    """(n,) the polygons of base with something on them that comes near their border, or that one can see through."""
+    import shapely
+
+    result = np.zeros(len(base), dtype=np.bool_)
+    deep = np.flatnonzero(np.bincount(layers.after, minlength=len(base)) > 1)
+    if not len(deep):
+        return result
+    border = np.full(len(base), None, dtype=object)
+    some = base.some(deep)
+    border[deep] = shapely.boundary(polygons_of(some.points.T, some.offsets))
+    first = np.append(True, layers.after[1:] != layers.after[:-1])
+    on = np.flatnonzero(~first)
+    parts = layers.fills.some(on)
+    of = layers.after[on]
+    far = shapely.distance(shapely.points(parts.points), border[np.repeat(of, np.diff(parts.offsets))])
+    near = np.minimum.reduceat(far, parts.offsets[:-1]) < MARGIN_MM
+    result[of[near | (parts.opacity < 1.0)]] = True
+    return result
+
+
+@dataclass(frozen=True, eq=False)
+class _Layers:
+    """Regions that lie on each other, those of one stack (n,) from below: source (n,) the fill that each has its colour
+    and plane of, kept (n,) how much of this colour, and added (n,3) what is added to it; opacity (n,); kind (n,)
+    FillKind values."""
+
+    region: NDArray[np.object_]
+    stack: Ints
+    source: Ints
+    kept: Floats
+    added: Floats
+    opacity: Floats
+    kind: Ints
+
+    def some(self, which: Ints) -> _Layers:
+        return _Layers(*(column[which] for column in vars(self).values()))
+
+    @classmethod
+    def joined(cls, *parts: _Layers) -> _Layers:
+        return cls(*(np.concatenate(columns) for columns in zip(*(vars(p).values() for p in parts), strict=True)))
+
+
+def _cut_apart(base: Fills, overlay: Overlay, page_from_world: Floats) -> Overlay:
+    """All of the stacks of an overlay, cut."""
+    import shapely
+
+    fills, stack = overlay.fills, overlay.after
+    region = _regions(fills)
+    count = len(fills)
+    layers = _Layers(region, stack, np.arange(count), np.ones(count), np.zeros((count, 3)), fills.opacity, fills.kind)
+    layers = _united(_mixed(layers, fills), fills)
+    numbers, of = np.unique(layers.stack, return_inverse=True)
+    ground = base.some(numbers)
+    inside = shapely.buffer(_regions(ground), -MARGIN_MM, join_style="mitre")
+    above = _above(layers)
+    hidden = shapely.covers(above, layers.region)
+    cover = shapely.difference(above, inside[of], grid_size=ROUNDING_MM)
+    covered = np.flatnonzero(~shapely.is_empty(cover))
+    region = layers.region.copy()
+    region[covered] = shapely.difference(region[covered], areas_of(cover[covered]), grid_size=ROUNDING_MM)
+    return _listed(replace(layers, region=region).some(np.flatnonzero(~hidden)), fills, page_from_world)
+
+
+def _regions(fills: Fills) -> NDArray[np.object_]:
+    """(n,) the insides of polygons."""
+    import shapely
+
+    raw = polygons_of(fills.points.T, fills.offsets)
+    return np.asarray(areas_of(shapely.make_valid(raw, method="structure", keep_collapsed=False)))
+
+
+def _above(layers: _Layers) -> NDArray[np.object_]:
+    """(n,) the union of all that lies above each region in its stack, and CLEARANCE_MM around it."""
+    import shapely
+
+    count = len(layers.stack)
+    result = np.full(count, shapely.Polygon(), dtype=object)
+    last = np.append(layers.stack[1:] != layers.stack[:-1], True)[:count]
+    ends = np.flatnonzero(last)
+    from_top = np.repeat(ends, np.diff(ends, prepend=-1)) - np.arange(count)
+    for depth in range(1, int(from_top.max(initial=0)) + 1):
+        here = np.flatnonzero(from_top == depth)
+        result[here] = areas_of(shapely.union(result[here + 1], layers.region[here + 1], grid_size=ROUNDING_MM))
+    return np.asarray(areas_of(shapely.buffer(result, CLEARANCE_MM, join_style="mitre")))
+
+
+def _mixed(layers: _Layers, fills: Fills) -> _Layers:
+    """The same with opaque parts of what lies below in place of what one can see through."""
+    import shapely
+
+    while True:
+        clear = np.flatnonzero(layers.opacity < 1.0)
+        if not len(clear):
+            return layers
+        numbers, first = np.unique(layers.stack[clear], return_index=True)
+        place = clear[first]
+        of = np.searchsorted(numbers, layers.stack)
+        own = np.append(numbers, -1)[of] == layers.stack
+        veil = np.where(own, np.append(place, len(layers.stack))[of], len(layers.stack))
+        number = np.arange(len(layers.stack))
+        below = np.flatnonzero(number < veil)
+        below = below[own[below]]
+        under = layers.some(below)
+        seen = areas_of(shapely.difference(under.region, _above(under), grid_size=ROUNDING_MM))
+        seen = areas_of(shapely.intersection(seen, layers.region[veil[below]], grid_size=ROUNDING_MM))
+        share = layers.opacity[veil[below]]
+        tint = _means(fills)[layers.source[veil[below]]]
+        veiled = replace(
+            under,
+            region=seen,
+            kept=under.kept * (1.0 - share),
+            added=under.added * (1.0 - share)[:, None] + tint * share[:, None],
+            kind=layers.kind[veil[below]],
+        )
+        left = np.flatnonzero(number != veil)
+        every = _Layers.joined(layers.some(left), veiled)
+        position = np.concatenate([left, veil[below]])
+        order = np.argsort(position, kind="stable")
+        layers = every.some(order[~shapely.is_empty(every.region[order])])
+
+
+def _means(fills: Fills) -> Floats:
+    """(m,3) the mean colours of the corners of polygons."""
+    total = np.add.reduceat(fills.colours.astype(np.float64), fills.offsets[:-1])
+    return np.asarray(total / np.diff(fills.offsets)[:, None])
+
+
+def _shaded(fills: Fills) -> Bools:
+    """(m,) whether the corners of polygons differ in colour."""
+    first = np.repeat(fills.colours[fills.offsets[:-1]], np.diff(fills.offsets), axis=0)
+    return np.asarray(np.logical_or.reduceat((fills.colours != first).any(axis=1), fills.offsets[:-1]))
+
+
+def _united(layers: _Layers, fills: Fills) -> _Layers:
+    """The same with neighbours in a stack that have one colour as one region."""
+    colour = np.rint(layers.kept[:, None] * _means(fills)[layers.source] + layers.added)
+    columns = np.column_stack([layers.stack, fills.item[layers.source], layers.kind, colour])
+    alone = _shaded(fills)[layers.source]
+    new = np.ones(len(alone), dtype=np.bool_)
+    new[1:] = (columns[1:] != columns[:-1]).any(axis=1) | alone[1:] | alone[:-1]
+    if new.all():
+        return layers
+    leaders = layers.some(np.flatnonzero(new))
+    return replace(leaders, region=unions(layers.region, np.cumsum(new) - 1, ROUNDING_MM))
+
+
+def _listed(layers: _Layers, fills: Fills, page_from_world: Floats) -> Overlay:
+    """Regions as polygons without holes; shaded ones that are not as they were as triangles."""
+    parts, of = without_splinters(layers.region, GRID_MM)
+    parts, of = without_holes(parts, of)
+    parts, of = _convex_if_shaded(parts, of, layers, fills)
+    flat, offsets = corners_of(parts)
+    sizes = np.diff(offsets)
+    source, owner = layers.source[of], np.repeat(of, sizes)
+    colours = _colours_at(flat, fills, layers.source[owner])
+    colours = np.rint(layers.kept[owner][:, None] * colours + layers.added[owner])
+    made = Fills(
+        np.ascontiguousarray(flat.T),
+        offsets,
+        np.clip(colours, 0.0, 255.0).astype(np.uint8),
+        np.ones(len(of)),
+        fills.item[source],
+        in_space(fills, flat.T, layers.source[owner], page_from_world),
+        layers.kind[of],
+    )
+    return Overlay(made, layers.stack[of])
+
+
+def _convex_if_shaded(parts: Any, of: Ints, layers: _Layers, fills: Fills) -> tuple[Any, Ints]:
+    """Triangles in place of shaded polygons that are not convex."""
+    import shapely
+
+    shaded = _shaded(fills)[layers.source[of]]
+    hull = shapely.area(shapely.convex_hull(parts)) - shapely.area(parts)
+    bent = shaded & (hull > GRID_MM * shapely.length(parts))
+    if not bent.any():
+        return parts, of
+    triangles, owner = shapely.get_parts(shapely.constrained_delaunay_triangles(parts[bent]), return_index=True)
+    every = np.concatenate([parts[~bent], triangles])
+    number = np.concatenate([np.flatnonzero(~bent), np.flatnonzero(bent)[owner]])
+    order = np.argsort(number, kind="stable")
+    return every[order], of[number[order]]
+
+
+def _colours_at(points: Floats, fills: Fills, source: Ints) -> Floats:
+    """(c,3) the colours that fills have at points (2,c): of shaded ones those of the triangle of the fan that each
+    point lies in."""
+    first = fills.offsets[source]
+    found = fills.colours[first].astype(np.float64)
+    asked = np.flatnonzero(_shaded(fills)[source])
+    best = np.full(len(asked), -np.inf)
+    size = np.diff(fills.offsets)[source[asked]]
+    for step in range(1, int(size.max(initial=2)) - 1):
+        here = np.flatnonzero(size > step + 1)
+        point = asked[here]
+        corner = first[point][:, None] + np.array([0, step, step + 1])
+        a, b, c = (fills.points[corner[:, k]] for k in range(3))
+        p = points[:, point].T
+        area = _turn(a, b, c)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            weights = np.stack([_turn(p, b, c), _turn(a, p, c), _turn(a, b, p)]) / area
+        weights = np.nan_to_num(weights, nan=-np.inf, posinf=-np.inf, neginf=-np.inf)
+        inside = weights.min(axis=0)
+        better = inside > best[here]
+        best[here[better]] = inside[better]
+        share = np.clip(weights[:, better], 0.0, 1.0)
+        share /= share.sum(axis=0)
+        found[point[better]] = np.einsum("kn,nkd->nd", share, fills.colours[corner[better]].astype(np.float64))
+    return found
+
+
+def _turn(a: Floats, b: Floats, c: Floats) -> Floats:
+    """(n,) twice the signed areas of triangles."""
+    one, other = b - a, c - a
+    return np.asarray(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0])
