@@ -25,9 +25,6 @@ from vectorplot.geometry.regions import areas_of, corners_of, polygons_of, union
 MARGIN_MM = 0.5
 """So far inside a polygon its border is not in the same pixel, from 72 dots per inch on, its seam included."""
 
-ROUNDING_MM = 1e-7
-"""Corners of what is cut lie on a grid of so many mm."""
-
 CLEARANCE_MM = 1e-3
 """What is cut away is wider by this than what lies above it: of two sides that nearly coincide nothing is left between
 them, which would be drawn as wide as a seam."""
@@ -40,7 +37,7 @@ def flattened(base: Fills, overlays: Sequence[Overlay], page_from_world: Floats)
     overlays: polygons inside those of base that they come after, in the order in which they lie on each other.
     page_from_world (4,4) as in Drawing. Polygons of one colour that follow each other on the same one become one. What
     lies on polygons that one can see through stays as it is.
-    Error: corners move by ROUNDING_MM at most; parts narrower than a few of GRID_MM are left out.
+    Error: parts narrower than a few of GRID_MM are left out.
     Degenerate: what is covered as a whole is left out.
     """
     opaque = (base.opacity >= 1.0) & (base.kind != FillKind.BACKGROUND)
@@ -137,10 +134,10 @@ def _cut_apart(base: Fills, overlay: Overlay, page_from_world: Floats) -> Overla
     inside = shapely.buffer(_regions(ground), -MARGIN_MM, join_style="mitre")
     above = _above(layers)
     hidden = shapely.covers(above, layers.region)
-    cover = shapely.difference(above, inside[of], grid_size=ROUNDING_MM)
+    cover = shapely.difference(above, inside[of])
     covered = np.flatnonzero(~shapely.is_empty(cover))
     region = layers.region.copy()
-    region[covered] = shapely.difference(region[covered], areas_of(cover[covered]), grid_size=ROUNDING_MM)
+    region[covered] = shapely.difference(region[covered], areas_of(cover[covered]))
     return _listed(replace(layers, region=region).some(np.flatnonzero(~hidden)), fills, page_from_world)
 
 
@@ -149,7 +146,11 @@ def _regions(fills: Fills) -> NDArray[np.object_]:
     import shapely
 
     raw = polygons_of(fills.points.T, fills.offsets)
-    return np.asarray(areas_of(shapely.make_valid(raw, method="structure", keep_collapsed=False)))
+    found = areas_of(shapely.make_valid(raw, method="structure", keep_collapsed=False))
+    # Where sides touch within the last digits the result may cross itself.
+    crossed = np.flatnonzero(~shapely.is_valid(found))
+    found[crossed] = shapely.buffer(found[crossed], 0.0)
+    return np.asarray(found)
 
 
 def _above(layers: _Layers) -> NDArray[np.object_]:
@@ -163,7 +164,7 @@ def _above(layers: _Layers) -> NDArray[np.object_]:
     from_top = np.repeat(ends, np.diff(ends, prepend=-1)) - np.arange(count)
     for depth in range(1, int(from_top.max(initial=0)) + 1):
         here = np.flatnonzero(from_top == depth)
-        result[here] = areas_of(shapely.union(result[here + 1], layers.region[here + 1], grid_size=ROUNDING_MM))
+        result[here] = areas_of(shapely.union(result[here + 1], layers.region[here + 1]))
     return np.asarray(areas_of(shapely.buffer(result, CLEARANCE_MM, join_style="mitre")))
 
 
@@ -184,8 +185,8 @@ def _mixed(layers: _Layers, fills: Fills) -> _Layers:
         below = np.flatnonzero(number < veil)
         below = below[own[below]]
         under = layers.some(below)
-        seen = areas_of(shapely.difference(under.region, _above(under), grid_size=ROUNDING_MM))
-        seen = areas_of(shapely.intersection(seen, layers.region[veil[below]], grid_size=ROUNDING_MM))
+        seen = areas_of(shapely.difference(under.region, _above(under)))
+        seen = areas_of(shapely.intersection(seen, layers.region[veil[below]]))
         share = layers.opacity[veil[below]]
         tint = _means(fills)[layers.source[veil[below]]]
         veiled = replace(
@@ -224,7 +225,7 @@ def _united(layers: _Layers, fills: Fills) -> _Layers:
     if new.all():
         return layers
     leaders = layers.some(np.flatnonzero(new))
-    return replace(leaders, region=unions(layers.region, np.cumsum(new) - 1, ROUNDING_MM))
+    return replace(leaders, region=unions(layers.region, np.cumsum(new) - 1, None))
 
 
 def _listed(layers: _Layers, fills: Fills, page_from_world: Floats) -> Overlay:
