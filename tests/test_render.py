@@ -85,7 +85,6 @@ def test_a_sphere_has_the_shades_of_its_true_normals(word):
     assert np.quantile(off, 0.99) < (4.0 if finish.sharpness < 50.0 else 12.0)
 
 
-@pytest.mark.capability("G8.5-fig18")
 def test_four_materials_make_four_pictures():
     images = {
         word: render(vp.Scene((sphere(word=word),), (SUN,)), CAMERA, size=(120, 90), background="black")

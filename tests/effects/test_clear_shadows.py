@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import vectorplot as vp
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.clear_shadows import clear_shadows
 from vectorplot.effects.decals import joined_decals
@@ -57,3 +58,40 @@ def test_what_is_wholly_clear_or_occludes_casts_none() -> None:
     items = (scene().items[0], glass("a", 0, "blue", 0.0), milky)
     view = look(Scene(items), Camera((3, -9, 15), (0, 0, 0)))
     assert len(clear_shadows(view, Scene(items), LIGHTS)) == 0
+
+
+@pytest.mark.capability("G6.6-transparent-shadow")
+@pytest.mark.parametrize("camera", [Camera((3, -9, 15), (0, 0, 0)), Camera((-9, -7, 6), (0, 0, 0)), Camera.view("iso")])
+@pytest.mark.parametrize("number", [1, 2])
+def test_painted_they_come_after_the_shadows_of_the_same_face_and_darken_it(camera: Camera, number: int) -> None:
+    lit = replace(scene(), lights=LIGHTS[:number])
+    (fills,) = vp.paint(lit, camera, page=vp.Page(120, 90, 4)).layers[0].fills
+    clear = np.flatnonzero(fills.kind == FillKind.CLEAR_SHADOW)
+    assert len(clear)
+    on_floor = fills.item == 0
+    shadows = np.flatnonzero(on_floor & (fills.kind == FillKind.SHADOW))
+    assert len(shadows) and shadows.max() < np.flatnonzero(on_floor & (fills.kind == FillKind.CLEAR_SHADOW)).min()
+    # Thin, and in the colour of the glass: what is seen of the face below stays, darker.
+    assert (fills.opacity[clear] < 0.6).all()
+    first = fills.colours[fills.offsets[:-1]].astype(int)
+    face = first[np.flatnonzero(on_floor & (fills.kind == FillKind.FACE))]
+    mixed = fills.opacity[clear, None] * first[clear] + (1 - fills.opacity[clear, None]) * face.max(axis=0)
+    assert (mixed.sum(axis=1) < face.max(axis=0).sum()).all()
+
+
+@pytest.mark.capability("G6.6-transparent-shadow")
+def test_for_pens_they_are_sparse_lines_after_the_shadows() -> None:
+    lit = replace(scene(), lights=LIGHTS[:1])
+    camera = Camera((3, -9, 15), (0, 0, 0))
+    page = vp.Page(120, 90, 4)
+    (painted,) = vp.paint(lit, camera, page=page).layers[0].fills
+    (fills,) = vp.paint(lit, camera, page=page, fills="visible").layers[0].fills
+    assert (fills.kind != FillKind.CLEAR_SHADOW).all() or (fills.opacity == 1.0).all()
+    sparse = np.flatnonzero((np.diff(fills.offsets) == 2) & (fills.item == 0))
+    solid = np.flatnonzero((np.diff(fills.offsets) > 2) & (fills.item == 0))
+    assert len(sparse) > 20 and sparse.min() > solid.max(), "nothing of the floor is drawn over them"
+    clear = np.flatnonzero((painted.kind == FillKind.CLEAR_SHADOW) & (painted.item == 0))
+    ends = fills.points[fills.offsets[sparse]]
+    boxes = [painted.points[painted.offsets[k] : painted.offsets[k + 1]] for k in clear]
+    inside = [((ends >= b.min(axis=0) - 0.3) & (ends <= b.max(axis=0) + 0.3)).all(axis=1) for b in boxes]
+    assert np.any(inside, axis=0).all(), "they lie in the shadows"

@@ -19,7 +19,9 @@ from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box, hard_shapes, numbered, random_convex_solids, rotated_boxes, rotation
 from vectorplot.testing.surfaces import bumpy_icosphere, grid_graph, torus_mesh
 from vectorplot.visibility.occluders import solid_items
+from vectorplot.visibility.painter.graphs import graph_triangles
 from vectorplot.visibility.painter.image_faces import drawn_faces
+from vectorplot.visibility.painter.slices import cut_into_slices
 from vectorplot.visibility.projected_faces import project_faces
 
 FLOOR = box((-5, -5, -1), (5, 5, 0))
@@ -98,7 +100,6 @@ FAMILIES = {
 
 @pytest.mark.capability("G6.3-shadow")
 @pytest.mark.capability("G6.3-multi")
-@pytest.mark.capability("G6.3-sliced-self")
 @pytest.mark.parametrize("family", FAMILIES)
 def test_grades_are_the_numbers_of_lights_that_rays_do_not_reach(family: str) -> None:
     wrong = answered = shaded = 0
@@ -112,6 +113,60 @@ def test_grades_are_the_numbers_of_lights_that_rays_do_not_reach(family: str) ->
         wrong, answered, shaded = wrong + bad, answered + sure, shaded + len(decals)
     assert wrong == 0
     assert answered > 0.95 * 12 * 400 and shaded > 100
+
+
+def height_field(columns: int, rows: int, phase: float) -> Mesh:
+    """The graph of a wavy function over a grid."""
+    x, y = np.meshgrid(np.linspace(-2, 2, columns + 1), np.linspace(-2, 2, rows + 1), indexing="ij")
+    z = 0.7 * np.sin(2.3 * x + phase) * np.cos(1.9 * y) + 0.2 * np.cos(5 * x * y)
+    return Mesh.from_triangles(np.stack([x, y, z], axis=-1).reshape(-1, 3), graph_triangles(columns, rows))
+
+
+def sliced_graph() -> Mesh:
+    """A graph over a disc cut into horizontal slices, as polygons that share no vertices."""
+    mesh = height_field(14, 14, 0.4)
+    inside = np.hypot(*mesh.vertices[:, :2].T) < 1.8
+    triangles = mesh.corners.reshape(-1, 3)
+    kept = triangles[inside[triangles].all(axis=1)]
+    levels = np.linspace(-0.8, 0.8, 9)
+    pieces, _, _ = cut_into_slices(mesh.vertices[kept.ravel()], np.arange(0, kept.size + 1, 3), 2, levels)
+    return Mesh(pieces.points, np.arange(len(pieces.points)), pieces.offsets)
+
+
+GOBLET = [(1.3, 0, 0), (0.2, 0, 0.3), (0.2, 0, 2), (1.0, 0, 2.6), (1.3, 0, 3.5), (1.1, 0, 4.5)]
+SPOOL = [(0, 0, -1), (1.5, 0, -0.6), (0.3, 0, 0), (1.2, 0, 0.9), (0, 0, 0.4)]
+SLICED = {
+    "a surface of revolution": lambda: revolution(GOBLET, 24, caps=()),
+    "a solid of revolution": lambda: revolution(SPOOL, 20),
+    "a part of one": lambda: revolution(GOBLET, 18, angle_deg=250, caps=()),
+    "a ring": lambda: torus_mesh(20, 10, 2.0, 0.8),
+    "a graph": lambda: height_field(14, 14, 0.0),
+    "a graph in slices": sliced_graph,
+}
+
+
+@pytest.mark.capability("G6.3-sliced-self")
+@pytest.mark.parametrize("kind", SLICED)
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_sliced_surfaces_shade_themselves_where_rays_say(kind: str, size: float) -> None:
+    """The light high, low, along the slices, amid them: critical slices are those at its own height."""
+    mesh = SLICED[kind]()
+    body = Mesh(size * mesh.vertices, mesh.corners, mesh.offsets)
+    scene = Scene((Item("BODY", body),))
+    low, high = body.bounds
+    middle, half = (low + high) / 2.0, (high - low) / 2.0
+    ways = [(0.3, -0.5, 1.0), (1.0, 0.4, 0.02), (-0.7, 0.6, 0.0), (0.2, 1.0, -0.6)]
+    lamps = [(0.0, 0.0, 0.3), (2.5, 0.4, 0.1), (0.3, 0.2, 3.0)]
+    shaded = 0
+    for number, light in enumerate(
+        [*(Light(way, parallel=True) for way in ways), *(Light(tuple(middle + half * np.array(p))) for p in lamps)]
+    ):
+        view = look(scene, Camera(tuple(middle + 6 * half * (0.4, -0.7, 0.5)), tuple(middle)))
+        decals = shadow_decals(view, (light,))
+        wrong, answered = wrong_points(view, (light,), decals, drawn(view), 250, number)
+        assert wrong == 0 and answered > 150
+        shaded += len(decals)
+    assert shaded > 20
 
 
 @pytest.mark.parametrize("name", hard_shapes())

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
+from vectorplot.geometry import separating_planes
 from vectorplot.geometry.convex_hulls import hull_mesh
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.separating_planes import (
@@ -16,6 +17,7 @@ from vectorplot.geometry.separating_planes import (
     Surroundings,
     own_box,
     separations,
+    separations_after_moves,
     spheres_power,
 )
 from vectorplot.testing.shapes import box, prism, rotation
@@ -173,3 +175,32 @@ def test_scale_changes_nothing():
         scaled = [Mesh(s.vertices * scale, s.corners, s.offsets) for s in shapes]
         assert (separations(Surroundings.of(scaled), first, second).info == info).all()
     assert len(separations(Surroundings.of([]), first[:0], second[:0]).info) == 0
+
+
+@pytest.mark.capability("G5.8-sepplane")
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("count", [0, 1, 3, 14])
+def test_what_keeps_shapes_apart_is_found_again_for_those_that_moved(seed, count, monkeypatch):
+    shapes, first, second = strewn(seed)
+    random = np.random.default_rng(100 + seed)
+    before = separations(Surroundings.of(shapes), first, second)
+    moved = np.zeros(len(shapes), dtype=bool)
+    moved[random.permutation(len(shapes))[:count]] = True
+    turned = []
+    for shape, moves in zip(shapes, moved, strict=True):
+        step = np.eye(4)
+        if moves:
+            step[:3, :3], step[:3, 3] = rotation(random), random.uniform(-3, 3, 3)
+        turned.append(shape.transformed(step) if moves else shape)
+    asked = []
+    monkeypatch.setattr(separating_planes, "separations", lambda a, i, j: asked.append(len(i)) or separations(a, i, j))
+    around = Surroundings.of(turned)
+    after = separations_after_moves(before, around, first, second, moved)
+    assert asked == [int((moved[first] | moved[second]).sum())], "no other pair is looked at"
+    fresh = separations(around, first, second)
+    assert np.array_equal(after.info, fresh.info) and np.array_equal(after.planes, fresh.planes, equal_nan=True)
+    assert np.array_equal(after.spheres, fresh.spheres)
+    if count == len(shapes):
+        assert (after.info != before.info).any(), "the old planes would not do"
+    with pytest.raises(InputError, match="as many"):
+        separations_after_moves(before, around, first[1:], second[1:], moved)

@@ -206,7 +206,6 @@ def test_an_unknown_colour_is_said_and_gray_is_used():
     assert one('CUBE colour "#ff8000" box 1 1 1').colour == "#ff8000"
 
 
-@pytest.mark.capability("G3.L-physical")
 def test_physical_properties():
     words = {"reflecting": "shiny", "matte": "mat"}
     for word in ("normal", "metallic", "shiny", "reflecting", "mat", "matte", "wood", "plastic", "mirror"):

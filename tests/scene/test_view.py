@@ -5,8 +5,10 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.projection import CoordinateSystem
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.pools import pools
+from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.view import View, look
+from vectorplot.shading.shadow_buffer import light_system
 from vectorplot.surfaces.torus import ImplicitTorus, Torus
 from vectorplot.testing.shapes import box, rotated_boxes
 from vectorplot.visibility.occluders import solid_items
@@ -54,13 +56,30 @@ def test_the_whole_pool_is_seen_as_point_by_point(camera: Camera) -> None:
 
 
 @pytest.mark.capability("G3.1-light-pool")
-def test_a_light_system_is_a_view_without_twist() -> None:
-    scene = rotated_boxes(6)
-    light = (4.0, -6.0, 9.0)
-    view = look(scene, Camera(light, (0.0, 0.0, 0.0)))
-    system = CoordinateSystem.of_light(light, (0.0, 0.0, 0.0))
-    depth = np.array([system.from_world(point)[2] for point in scene.vertices])
-    assert np.allclose(view.scale * view.depth, system.distance - depth, atol=1e-9)
+@pytest.mark.parametrize("count", [1, 2, 5])
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_every_lights_pool_is_what_it_sees_point_by_point(count: int, size: float) -> None:
+    """Those of all lights, the last one too (erratum G3-02), every point at its own place (erratum G3-05)."""
+    boxes = rotated_boxes(6)
+    meshes = [item.mesh for item in boxes.items]
+    items = (Item(f"B{k}", Mesh(size * m.vertices, m.corners, m.offsets)) for k, m in enumerate(meshes))
+    random = np.random.default_rng(count)
+    lights = tuple(
+        Light(tuple(size * random.uniform(20, 40, 3)), parallel=bool(k % 2), name=f"L{k}") for k in range(count)
+    )
+    scene = Scene(tuple(items), lights)
+    middle = tuple(scene.bounds.mean(axis=0))
+    for light in scene.lights:
+        place = tuple(np.add(middle, light.position)) if light.parallel else light.position
+        view = look(scene, Camera(place, middle, parallel=light.parallel))
+        system = light_system(light, scene.vertices)
+        for number, point in enumerate(scene.vertices):
+            x, y, z = system.from_world(point)
+            ahead = view.scale * (view.points[2, number] - view.target[2])
+            assert ahead == pytest.approx(z, abs=1e-9 * size)
+            scale = view.scale if light.parallel else view.scale * system.distance / (view.focus * view.scale)
+            assert scale * view.image[:, number] == pytest.approx((x, y), abs=1e-8 * size)
+        assert view.points.shape[1] == len(scene.vertices) == pools(scene).item_vertices[-1]
 
 
 @pytest.mark.capability("G3.1-screen-pool")

@@ -130,7 +130,6 @@ def test_totals_stay_in_the_palette(shares, cue):
     assert np.array_equal(numbers, exact)
 
 
-@pytest.mark.capability("G8.5-fig18")
 def test_four_finishes_shade_a_sphere_differently():
     u, v = np.meshgrid(np.linspace(0, np.pi, 40), np.linspace(0, 2 * np.pi, 80))
     normals = np.stack([np.sin(u) * np.cos(v), np.sin(u) * np.sin(v), np.cos(u)], axis=-1).reshape(-1, 3)

@@ -166,6 +166,24 @@ def separations(around: Surroundings, first: Ints, second: Ints, *, tolerance: f
     )
 
 
+def separations_after_moves(
+    before: Separations, around: Surroundings, first: Ints, second: Ints, moved: Bools
+) -> Separations:
+    """What keeps the same pairs apart after some shapes, moved (n,), have moved: only their pairs are looked at again.
+
+    before: what kept them apart; around: the shapes where they are now. A plane found for a pair holds until one of the
+    two moves. Errors: InputError unless there is one of before for each pair. Source: Glaeser, section 5.8.
+    """
+    if not len(before.info) == len(first) == len(second):
+        raise InputError(f"{len(first)} pairs need as many separations, not {len(before.info)}")
+    anew = np.flatnonzero(moved[first] | moved[second])
+    found = separations(around, first[anew], second[anew])
+    columns = (before.info.copy(), before.planes.copy(), before.spheres.copy())
+    for column, part in zip(columns, (found.info, found.planes, found.spheres), strict=True):
+        column[anew] = part
+    return Separations(*columns)
+
+
 def _between_boxes(around: Surroundings, one: Ints, two: Ints, limit: Floats) -> tuple[Bools, Floats]:
     """Which pairs have a side of the first one's box with the second one's box beyond it, and (p,4) its plane."""
     box = around.boxes[one]

@@ -1,0 +1,84 @@
+"""What the words of materials change in painted and rendered pictures, from scene files."""
+
+import numpy as np
+import pytest
+
+import vectorplot as vp
+from vectorplot.backends.raster import painted
+from vectorplot.io.scene_language import parse_scene
+
+WORDS = ("normal", "metallic", "shiny", "mat", "wood", "plastic", "transparent", "mirror")
+SAME = {"reflecting": "shiny", "matte": "mat"}
+FIG_18 = ("plastic", "metallic", "wood", "normal")
+
+SCENE = """camera eye 1 -10 4 field_of_vision 26
+light LAMP direction -3 -4 4 intensity 1
+BEHIND green box 3 0.2 3 translation -1.5 1.4 -1.5
+BODY orange {word} {body}
+"""
+BODIES = {
+    "a smooth body of revolution": "surface revolution curve \"0.75 + 0.3*sin(1.7*t)\" \"0\" \"t\" t -1.6 1.6",
+    "a body of revolution": "revolution meridian 0.1 0 -1.5, 1 0 -1.2, 0.8 0 0, 1.1 0 0.9, 0.3 0 1.4 order 32",
+    "a box": "box 1.4 1.4 1.4 translation -0.7 -0.7 -0.7",
+}
+
+
+def picture(verb: str, word: str, body: str) -> np.ndarray:
+    """(rows, columns, 3) what a verb shows of a scene with a body of this material."""
+    scene = parse_scene(SCENE.format(word=word, body=BODIES[body]))
+    if verb == "render":
+        return vp.render(scene, size=(96, 72), samples=1).pixels.astype(int)
+    drawing = vp.paint(scene, page=vp.Page(96, 72, 2), tolerance_mm=0.2)
+    return painted(np.full((144, 192, 3), 255, dtype=np.uint8), drawing).astype(int)
+
+
+@pytest.mark.capability("G3.L-physical")
+@pytest.mark.parametrize("verb", ["paint", "render"])
+@pytest.mark.parametrize("body", BODIES)
+def test_every_word_for_a_material_changes_the_shading(verb, body):
+    found = {word: picture(verb, word, body) for word in WORDS}
+    for number, one in enumerate(WORDS):
+        for other in WORDS[number + 1 :]:
+            # These two differ in the size of a highlight, which a few flat faces may not have.
+            if {one, other} == {"plastic", "shiny"} and "smooth" not in body:
+                continue
+            assert (np.abs(found[one] - found[other]).max(axis=2) > 2).mean() > 0.002, (one, other)
+    for word, meant in SAME.items():
+        assert np.array_equal(picture(verb, word, body), found[meant])
+
+
+@pytest.mark.capability("G3.L-physical")
+@pytest.mark.parametrize("verb", ["paint", "render"])
+def test_what_is_behind_is_seen_through_transparent_things_only(verb):
+    body = "a box"
+    hidden = {}
+    for word in WORDS[:-1]:
+        seen = []
+        for colour in ("green", "blue"):
+            text = SCENE.replace("BEHIND green", f"BEHIND {colour}")
+            scene = parse_scene(text.format(word=word, body=BODIES[body]))
+            scene = vp.Scene(scene.items, (), scene.camera)
+            if verb == "render":
+                pixels = vp.render(scene, size=(80, 60), samples=1).pixels
+            else:
+                pixels = painted(np.full((60, 80, 3), 255, np.uint8), vp.paint(scene, page=vp.Page(80, 60, 2)))
+            seen.append(pixels[29:32, 39:42].astype(int))
+        hidden[word] = np.abs(seen[0] - seen[1]).max() < 3
+    assert hidden == {word: word != "transparent" for word in WORDS[:-1]}
+
+
+@pytest.mark.capability("G8.5-fig18")
+@pytest.mark.parametrize("verb", ["paint", "render"])
+@pytest.mark.parametrize("body", ["a smooth body of revolution", "a body of revolution"])
+def test_plastic_metal_wood_and_normal_differ_as_their_laws_say(verb, body):
+    found = {word: picture(verb, word, body) for word in FIG_18}
+    shown = np.abs(found["normal"] - picture(verb, "transparent", body)).max(axis=2) > 6
+    levels = {word: one.sum(axis=2)[shown] for word, one in found.items()}
+    for number, one in enumerate(FIG_18):
+        for other in FIG_18[number + 1 :]:
+            assert np.abs(levels[one] - levels[other]).mean() > 6, (one, other)
+    # The smaller the exponent of the cosine, the more even; a highlight is small, and brighter than its surroundings.
+    assert np.std(levels["wood"]) < np.std(levels["normal"])
+    assert np.median(levels["metallic"]) < np.median(levels["wood"])
+    assert (levels["plastic"] > np.quantile(levels["plastic"], 0.5) + 150).mean() < 0.35
+    assert levels["plastic"].mean() < levels["normal"].mean()
