@@ -185,7 +185,7 @@ MISTAKES = [
     ("C curve circle level_lines 3", "'level_lines' is for surfaces only"),
     ("C curve circle isophotes 3 lit_by 1", "'isophotes' is for surfaces only"),
     ("C curve circle scale 0", "scale: a factor of 0"),
-    ("C curve circle scale 1e300 scale 1e300", "beyond the range of numbers"),
+    ("C curve circle scale 1e50 scale 1e50", "beyond the range of numbers"),
 ]
 
 

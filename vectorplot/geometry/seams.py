@@ -31,6 +31,8 @@ def joined_seams(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
     if not loose.any():
         return tuple(meshes)
     start, end = _boundary(corners, offsets, loose)
+    if not len(start):
+        return tuple(meshes)
     ends, number = np.unique(np.concatenate([start, end]), return_inverse=True)
     owner = np.searchsorted(first, ends, side="right") - 1
     points = np.concatenate([meshes[k].vertices[ends[owner == k] - first[k]] for k in np.unique(owner).tolist()])

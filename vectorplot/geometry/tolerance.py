@@ -17,3 +17,6 @@ ROUNDING = 16.0 * 2.0**-52
 
 INFINITE = float("inf")
 """Where parallel lines meet, and how far away the centre of a parallel projection is."""
+
+LARGEST = 1e60
+"""Numbers in files beyond this, and extents below its reciprocal, are refused: fifth powers still are numbers."""

@@ -150,7 +150,7 @@ class TextFile:
 
         Errors: InputError if the file ends before.
         """
-        section, missing = 0, counts[0]
+        section, missing = 0, next(iter(counts), 0)
         for lines in self.lines(comment=comment):
             at = 0
             while at < len(lines.first) and section < len(counts):

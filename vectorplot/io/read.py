@@ -14,11 +14,11 @@ from vectorplot.geometry.mesh import Ints, Mesh
 from vectorplot.geometry.repair import Mending, is_closed_oriented, mended
 from vectorplot.io.foreign import foreign_kind
 from vectorplot.io.mesh_file import MeshFile, check_file, shown
+from vectorplot.scene.extent import check_range
 from vectorplot.scene.scene import Item, Scene
 
 MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".glb")
 SCENE_SUFFIXES = (".scene", ".txt")
-_LARGEST = 1e60
 
 
 def read(path: str | os.PathLike[str]) -> Scene:
@@ -91,16 +91,8 @@ def _check_text(path: Path) -> None:
         raise InputError(kind, file=shown(path))
 
 
-def _check_extent(mesh: Mesh) -> None:
-    """An InputError for sizes whose powers leave the range of floating point numbers."""
-    largest = float(np.abs(mesh.bounds).max())
-    extent = float((mesh.bounds[1] / 2.0 - mesh.bounds[0] / 2.0).max())
-    if largest > _LARGEST or 0.0 < extent < 1.0 / _LARGEST:
-        raise InputError(f"coordinates up to {largest:g} and an extent of {extent:g} are out of range")
-
-
 def _mesh_scene(path: Path, content: MeshFile) -> Scene:
-    _check_extent(content.mesh)
+    check_range(content.mesh.bounds)
     parts, mending = _mended_parts(path.stem, content)
     items = tuple(Item(name, mesh) for name, mesh in parts if mesh.face_count)
     if not items:

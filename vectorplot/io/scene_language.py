@@ -8,6 +8,8 @@ from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 
+import numpy as np
+
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError, printable
 from vectorplot.geometry.mesh import Mesh
@@ -15,6 +17,7 @@ from vectorplot.io.scene_item import Draft, finished
 from vectorplot.io.scene_reader import ItemReader
 from vectorplot.io.scene_statements import read_camera, read_light, read_page
 from vectorplot.io.scene_words import SCENE_WORDS, Words
+from vectorplot.scene.extent import check_range
 from vectorplot.scene.scene import Item, Light, Scene
 
 MAX_FILE_BYTES = 64 << 20
@@ -76,8 +79,20 @@ class _Reader(ItemReader):
         numbers = {light.name: k for k, light in reversed(list(enumerate(self.lights)))} if self.lit else {}
         for place, draft in self.lit:
             self.items[place] = self.lit_item(self.items[place], draft, numbers)
+        self.check_range()
         shown = [item for place, item in enumerate(self.items) if place not in self.parts] if self.parts else self.items
         return replace(self.settings, items=tuple(shown), lights=tuple(self.lights))
+
+    def check_range(self) -> None:
+        """An InputError for polyhedra, as they stand in the scene, whose coordinates leave the range of numbers."""
+        bounds = [item.mesh.bounds for item in self.items if len(item.mesh.vertices)]
+        if not bounds:
+            return
+        low, high = np.array(bounds).transpose(1, 0, 2)
+        try:
+            check_range(np.stack([low.min(axis=0), high.max(axis=0)]))
+        except InputError as error:
+            raise InputError(error.cause, file=self.source.name) from None
 
     def statement(self, word: str) -> None:
         """camera, light, page, background or title, and what follows it."""

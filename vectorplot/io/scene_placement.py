@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from vectorplot.geometry.solids import IDENTITY
+from vectorplot.geometry.tolerance import LARGEST
 from vectorplot.io.scene_words import Words
 
 Placement = tuple[float, ...]
@@ -80,12 +81,14 @@ def read_scale(words: Words, at: int, owner: str, placement: Placement) -> tuple
 def read_matrix(words: Words, at: int, owner: str, placement: Placement) -> tuple[Placement, int]:
     """The twelve numbers of an affine map."""
     rows, end = words.numbers(at + 1, 12, owner, "matrix")
-    if not np.linalg.det(np.array(rows).reshape(3, 4)[:, :3]):
+    with np.errstate(divide="ignore"):
+        determinant = np.linalg.det(np.array(rows).reshape(3, 4)[:, :3])
+    if not determinant:
         words.fail(at, f"{owner}matrix: its determinant is 0")
     return _finite(words, at, owner, mapped(placement, tuple(rows))), end
 
 
 def _finite(words: Words, at: int, owner: str, placement: Placement) -> Placement:
-    if not all(map(math.isfinite, placement)):
+    if not all(abs(number) <= LARGEST for number in placement):
         words.fail(at, f"{owner}'{words.words[at]}' goes beyond the range of numbers")
     return placement

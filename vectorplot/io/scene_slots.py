@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from vectorplot.errors import InputError
+from vectorplot.geometry.tolerance import LARGEST
 from vectorplot.io.expressions import Expression, parse_expression
 from vectorplot.io.scene_formulas import Formulas
 from vectorplot.io.scene_words import Words
@@ -79,6 +80,8 @@ def read_number(words: Words, at: int, owner: str, what: str) -> tuple[float, in
     value = float(_expression(words, at, owner, what, ())())
     if not isfinite(value):
         words.fail(at, f"{owner}{what}: {words.shown(at)} is not a finite number")
+    if abs(value) > LARGEST:
+        words.fail(at, f"{owner}{what}: {words.shown(at)} is out of range, at most {LARGEST:g}")
     return value, at + 1
 
 

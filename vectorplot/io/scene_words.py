@@ -9,6 +9,7 @@ from math import isfinite
 from typing import NoReturn
 
 from vectorplot.errors import InputError
+from vectorplot.geometry.tolerance import LARGEST
 
 SOLID_WORDS = ("solid", "voll")
 FORM_WORDS = ("convex", *SOLID_WORDS, "hollow", "general", "concave")
@@ -88,7 +89,7 @@ class Words:
         """count finite numbers from a word on, commas between them allowed, and the word behind them."""
         try:
             values = list(map(float, self.words[index : index + count]))
-            if isfinite(sum(values)):
+            if -LARGEST <= min(values) and max(values) <= LARGEST and isfinite(sum(values)):
                 return values, index + count
         except ValueError:
             pass
@@ -101,13 +102,15 @@ class Words:
         return values, index
 
     def number(self, index: int, owner: str, what: str) -> float:
-        """The finite number that a word spells."""
+        """The finite number, at most LARGEST, that a word spells."""
         try:
             value = float(self.words[index])
         except ValueError:
             self.fail(index, f"{owner}expected a number for {what}, got {self.shown(index)}")
         if not isfinite(value):
             self.fail(index, f"{owner}{what}: {self.shown(index)} is not a finite number")
+        if abs(value) > LARGEST:
+            self.fail(index, f"{owner}{what}: {self.shown(index)} is out of range, at most {LARGEST:g}")
         return value
 
     def whole(self, index: int, owner: str, what: str) -> int:
@@ -125,7 +128,8 @@ class Words:
             while words[end] == ",":
                 end += size + 1
             columns = [list(map(float, words[index + k : end : size + 1])) for k in range(size)]
-            if isfinite(sum(map(sum, columns))) and len({len(column) for column in columns}) == 1:
+            within = -LARGEST <= min(map(min, columns)) and max(map(max, columns)) <= LARGEST
+            if within and isfinite(sum(map(sum, columns))) and len({len(column) for column in columns}) == 1:
                 return columns, end
         except (ValueError, IndexError):
             pass

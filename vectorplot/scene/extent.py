@@ -7,6 +7,7 @@ import numpy as np
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.tolerance import LARGEST
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 
 GRID = 64
@@ -25,6 +26,14 @@ LARGEST_SPREAD = 1e9
 """A surface or a curve that reaches so many times farther than half of its points do runs off to infinity."""
 
 
+def check_range(bounds: Floats) -> None:
+    """An InputError for bounds (2,3) of sizes whose powers leave the range of floating point numbers."""
+    largest = float(np.abs(bounds).max())
+    extent = float((bounds[1] / 2.0 - bounds[0] / 2.0).max())
+    if largest > LARGEST or 0.0 < extent < 1.0 / LARGEST:
+        raise InputError(f"coordinates up to {largest:g} and an extent of {extent:g} are out of range")
+
+
 def smooth_bounds(shape: Surface | ImplicitSurface | Curve) -> Floats:
     """(2,3) smallest and largest coordinates of a smooth surface or a curve; of an implicit surface those of its box.
 
@@ -36,17 +45,23 @@ def smooth_bounds(shape: Surface | ImplicitSurface | Curve) -> Floats:
     if is_parametrised(shape):
         return _parametrised_bounds(shape)
     if is_implicit(shape):
-        return np.array(shape.box, dtype=np.float64)
+        box = np.array(shape.box, dtype=np.float64)
+        if not np.isfinite(box).all():
+            raise InputError("the surface has no finite box")
+        check_range(box)
+        return box
     if is_curve(shape):
         return _curve_bounds(shape)
     raise InputError(f"a {type(shape).__name__} is no mesh, no surface and no curve")
 
 
 def _curve_bounds(curve: Curve) -> Floats:
-    points = curve.points(np.linspace(curve.start, curve.end, GRID * GRID + 1))
+    with np.errstate(invalid="ignore", over="ignore"):
+        points = curve.points(np.linspace(curve.start, curve.end, GRID * GRID + 1))
     points = points[np.isfinite(points).all(axis=1)]
     if not len(points):
         raise InputError("the curve has no finite point")
+    check_range(np.stack([points.min(axis=0), points.max(axis=0)]))
     _check_spread(points, "curve")
     return np.stack([points.min(axis=0), points.max(axis=0)])
 
@@ -67,6 +82,7 @@ def _parametrised_bounds(surface: Surface) -> Floats:
         if not len(points):
             raise InputError("the surface has no finite point")
     first = np.stack([points.min(axis=0), points.max(axis=0)])
+    check_range(first)
     _check_spread(points, "surface")
     # The outermost points towards the six sides: those with the smallest x, y, z, then those with the largest.
     best = np.concatenate([points.argmin(axis=0), points.argmax(axis=0)])
@@ -90,8 +106,8 @@ def _parametrised_bounds(surface: Surface) -> Floats:
 
 def _finite_points(surface: Surface, u: Floats, v: Floats) -> Floats:
     """Points, all three coordinates NaN where one of them is not finite."""
-    points = np.array(surface.points(u, v), dtype=np.float64)
     with np.errstate(invalid="ignore", over="ignore"):
+        points = np.array(surface.points(u, v), dtype=np.float64)
         total = points[..., 0] + points[..., 1] + points[..., 2]
     hole = ~np.isfinite(total)
     if hole.any():

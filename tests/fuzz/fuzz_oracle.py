@@ -1,0 +1,167 @@
+"""What must hold whatever the input: one line or a result, within seconds and megabytes that follow its size."""
+
+from __future__ import annotations
+
+import signal
+import threading
+import time
+import traceback
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from random import Random
+from tempfile import TemporaryDirectory
+from types import FrameType
+
+from fuzz_meshes import MESHES, mesh_bytes
+from fuzz_scenes import formula_text, scene_bytes
+
+import vectorplot as vp
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.io.expressions import parse_expression
+from vectorplot.io.info import describe
+from vectorplot.io.read import read
+
+READ_S, READ_S_A_MB = 2.0, 60.0
+"""Reading takes no more CPU seconds than this, and so many more for a megabyte."""
+
+VERB_S = 30.0
+"""A verb takes no more CPU seconds than this on a scene of a few small items."""
+
+
+class TooLong(BaseException):
+    """The time is up. No Exception, so that nothing in between takes it for one of its own."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What went wrong: in short, by which findings are told apart, and the whole story."""
+
+    cause: str
+    story: str
+
+
+@contextmanager
+def cpu_seconds(most: float) -> Iterator[None]:
+    """A block that is stopped by TooLong after so many CPU seconds; only the main thread can be stopped."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        raise TooLong
+
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, most)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
+
+
+def finding(work: Callable[[], object], seconds: float) -> Finding | None:
+    """What is wrong with some work: an error that is no InputError of one printable line, a warning of another library,
+    a text that could steer a terminal, or too long a time. None: nothing."""
+    try:
+        with warnings.catch_warnings(record=True) as caught, cpu_seconds(seconds):
+            warnings.simplefilter("error")
+            warnings.simplefilter("always", InputWarning)
+            work()
+    except InputError as error:
+        if not str(error).isprintable():
+            return Finding("an error that is no line of letters", repr(str(error)))
+        if len(str(error)) > 6000:
+            return Finding("a long line", str(error))
+    except TooLong:
+        return Finding("too long: " + _place(traceback.format_exc()), traceback.format_exc())
+    except Exception as error:
+        return Finding(f"{type(error).__name__}: " + _place(traceback.format_exc()), traceback.format_exc())
+    for entry in caught:
+        if not str(entry.message).isprintable():
+            return Finding("a warning that is no line of letters", repr(str(entry.message)))
+    return None
+
+
+def _place(story: str) -> str:
+    """The innermost place in the package, and the last line."""
+    lines = story.splitlines()
+    own = [line.strip() for line in lines if "/vectorplot/" in line and line.lstrip().startswith("File")]
+    return f"{own[-1].rpartition('/vectorplot/')[2] if own else '?'}: {lines[-1][:120]}"
+
+
+def described(path: Path) -> None:
+    """Read a file and describe it, as info does, in lines that show."""
+    for line in describe(read(path)):
+        if "\n" in line:
+            raise AssertionError(f"not one line: {line!r}")
+
+
+def drawn(path: Path) -> None:
+    """Draw a file on a small page, and write it."""
+    scene = read(path)
+    vp.save(vp.draw(scene, page=vp.Page(60.0, 60.0, 5.0), tolerance_mm=0.2), path.with_suffix(".svg"))
+
+
+def painted(path: Path) -> None:
+    """Paint a file on a small page, and write it."""
+    scene = read(path)
+    vp.save(vp.paint(scene, page=vp.Page(60.0, 60.0, 5.0), tolerance_mm=0.2), path.with_suffix(".svg"))
+
+
+def rendered(path: Path) -> None:
+    """Render a file in few pixels, and write it."""
+    vp.save(vp.render(read(path), size=(40, 40)), path.with_suffix(".png"))
+
+
+VERBS: dict[str, Callable[[Path], None]] = {"info": described, "draw": drawn, "paint": painted, "render": rendered}
+"""What is done with whole files, by name."""
+
+TARGETS = (*MESHES, "scene", "formula", *VERBS)
+"""Everything that a campaign attacks: the readers of six formats, the reader of formulas, and the verbs."""
+
+
+def attack(target: str, seed: str, folder: Path) -> tuple[Finding | None, bytes, str, float]:
+    """What one input, made of a seed, finds in a target; the input, the suffix of its file, and the CPU seconds."""
+    rng = Random(seed)
+    if target == "formula":
+        data, suffix = formula_text(rng).encode("utf-8", "surrogatepass"), "txt"
+    elif target in MESHES:
+        data, suffix = mesh_bytes(rng, target), target
+    elif target == "scene":
+        data, suffix = scene_bytes(rng), "scene"
+    elif rng.random() < 0.2:
+        suffix = rng.choice(list(MESHES))
+        data = mesh_bytes(rng, suffix)
+    else:
+        data, suffix = scene_bytes(rng, 0.1 if target == "paint" else 0.25), "scene"
+    start = time.process_time()
+    found = judged(target, data, suffix, folder)
+    return found, data, suffix, time.process_time() - start
+
+
+def judged(target: str, data: bytes, suffix: str, folder: Path) -> Finding | None:
+    """What is wrong with what a target does with the bytes of a file."""
+    reading = READ_S + READ_S_A_MB * len(data) / 1e6
+    if target == "formula":
+        return finding(lambda: _used(data.decode("utf-8", "surrogatepass")), reading)
+    path = folder / f"input.{suffix}"
+    path.write_bytes(data)
+    return finding(lambda: VERBS.get(target, read)(path), reading + VERB_S * (target in VERBS and target != "info"))
+
+
+def _used(text: str) -> None:
+    """A formula read, evaluated, and derived twice."""
+    expression = parse_expression(text, ("x", "y"))
+    expression(x=0.5, y=-1.0)
+    if len(expression.nodes) < 60:
+        expression.derivative("x").derivative("y")(x=[0.0, 2.0], y=1.0)
+
+
+def attacks(target: str, seeds: Iterator[str]) -> Iterator[tuple[str, Finding | None, bytes, str, float]]:
+    """The attacks on a target with some seeds, each with its seed."""
+    with TemporaryDirectory() as folder:
+        for seed in seeds:
+            yield seed, *attack(target, seed, Path(folder))

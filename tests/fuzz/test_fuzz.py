@@ -1,0 +1,79 @@
+"""Hostile files of every format, and hostile scenes for every verb: one line or a result, within bounds.
+
+A fixed part of the campaign that campaign.py runs for hours: the same files every time, a few seconds. hypothesis runs
+the same generators, so that what it finds shrinks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from random import Random
+
+import pytest
+from fuzz_meshes import MESHES, mesh_bytes
+from fuzz_oracle import TARGETS, VERBS, attack, finding, judged
+from fuzz_scenes import formula_text, scene_bytes
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from vectorplot.io.read import read
+
+COUNTS = {**dict.fromkeys(TARGETS, 250), "formula": 600, "draw": 16, "paint": 12, "render": 20, "info": 100}
+"""How many files of its stream each target gets in the normal tests."""
+
+SHRINKING = settings(
+    max_examples=25,
+    deadline=None,
+    derandomize=True,
+    database=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow, HealthCheck.data_too_large],
+)
+
+
+@pytest.mark.hard(53)
+@pytest.mark.parametrize("target", TARGETS)
+def test_hostile_input_gives_one_line_or_a_result(tmp_path: Path, target: str) -> None:
+    for number in range(COUNTS[target]):
+        found, data, suffix, _ = attack(target, f"test {number}", tmp_path)
+        assert found is None, f"{target}, 'test {number}', .{suffix}: {data[:2000]!r}\n{found.story}"
+
+
+@pytest.mark.parametrize("suffix", list(MESHES))
+@SHRINKING
+@given(rng=st.randoms(use_true_random=False))
+def test_mesh_files_that_shrink(tmp_path: Path, suffix: str, rng: Random) -> None:
+    assert judged(suffix, mesh_bytes(rng, suffix), suffix, tmp_path) is None
+
+
+@SHRINKING
+@given(rng=st.randoms(use_true_random=False))
+def test_scene_files_that_shrink(tmp_path: Path, rng: Random) -> None:
+    assert judged("scene", scene_bytes(rng), "scene", tmp_path) is None
+
+
+@SHRINKING
+@given(rng=st.randoms(use_true_random=False))
+def test_formulas_that_shrink(tmp_path: Path, rng: Random) -> None:
+    assert judged("formula", formula_text(rng).encode("utf-8", "surrogatepass"), "txt", tmp_path) is None
+
+
+@pytest.mark.parametrize("suffix", [*MESHES, "scene"])
+def test_arbitrary_bytes(tmp_path: Path, suffix: str) -> None:
+    rng = Random(suffix)
+    for _ in range(60):
+        path = tmp_path / f"input.{suffix}"
+        path.write_bytes(bytes(rng.randrange(256) for _ in range(rng.randrange(1, 200))))
+        assert finding(lambda path=path: read(path), 2.0) is None
+
+
+def test_the_oracle_finds_what_it_is_for(tmp_path: Path) -> None:
+    def endless() -> None:
+        while True:
+            pass
+
+    def lie() -> None:
+        raise KeyError("x")
+
+    too_long, wrong = finding(endless, 0.05), finding(lie, 1.0)
+    assert too_long is not None and too_long.cause.startswith("too long")
+    assert wrong is not None and wrong.cause.startswith("KeyError")
+    assert set(VERBS) <= set(TARGETS)
