@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
+from vectorplot.curves.unbounded import LOOKS, Limits, limits_of
 from vectorplot.curves.user_function import Numbers, UserFunction, user_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats
@@ -18,6 +19,9 @@ from vectorplot.geometry.mesh import Bools, Floats
 # Derivatives at s of the five Lagrange polynomials through -2, ..., 2, as coefficients of s^3, s^2, s, 1.
 _SLOPES = np.array([[2, -3, -1, 1], [-8, 6, 16, -8], [12, 0, -30, 0], [-8, -6, 16, 8], [2, 3, -1, -1]]) / 12.0
 _NODES = np.arange(-2.0, 3.0)
+
+FEW_LOOKS = 15
+"""Places along each side at which a function is looked at where every place is a call."""
 
 
 @dataclass(frozen=True)
@@ -53,8 +57,9 @@ class Range:
 class NumericFunction:
     """A user's function with its derivatives. Parameters and results have any shape; vectors stand on the last axis.
 
-    inside: where the function is asked at all, elsewhere it is NaN. A function that is not finite is NaN there, and so
-    are its derivatives; beside a hole they are taken from the other side.
+    inside: where the function is asked at all, elsewhere it is NaN. limits: smallest and largest values (k,); where one
+    is beyond them the function counts as not finite. A function that is not finite is NaN there, and so are its
+    derivatives; beside a hole they are taken from the other side.
     Error: first derivatives by complex step to rounding, if the function takes complex numbers and is analytic in them
     (tried out at probes); else by differences of fourth order, about 1e-12 of the largest for functions that turn a
     few times over the range. Second derivatives: differences of first ones, about 1e-12 and 1e-9.
@@ -63,10 +68,15 @@ class NumericFunction:
     function: UserFunction
     ranges: tuple[Range, ...]
     inside: Callable[..., Bools] | None = None
+    limits: Limits | None = None
 
     def values(self, *parameters: Floats) -> Floats:
         """(..., k) values, NaN in holes."""
         return self._shaped(self._values, parameters)
+
+    def is_finite(self, *parameters: Floats) -> Bools:
+        """(...,) whether the function has a value."""
+        return np.asarray(np.isfinite(self.values(*parameters)).all(axis=-1), dtype=np.bool_)
 
     def derivatives(self, axis: int, *parameters: Floats) -> Floats:
         """(..., k) derivatives by one parameter."""
@@ -118,7 +128,11 @@ class NumericFunction:
 
     def _values(self, parameters: Sequence[Floats]) -> Floats:
         result = np.asarray(self._asked(parameters).real, dtype=np.float64)
-        return np.where(np.isfinite(result).all(axis=-1, keepdims=True), result, np.nan)
+        known = np.isfinite(result)
+        if self.limits is not None:
+            with np.errstate(invalid="ignore"):
+                known &= (result >= self.limits[0]) & (result <= self.limits[1])
+        return np.where(known.all(axis=-1, keepdims=True), result, np.nan)
 
     def _slopes(self, axis: int, parameters: list[Floats]) -> Floats:
         of = self._complex(axis) if self.by_complex_step else self._by_differences(axis, self.steps[axis])
@@ -228,6 +242,13 @@ def numeric_function(
     if inside is not None:
         probes = _probes_inside(ranges, inside)
     return NumericFunction(user_function(function, components, probes, name=name), tuple(ranges), inside)
+
+
+def cut_off(function: NumericFunction) -> NumericFunction:
+    """A function of two parameters, cut off beyond its limits (see `limits_of`) if it runs to infinity."""
+    low, high = (np.array([getattr(r, name) for r in function.ranges]) for name in ("start", "end"))
+    looks = FEW_LOOKS if function.function.one_at_a_time else LOOKS
+    return replace(function, limits=limits_of(function.values, low, high, looks=looks))
 
 
 def _probes_inside(ranges: Sequence[Range], inside: Callable[..., Bools]) -> list[Floats]:

@@ -19,19 +19,20 @@ ALIGNED = 0.2
 LEVELS = 16
 """How often triangles are cut at most."""
 
-MOST_TRIANGLES = 1 << 20
-"""Triangles to which a band is cut at most."""
+STUBBORN = 2
+"""How often a triangle at a singular point of the surface is cut: there slopes never agree."""
 
 
 @dataclass(frozen=True, eq=False)
 class Nodes:
     """Points with a condition: points (n,3); fixed (n,3): coordinates that stay as they are; values (n,) and slopes
-    (n,3) of the condition."""
+    (n,3) of the condition; gradients (n,3) of the function whose zeros the surface is."""
 
     points: Floats
     fixed: Bools
     values: Floats
     slopes: Floats
+    gradients: Floats
 
     def joined(self, more: Nodes) -> Nodes:
         """These and more, numbered on."""
@@ -40,22 +41,27 @@ class Nodes:
             np.concatenate([self.fixed, more.fixed]),
             np.concatenate([self.values, more.values]),
             np.concatenate([self.slopes, more.slopes]),
+            np.concatenate([self.gradients, more.gradients]),
         )
 
     def chosen(self, which: Ints) -> Nodes:
         """Some of them."""
-        return Nodes(self.points[which], self.fixed[which], self.values[which], self.slopes[which])
+        own = (self.points, self.fixed, self.values, self.slopes, self.gradients)
+        return Nodes(*(column[which] for column in own))
 
 
 @dataclass(frozen=True, eq=False)
 class Band:
     """Triangles (t,3) of nodes around a curve; source (t,): the one of the mesh each belongs to; open (k,): those that
-    leave several arcs possible still, at the finest resolution."""
+    leave several arcs possible still, at the finest resolution; singular (s,): those at singular points of the surface,
+    where no resolution tells more; complete: whether no more triangles were called for than were allowed."""
 
     nodes: Nodes
     triangles: Ints
     source: Ints
     open: Ints
+    singular: Ints
+    complete: bool
 
 
 def curve_band(
@@ -65,11 +71,13 @@ def curve_band(
     tangential: Callable[[Floats, Ints], Floats],
     *,
     finest: float,
+    most: int,
 ) -> Band:
     """The band of triangles (t,3) that the curve on which values vanish can reach.
 
     Where slopes at the corners of a triangle point different ways, and values are small enough that they could vanish
-    inside, it is cut until its sides are shorter than finest. middles(starts, ends, fixed) makes nodes between the ends
+    inside, it is cut until its sides are shorter than finest, or there are more than most of them; or STUBBORN times if
+    it stays at a singular point of the surface. middles(starts, ends, fixed) makes nodes between the ends
     of sides; tangential(slopes (k,3,3) at corners, source (k,)) are the parts of slopes in the surface.
     """
     source = np.arange(len(triangles))
@@ -77,19 +85,33 @@ def curve_band(
     triangles, source = triangles[reached], source[reached]
     used, corners = np.unique(triangles, return_inverse=True)
     nodes, triangles = nodes.chosen(used), corners.reshape(-1, 3)
+    stuck = np.zeros(len(triangles), dtype=np.intp)
+    complete = True
     for level in range(LEVELS + 1):
         slopes = tangential(nodes.slopes[triangles], source)
         unclear = ~_aligned(slopes) | _grazes_border(nodes, triangles, slopes)
         odd = _reached(nodes, triangles, slopes, 1.0) & unclear
-        wide = _widths(nodes, triangles) > finest
-        if not (odd & wide).any() or len(triangles) > MOST_TRIANGLES or level == LEVELS:
+        stuck = np.where(_at_singular_points(nodes, triangles), stuck + 1, 0)
+        goes_on = odd & (_widths(nodes, triangles) > finest) & (stuck <= STUBBORN)
+        complete = len(triangles) + 3 * int(goes_on.sum()) <= most
+        if not goes_on.any() or not complete or level == LEVELS:
             break
-        split = split_at_middles(triangles, odd & wide, len(nodes.points))
+        split = split_at_middles(triangles, goes_on, len(nodes.points))
         ends = nodes.points[split.low], nodes.points[split.high]
         fixed = nodes.fixed[split.low] & nodes.fixed[split.high]
         nodes = nodes.joined(middles(*ends, fixed))
-        triangles, source = split.triangles, source[split.parent]
-    return Band(nodes, triangles, source, np.flatnonzero(odd))
+        triangles, source, stuck = split.triangles, source[split.parent], stuck[split.parent]
+    singular = odd & (stuck > STUBBORN)
+    return Band(nodes, triangles, source, np.flatnonzero(odd & ~singular), np.flatnonzero(singular), complete)
+
+
+def _at_singular_points(nodes: Nodes, triangles: Ints) -> Bools:
+    """(t,) triangles at whose corners gradients differ by more than the smallest of them is long: the finer a triangle
+    on a regular surface is, the less do they differ; beside a singular point they do on triangles of all sizes."""
+    g = nodes.gradients[triangles]
+    least = (g * g).sum(axis=2).min(axis=1)
+    apart = g - np.roll(g, 1, axis=1)
+    return np.asarray(least < (apart * apart).sum(axis=2).max(axis=1), dtype=np.bool_)
 
 
 def _reached(nodes: Nodes, triangles: Ints, slopes: Floats, factor: float) -> Bools:

@@ -11,6 +11,7 @@ from vectorplot.features.conditions import Condition
 from vectorplot.features.poles import through_poles
 from vectorplot.features.surface_curves import SurfaceCurves
 from vectorplot.features.zero_manifold import zero_manifold_of_f_uv
+from vectorplot.geometry.budget import USUAL, Budget
 from vectorplot.geometry.mesh import Floats
 from vectorplot.surfaces.surface import Domain, Surface
 
@@ -33,7 +34,7 @@ class Tracing:
     columns, rows: cells of the grid. resolution: the part of the domain down to which cells are subdivided.
     tolerance: points are put in until chords stay within this distance of the true curve; None: a thousandth of the
     extent of the surface. picture: takes points (k,3) to where the tolerance is measured, (k,2) or (k,3), for example
-    millimetres on a page; without it in space.
+    millimetres on a page; without it in space. budget: how much work it may be.
     """
 
     columns: int = 47
@@ -41,6 +42,7 @@ class Tracing:
     resolution: float = 1e-3
     tolerance: float | None = None
     picture: Picture | None = None
+    budget: Budget = USUAL
 
 
 def extent(surface: Surface) -> tuple[float, float]:
@@ -110,6 +112,7 @@ def curves_where_zero(
         resolution=tracing.resolution,
         positions=space,
         tolerance=tolerance or None,
+        budget=tracing.budget,
     )
     curves = through_poles(surface, found)
     own = curves.points

@@ -33,6 +33,7 @@ from vectorplot.features.implicit_tracing import (
     no_curves,
 )
 from vectorplot.features.zero_crossings import bracketed_zeros
+from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.geometry.outline import concat
@@ -250,9 +251,11 @@ def _border(
         plane = MeetsPlane(np.eye(3)[axis], float(box[side, axis]))
         curve = curve_in_space(surface, plane, extent)
         tolerance = 1e-3 * extent if tracing.tolerance is None else tracing.tolerance
-        points, last, unsure = refined_chords(curve, points, last, tolerance, tracing.picture)
+        most = tracing.budget.points
+        points, last, unsure, enough = refined_chords(curve, points, last, tolerance, tracing.picture, most)
         points[:, axis] = box[side, axis]
         doubts = (f"{unsure} chords of a border could not be refined",) if unsure else ()
+        doubts += () if enough else (unresolved("borders are off by more than the tolerance"),)
         families.append(curves_of_lines(points, last, branches.closed, doubts=doubts))
     return all_curves(families)
 

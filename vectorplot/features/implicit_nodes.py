@@ -10,7 +10,7 @@ from vectorplot.features.curve_band import Band
 from vectorplot.features.implicit_refinement import CurveInSpace
 from vectorplot.features.polygonize import checked_values, onto_surface
 from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
-from vectorplot.geometry.weld import close_points
+from vectorplot.geometry.weld import close_points, one_each
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface
 
@@ -60,7 +60,7 @@ def special_points(curve: CurveInSpace, mesh: Mesh, band: Band) -> SpecialPoints
     finest = float(np.median(np.linalg.norm(triangles - np.roll(triangles, 1, axis=1), axis=2).max(axis=1)))
     middles = triangles.mean(axis=1)
     middles = middles[_apart(middles, singular, 2.0 * ROUND_SINGULAR * longest)]
-    heads = np.unique(close_points(middles, 3.0 * finest)) if len(middles) else np.zeros(0, dtype=np.intp)
+    heads = one_each(middles, 3.0 * finest)
     found, settled, ratio = _critical(curve, middles[heads], 10.0 * finest)
     zero = settled & (np.abs(curve.values(found)) <= DOUBLE * curve.size)
     crossing, point = zero & (ratio < -SHALLOW), zero & (ratio > SHALLOW)
@@ -83,7 +83,7 @@ def singular_points(surface: ImplicitSurface, mesh: Mesh, reach: float) -> Float
         flat = mesh.vertices[~(steep > 0.2 * usual)]
         if not len(flat):
             return np.zeros((0, 3))
-        start = flat[np.unique(close_points(flat, 0.5 * reach))]
+        start = flat[one_each(flat, 0.5 * reach)]
         x = start.copy()
         for _ in range(ROUNDS):
             bends = np.nan_to_num(hessians(surface, x))

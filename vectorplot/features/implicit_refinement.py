@@ -128,17 +128,18 @@ def curve_in_space(surface: ImplicitSurface, condition: SpatialCondition, size: 
 
 
 def refined_chords(
-    curve: CurveInSpace, points: Floats, last: Bools, tolerance: float, picture: Picture | None
-) -> tuple[Floats, Bools, int]:
-    """Polylines with points of the curve put in until chords stay within tolerance of it, measured in the picture.
+    curve: CurveInSpace, points: Floats, last: Bools, tolerance: float, picture: Picture | None, most: int
+) -> tuple[Floats, Bools, int, bool]:
+    """Polylines with points of the curve put in until chords stay within tolerance of it, measured in the picture, or
+    there are most of them.
 
-    points (p,3), last (p,): the point is the last of its polyline. Returns both anew, and the number of chords that
-    could not be refined. Where the picture is not finite (behind an eye) refinement ends.
+    points (p,3), last (p,): the point is the last of its polyline. Returns both anew, the number of chords that could
+    not be refined, and whether points sufficed. Where the picture is not finite (behind an eye) refinement ends.
     """
     open_, unsure = ~last, 0
     for _ in range(HALVINGS):
         first = np.flatnonzero(open_)
-        if not len(first):
+        if not len(first) or len(points) > most:
             break
         a, b = points[first], points[first + 1]
         probes = np.concatenate([a + p * (b - a) for p in PROBES])
@@ -155,7 +156,7 @@ def refined_chords(
         at = np.repeat(split + 1, 2)
         points = np.insert(points, at, moved[:, bad].transpose(1, 0, 2).reshape(-1, 3), axis=0)
         last, open_ = np.insert(last, at, False), np.insert(open_, at, True)
-    return points, last, unsure
+    return points, last, unsure, not open_.any()
 
 
 def deviation(picture: Picture | None, a: Floats, b: Floats, probes: Floats) -> tuple[Floats, Floats]:

@@ -15,6 +15,7 @@ from vectorplot.features.implicit_nodes import joined_at_nodes, special_points
 from vectorplot.features.implicit_refinement import CurveInSpace, Picture, curve_in_space, refined_chords
 from vectorplot.features.level_segments import level_segments
 from vectorplot.features.polygonize import onto_surface, settled_mesh
+from vectorplot.geometry.budget import USUAL, Budget, unresolved
 from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
 from vectorplot.geometry.outline import concat
 from vectorplot.surfaces.surface import ImplicitSurface
@@ -38,7 +39,7 @@ class ImplicitTracing:
     which triangles are cut where the curve is not clear; closed curves smaller than that may be missed.
     tolerance: points are put in until chords stay within this distance of the true curve; None: a thousandth of the
     extent of the surface. picture: takes points (k,3) to where the tolerance is measured, (k,2) or (k,3), for example
-    millimetres on a page; without it in space.
+    millimetres on a page; without it in space. budget: how much work it may be.
     """
 
     cells: int = 48
@@ -46,6 +47,7 @@ class ImplicitTracing:
     resolution: float = 1e-3
     tolerance: float | None = None
     picture: Picture | None = None
+    budget: Budget = USUAL
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,14 +133,21 @@ def curves_in_space(
         lambda starts, ends, fixed: _middles(curve, starts, ends, fixed, area),
         lambda slopes, source: slopes,
         finest=tracing.resolution * extent,
+        most=tracing.budget.triangles,
     )
+    if not band.complete:
+        doubts += (unresolved("a curve on an implicit surface is finer than its triangles"),)
+    if len(band.singular):
+        doubts += ("the gradient vanishes along lines: curves are known to a thousandth there",)
     special = special_points(curve, mesh, band)
     points, pairs, spans = _crossings(curve, band)
     tolerance = 1e-3 * extent if tracing.tolerance is None else tracing.tolerance
     lines, last, closed, dots = _polylines(points, pairs, spans, DOT * extent)
     lines, last, closed = without_folds(lines, last, closed)
     lines, last, closed = joined_at_nodes(lines, last, closed, special)
-    lines, last, unsure = refined_chords(curve, lines, last, tolerance, tracing.picture)
+    lines, last, unsure, enough = refined_chords(curve, lines, last, tolerance, tracing.picture, tracing.budget.points)
+    if not enough:
+        doubts += (unresolved("curves of an implicit surface are off by more than the tolerance"),)
     if unsure:
         doubts += (f"{unsure} chords of a curve on an implicit surface could not be refined",)
     if len(special.unclear):
@@ -168,8 +177,15 @@ def _nodes(curve: CurveInSpace, mesh: Mesh) -> tuple[Nodes, bool]:
     small = np.asarray((np.abs(w) <= FLAT * curve.size)[mesh.corners.reshape(-1, 3)].all(axis=1))
     area = bool(small.any()) and _is_area(curve, mesh, small)
     near = np.abs(w) <= _slack(curve, area)
-    slopes = curve.slopes(points)[1]
-    return Nodes(points, box_sides(curve.surface, points), np.where(near, 0.0, w), slopes), area
+    fixed = box_sides(curve.surface, points)
+    return Nodes(points, fixed, np.where(near, 0.0, w), *_slopes_and_gradients(curve, points)), area
+
+
+def _slopes_and_gradients(curve: CurveInSpace, points: Floats) -> tuple[Floats, Floats]:
+    """(n,3) gradients of the condition along the surface, and those of F; zero where they are not finite."""
+    with np.errstate(all="ignore"):
+        gradients = np.nan_to_num(curve.surface.gradients(points), posinf=0.0, neginf=0.0)
+    return curve.slopes(points)[1], gradients
 
 
 def _is_area(curve: CurveInSpace, mesh: Mesh, small: Bools) -> bool:
@@ -193,7 +209,7 @@ def _middles(curve: CurveInSpace, starts: Floats, ends: Floats, fixed: Bools, ar
     reach = np.linalg.norm(ends - starts, axis=1) / 2.0
     on = onto_surface(curve.surface, (starts + ends) / 2.0, reach=reach, fixed=fixed)[0]
     w = curve.values(on)
-    return Nodes(on, fixed, np.where(np.abs(w) <= _slack(curve, area), 0.0, w), curve.slopes(on)[1])
+    return Nodes(on, fixed, np.where(np.abs(w) <= _slack(curve, area), 0.0, w), *_slopes_and_gradients(curve, on))
 
 
 def _crossings(curve: CurveInSpace, band: Band) -> tuple[Floats, Ints, Floats]:

@@ -16,6 +16,9 @@ from vectorplot.surfaces.surface import ImplicitSurface
 FALLS = 1e-3
 """Part of the values beside a change of sign below which F must come there; at a pole or a jump it does not."""
 
+MOST_TRIANGLES = 1 << 20
+"""Triangles to which faces are cut at most."""
+
 ROUNDS = 12
 """Steps of Newton's method in the plane of a face."""
 
@@ -49,6 +52,7 @@ def mesh_intersection(
         lambda a, b, fixed: _nodes(surface, (a + b) / 2.0),
         lambda slopes, source: _in_plane(slopes, normal[source][:, None]),
         finest=resolution * faces.extent,
+        most=MOST_TRIANGLES,
     )
     found = level_segments(band.triangles, band.nodes.values)
     a, b = band.nodes.points[found.low], band.nodes.points[found.high]
@@ -64,7 +68,9 @@ def _nodes(surface: ImplicitSurface, points: Floats) -> Nodes:
     w = checked_values(surface, points)
     w[~np.isfinite(w)] = np.nan
     with np.errstate(all="ignore"):
-        return Nodes(points, np.zeros(points.shape, dtype=np.bool_), w, surface.gradients(points))
+        slopes = surface.gradients(points)
+    # The faces are planes, whatever F does.
+    return Nodes(points, np.zeros(points.shape, dtype=np.bool_), w, slopes, np.zeros(points.shape))
 
 
 def _in_plane(vectors: Floats, normal: Floats) -> Floats:

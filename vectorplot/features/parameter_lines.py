@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +11,7 @@ from vectorplot.errors import InputError
 from vectorplot.features.curve_tracing import Tracing, extent, wrapped
 from vectorplot.features.poles import poles
 from vectorplot.features.surface_curves import SurfaceCurves, no_curves, together
+from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.surfaces.surface import Domain, Surface
 
@@ -21,6 +22,14 @@ PROBES = (0.35, 0.7)
 
 MISSED = 0.8
 """Part of the largest deviation of a parabola that the probes see at least."""
+
+
+JUMP = 1e-8
+"""Part of the domain over which a surface jumps where points are farther apart than the tolerance: on the way there the
+parts of the domain were cut by three at least fifteen times."""
+
+LINES_A_BUDGET = 16
+"""Lines to which the budget's points go; more lines may have more points, each as many as one of these."""
 
 
 def parameter_lines(surface: Surface, columns: int, rows: int, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
@@ -88,8 +97,9 @@ def _lines(surface: Surface, axis: int, values: Floats, tracing: Tracing) -> Sur
         return no_curves()
     t = domain.grid(24, 24)[1 - axis]
     bundle = _Bundle(np.repeat(values, 25), np.tile(t, len(values)), np.tile(np.arange(25) == 24, len(values)))
-    bundle = _refined(surface, axis, _without_holes(surface, axis, bundle), tracing, size)
-    return _without_points(_curves(surface, axis, bundle), size)
+    bundle, enough = _refined(surface, axis, _without_holes(surface, axis, bundle), tracing, size)
+    doubts = () if enough else (unresolved("parameter lines or borders are off by more than the tolerance"),)
+    return replace(_without_points(_curves(surface, axis, bundle), size), doubts=doubts)
 
 
 def _at(surface: Surface, axis: int, fixed: Floats, running: Floats) -> Floats:
@@ -117,8 +127,9 @@ def _without_holes(surface: Surface, axis: int, bundle: _Bundle) -> _Bundle:
     return _Bundle(owner[kept], running[kept], last[kept])
 
 
-def _refined(surface: Surface, axis: int, bundle: _Bundle, tracing: Tracing, size: float) -> _Bundle:
-    """The lines with points put in until chords stay within the tolerance."""
+def _refined(surface: Surface, axis: int, bundle: _Bundle, tracing: Tracing, size: float) -> tuple[_Bundle, bool]:
+    """The lines with points put in until chords stay within the tolerance, interrupted where the surface jumps; and
+    whether the budget's points sufficed."""
     tolerance = 1e-3 * size if tracing.tolerance is None else tracing.tolerance
     fixed, running, last = bundle.fixed, bundle.running, bundle.last
 
@@ -126,10 +137,11 @@ def _refined(surface: Surface, axis: int, bundle: _Bundle, tracing: Tracing, siz
         points = _at(surface, axis, fixed, running)
         return points if tracing.picture is None else tracing.picture(points)
 
+    most = tracing.budget.points * max(1.0, int(last.sum()) / LINES_A_BUDGET)
     open_ = ~last
     for _ in range(20 if tolerance > 0.0 else 0):
         first = np.flatnonzero(open_)
-        if not len(first):
+        if not len(first) or len(fixed) > most:
             break
         start, end, own = running[first], running[first + 1], fixed[first]
         a, b = places(own, start), places(own, end)
@@ -142,7 +154,18 @@ def _refined(surface: Surface, axis: int, bundle: _Bundle, tracing: Tracing, siz
         at = np.repeat(split + 1, 2)
         running, fixed = np.insert(running, at, new), np.insert(fixed, at, np.repeat(own[bad], 2))
         last, open_ = np.insert(last, at, False), np.insert(open_, at, True)
-    return _Bundle(fixed, running, last)
+    short = JUMP * surface.domain.size[1 - axis]
+    at = np.flatnonzero((running[1:] - running[:-1] <= short) & ~last[:-1])
+    a, b = places(fixed[at], running[at]), places(fixed[at], running[at + 1])
+    at = at[np.sqrt(((b - a) ** 2).sum(axis=1)) > tolerance]
+    # Without a tolerance nothing was cut.
+    enough = not open_.any() or tolerance <= 0.0
+    if not len(at):
+        return _Bundle(fixed, running, last), enough
+    last = last.copy()
+    last[at] = True
+    alone = last & np.concatenate([[True], last[:-1]])
+    return _Bundle(fixed[~alone], running[~alone], last[~alone]), enough
 
 
 def _distance(a: Floats, b: Floats, p: Floats) -> Floats:

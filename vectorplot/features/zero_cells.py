@@ -21,9 +21,6 @@ all gradients but the vanishing one point the same way."""
 INSIDE = ((0.382, 0.236), (0.618, 0.854))
 """Where in a cell f is looked at when it is zero at all corners: on no lattice point and no line of symmetry."""
 
-MOST_CELLS = 1 << 15
-"""Cells of one size that are subdivided at most."""
-
 Pair = tuple[Ints, Ints]
 
 
@@ -84,7 +81,8 @@ class Cells:
 @dataclass(frozen=True, eq=False)
 class Subdivision:
     """split: for each level the keys i (rows 2^level) + j, ascending, of the cells that are cut into four; odd: the
-    smallest cells in which the curve may still be more than one arc; complete: whether the budget sufficed."""
+    smallest cells in which the curve may still be more than one arc; complete:
+    whether no more of one size were called for than were allowed."""
 
     lattice: Lattice
     split: list[Ints]
@@ -197,16 +195,17 @@ def _turning_at_border(g: Floats, i: Ints, j: Ints, ends: tuple[int, int], close
     return found
 
 
-def subdivided(lattice: Lattice, odd: Bools, noise: float) -> Subdivision:
+def subdivided(lattice: Lattice, odd: Bools, noise: float, most: int) -> Subdivision:
     """The cells of the grid that are odd (columns, rows), cut into four again and again as long as they stay odd, down
-    to the lattice's last level; neighbours differ by one level at most. Values up to noise count as zero."""
+    to the lattice's last level; neighbours differ by one level at most. Values up to noise count as zero; most: cells
+    of one size that are cut."""
     i, j = np.nonzero(odd)
     marked: list[Cells] = []
     complete = True
     for level in range(lattice.levels):
         if not len(i):
             break
-        if len(i) > MOST_CELLS:
+        if len(i) > most:
             complete = False
             i, j = i[:0], j[:0]
         marked.append(Cells(i, j))

@@ -19,7 +19,6 @@ from vectorplot.features.scalar_field import (
     scalar_field,
 )
 from vectorplot.features.zero_cells import (
-    MOST_CELLS,
     Lattice,
     Subdivision,
     beside,
@@ -38,6 +37,7 @@ from vectorplot.features.zero_refinement import (
 )
 from vectorplot.features.zero_segments import NOISE, RESIDUAL, Segments, crossing_segments
 from vectorplot.features.zero_triangles import triangles_near
+from vectorplot.geometry.budget import USUAL, Budget, unresolved
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.outline import concat
 from vectorplot.surfaces.surface import Domain
@@ -106,6 +106,7 @@ def zero_manifold_of_f_uv(
     resolution: float = 1e-3,
     positions: Positions | None = None,
     tolerance: float | None = None,
+    budget: Budget = USUAL,
 ) -> ZeroManifold:
     """The curve f(u, v) = 0 over a domain, all its branches, each point refined on f to 1e-12 of the scale of f.
 
@@ -115,7 +116,8 @@ def zero_manifold_of_f_uv(
     that is larger is found if the grid feels it, that is if slopes of the size met at the corners of a cell could
     reach zero inside it.
     positions(u, v) -> (k, 2 or 3) and tolerance: points are put in until chords stay within tolerance of the curve,
-    measured between positions (millimetres on a page, for example); without positions in u and v themselves.
+    measured between positions (millimetres on a page, for example); without positions in u and v themselves. Where
+    positions jump from one point to the next the curve is interrupted. budget: how much work it may be.
     Errors: InputError for fewer than two columns or rows, three in a closed direction.
     Degenerate: f of one sign gives no branch; a change of sign through a pole or a jump is none either; where f is not
     finite there is a hole, and branches end at its border; zeros at grid points count as positive, which gives one
@@ -133,15 +135,15 @@ def zero_manifold_of_f_uv(
     lattice = Lattice(field, columns, rows, _levels(columns, rows, resolution))
     flat = flat_cells(lattice, w, NOISE * scale)
     # Along the border of an area where f is zero slopes say nothing.
-    subdivision = subdivided(lattice, odd & ~beside(flat, field.closed), NOISE * scale)
+    subdivision = subdivided(lattice, odd & ~beside(flat, field.closed), NOISE * scale, budget.cells)
     found = _found(subdivision, crossing_segments(lattice, triangles_near(subdivision, w, near), scale, zero), scale)
-    lines, unsure = found.lines, 0
+    lines, unsure, enough = found.lines, 0, True
     if np.isnan(w).any():
         lines = _to_holes(field, lines, _smallest_cell(lattice), zero)
     if tolerance is not None:
         measure = positions or (lambda u, v: np.stack([u, v], axis=-1))
-        lines, unsure = refined(field, lines, measure, tolerance, zero)
-    doubts = _doubts(int(flat.sum()), found, subdivision.complete, unsure)
+        lines, unsure, enough = refined(field, lines, measure, tolerance, zero, budget.points)
+    doubts = _doubts(int(flat.sum()), found, subdivision.complete, unsure, enough)
     return _result(
         field, lines, found, doubts, np.concatenate([grid_points(field, columns, rows), unit * w[..., None]], axis=2)
     )
@@ -340,13 +342,14 @@ def _result(field: ScalarField, lines: Polylines, found: _Found, doubts: tuple[s
     )
 
 
-def _doubts(flat: int, found: _Found, complete: bool, unsure: int) -> tuple[str, ...]:
+def _doubts(flat: int, found: _Found, complete: bool, unsure: int, enough: bool) -> tuple[str, ...]:
     """What could not be decided, a sentence each."""
     poles, line = found.poles, len(found.touching) - found.beads
     texts = [
         (flat > 0, f"f is zero all over {flat} cells: only the border towards negative values is a curve"),
         (poles > 0, f"{JUMPS} at {poles} places: poles or jumps, not part of the curve"),
-        (not complete, f"more than {MOST_CELLS} small cells: branches smaller than a cell of the grid may be missing"),
+        (not complete, unresolved("branches of a curve are too small or too many")),
+        (not enough, unresolved("curves are off by more than the tolerance")),
         (unsure > 0, f"{unsure} segments could not be refined: the curve was not found beside their chords"),
         (found.missed > 0, "closed branches smaller than the resolution are missing: ask for a finer one"),
         (

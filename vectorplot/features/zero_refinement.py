@@ -11,6 +11,10 @@ from vectorplot.features.scalar_field import ScalarField
 from vectorplot.features.zero_crossings import bracketed_zeros
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 
+JUMP = 1e-8
+"""Part of the domain over which positions jump where they are farther apart than the tolerance: on the way there the
+parts of the domain were cut by three at least seventeen times."""
+
 Positions = Callable[[Floats, Floats], Floats]
 
 PROBES = (0.35, 0.7)
@@ -85,19 +89,20 @@ def _searched(field: ScalarField, points: Floats, across: Floats, zero: float) -
 
 
 def refined(
-    field: ScalarField, lines: Polylines, positions: Positions, tolerance: float, zero: float
-) -> tuple[Polylines, int]:
+    field: ScalarField, lines: Polylines, positions: Positions, tolerance: float, zero: float, most: int
+) -> tuple[Polylines, int, bool]:
     """The polylines with points of the curve put in where chords deviate from it by more than tolerance, measured
-    between positions(u, v) (k, 2 or 3), and the number of segments that could not be refined.
+    between positions(u, v) (k, 2 or 3), or until there are most of them; the number of segments that could not be
+    refined; and whether points sufficed.
 
-    Positions that are not finite (behind an eye) end the refinement there.
+    Positions that are not finite (behind an eye) end the refinement there; where they jump polylines are interrupted.
     """
     points, last = lines.points, lines.last
     # A segment belongs to the point it starts at; open ones are still to be looked at.
     open_, unsure = ~last, 0
     for _ in range(20):
         first = np.flatnonzero(open_)
-        if not len(first):
+        if not len(first) or len(points) > most:
             break
         probes, on = _probed(field, points[first], points[first + 1], zero)
         bad = _deviation(positions, points[first], points[first + 1], probes) > tolerance * MISSED
@@ -109,7 +114,20 @@ def refined(
         at = np.repeat(split + 1, 2)
         points = np.insert(points, at, probes[:, bad & on.all(axis=0)].transpose(1, 0, 2).reshape(-1, 2), axis=0)
         last, open_ = np.insert(last, at, False), np.insert(open_, at, True)
-    return Polylines(points, last), unsure
+    return _torn(field, Polylines(points, last), positions, tolerance), unsure, not open_.any()
+
+
+def _torn(field: ScalarField, lines: Polylines, positions: Positions, tolerance: float) -> Polylines:
+    """The polylines, interrupted where positions jump, without what is only a point then."""
+    p, last = lines.points, lines.last.copy()
+    step = np.abs(np.diff(p, axis=0)) / field.size
+    at = np.flatnonzero((step <= JUMP).all(axis=1) & (step > 0.0).any(axis=1) & ~last[:-1])
+    at = at[_lengths(positions, p[at], p[at + 1]) > tolerance]
+    if not len(at):
+        return lines
+    last[at] = True
+    alone = last & np.concatenate([[True], last[:-1]])
+    return Polylines(p[~alone], last[~alone])
 
 
 def _probed(field: ScalarField, start: Floats, end: Floats, zero: float) -> tuple[Floats, Bools]:

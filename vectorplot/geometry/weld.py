@@ -142,6 +142,14 @@ def close_points(points: Floats, tolerance: float) -> Ints:
     return _chained(label, np.concatenate(one), np.concatenate(other))
 
 
+def one_each(points: Floats, size: float) -> Ints:
+    """The positions, ascending, of one of the points (n,3) in every cube of a lattice with sides of this size."""
+    if not len(points):
+        return np.zeros(0, dtype=np.intp)
+    cubes = np.floor((points - points.min(axis=0)) / size)
+    return np.sort(np.unique(cubes, axis=0, return_index=True)[1])
+
+
 def _runs_end(values: Ints) -> Ints:
     """(n,) for every place the first place behind the run of equal values that it is in."""
     ends = np.append(np.flatnonzero(values[1:] != values[:-1]) + 1, len(values))

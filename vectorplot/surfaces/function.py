@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
+from vectorplot.curves.derivatives import NumericFunction, Range, cut_off, numeric_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Floats
 from vectorplot.surfaces.surface import Domain
@@ -74,17 +74,20 @@ def surface_of_function(
     numbers, else by differences; see NumericFunction for their accuracy.
     Errors: InputError, naming the function, when it raises, returns complex numbers or the wrong shape; and for a
     domain that is closed in a direction in which the function does not come back to where it began.
-    Degenerate: where the function is not finite the surface has a hole, NaN.
+    Degenerate: where the function is not finite the surface has a hole, NaN; a function that runs to infinity is cut
+    off (see `limits_of`), and pictures of it say so.
     Source: Glaeser, section 8.2, equation 9.
     """
     if len(partials) not in (0, 2) or len(second_partials) not in (0, 3):
         raise InputError("give both partials and all three second partials, or none")
     ranges = ranges_of(domain)
+    points = cut_off(numeric_function(function, 3, ranges))
+    inside = None if points.limits is None else points.is_finite
     surface = FunctionSurface(
         domain,
-        numeric_function(function, 3, ranges),
-        tuple(numeric_function(f, 3, ranges) for f in partials),
-        tuple(numeric_function(f, 3, ranges) for f in second_partials),
+        points,
+        tuple(numeric_function(f, 3, ranges, inside=inside) for f in partials),
+        tuple(numeric_function(f, 3, ranges, inside=inside) for f in second_partials),
     )
     _check_seams(surface)
     return surface

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from vectorplot.curves.derivatives import NumericFunction, numeric_function
+from vectorplot.curves.derivatives import NumericFunction, cut_off, numeric_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Floats
 from vectorplot.surfaces.function import ranges_of
@@ -62,18 +62,18 @@ def graph(
     with a smooth border see `graph_over_disc`. slopes: the derivatives by x and by y, else they are found as in
     `surface_of_function`.
     Errors: InputError, naming the function, when it raises, returns complex numbers or the wrong shape.
-    Degenerate: where the function is not finite the graph has a hole, NaN.
+    Degenerate: where the function is not finite the graph has a hole, NaN; a function that runs to infinity is cut off
+    (see `limits_of`), and pictures of it say so.
     """
     if len(slopes) not in (0, 2):
         raise InputError("give both slopes or none")
     given, inside = (domain, None) if isinstance(domain, Domain) else (domain.domain, domain.contains)
     rectangle = replace(given, closed_u=False, closed_v=False)
     ranges = ranges_of(rectangle)
-    return Graph(
-        rectangle,
-        numeric_function(function, 1, ranges, inside=inside),
-        tuple(numeric_function(f, 1, ranges, inside=inside) for f in slopes),
-    )
+    heights = cut_off(numeric_function(function, 1, ranges, inside=inside))
+    if heights.limits is not None:
+        inside = heights.is_finite
+    return Graph(rectangle, heights, tuple(numeric_function(f, 1, ranges, inside=inside) for f in slopes))
 
 
 @dataclass(frozen=True, eq=False)

@@ -64,8 +64,13 @@ def tracing_in_world(sheet: ImplicitSheet, tracing: Tracing) -> ImplicitTracing:
         own = view.points_of(points).T
         return own if picture is None else picture(own)
 
-    tolerance = tracing.tolerance
-    return ImplicitTracing(mesh=sheet.mesh, resolution=tracing.resolution, tolerance=tolerance, picture=image)
+    return ImplicitTracing(
+        mesh=sheet.mesh,
+        resolution=tracing.resolution,
+        tolerance=tracing.tolerance,
+        picture=image,
+        budget=tracing.budget,
+    )
 
 
 def as_spatial_curves(

@@ -48,7 +48,7 @@ class ImplicitSheet:
     hides: bool
     vertices: Floats
     corners: Ints
-    sag: float
+    sags: Floats
     mesh: Mesh
     doubts: tuple[str, ...]
 
@@ -156,9 +156,10 @@ def implicit_sheet(view: View, surface: ImplicitSurface, item: int, hides: bool)
         vertices = np.ascontiguousarray(view.points_of(mesh.vertices).T)
         corners = mesh.corners.reshape(-1, 3)
         off = _sags(placed, vertices[corners])
-        if np.quantile(off, MOST_OF_ALL) <= SAG or doubts or 2 * cells > MOST:
-            sag = float(off.max())
-            return ImplicitSheet(placed, surface, view, item, hides, vertices, corners, sag, mesh, doubts)
+        if np.quantile(np.append(off, 0.0), MOST_OF_ALL) <= SAG or doubts or 2 * cells > MOST:
+            # Those at singular points stay far off; of the others the worst speaks for all.
+            sags = np.maximum(off, min(float(off.max(initial=0.0)), SAG))
+            return ImplicitSheet(placed, surface, view, item, hides, vertices, corners, sags, mesh, doubts)
         cells *= 2
 
 
@@ -173,12 +174,12 @@ def placed_in_view(view: View, surface: ImplicitSurface) -> PlacedImplicit:
 
 
 def _sags(surface: PlacedImplicit, triangles: Floats) -> Floats:
-    """(t + 1,) how far the middles of triangles (t,3,3) are off the surface, not more than they are large; and 0."""
+    """(t,) how far the middles of triangles (t,3,3) are off the surface, not more than they are large."""
     middles = triangles.mean(axis=1)
     size = np.linalg.norm(triangles - np.roll(triangles, 1, axis=1), axis=2).max(axis=1, initial=0.0)
     with np.errstate(all="ignore"):
         off = np.abs(surface.values(middles)) / np.linalg.norm(surface.gradients(middles), axis=1)
-    return np.append(np.fmin(off, size), 0.0)
+    return np.fmin(off, size)
 
 
 def _tangential(vectors: Floats, normals: Floats) -> Floats:

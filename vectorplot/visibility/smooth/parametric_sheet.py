@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.features.curve_tracing import wrapped
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.vectors import cross
+from vectorplot.surfaces.jumps import jumping_cells, jumps
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.visibility.smooth.sheet import dot, solved
@@ -30,7 +31,8 @@ BEYOND = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class ParametricSheet:
-    """A parametrised surface, already in the view's coordinates, and its tessellation."""
+    """A parametrised surface, already in the view's coordinates, and its tessellation; jumps: whether it has triangles
+    that were left out, because the surface jumps beneath them."""
 
     surface: Surface
     item: int
@@ -38,7 +40,8 @@ class ParametricSheet:
     vertices: Floats
     vertex_places: Floats
     corners: Ints
-    sag: float
+    sags: Floats
+    jumps: bool
 
     def points(self, places: Floats) -> Floats:
         """(k,3) points."""
@@ -150,19 +153,22 @@ class ParametricSheet:
 def parametric_sheet(surface: Surface, item: int, hides: bool) -> ParametricSheet:
     """The sheet of a surface that is given in the view's coordinates.
 
-    Degenerate: triangles with a corner in a hole are left out.
+    Degenerate: triangles with a corner in a hole, and those beneath which the surface jumps, are left out.
     """
     columns, rows, sag = _fineness(surface)
-    u, v = surface.domain.grid(columns, rows)
-    u, v = (a.ravel() for a in np.meshgrid(u, v, indexing="ij"))
+    u_line, v_line = surface.domain.grid(columns, rows)
+    u, v = (a.ravel() for a in np.meshgrid(u_line, v_line, indexing="ij"))
     vertices = surface.points(u, v)
+    grid = vertices.reshape(columns + 1, rows + 1, 3)
+    torn = jumping_cells(surface, u_line, v_line, grid).ravel()
     lower = (np.arange(columns)[:, None] * (rows + 1) + np.arange(rows)).ravel()
     right, upper = lower + rows + 1, lower + 1
     corners = np.concatenate([np.stack([lower, right, right + 1], 1), np.stack([lower, right + 1, upper], 1)])
     whole: Bools = np.asarray(np.isfinite(vertices).all(axis=1))
-    corners = corners[whole[corners].all(axis=1)]
+    kept = whole[corners].all(axis=1) & ~np.tile(torn, 2)
+    sags = np.maximum(np.tile(_cell_sags(grid).ravel(), 2), SAG)[kept] if sag > SAG else np.full(int(kept.sum()), sag)
     places = np.stack([u, v, np.zeros_like(u)], axis=1)
-    return ParametricSheet(surface, item, hides, vertices, places, corners, sag)
+    return ParametricSheet(surface, item, hides, vertices, places, corners[kept], sags, bool(torn.any()))
 
 
 def _fineness(surface: Surface) -> tuple[int, int, float]:
@@ -180,13 +186,32 @@ def _fineness(surface: Surface) -> tuple[int, int, float]:
 def _sags(surface: Surface, domain: Domain, columns: int, rows: int) -> tuple[float, float]:
     """How far the middles of chords are off the surface, along u and along v; the worst of a thousand."""
     u, v = domain.grid(2 * columns, 2 * rows)
-    u_points, v_points = np.meshgrid(u, v[:: max(2, rows // 16)], indexing="ij")
-    across = _sag(surface.points(u_points, v_points))
-    u_points, v_points = np.meshgrid(u[:: max(2, columns // 16)], v, indexing="ij")
-    return across, _sag(np.swapaxes(surface.points(u_points, v_points), 0, 1))
+    places = np.stack(np.meshgrid(u, v[:: max(2, rows // 16)], indexing="ij"), axis=-1)
+    across = _sag(surface, places)
+    places = np.stack(np.meshgrid(u[:: max(2, columns // 16)], v, indexing="ij"), axis=-1)
+    return across, _sag(surface, np.swapaxes(places, 0, 1))
 
 
-def _sag(points: Floats) -> float:
+def _sag(surface: Surface, places: Floats) -> float:
+    """How far every second of places (m,n,2) is off the chord between those beside it; where the surface jumps there
+    is no chord."""
+    points = surface.points(places[..., 0], places[..., 1])
     off = points[1::2] - 0.5 * (points[:-1:2] + points[2::2])
-    long = np.linalg.norm(off, axis=-1)
-    return float(np.nanmax(long, initial=0.0))
+    long = np.nan_to_num(np.linalg.norm(off, axis=-1))
+    far = np.nonzero(long > SAG)
+    if len(far[0]):
+        long[far] *= ~jumps(surface, places[:-1:2][far], places[2::2][far])
+    return float(long.max(initial=0.0))
+
+
+def _cell_sags(points: Floats) -> Floats:
+    """(m-1,n-1) how far the surface may be off the cells of a grid of its points (m,n,3), by second differences in
+    them and their neighbours."""
+    with np.errstate(invalid="ignore"):
+        bent = np.zeros(points.shape[:2])
+        bent[1:-1] += np.nan_to_num(np.linalg.norm(points[2:] - 2.0 * points[1:-1] + points[:-2], axis=-1))
+        bent[:, 1:-1] += np.nan_to_num(np.linalg.norm(points[:, 2:] - 2.0 * points[:, 1:-1] + points[:, :-2], axis=-1))
+        twist = points[1:, 1:] - points[1:, :-1] - points[:-1, 1:] + points[:-1, :-1]
+    # Twice an eighth of the second difference: it grows towards a pole.
+    corners = [bent[a : a + len(bent) - 1, b : b + bent.shape[1] - 1] for a in (0, 1) for b in (0, 1)]
+    return np.asarray(0.25 * np.maximum.reduce(corners) + 0.25 * np.nan_to_num(np.linalg.norm(twist, axis=-1)))

@@ -66,9 +66,9 @@ def _close(target: Target, curves: Curves, chord: Ints, image: Floats, depth: Fl
     box, triangle = target.near_boxes(np.minimum(a, b), np.maximum(a, b))
     one, two = depth[chord[box]], depth[chord[box] + 1]
     deep = target.depth[triangle]
-    margin = target.sheet.sag * 2.0
+    margin = target.off[triangle]
     near = (np.minimum(one, two) <= deep.max(axis=1) + margin) & (np.maximum(one, two) >= deep.min(axis=1) - margin)
-    box, triangle = box[near], triangle[near]
+    box, triangle, margin = box[near], triangle[near], margin[near]
     chord = chord[box]
     corners = target.sheet.vertices[target.corners[triangle]]
     a, b = curves.points[chord], curves.points[chord + 1]

@@ -120,7 +120,7 @@ def _meetings(view: View, target: Target, samples: Samples, way: Floats, number:
     sample, triangle = target.near_boxes(image, image)
     weight = weights(target.image[triangle], image[sample])
     spread = np.ptp(target.image[triangle], axis=1).max(axis=1)
-    near = distance_to(target.image[triangle], weight, image[sample]) <= target.margin + 0.02 * spread
+    near = distance_to(target.image[triangle], weight, image[sample]) <= target.margin[triangle] + 0.02 * spread
     sample, triangle, weight = sample[near], triangle[near], inside(weight[near])
     corners = target.corners[triangle]
     places = np.einsum("ij,ijk->ik", weight, target.sheet.vertex_places[corners])

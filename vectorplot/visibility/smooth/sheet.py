@@ -43,8 +43,8 @@ class Sheet(Protocol):
         ...
 
     @property
-    def sag(self) -> float:
-        """How far the tessellation is off the sheet, about."""
+    def sags(self) -> Floats:
+        """(t,) how far its triangles are off the sheet, about."""
         ...
 
     def points(self, places: Floats) -> Floats:

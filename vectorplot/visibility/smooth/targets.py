@@ -19,40 +19,47 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Target:
-    """A sheet and its triangles (t,) in front of the eye: their corners' images (t,3,2) and depths (t,3); margin: how
-    far the sheet may be off its triangles."""
+    """A sheet and its triangles (t,) in front of the eye: their corners' images (t,3,2) and depths (t,3); margin (t,):
+    how far the image of the sheet may be off theirs; off (t,): how far the sheet is in space."""
 
     sheet: Sheet
     corners: Ints
     image: Floats
     depth: Floats
-    margin: float
+    margin: Floats
+    off: Floats
 
     @cached_property
     def tree(self) -> shapely.STRtree:
-        """A tree over the triangles' bounding boxes."""
+        """A tree over the triangles' bounding boxes, enlarged by their margins."""
         import shapely
 
-        low, high = self.image.min(axis=1), self.image.max(axis=1)
+        low, high = self._boxes
         return shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
 
     @cached_property
     def box(self) -> Floats:
-        """(2,2) the box around the image, enlarged by the margin; empty without triangles."""
-        least, most = self.image.min(axis=(0, 1), initial=np.inf), self.image.max(axis=(0, 1), initial=-np.inf)
-        return np.stack([least - self.margin, most + self.margin])
+        """(2,2) the box around the image, enlarged by the margins; empty without triangles."""
+        low, high = self._boxes
+        return np.stack([low.min(axis=0, initial=np.inf), high.max(axis=0, initial=-np.inf)])
+
+    @cached_property
+    def _boxes(self) -> tuple[Floats, Floats]:
+        """(t,2) and (t,2) smallest and largest coordinates of the images of triangles, enlarged by their margins."""
+        margin = self.margin[:, None]
+        return self.image.min(axis=1) - margin, self.image.max(axis=1) + margin
 
     def may_reach(self, low: Floats, high: Floats) -> Bools:
         """(k,) which boxes (k,2), from low to high, overlap the one around the whole sheet."""
         return np.asarray(((low <= self.box[1]) & (high >= self.box[0])).all(axis=1))
 
     def near_boxes(self, low: Floats, high: Floats) -> tuple[Ints, Ints]:
-        """Pairs of a box (k,2), from low to high, and a triangle whose box, enlarged by the margin, overlaps it."""
+        """Pairs of a box (k,2), from low to high, and a triangle whose box, enlarged by its margin, overlaps it."""
         import shapely
 
         # Most boxes are beside the whole sheet, where a scene has many.
         close = np.flatnonzero(self.may_reach(low, high))
-        low, high = low[close] - self.margin, high[close] + self.margin
+        low, high = low[close], high[close]
         box, triangle = self.tree.query(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
         return close[box], np.asarray(triangle)
 
@@ -61,12 +68,10 @@ def target(view: View, sheet: Sheet) -> Target:
     """The sheet as seen in a view; triangles that reach before the near plane are left out, and those of a sheet that
     hides nothing."""
     image, depth = projection.image(view, sheet.vertices), projection.depth(view, sheet.vertices)
-    corners = sheet.corners[(depth[sheet.corners] > view.near).all(axis=1)]
-    if not sheet.hides:
-        corners = corners[:0]
-    least = float(depth[corners].min()) if len(corners) else 1.0
-    scale = 1.0 if view.eye is None else view.focus / max(least, view.near)
-    return Target(sheet, corners, image[corners], depth[corners], 2.0 * sheet.sag * scale)
+    kept = np.flatnonzero((depth[sheet.corners] > view.near).all(axis=1) & sheet.hides)
+    corners, off = sheet.corners[kept], 2.0 * sheet.sags[kept]
+    scale = 1.0 if view.eye is None else view.focus / np.maximum(depth[corners].min(axis=1), view.near)
+    return Target(sheet, corners, image[corners], depth[corners], off * scale, off)
 
 
 def weights(triangle: Floats, points: Floats) -> Floats:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from vectorplot.curves.curve import is_curve
 from vectorplot.features.curve_tracing import Tracing
+from vectorplot.geometry.budget import USUAL, Budget, in_one_line, unheard
 from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
@@ -58,11 +60,20 @@ def scene_sheets(scene: Scene, view: View) -> tuple[SmoothSheet, ...]:
 
 
 def traced_scene(
-    scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], kinds: frozenset[LineKind], tolerance: float
+    scene: Scene,
+    view: View,
+    sheets: tuple[SmoothSheet, ...],
+    kinds: frozenset[LineKind],
+    tolerance: float,
+    budget: Budget = USUAL,
+    done: Callable[[float], None] = unheard,
 ) -> TracedScene:
     """All curves of smooth items, and those that are items themselves, every point exact, chords within a tolerance in
-    the image."""
-    tracing = Tracing(tolerance=tolerance, picture=lambda points: _picture(view, points))
+    the image.
+
+    budget: of the work on every item; done: is told the part of the work that is done.
+    """
+    tracing = Tracing(tolerance=tolerance, picture=lambda points: _picture(view, points), budget=budget)
     drawn, edges, doubts = [], [], []
     for number, sheet in enumerate(sheets):
         item = scene.items[sheet.item]
@@ -71,7 +82,8 @@ def traced_scene(
             parts, unsure = curves_of_parametrised(scene, view, sheet, number, wanted, tracing)
         else:
             parts, unsure = curves_of_implicit(scene, view, sheet, number, wanted, tracing)
-        doubts += [f"{item.name}: {text}" for text in unsure]
+        doubts += [f"{item.name}: {text}" for text in in_one_line(unsure)]
+        done((number + 1) / (len(sheets) + 1))
         drawn += [part.some(np.flatnonzero(np.isin(part.kind, list(wanted)))) for part in parts]
         if item.hides:
             edges += [part.some(np.flatnonzero(np.isin(part.kind, HIDING))) for part in parts]

@@ -1,0 +1,57 @@
+"""How much work a smooth surface may be before its picture is finished without the rest."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from vectorplot.errors import InputError
+
+HOW = "a larger budget may do (--budget)"
+"""How what was left out may be had all the same."""
+
+
+@dataclass(frozen=True)
+class Budget:
+    """Limits of the work on the smooth surfaces of a picture: with them every picture ends in seconds.
+
+    cells: of one size that the domain of a surface is cut into around one family of curves. triangles: that an implicit
+    surface is cut into around one. points: that the curves of one are refined to. pairs: of chords, or of a sight line
+    and a triangle, or of two triangles, that come near each other and are looked at closely, for one surface.
+    """
+
+    cells: int = 1 << 13
+    triangles: int = 1 << 17
+    points: int = 1 << 16
+    pairs: int = 1 << 22
+
+
+USUAL = Budget()
+"""The budget where nothing else is said."""
+
+
+def budget_of(factor: float) -> Budget:
+    """The usual budget, so many times. Errors: InputError unless the factor is finite and positive."""
+    if not 0.0 < factor < math.inf:
+        raise InputError(f"a budget of {factor:g}: expected a factor that is finite and positive")
+    limits = (USUAL.cells, USUAL.triangles, USUAL.points, USUAL.pairs)
+    # No array has more elements than that.
+    return Budget(*(max(1, int(min(limit * factor, 2.0**62))) for limit in limits))
+
+
+def unresolved(what: str) -> str:
+    """The doubt that the budget did not do for something."""
+    return f"{what}: {HOW}"
+
+
+def unheard(part: float) -> None:
+    """Whom long work tells the part of it that is done when nobody wants to know."""
+
+
+def in_one_line(doubts: Iterable[str]) -> tuple[str, ...]:
+    """The doubts about one thing, each once; all that the budget did not do for in one sentence."""
+    each = list(dict.fromkeys(doubts))
+    spent = [text.removesuffix(f": {HOW}") for text in each if text.endswith(HOW)]
+    rest = tuple(text for text in each if not text.endswith(HOW))
+    return (*rest, unresolved("; ".join(spent))) if spent else rest
