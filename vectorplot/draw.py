@@ -15,12 +15,14 @@ from vectorplot.drawing.ink import inked
 from vectorplot.drawing.layers import layers_by_colour, layers_by_kind, layers_by_object
 from vectorplot.drawing.page import mm_per_image, page_from_image, page_from_world, strokes_on_page
 from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.budget import Budget, budget_of
 from vectorplot.geometry.camera import Camera, Point
 from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.vectors import cross, normalize
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_draw
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.seams import without_seams
+from vectorplot.scene.unbounded import tell_what_is_cut_off
 from vectorplot.scene.view import View, look
 from vectorplot.visibility.framing import in_frame
 from vectorplot.visibility.hidden_lines import Visibility, counted_parts, visible_parts
@@ -76,6 +78,7 @@ def draw(
     layers: Literal["kind", "object", "colour"] = "kind",
     curves: Literal["bezier", "polyline"] = "bezier",
     tolerance_mm: float = 0.02,
+    budget: float = 1.0,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
 ) -> Drawing:
@@ -90,18 +93,21 @@ def draw(
     so far beside what is in front of them.
     layers: what shares a layer. curves: strokes of smooth curves are fitted with cubic Béziers and elliptic arcs, or
     stay polylines. tolerance_mm: how far strokes of smooth curves may be off the true curves; their
-    points are exact but for the ends of dashes, straight lines are so whatever it is. progress(stage, fraction)
-    and explain(report) are called while it works.
+    points are exact but for the ends of dashes, straight lines are so whatever it is. budget: how many times the
+    usual work on smooth surfaces is allowed (see geometry.budget). progress(stage, fraction) and explain(report) are
+    called while it works.
     Errors: InputError for unknown words, impossible cameras, and widths and angles out of range.
     Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees
     off the principal ray, a fitted picture shows the camera's field of vision. An InputWarning says where a picture
-    shows so little of the scene that the tolerance cannot be kept.
+    shows so little of the scene that the tolerance cannot be kept, and what the budget did not do for.
     Source: Glaeser, sections 2.1, 4.4 and 7.2.
     """
     _check_options(hidden, layers, curves, halo_mm, crease_angle_deg, tolerance_mm)
+    allowed = budget_of(budget)
     _check_style(style, hidden=hidden != "none", halo_mm=halo_mm > 0.0, layers=layers != "kind")
     kinds = line_kinds((DRAWN if style == "plain" else WIRES) if lines is None else lines)
     scene = without_seams(scene)
+    tell_what_is_cut_off(scene)
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
     walk = Walk((*plan_cuts(camera), *plan_draw(scene, kinds, hidden, halo_mm, style)), explain, progress)
@@ -115,7 +121,7 @@ def draw(
     while True:
         # Chords take one half of the tolerance, Béziers through their ends the other.
         tolerance = 0.5 * tolerance_mm / scale
-        every = _with_curves(walk, scene, view, sheets, kinds, straight, tolerance)
+        every = _with_curves(walk, scene, view, sheets, kinds, straight, tolerance, allowed)
         framed, whole = walk.run("frame", in_frame, view, every, page, fit)
         seen = _visibility(walk, view, faces, solid, framed)
         placed = page_from_image(view, framed, seen, page, fit, whole)
@@ -159,6 +165,7 @@ def lines_in_place(
     fit: bool,
     crease_angle_deg: float,
     tolerance_mm: float,
+    budget: float,
 ) -> Paths:
     """The visible parts of the lines of a scene, as they come, where a picture of it already has its place on the page.
 
@@ -171,7 +178,8 @@ def lines_in_place(
     solid = solid_items(view, faces)
     straight = _straight_lines(walk, scene, view, faces, solid, kinds, crease_angle_deg)
     tolerance = 0.5 * tolerance_mm / float(placed[0, 0])
-    every = _with_curves(walk, scene, view, _sheets(walk, scene, view), kinds, straight, tolerance)
+    sheets = _sheets(walk, scene, view)
+    every = _with_curves(walk, scene, view, sheets, kinds, straight, tolerance, budget_of(budget))
     framed, _ = in_frame(view, every, page, fit)
     seen = _visibility(walk, view, faces, solid, framed)
     return strokes_on_page(view, framed, seen, placed)
@@ -239,6 +247,7 @@ def _with_curves(
     kinds: frozenset[LineKind],
     lines: Lines,
     tolerance: float,
+    budget: Budget,
 ) -> Lines:
     """The lines and the curves of smooth surfaces, cut where one of these begins to hide them or ends."""
     if not walk.calls_for("curves"):
@@ -250,10 +259,13 @@ def _with_curves(
         text = "the picture shows so small a part of the scene that smooth curves are off by more than the tolerance"
         warnings.warn(text, InputWarning, stacklevel=3)
     tolerance = max(tolerance, FINEST)
-    traced = walk.run("curves", traced_scene, scene, view, sheets, kinds, tolerance)
-    for doubt in traced.doubts:
+    done = walk.fraction("curves")
+    traced = walk.run("curves", traced_scene, scene, view, sheets, kinds, tolerance, budget, done)
+    done = walk.fraction("smooth surfaces")
+    count = len(scene.items)
+    cut, unsure = walk.run("smooth surfaces", with_curves, view, traced, lines, count, tolerance, budget, done)
+    for doubt in (*traced.doubts, *(f"{scene.items[item].name}: {text}" for item, text in unsure)):
         warnings.warn(doubt, InputWarning, stacklevel=3)
-    cut = walk.run("smooth surfaces", with_curves, view, traced, lines, len(scene.items), tolerance)
     return cut if not walk.calls_for("visible lines") else cut.some(cut.behind == 0)
 
 

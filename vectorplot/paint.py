@@ -18,11 +18,13 @@ from vectorplot.drawing.page import allowed_in_space, page_from_world
 from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, placed_faces, stacked
 from vectorplot.errors import InputError
 from vectorplot.features.facets import Within
+from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_paint
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seams import without_seams
+from vectorplot.scene.unbounded import tell_what_is_cut_off
 from vectorplot.scene.view import View, look
 from vectorplot.shading.face_shades import Shades, item_colours, view_lights
 from vectorplot.shading.faceted import FacetedScene, faceted
@@ -64,6 +66,7 @@ def paint(
     lines: str | Iterable[str] = (),
     crease_angle_deg: float = 25.0,
     tolerance_mm: float = 0.02,
+    budget: float = 1.0,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
 ) -> Drawing:
@@ -77,8 +80,8 @@ def paint(
     with transparent ones as sparse lines; or blank, with the visible lines on them: hidden lines by erasing.
     lines: words of LineKind, or one text with commas between them, drawn on top with exact hidden lines, or on blank
     polygons (none: all kinds); crease_angle_deg: sharper edges are creases.
-    tolerance_mm: how far the sides of polygons may be off smooth surfaces and refracted lines. progress(stage,
-    fraction) and explain(report) are called while it works.
+    tolerance_mm: how far the sides of polygons may be off smooth surfaces and refracted lines. budget: as of
+    draw, for the lines. progress(stage, fraction) and explain(report) are called while it works.
     Errors: InputError for unknown words and colours, impossible cameras, and widths and counts out of range.
     Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off
     the principal ray, a fitted picture shows the camera's field of vision. A scene without lights is lit from the eye's
@@ -86,7 +89,9 @@ def paint(
     Source: Glaeser, chapters 4.5, 5 and 6.
     """
     _check_options(shadows, aura_mm, palette, fills, crease_angle_deg, tolerance_mm)
+    budget_of(budget)
     scene = without_seams(scene if lights is None else replace(scene, lights=tuple(lights)))
+    tell_what_is_cut_off(scene)
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
     kinds = line_kinds(lines)
@@ -118,7 +123,7 @@ def paint(
     seen = _Seen(facets.scene, view, projected, placed.framed(faces, page, view.tolerance), placed)
     world = page_from_world(view, placed.page_from_image)
     lighting = Lighting(scene.items, view_lights(view, scene.lights), _normals(view, facets, smooth), palette)
-    ruler = _Ruler(camera, page, seen, fit, crease_angle_deg, tolerance_mm)
+    ruler = _Ruler(camera, page, seen, fit, crease_angle_deg, tolerance_mm, budget)
     if walk.calls_for("erasing"):
         polygons = _erased(walk, seen, scene, ruler, kinds or line_kinds(LINE_WORDS), palette)
     else:
@@ -160,6 +165,7 @@ class _Ruler:
     fit: bool
     crease_angle_deg: float
     tolerance_mm: float
+    budget: float
 
     def layers(self, scene: Scene, kinds: frozenset[LineKind]) -> tuple[Layer, ...]:
         """The visible lines in layers by kind."""
@@ -185,6 +191,7 @@ class _Ruler:
             fit=self.fit,
             crease_angle_deg=self.crease_angle_deg,
             tolerance_mm=self.tolerance_mm,
+            budget=self.budget,
         )
 
     def _place(self, view: View) -> Floats:

@@ -11,12 +11,14 @@ import numpy as np
 from vectorplot.draw import default_camera, seen_part
 from vectorplot.errors import InputError
 from vectorplot.features.facets import Within
+from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.projection import CoordinateSystem
 from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, plan_cuts, plan_render
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seams import without_seams
+from vectorplot.scene.unbounded import tell_what_is_cut_off
 from vectorplot.scene.view import LARGEST, View, look
 from vectorplot.shading.face_shades import view_lights
 from vectorplot.shading.faceted import FacetedScene, faceted
@@ -70,6 +72,7 @@ def render(
     crease_angle_deg: float = 25.0,
     lines: str | Iterable[str] = (),
     background: str | None = None,
+    budget: float = 1.0,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
 ) -> Image:
@@ -81,8 +84,8 @@ def render(
     that show most of what is near the eye, or exactly; auto: as the view calls for. samples: every pixel is the mean
     light of samples x samples ones (None: 2 x 2, where there is room for so many). crease_angle_deg: faces that meet at
     less look round. lines: words of LineKind, or one text with commas between them, drawn over the picture with exact
-    hidden lines. background: a palette, a plain colour or #rrggbb. progress(stage, fraction) and explain(report) are
-    called while it works.
+    hidden lines. background: a palette, a plain colour or #rrggbb. budget: as of draw, for the lines.
+    progress(stage, fraction) and explain(report) are called while it works.
     Errors: InputError for unknown words and colours, impossible cameras, and sizes out of range.
     Degenerate: an empty scene gives the background. Where the scene reaches behind the eye, or more than 60 degrees off
     the principal ray, a fitted picture shows the camera's field of vision. A scene without lights is lit from the eye's
@@ -93,8 +96,10 @@ def render(
     samples = _usual_samples(size) if samples is None else samples
     _check_whole(columns=size[0], rows=size[1], samples=samples, shadow_size=shadow_size)
     _check(size, shadows, samples, crease_angle_deg)
+    budget_of(budget)
     scene = without_seams(scene if lights is None else replace(scene, lights=tuple(lights)))
     _check_lights(scene.lights)
+    tell_what_is_cut_off(scene)
     camera = camera or scene.camera or default_camera(scene)
     how, why = chosen_shadows(scene, camera, size, fit) if shadows == "auto" else (shadows, "")
     walk = Walk((*plan_cuts(camera), *plan_render(scene, how, bool(kinds), why)), explain, progress)
@@ -120,7 +125,8 @@ def render(
         picture = replace(picture, points_at_once=EXACT_POINTS_AT_ONCE)
     pixels = _pixels(walk, picture, samples)
     if walk.calls_for("lines"):
-        pixels = walk.run("lines", _with_lines, pixels, scene, camera, view, system, kinds, crease_angle_deg, samples)
+        place = (view, system)
+        pixels = walk.run("lines", _with_lines, pixels, scene, camera, *place, kinds, crease_angle_deg, samples, budget)
     return Image(walk.run("average", averaged_light, pixels, samples), scene.title)
 
 
@@ -224,6 +230,7 @@ def _with_lines(
     kinds: tuple[str, ...],
     crease_angle_deg: float,
     samples: int,
+    budget: float,
 ) -> Bytes:
     """The picture with the scene's lines over it, a pixel of the averaged picture wide."""
     from vectorplot.backends.raster import painted
@@ -232,7 +239,13 @@ def _with_lines(
     rows, columns = pixels.shape[:2]
     # A millimetre of this page is a pixel, about.
     drawing = draw(
-        scene, camera, page=Page(columns, rows, 0.0), lines=kinds, crease_angle_deg=crease_angle_deg, curves="polyline"
+        scene,
+        camera,
+        page=Page(columns, rows, 0.0),
+        lines=kinds,
+        crease_angle_deg=crease_angle_deg,
+        curves="polyline",
+        budget=budget,
     )
     return painted(pixels, _placed(drawing, view, system, columns, rows, float(samples)))
 

@@ -44,6 +44,9 @@ FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
 @click.option("--layers", type=click.Choice(["kind", "object", "colour"]), default="kind", help="What shares a layer.")
 @click.option("--curves", type=click.Choice(["bezier", "polyline"]), default="bezier", help="How smooth curves leave.")
 @click.option("--tolerance", type=between(0.0, math.inf), default=0.02, metavar="MM", help="For approximations.")
+@click.option(
+    "--budget", type=between(0.0, math.inf), default=1.0, metavar="FACTOR", help="Times the usual work on a surface."
+)
 @click.option("--explain", is_flag=True, help="Print stages, times, counts and memory on stderr.")
 @click.option("-q", "--quiet", is_flag=True, help="No warnings, no progress bar.")
 def draw(scene_file: str, out: str, format_: str | None, quiet: bool, explain: bool, **options: Any) -> None:
@@ -69,6 +72,7 @@ def draw(scene_file: str, out: str, format_: str | None, quiet: bool, explain: b
             layers=options["layers"],
             curves=options["curves"],
             tolerance_mm=options["tolerance"],
+            budget=options["budget"],
             progress=report.progress,
             explain=report.explain,
         )

@@ -48,6 +48,9 @@ FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
     "--crease-angle", type=at_least(0.0, at_most=180.0), default=25.0, metavar="DEG", help="Sharper edges are creases."
 )
 @click.option("--tolerance", type=between(0.0, math.inf), default=0.02, metavar="MM", help="For approximations.")
+@click.option(
+    "--budget", type=between(0.0, math.inf), default=1.0, metavar="FACTOR", help="Times the usual work on a surface."
+)
 @click.option("--explain", is_flag=True, help="Print stages, times, counts and memory on stderr.")
 @click.option("-q", "--quiet", is_flag=True, help="No warnings, no progress bar.")
 def paint(scene_file: str, out: str, format_: str | None, quiet: bool, explain: bool, **options: Any) -> None:
@@ -74,6 +77,7 @@ def paint(scene_file: str, out: str, format_: str | None, quiet: bool, explain: 
             lines=options["lines"],
             crease_angle_deg=options["crease_angle"],
             tolerance_mm=options["tolerance"],
+            budget=options["budget"],
             progress=report.progress,
             explain=report.explain,
         )

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.options import KINDS, at_least, format_of, kinds, light, pixels
+from vectorplot.cli.options import KINDS, at_least, between, format_of, kinds, light, pixels
 from vectorplot.cli.picture import make_picture
 from vectorplot.cli.view import CAMERA_OPTIONS, CameraOptions, camera_from, with_options
 
@@ -42,6 +43,9 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
 )
 @click.option("--lines", type=kinds, default="none", metavar="KIND,...", help=f"Lines on top: {KINDS}.")
 @click.option("--background", metavar="COLOUR", help="A palette, a plain colour or #rrggbb.  [default: white]")
+@click.option(
+    "--budget", type=between(0.0, math.inf), default=1.0, metavar="FACTOR", help="Times the usual work on a surface."
+)
 @click.option("--explain", is_flag=True, help="Print stages, times, counts and memory on stderr.")
 @click.option("-q", "--quiet", is_flag=True, help="No warnings, no progress bar.")
 def render(scene_file: str, out: str, format_: str | None, quiet: bool, explain: bool, **options: Any) -> None:
@@ -67,6 +71,7 @@ def render(scene_file: str, out: str, format_: str | None, quiet: bool, explain:
             crease_angle_deg=options["crease_angle"],
             lines=options["lines"],
             background=options["background"],
+            budget=options["budget"],
             progress=report.progress,
             explain=report.explain,
         )

@@ -46,8 +46,9 @@ class Nodes:
 
     def chosen(self, which: Ints) -> Nodes:
         """Some of them."""
-        own = (self.points, self.fixed, self.values, self.slopes, self.gradients)
-        return Nodes(*(column[which] for column in own))
+        return Nodes(
+            self.points[which], self.fixed[which], self.values[which], self.slopes[which], self.gradients[which]
+        )
 
 
 @dataclass(frozen=True, eq=False)

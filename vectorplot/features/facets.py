@@ -14,6 +14,7 @@ from vectorplot.features.poles import Pole, poles
 from vectorplot.features.polygonize import onto_surface, settled_mesh
 from vectorplot.features.tessellation import grid_numbers
 from vectorplot.geometry.mesh import Floats, Mesh
+from vectorplot.surfaces.jumps import jumps
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, is_implicit, is_parametrised
 
@@ -32,6 +33,9 @@ MOST_TRIANGLES = 1 << 19
 
 IMPLICIT_CELLS = 32
 """Cells along the longest side of an implicit surface's box."""
+
+TOO_LONG = 3.0
+"""Times the length that the slopes at both ends of a side tell: a longer one may lie across a jump of the surface."""
 
 Allowed = Callable[[Floats], Floats]
 """How far (...) triangles may be off a surface at points (..., 3)."""
@@ -106,15 +110,37 @@ def facets(shape: Surface | ImplicitSurface, demand: Demand) -> Facets:
     Error: the demand is kept at LOOKS of every side, and where it crosses a fold; what is smaller may be missed, and
     with more than MOST_TRIANGLES it is not kept. Sides that lead into a hole end at its rim.
     Errors: InputError for what is no smooth surface.
-    Degenerate: triangles in holes, and those without area, are left out.
+    Degenerate: triangles in holes, those without area, and those beneath which the surface jumps are left out.
     Source: Glaeser, section 8.4 (polygonised surfaces).
     """
     if is_parametrised(shape):
         net = _first_net(shape, demand)
-        return _facets(refined(net, _Patch(shape, tuple(poles(shape))), demand, MOST_TRIANGLES))
+        return _facets(_without_jumps(shape, refined(net, _Patch(shape, tuple(poles(shape))), demand, MOST_TRIANGLES)))
     if is_implicit(shape):
         return _facets(refined(_implicit_net(shape), _Level(shape), demand, MOST_TRIANGLES))
     raise InputError(f"a {type(shape).__name__} is no smooth surface")
+
+
+def _without_jumps(surface: Surface, net: Net) -> Net:
+    """The net without triangles with a side along which the surface jumps.
+
+    Only sides that are long beside what the derivatives at both ends make of them are looked at.
+    """
+    places, points = net.vertices.places, net.vertices.points
+    a, b = (x.ravel() for x in (net.triangles, np.roll(net.triangles, -1, axis=1)))
+    domain = surface.domain
+    way = places[b] - places[a]
+    for axis, (closed, size) in enumerate(zip((domain.closed_u, domain.closed_v), domain.size, strict=True)):
+        if closed:
+            way[:, axis] -= size * np.round(way[:, axis] / size)
+    with np.errstate(all="ignore"):
+        along_u, along_v = surface.partials(*places.T)
+        expected = [np.linalg.norm(along_u[k] * way[:, :1] + along_v[k] * way[:, 1:], axis=1) for k in (a, b)]
+        long = np.linalg.norm(points[b] - points[a], axis=1) > TOO_LONG * np.maximum(*expected)
+    side = np.flatnonzero(long)
+    torn = np.zeros(len(a), dtype=np.bool_)
+    torn[side] = jumps(surface, places[a][side], places[a][side] + way[side])
+    return Net(net.vertices, net.triangles[~torn.reshape(-1, 3).any(axis=1)])
 
 
 def _facets(net: Net) -> Facets:

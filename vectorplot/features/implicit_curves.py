@@ -254,8 +254,11 @@ def _border(
         most = tracing.budget.points
         points, last, unsure, enough = refined_chords(curve, points, last, tolerance, tracing.picture, most)
         points[:, axis] = box[side, axis]
-        doubts = (f"{unsure} chords of a border could not be refined",) if unsure else ()
-        doubts += () if enough else (unresolved("borders are off by more than the tolerance"),)
+        texts = [
+            (unsure > 0, f"{unsure} chords of a border could not be refined"),
+            (not enough, unresolved("borders are off by more than the tolerance")),
+        ]
+        doubts = tuple(text for said, text in texts if said)
         families.append(curves_of_lines(points, last, branches.closed, doubts=doubts))
     return all_curves(families)
 

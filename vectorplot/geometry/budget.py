@@ -17,14 +17,14 @@ class Budget:
     """Limits of the work on the smooth surfaces of a picture: with them every picture ends in seconds.
 
     cells: of one size that the domain of a surface is cut into around one family of curves. triangles: that an implicit
-    surface is cut into around one. points: that the curves of one are refined to. pairs: of chords, or of a sight line
-    and a triangle, or of two triangles, that come near each other and are looked at closely, for one surface.
+    surface is cut into around one. points: that the curves of one are refined to. pairs: of two chords, of a chord and
+    a triangle, or of a sight line and a triangle, that come near each other in the image and are looked at closely.
     """
 
     cells: int = 1 << 13
     triangles: int = 1 << 17
     points: int = 1 << 16
-    pairs: int = 1 << 22
+    pairs: int = 1 << 20
 
 
 USUAL = Budget()

@@ -10,7 +10,7 @@ import numpy as np
 
 from vectorplot.curves.derivatives import NumericFunction, cut_off, numeric_function
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.surfaces.function import ranges_of
 from vectorplot.surfaces.regions import Disc, Region
 from vectorplot.surfaces.surface import Domain
@@ -67,6 +67,7 @@ def graph(
     """
     if len(slopes) not in (0, 2):
         raise InputError("give both slopes or none")
+    inside: Callable[..., Bools] | None
     given, inside = (domain, None) if isinstance(domain, Domain) else (domain.domain, domain.contains)
     rectangle = replace(given, closed_u=False, closed_v=False)
     ranges = ranges_of(rectangle)
@@ -127,6 +128,14 @@ def _over_square(function: Callable[..., Any], disc: Disc, slopes: Sequence[Call
     """The graph whose function is asked in the disc only, rounding at its border forgiven."""
     wider = Disc(disc.radius * (1.0 + 1e-12), disc.centre)
     return graph(function, wider, slopes=slopes)
+
+
+def is_graph(shape: object) -> bool:
+    """Whether a surface is a graph, or one that was moved, turned, scaled or trimmed: such a surface never meets
+    itself."""
+    while not isinstance(shape, Graph | PolarGraph) and hasattr(shape, "surface"):
+        shape = shape.surface
+    return isinstance(shape, Graph | PolarGraph)
 
 
 def _with_holes(x: Any, y: Any, z: Any) -> Floats:

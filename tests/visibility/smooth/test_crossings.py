@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 from smooth_parts import around, ball_from_above, polylines
 
+from vectorplot.geometry.budget import USUAL
 from vectorplot.visibility.smooth.crossings import crossings
 from vectorplot.visibility.smooth.family import ParameterCurves
 from vectorplot.words import LineKind
@@ -22,7 +23,7 @@ def behind(line):
         families=(ParameterCurves(sheet, 0),),
     )
     lines = polylines(radius * np.asarray(line))
-    return crossings(view, (sheet,), lines, equator, np.zeros(1, dtype=np.bool_), 1e-3)
+    return crossings(view, (sheet,), lines, equator, np.zeros(1, dtype=np.bool_), 1e-3, USUAL.pairs)[0]
 
 
 def test_behind_a_sphere_there_are_two_sheets_more() -> None:

@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
+from vectorplot.visibility.smooth.blocks import Block, in_blocks
 from vectorplot.visibility.smooth.cubics import cubics
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.edge_sides import covered_sides, turn
 from vectorplot.visibility.smooth.events import Events, hopped, on_chord, once
 from vectorplot.visibility.smooth.sheet import Sheet, dot
 from vectorplot.words import LineKind
+
+if TYPE_CHECKING:
+    import shapely
 
 ROUNDS, HOPS = 8, 3
 """Steps of Newton on one pair of chords; how often the pair may go over to neighbouring chords."""
@@ -70,15 +76,23 @@ class Pairs:
 
 
 def crossings(
-    view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, edge_on: Bools, tolerance: float
-) -> Events:
-    """The events where curves pass behind edges: the folds (kind contour) and borders (boundary) of the sheets.
+    view: View,
+    sheets: tuple[Sheet, ...],
+    curves: Curves,
+    edges: Curves,
+    edge_on: Bools,
+    tolerance: float,
+    allowed: int,
+) -> tuple[Events, tuple[int, ...]]:
+    """The events where curves pass behind edges: the folds (kind contour) and borders (boundary) of the sheets; and the
+    items of curves for which the budget's pairs, so many as are allowed, did not do.
 
     edge_on (m,): curves that are contours; tolerance: how far chords are off their curves, in the image. Behind a fold
     or cuspidal edge (crease) there are two sheets more or less, by the side to which the sheet turns; behind a border
     one.
     """
-    pairs = _roughly_met(view, curves, edges, _close_pairs(view, sheets, curves, edges, tolerance))
+    close, short = _close_pairs(view, sheets, curves, edges, tolerance, allowed)
+    pairs = _roughly_met(view, curves, edges, close)
     for _ in range(HOPS):
         pairs = _met(view, curves, edges, pairs)
         chord, part = hopped(curves, pairs.chord, pairs.part)
@@ -91,27 +105,40 @@ def crossings(
     edge_inside, edge_part = on_chord(pairs.edge_part)
     pairs = Pairs(pairs.chord, part, pairs.edge, edge_part).some(inside & edge_inside)
     pairs = pairs.some(once(curves, pairs.chord, pairs.part, pairs.edge + pairs.edge_part))
-    return _events(view, sheets, curves, edges, edge_on, pairs)
+    return _events(view, sheets, curves, edges, edge_on, pairs), short
 
 
-def _close_pairs(view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, tolerance: float) -> Pairs:
-    """The pairs of chords that come close to each other in the image, the edge not behind, and where they do."""
-    margin = NEAR_MISSES * tolerance
+def _close_pairs(
+    view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, tolerance: float, pairs: int
+) -> tuple[Pairs, tuple[int, ...]]:
+    """The pairs of chords that come close to each other in the image, the edge not behind, and where they do; and the
+    items of chords for which the budget's pairs did not do."""
     one, two = _Boxes.of(view, curves), _Boxes.of(view, edges)
-    near, far = one.overlapping(two, margin)
-    # A chord that runs away from the eye may be off its curve in depth by some part of its length.
-    not_behind = two.nearest[far] - (two.farthest - two.nearest)[far] <= (2.0 * one.farthest - one.nearest)[near]
-    near, far = near[not_behind], far[not_behind]
-    part, edge_part, apart = _approach(one.start[near], one.end[near], two.start[far], two.end[far])
-    close = np.flatnonzero(apart <= margin)
-    near, far, part, edge_part = near[close], far[close], part[close], edge_part[close]
+    margin = NEAR_MISSES * tolerance
+    found, done = in_blocks(np.arange(len(one.chord)), pairs, lambda rows: _close(one, two, rows, margin))
+    short = tuple(np.unique(curves.item[curves.owner[one.chord[done:]]]).tolist())
+    near, far = (np.concatenate([np.zeros(0, dtype=np.intp), *(pair[k] for pair in found)]) for k in (0, 1))
+    part, edge_part = (np.concatenate([np.zeros(0), *(pair[k] for pair in found)]) for k in (2, 3))
     # Near a cusp of an edge a curve may cross it twice close together: the search begins at several places.
     own = curves.sheet[curves.owner[one.chord[near]]] == edges.sheet[edges.owner[two.chord[far]]]
     again = np.flatnonzero(own & _near_cusps(view, sheets, edges)[two.chord[far]])
     starts = [(np.arange(len(near)), part, edge_part)]
     starts += [(again, np.full(len(again), a), np.full(len(again), b)) for a, b in STARTS]
     which, part, edge_part = (np.concatenate(column) for column in zip(*starts, strict=True))
-    return Pairs(one.chord[near[which]], part, two.chord[far[which]], edge_part)
+    return Pairs(one.chord[near[which]], part, two.chord[far[which]], edge_part), short
+
+
+def _close(one: _Boxes, two: _Boxes, rows: Ints, margin: float) -> Block[tuple[Ints, Ints, Floats, Floats]]:
+    """Chords among rows (k,) and edges that come within a margin of each other, the edge not behind; and the parts of
+    both at which they do."""
+    near, far = one.some(rows).overlapping(two, margin)
+    looked, near = len(near), rows[near]
+    # A chord that runs away from the eye may be off its curve in depth by some part of its length.
+    not_behind = two.nearest[far] - (two.farthest - two.nearest)[far] <= (2.0 * one.farthest - one.nearest)[near]
+    near, far = near[not_behind], far[not_behind]
+    part, edge_part, apart = _approach(one.start[near], one.end[near], two.start[far], two.end[far])
+    close = np.flatnonzero(apart <= margin)
+    return Block((near[close], far[close], part[close], edge_part[close]), looked, len(close))
 
 
 def _near_cusps(view: View, sheets: tuple[Sheet, ...], edges: Curves) -> Bools:
@@ -146,16 +173,26 @@ class _Boxes:
         a, b = depth[chord], depth[chord + 1]
         return cls(chord, image[chord], image[chord + 1], np.minimum(a, b), np.maximum(a, b))
 
+    def some(self, which: Ints) -> _Boxes:
+        """Some of the chords."""
+        return _Boxes(self.chord[which], self.start[which], self.end[which], self.nearest[which], self.farthest[which])
+
+    @cached_property
+    def tree(self) -> shapely.STRtree:
+        """A tree over their boxes."""
+        import shapely
+
+        low, high = np.minimum(self.start, self.end), np.maximum(self.start, self.end)
+        return shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
+
     def overlapping(self, other: _Boxes, margin: float) -> tuple[Ints, Ints]:
         """The pairs of chords whose boxes, enlarged by a margin, overlap."""
         import shapely
 
         if not len(self.chord) or not len(other.chord):
             return np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp)
-        low, high = np.minimum(other.start, other.end), np.maximum(other.start, other.end)
-        tree = shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
         low, high = np.minimum(self.start, self.end) - margin, np.maximum(self.start, self.end) + margin
-        near, far = tree.query(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
+        near, far = other.tree.query(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
         return np.asarray(near), np.asarray(far)
 
 

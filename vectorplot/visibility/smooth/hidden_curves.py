@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.geometry.budget import Budget
 from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.chord_parts import ChordParts
@@ -23,17 +25,27 @@ from vectorplot.visibility.smooth.traced import TracedScene
 
 @dataclass(frozen=True, eq=False)
 class HiddenCurves:
-    """Pieces of curves, and the number (p,) of items with smooth surfaces that hide each."""
+    """Pieces of curves, and the number (p,) of items with smooth surfaces that hide each; short: items for which the
+    budget did not do."""
 
     pieces: Pieces
     hidden_by: Ints
+    short: tuple[int, ...]
 
 
-def hidden_curves(view: View, traced: TracedScene, curves: Curves, items: int, tolerance: float) -> HiddenCurves:
+def hidden_curves(
+    view: View,
+    traced: TracedScene,
+    curves: Curves,
+    items: int,
+    tolerance: float,
+    budget: Budget,
+    done: Callable[[float], None],
+) -> HiddenCurves:
     """By how many items with smooth surfaces each piece of the curves is hidden.
 
     traced: the sheets, and the edges of those that hide; items: how many the scene has;
-    tolerance: how far chords are off their curves, in the image.
+    tolerance: how far chords are off their curves, in the image; done: is told the part of the work that is done.
     The number of sheets in front of a curve changes only where its image crosses that of a fold or border in front, at
     a cusp of a contour, and where it pierces a sheet or passes the contour of its own: there the curves are cut. Then
     each piece is decided once, by the sight line of its safest point, or by the changes from a neighbour. Runs shorter
@@ -43,21 +55,24 @@ def hidden_curves(view: View, traced: TracedScene, curves: Curves, items: int, t
     sheets, edges = traced.sheets, traced.edges
     targets = tuple(target(view, sheet) for sheet in sheets)
     edge_on = edge_on_curves(view, sheets, curves)
-    events = all_events(
-        [
-            own_events(view, sheets, curves, edge_on),
-            crossings(view, sheets, curves, edges, edge_on, tolerance),
-            piercings(view, targets, curves, traced.meets_itself),
-        ]
-    )
+    own = own_events(view, sheets, curves, edge_on)
+    done(0.2)
+    crossed, short_of_crossings = crossings(view, sheets, curves, edges, edge_on, tolerance, budget.pairs)
+    done(0.4)
+    pierced, short_of_piercings = piercings(view, targets, curves, traced.meets_itself, budget.pairs)
+    done(0.6)
+    events = all_events([own, crossed, pierced])
     pieces = cut(curves, events, items)
-    counts = counted(view, targets, curves, edges, edge_on, pieces, items)
-    more = missed_events(view, targets, curves, edge_on, pieces, counts, items)
+    counts = counted(view, targets, curves, edges, edge_on, pieces, items, budget.pairs)
+    done(0.8)
+    more = missed_events(view, targets, curves, edge_on, pieces, counts, items, budget.pairs)
     if len(more):
         pieces = cut(curves, all_events([events, more]), items)
-        counts = counted(view, targets, curves, edges, edge_on, pieces, items)
+        counts = counted(view, targets, curves, edges, edge_on, pieces, items, budget.pairs)
+    short = {*short_of_crossings, *short_of_piercings, *np.flatnonzero(counts.unlooked).tolist()}
     hidden_by = np.asarray((carried(pieces, counts) > 0).sum(axis=1))
-    return HiddenCurves(pieces, without_short_runs(view, curves, pieces, hidden_by, 2.0 * tolerance))
+    hidden_by = without_short_runs(view, curves, pieces, hidden_by, 2.0 * tolerance)
+    return HiddenCurves(pieces, hidden_by, tuple(sorted(short)))
 
 
 def cut_curves(curves: Curves, found: HiddenCurves) -> tuple[Floats, Floats, ChordParts, Ints]:

@@ -179,7 +179,7 @@ def _sags(surface: PlacedImplicit, triangles: Floats) -> Floats:
     size = np.linalg.norm(triangles - np.roll(triangles, 1, axis=1), axis=2).max(axis=1, initial=0.0)
     with np.errstate(all="ignore"):
         off = np.abs(surface.values(middles)) / np.linalg.norm(surface.gradients(middles), axis=1)
-    return np.fmin(off, size)
+    return np.asarray(np.fmin(off, size))
 
 
 def _tangential(vectors: Floats, normals: Floats) -> Floats:

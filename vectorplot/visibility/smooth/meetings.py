@@ -15,6 +15,7 @@ from vectorplot.features.surface_intersection import surface_intersection
 from vectorplot.geometry.mesh import Bools, Floats, Mesh
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
+from vectorplot.surfaces.graph import is_graph
 from vectorplot.surfaces.surface import Domain
 from vectorplot.visibility.smooth.curves import Curves, together
 from vectorplot.visibility.smooth.implicit_meetings import (
@@ -50,7 +51,7 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
     boxes = [_box(sheet.vertices) for sheet in sheets]
     for number, sheet in enumerate(sheets):
         # Where an implicit surface meets itself its gradient vanishes; these lines are not looked for.
-        if wants[sheet.item] and isinstance(sheet, ParametricSheet):
+        if wants[sheet.item] and isinstance(sheet, ParametricSheet) and not is_graph(sheet.surface):
             found = self_intersections(sheet.surface, tracing=tracing)
             itself[number] = len(found) > 0
             doubts += [f"{scene.items[sheet.item].name}: {text}" for text in found.doubts]

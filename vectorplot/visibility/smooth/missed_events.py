@@ -19,9 +19,17 @@ HALVINGS = 40
 
 
 def missed_events(
-    view: View, targets: tuple[Target, ...], curves: Curves, edge_on: Bools, pieces: Pieces, counts: Counts, items: int
+    view: View,
+    targets: tuple[Target, ...],
+    curves: Curves,
+    edge_on: Bools,
+    pieces: Pieces,
+    counts: Counts,
+    items: int,
+    pairs: int,
 ) -> Events:
-    """Events inside pieces whose count does not follow from that of a neighbour by the changes between.
+    """Events inside pieces whose count does not follow from that of a neighbour by the changes between; pairs: what the
+    budget has for the sight lines of a round.
 
     Where a change alone was told wrongly nothing is found, and the sight lines of the pieces stand.
     """
@@ -32,14 +40,14 @@ def missed_events(
     shares = (np.arange(LOOKS) + 0.5) / LOOKS
     at = (begin[:, None] + shares * (end - begin)[:, None]).ravel()
     last = np.repeat(pieces.end_chord[suspects], LOOKS)
-    found = _counts(view, targets, curves, edge_on, at, last, items).reshape(len(suspects), LOOKS, items)
+    found = _counts(view, targets, curves, edge_on, at, last, items, pairs).reshape(len(suspects), LOOKS, items)
     piece, look = np.nonzero((found[:, 1:] != found[:, :-1]).any(axis=2))
     low, high = at.reshape(-1, LOOKS)[piece, look], at.reshape(-1, LOOKS)[piece, look + 1]
     below, above = found[piece, look], found[piece, look + 1]
     last = pieces.end_chord[suspects][piece]
     for _ in range(HALVINGS if len(piece) else 0):
         middle = 0.5 * (low + high)
-        same = (_counts(view, targets, curves, edge_on, middle, last, items) == below).all(axis=1)
+        same = (_counts(view, targets, curves, edge_on, middle, last, items, pairs // HALVINGS) == below).all(axis=1)
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     chord = np.minimum(low.astype(np.intp), last)
     which, item = np.nonzero(above - below)
@@ -59,9 +67,16 @@ def _suspects(pieces: Pieces, counts: Counts) -> Ints:
 
 
 def _counts(
-    view: View, targets: tuple[Target, ...], curves: Curves, edge_on: Bools, at: Floats, last: Ints, items: int
+    view: View,
+    targets: tuple[Target, ...],
+    curves: Curves,
+    edge_on: Bools,
+    at: Floats,
+    last: Ints,
+    items: int,
+    pairs: int,
 ) -> Ints:
     """(k, items) sheets in front of places at (k,): the number of the chord and the part of it; last (k,): the last
     chord of the piece."""
     chord = np.minimum(at.astype(np.intp), last)
-    return counts_in_front(view, targets, samples_at(curves, edge_on, chord, at - chord), items)
+    return counts_in_front(view, targets, samples_at(curves, edge_on, chord, at - chord), items, pairs)[0]

@@ -22,6 +22,10 @@ MOST_CELLS = 1 << 17
 SAG = 2e-3
 """The tessellation is made finer until its chords are no further from the sheet than this part of half the scene."""
 
+VAIN, MOST_VAIN = 0.8, 2
+"""Where finer cells leave more than the one of what chords are off, as where waves crowd towards a point, they are in
+vain; after so many times nothing finer is tried. At a vertical tangent they leave less."""
+
 LONGEST_STEP = 0.05
 """Part of the domain that one step of Newton may go: a longer one leads anywhere."""
 
@@ -174,12 +178,15 @@ def parametric_sheet(surface: Surface, item: int, hides: bool) -> ParametricShee
 def _fineness(surface: Surface) -> tuple[int, int, float]:
     """Columns and rows of a tessellation that is close enough to the surface, and how close it is."""
     columns = rows = FEWEST
+    best, vain = np.inf, 0
     while True:
         across, along = _sags(surface, surface.domain, columns, rows)
         more_columns = across > SAG and 2 * columns <= MOST
         more_rows = along > SAG and 2 * rows <= MOST
-        if not (more_columns or more_rows) or columns * rows * 2 > MOST_CELLS:
-            return columns, rows, max(across, along)
+        worst = max(across, along)
+        vain, best = vain + (worst > VAIN * best), min(best, worst)
+        if not (more_columns or more_rows) or columns * rows * 2 > MOST_CELLS or vain == MOST_VAIN:
+            return columns, rows, worst
         columns, rows = columns << more_columns, rows << more_rows
 
 
@@ -208,7 +215,7 @@ def _cell_sags(points: Floats) -> Floats:
     """(m-1,n-1) how far the surface may be off the cells of a grid of its points (m,n,3), by second differences in
     them and their neighbours."""
     with np.errstate(invalid="ignore"):
-        bent = np.zeros(points.shape[:2])
+        bent: Floats = np.zeros((len(points), points.shape[1]))
         bent[1:-1] += np.nan_to_num(np.linalg.norm(points[2:] - 2.0 * points[1:-1] + points[:-2], axis=-1))
         bent[:, 1:-1] += np.nan_to_num(np.linalg.norm(points[:, 2:] - 2.0 * points[:, 1:-1] + points[:, :-2], axis=-1))
         twist = points[1:, 1:] - points[1:, :-1] - points[:-1, 1:] + points[:-1, :-1]

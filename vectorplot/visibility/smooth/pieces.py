@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -71,21 +71,32 @@ def cut(curves: Curves, events: Events, items: int) -> Pieces:
 @dataclass(frozen=True, eq=False)
 class Counts:
     """Sight lines of pieces: in_front (p, items), the number of sheets of each item that they meet; safe (p,), whether
-    they pass all edges at a distance."""
+    they pass all edges at a distance; unlooked (items,): whether the budget did not do for all of them."""
 
     in_front: Ints
     safe: Bools
+    unlooked: Bools = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
 
 
 def counted(
-    view: View, targets: tuple[Target, ...], curves: Curves, edges: Curves, edge_on: Bools, pieces: Pieces, items: int
+    view: View,
+    targets: tuple[Target, ...],
+    curves: Curves,
+    edges: Curves,
+    edge_on: Bools,
+    pieces: Pieces,
+    items: int,
+    pairs: int,
 ) -> Counts:
     """The sight line of the safest point of every piece.
 
-    edges: folds and borders, near whose images sight lines are not trusted; edge_on (m,): curves that are contours.
+    edges: folds and borders, near whose images sight lines are not trusted; edge_on (m,): curves that are contours;
+    pairs: what the budget has for all sight lines together.
     """
     samples, clearance = _safest(view, curves, edges, edge_on, pieces)
-    return Counts(counts_in_front(view, targets, samples, items), np.asarray(clearance > SAFE))
+    in_front, looked = counts_in_front(view, targets, samples, items, pairs)
+    unlooked = np.asarray((~looked).any(axis=0), dtype=np.bool_)
+    return Counts(in_front, np.asarray((clearance > SAFE) & looked.all(axis=1)), unlooked)
 
 
 def carried(pieces: Pieces, counts: Counts) -> Ints:

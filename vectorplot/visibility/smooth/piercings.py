@@ -7,6 +7,7 @@ import numpy as np
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
+from vectorplot.visibility.smooth.blocks import Block, in_blocks
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.events import Events, all_events, hopped, on_chord, once
 from vectorplot.visibility.smooth.sheet import Sheet, dot
@@ -30,26 +31,36 @@ ALONG = 1e-7
 """A curve that makes a smaller angle with the sheet touches it."""
 
 
-def piercings(view: View, targets: tuple[Target, ...], curves: Curves, meets_itself: Bools) -> Events:
-    """The events where curves pierce sheets: behind the sheet there is one more in front.
+def piercings(
+    view: View, targets: tuple[Target, ...], curves: Curves, meets_itself: Bools, pairs: int
+) -> tuple[Events, tuple[int, ...]]:
+    """The events where curves pierce sheets, behind which there is one more in front; and the items for which the
+    budget's pairs did not do.
 
     meets_itself (s,): sheets that may be pierced by curves that lie on them.
     """
     depth, image = projection.depth(view, curves.points), projection.image(view, curves.points)
-    parts = []
+    parts, short = [], list[int]()
     for number, target in enumerate(targets):
         stranger = (curves.second_sheet != number) & ((curves.sheet != number) | meets_itself[number])
         chord = curves.chords[stranger[curves.owner[curves.chords]]]
         chord = chord[(depth[chord] > view.near) & (depth[chord + 1] > view.near)]
         if len(chord) and len(target.corners):
-            chord, part, places = _close(target, curves, chord, image, depth)
+
+            def look(rows: Ints, target: Target = target) -> Block[tuple[Ints, Floats, Floats]]:
+                return _close(target, curves, rows, image, depth)
+
+            found, done = in_blocks(chord, pairs, look)
+            if done < len(chord):
+                short.append(target.sheet.item)
+            chord, part, places = (np.concatenate(column) for column in zip(*found, strict=True))
             elsewhere = _elsewhere(target.sheet, number, curves, chord, part, places, APART_AT_FIRST)
             chord, part, places = chord[elsewhere], part[elsewhere], places[elsewhere]
             chord, part, places = _met(view, target.sheet, curves, chord, part, places)
             elsewhere = _elsewhere(target.sheet, number, curves, chord, part, places, APART)
             chord, part, places = chord[elsewhere], part[elsewhere], places[elsewhere]
             parts.append(_pierced(view, target.sheet, curves, chord, part, places))
-    return all_events(parts)
+    return all_events(parts), tuple(short)
 
 
 def _elsewhere(
@@ -60,10 +71,13 @@ def _elsewhere(
     return np.asarray((curves.sheet[curves.owner[chord]] != number) | (sheet.apart(places, own) > apart))
 
 
-def _close(target: Target, curves: Curves, chord: Ints, image: Floats, depth: Floats) -> tuple[Ints, Floats, Floats]:
+def _close(
+    target: Target, curves: Curves, chord: Ints, image: Floats, depth: Floats
+) -> Block[tuple[Ints, Floats, Floats]]:
     """Chords, parts of them and places on the sheet where they come close to it."""
     a, b = image[chord], image[chord + 1]
     box, triangle = target.near_boxes(np.minimum(a, b), np.maximum(a, b))
+    looked = len(box)
     one, two = depth[chord[box]], depth[chord[box] + 1]
     deep = target.depth[triangle]
     margin = target.off[triangle]
@@ -84,7 +98,7 @@ def _close(target: Target, curves: Curves, chord: Ints, image: Floats, depth: Fl
     at = np.einsum("ij,ijk->ik", inside(weight), corners)
     reach &= np.linalg.norm(at - middle, axis=1) <= margin + 0.25 * size
     places = np.einsum("ij,ijk->ik", inside(weight), target.sheet.vertex_places[target.corners[triangle]])
-    return chord[reach], part[reach], places[reach]
+    return Block((chord[reach], part[reach], places[reach]), looked, int(reach.sum()))
 
 
 def _in_space(corners: Floats, points: Floats) -> Floats:

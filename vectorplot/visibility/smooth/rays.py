@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
+from vectorplot.visibility.smooth.blocks import Block, in_blocks
 from vectorplot.visibility.smooth.sheet import Sheet, dot
 from vectorplot.visibility.smooth.targets import Target, distance_to, inside, weights
 
@@ -64,23 +65,36 @@ class Samples:
         )
 
 
-def counts_in_front(view: View, targets: tuple[Target, ...], samples: Samples, items: int) -> Ints:
-    """(k, items) the number of sheets of each item between the samples and the eye."""
+def counts_in_front(
+    view: View, targets: tuple[Target, ...], samples: Samples, items: int, pairs: int
+) -> tuple[Ints, Bools]:
+    """(k, items) the number of sheets of each item between the samples and the eye; and (k, items) whether the
+    budget's pairs did for them: other samples see nothing of its sheets."""
     counts = np.zeros((len(samples), items), dtype=np.intp)
+    looked = np.ones((len(samples), items), dtype=np.bool_)
     image = projection.image(view, samples.points)
     for number, target in enumerate(targets):
         own = (samples.sheet == number) | (samples.second == number)
         which = np.flatnonzero(own | target.may_reach(image, image))
-        if len(which) and len(target.corners):
-            counts[which, target.sheet.item] += _in_front(view, target, number, samples.some(which))
-    return counts
+        if not len(which) or not len(target.corners):
+            continue
+
+        def look(rows: Ints, target: Target = target, number: int = number) -> Block[Ints]:
+            close = target.near_boxes(image[rows], image[rows])
+            return Block(_in_front(view, target, number, samples.some(rows), close), len(close[0]), len(close[0]))
+
+        found, done = in_blocks(which, pairs, look)
+        counts[which[:done], target.sheet.item] += np.concatenate(found)
+        looked[which[done:], target.sheet.item] = False
+    return counts, looked
 
 
-def _in_front(view: View, target: Target, number: int, samples: Samples) -> Ints:
-    """(k,) the number of times that the sheet of this number lies between the samples and the eye."""
+def _in_front(view: View, target: Target, number: int, samples: Samples, pairs: tuple[Ints, Ints]) -> Ints:
+    """(k,) the number of times that the sheet of this number lies between the samples and the eye; pairs: of a sample
+    and a triangle that its sight line may meet."""
     way = projection.sight(view, samples.points)
     long = np.linalg.norm(way, axis=1)
-    sample, meeting, places = _meetings(view, target, samples, way, number)
+    sample, meeting, places = _meetings(view, target, samples, way, number, pairs)
     distance = meeting * long[sample]
     grazing = np.abs(dot(target.sheet.normals(places), way[sample])) <= GRAZING * long[sample]
     front = (distance > TOUCHING) & ~grazing
@@ -114,10 +128,12 @@ def _second_meeting(sheet: Sheet, way: Floats, places: Floats) -> Floats:
         return np.asarray(2.0 * dot(sheet.normals(places), way) / sheet.bends(places, way))
 
 
-def _meetings(view: View, target: Target, samples: Samples, way: Floats, number: int) -> tuple[Ints, Floats, Floats]:
+def _meetings(
+    view: View, target: Target, samples: Samples, way: Floats, number: int, pairs: tuple[Ints, Ints]
+) -> tuple[Ints, Floats, Floats]:
     """All meetings of the sight lines with a sheet, each once: the sample, the part of the sight line, the place."""
     image = projection.image(view, samples.points)
-    sample, triangle = target.near_boxes(image, image)
+    sample, triangle = pairs
     weight = weights(target.image[triangle], image[sample])
     spread = np.ptp(target.image[triangle], axis=1).max(axis=1)
     near = distance_to(target.image[triangle], weight, image[sample]) <= target.margin[triangle] + 0.02 * spread

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.geometry.budget import USUAL, Budget, unheard, unresolved
 from vectorplot.geometry.mesh import Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.lines import Lines
@@ -20,13 +22,23 @@ OUTLINES = (LineKind.CONTOUR, LineKind.BOUNDARY)
 """Kinds of curves to one side of which there is nothing of their sheet."""
 
 
-def with_curves(view: View, traced: TracedScene, lines: Lines, items: int, tolerance: float) -> Lines:
-    """Straight lines and the chords of curves, all cut where smooth surfaces begin or end to hide them.
+def with_curves(
+    view: View,
+    traced: TracedScene,
+    lines: Lines,
+    items: int,
+    tolerance: float,
+    budget: Budget = USUAL,
+    done: Callable[[float], None] = unheard,
+) -> tuple[Lines, tuple[tuple[int, str], ...]]:
+    """Straight lines and the chords of curves, all cut where smooth surfaces begin or end to hide them; and items with
+    a doubt about each that could not be decided.
 
-    items: how many the scene has; tolerance: how far chords are off their curves, in the image.
+    items: how many the scene has; tolerance: how far chords are off their curves, in the image; budget: of the work;
+    done: is told the part of it that is done.
     """
     curves = together([traced.curves, _straight(lines)])
-    found = hidden_curves(view, traced, curves, items, tolerance)
+    found = hidden_curves(view, traced, curves, items, tolerance, budget, done)
     start, end, chords, behind = cut_curves(curves, found)
     long = (start != end).any(axis=1)
     start, end, chords, behind = start[long], end[long], chords.some(long), behind[long]
@@ -37,7 +49,8 @@ def with_curves(view: View, traced: TracedScene, lines: Lines, items: int, toler
     outline = np.flatnonzero(smooth & np.isin(curves.kind[curve], OUTLINES) & (curves.sheet[curve] >= 0))
     side[outline] = _sides(view, traced, curves, chord[outline])
     chords = replace(chords, chord=np.where(smooth, chord, -1))
-    return Lines(start.T, end.T, curves.kind[curve], curves.item[curve], side, smooth, behind, chords)
+    doubts = tuple((item, unresolved("lines in front of or behind it may be drawn wrong")) for item in found.short)
+    return Lines(start.T, end.T, curves.kind[curve], curves.item[curve], side, smooth, behind, chords), doubts
 
 
 def _sides(view: View, traced: TracedScene, curves: Curves, chord: Ints) -> Ints:

@@ -1,0 +1,40 @@
+"""Items whose surfaces run to infinity: what is shown of them ends somewhere."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any
+
+import numpy as np
+
+from vectorplot.errors import InputWarning
+from vectorplot.scene.scene import Scene
+from vectorplot.surfaces.function import FunctionSurface
+from vectorplot.surfaces.graph import Graph, PolarGraph
+
+
+def tell_what_is_cut_off(scene: Scene) -> None:
+    """An InputWarning, with the name of the item, for every surface that is cut off because it runs to infinity."""
+    for item in scene.items:
+        text = _cut_off(item.shape)
+        if text:
+            warnings.warn(f"{item.name}: {text}", InputWarning, stacklevel=3)
+
+
+def _cut_off(shape: Any) -> str:
+    """Where a surface is cut off, in its own coordinates; nothing where it is not."""
+    while not isinstance(shape, Graph | PolarGraph | FunctionSurface) and hasattr(shape, "surface"):
+        shape = shape.surface
+    if isinstance(shape, PolarGraph):
+        shape = shape.plane
+    if not isinstance(shape, Graph | FunctionSurface):
+        return ""
+    function, names = (shape.heights, "z") if isinstance(shape, Graph) else (shape.function, "xyz")
+    if function.limits is None:
+        return ""
+    ranges = [
+        f"{name} from {low:.4g} to {high:.4g}"
+        for name, low, high in zip(names, *function.limits, strict=True)
+        if np.isfinite(low)
+    ]
+    return f"runs to infinity: shown is {', '.join(ranges)}"
