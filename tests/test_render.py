@@ -140,7 +140,7 @@ def test_every_light_casts_its_own_shadow():
     image = levels(render(floor_scene(lights), camera, size=SIZE, shadows="exact"))
     one = levels(render(floor_scene(lights), camera, size=SIZE, shadows="none"))
     share = image / np.maximum(one, 1.0)
-    counts = [(np.abs(share - s) < 0.06).sum() for s in (1.0, 0.68)]
+    counts = [(np.abs(share - s) < 0.06).sum() for s in (1.0, 0.78)]
     assert min(counts) > 200, "lit by both, by one"
 
 
@@ -261,12 +261,12 @@ def test_glass_is_a_veil_before_what_is_behind_it():
     ]
     camera = vp.Camera((0, -12, 0), (0, 0, 0), fov_deg=20.0)
     light = vp.Light((0, -1, 0), parallel=True, intensity=1.0)
-    veiled = levels(render(vp.Scene((back, *panes), (light,)), camera, size=SIZE, fit=False))
+    veiled = levels(render(vp.Scene((back, *panes), (light,)), camera, size=SIZE, fit=False, shadows="none"))
     middle, rim = (90, 120), (90, 60)
     # Two panes halve the light twice: closed bodies are seen from outside only.
     assert veiled[rim] > 200.0
     assert veiled[middle] == pytest.approx(veiled[rim] / 4.0, abs=2.0)
-    turned = levels(render(vp.Scene((*panes[::-1], back), (light,)), camera, size=SIZE, fit=False))
+    turned = levels(render(vp.Scene((*panes[::-1], back), (light,)), camera, size=SIZE, fit=False, shadows="none"))
     assert np.abs(turned - veiled).max() <= 1.0, "whatever their order"
 
 

@@ -103,7 +103,8 @@ def chosen_shadows(scene: Scene, camera: Camera, size: tuple[int, int], fit: boo
     """
     if not any(light.intensity != 0.0 for light in scene.lights):
         return "none", "no light shines"
-    if not any(casts_shadow(item) for item in scene.items):
+    solid = any(item.material.opacity >= 1.0 for item in scene.items)
+    if not any(casts_shadow(item) or (solid and dims_light(item)) for item in scene.items):
         return "none", "nothing stops light"
     low, high = scene.bounds
     corners = low + np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * (high - low)
@@ -128,6 +129,11 @@ def casts_shadow(item: Item) -> bool:
     return item.hides and item.material.opacity >= 1.0
 
 
+def dims_light(item: Item) -> bool:
+    """Whether light goes through an item, but not all of it."""
+    return item.material.is_clear and item.material.opacity > 0.0
+
+
 def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple[Stage, ...]:
     """The stages that rendering this scene calls for, in their order; nothing else runs. why: of such shadows."""
     stages = []
@@ -138,6 +144,8 @@ def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple
     if shadows != "none" and scene.lights:
         how = {"buffer": "shadow buffers", "trapezoid": "trapezoidal shadow maps", "exact": "exactly"}[shadows]
         stages.append(Stage("shadows", f"{len(scene.lights)} lights cast them: {how}" + (why and f", as {why}")))
+        if any(map(dims_light, scene.items)):
+            stages.append(Stage("clear shadows", "items are transparent"))
     stages.append(Stage("depth", "which triangle is in front in every pixel"))
     stages.append(Stage("shading", "every visible point once"))
     if any(item.material.is_mirror for item in scene.items):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -13,9 +13,9 @@ from vectorplot.errors import InputError
 from vectorplot.features.facets import Within
 from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.projection import CoordinateSystem
-from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, plan_cuts, plan_render
+from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, dims_light, plan_cuts, plan_render
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seams import without_seams
 from vectorplot.scene.unbounded import tell_what_is_cut_off
@@ -23,7 +23,7 @@ from vectorplot.scene.view import LARGEST, View, look
 from vectorplot.shading.face_shades import view_lights
 from vectorplot.shading.faceted import FacetedScene, faceted
 from vectorplot.shading.image import Image
-from vectorplot.shading.lighting import Blocked, lighting_of
+from vectorplot.shading.lighting import Blocked, Lighting, lighting_of
 from vectorplot.shading.palettes import palette
 from vectorplot.shading.picture import Picture, opaque_buffer, picture_of, shaded, with_glass, with_mirrors
 from vectorplot.shading.png import Bytes
@@ -35,6 +35,7 @@ from vectorplot.words import check_word, line_kinds
 
 if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Drawing
+    from vectorplot.shading.seen_region import SeenRegion
 
 SIZE = (800, 600)
 """Columns and rows of a picture if nobody says otherwise."""
@@ -89,7 +90,7 @@ def render(
     Errors: InputError for unknown words and colours, impossible cameras, and sizes out of range.
     Degenerate: an empty scene gives the background. Where the scene reaches behind the eye, or more than 60 degrees off
     the principal ray, a fitted picture shows the camera's field of vision. A scene without lights is lit from the eye's
-    upper left, which casts no shadows; nor do transparent items and those that do not occlude.
+    upper left, which casts no shadows; nor do items that do not occlude. Transparent ones dim and colour light.
     Source: Glaeser, sections 4.5, 6.4, 7.3, 8.5 and 8.6; Martin and Tan; Ressler.
     """
     kinds = tuple(kind.word for kind in sorted(line_kinds(lines)))
@@ -115,8 +116,8 @@ def render(
     if fit:
         system = fitted(system, triangles.points, *fine)
     here = view_lights(view, scene.lights)
-    blocked = _blocked(walk, scene, triangles, here, system, fine, how, shadow_size, shadow_bits)
-    lighting = lighting_of(view, scene.items, here, blocked)
+    region = _region(triangles, system, fine, how) if walk.calls_for("shadows") else None
+    lighting = _lighting(walk, scene, view, _Maps(triangles, here, how, shadow_size, shadow_bits, region))
     opacity = np.array([item.material.opacity for item in scene.items])
     mirror = np.array([item.material.is_mirror for item in scene.items], dtype=np.bool_)
     paper = palette(background or scene.background or BACKGROUND)[-1].astype(np.float64)
@@ -170,37 +171,63 @@ def _allowed(scene: Scene, camera: Camera, size: tuple[int, int], fit: bool) -> 
     return allowed_in_space(scene, camera, Page(*size, 0.0), fit, FACET_PIXELS)
 
 
-def _blocked(
-    walk: Walk,
-    scene: Scene,
-    triangles: SceneTriangles,
-    lights: tuple[Light, ...],
-    system: CoordinateSystem,
-    size: tuple[int, int],
-    shadows: str,
-    shadow_size: int,
-    bits: int,
-) -> tuple[Blocked, ...]:
-    """For every light what it does not reach; nothing where the plan has no shadows."""
-    if not walk.calls_for("shadows"):
-        return ()
-    casts = np.array([casts_shadow(item) for item in scene.items], dtype=np.bool_)
-    corners = triangles.corners[casts[triangles.item]]
-    if shadows == "exact":
-        from vectorplot.shading.shadow_rays import exact_shadows
+@dataclass(frozen=True, eq=False)
+class _Maps:
+    """How shadows of some triangles are found: by which way, with maps of how many texels and bits, tapered for what is
+    seen (None: not)."""
 
+    triangles: SceneTriangles
+    lights: tuple[Light, ...]
+    shadows: str
+    size: int
+    bits: int
+    region: SeenRegion | None
+
+    def of_items(self, casts: Bools) -> tuple[Blocked, ...]:
+        """For every light what it does not reach as items (i,) stand before it."""
+        triangles = self.triangles
         shown = casts[triangles.item]
-        number = np.where(shown, np.cumsum(shown) - 1, -1)
-        return walk.run("shadows", exact_shadows, lights, triangles.points, corners, number)
-    from vectorplot.shading.shadow_buffer import shadow_buffers
+        if self.shadows == "exact":
+            from vectorplot.shading.shadow_rays import exact_shadows
 
-    points = triangles.points
+            number = np.where(shown, np.cumsum(shown) - 1, -1)
+            return exact_shadows(self.lights, triangles.points, triangles.corners[shown], number)
+        from vectorplot.shading.shadow_buffer import shadow_buffers
+
+        corners = triangles.corners[shown]
+        return shadow_buffers(self.lights, triangles.points, corners, self.size, self.bits, self.region)
+
+    def of_clear_items(self, scene: Scene) -> tuple[tuple[str, float, tuple[Blocked, ...]], ...]:
+        """The same for what light comes through: colours and opacities, and what is dimmed by things that have them."""
+        groups: dict[tuple[str, float], Bools] = {}
+        for number, item in enumerate(scene.items):
+            if dims_light(item):
+                same = (item.colour, item.material.opacity)
+                groups.setdefault(same, np.zeros(len(scene.items), dtype=np.bool_))[number] = True
+        return tuple((colour, opacity, self.of_items(casts)) for (colour, opacity), casts in groups.items())
+
+
+def _lighting(walk: Walk, scene: Scene, view: View, maps: _Maps) -> Lighting:
+    """The lights and their shadows, as far as the plan has any."""
+    blocked: tuple[Blocked, ...] = ()
+    clear: tuple[tuple[str, float, tuple[Blocked, ...]], ...] = ()
+    if walk.calls_for("shadows"):
+        casts = np.array([casts_shadow(item) for item in scene.items], dtype=np.bool_)
+        blocked = walk.run("shadows", maps.of_items, casts)
+    if walk.calls_for("clear shadows"):
+        clear = walk.run("clear shadows", maps.of_clear_items, scene)
+    return lighting_of(view, scene.items, maps.lights, blocked, clear)
+
+
+def _region(
+    triangles: SceneTriangles, system: CoordinateSystem, size: tuple[int, int], shadows: str
+) -> SeenRegion | None:
+    """What is seen, for shadow maps that are tapered for it; None for others."""
     if shadows != "trapezoid":
-        return walk.run("shadows", shadow_buffers, lights, points, corners, shadow_size, bits, None)
+        return None
     from vectorplot.shading.seen_region import region_in_picture
 
-    region = region_in_picture(system, *size, points, triangles.corners)
-    return walk.run("shadows", shadow_buffers, lights, points, corners, shadow_size, bits, region)
+    return region_in_picture(system, *size, triangles.points, triangles.corners)
 
 
 def _pixels(walk: Walk, picture: Picture, samples: int) -> Bytes:

@@ -6,10 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.geometry.mesh import Floats
-from vectorplot.shading.illumination import REDUCED
-
-SHADOW_SHARE = 0.5
-"""The part of a light's shade that is left where the light does not get: half of the reduced palette for one light."""
+from vectorplot.shading.illumination import REDUCED, SHADOW_SHARE
 
 LEVELS = 9
 """From light to shadow there are so many steps: those between them, one fewer, are the soft border of a shadow."""

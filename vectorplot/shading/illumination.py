@@ -27,6 +27,11 @@ DARK_SIDE = 0.3
 """How bright a face is that is lit from behind, against one lit from the front at the same angle (decision D-5)."""
 
 
+SHADOW_SHARE = 0.5
+"""The part of a light's shade that is left where the light does not get: half of the reduced palette for one light
+(decision D-5)."""
+
+
 @dataclass(frozen=True)
 class Finish:
     """What a material makes of light: diffuse * cos^exponent(alpha) + highlight * weight(alpha) * cos^sharpness(beta).
