@@ -412,6 +412,12 @@ def _fills(
         item=item,
         kind=np.where(opacity < 1.0, int(FillKind.GLASS), int(FillKind.FACE)),
     )
+    if walk.calls_for("reflections"):
+        from vectorplot.effects.reflection_fills import silvered
+        from vectorplot.effects.reflections import mirrors
+
+        panes = np.isin(faces.source, mirrors(seen.scene, view, seen.projected).face)
+        fills, overlays = silvered(fills, panes, _paper(seen.scene)[0], overlays)
     if walk.calls_for("refraction"):
         from vectorplot.effects.glass import refracting_items
         from vectorplot.effects.glass_fills import tinted

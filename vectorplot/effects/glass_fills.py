@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted import Overlay, Placed
 from vectorplot.effects.glass import seen_in_glass
-from vectorplot.effects.seen_fills import seen_fills
+from vectorplot.effects.seen_fills import mixed, seen_fills
 from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
@@ -50,14 +50,6 @@ def tinted(
     corner = np.repeat(clear, np.diff(fills.offsets))
     sheet = replace(fills, colours=np.where(corner[:, None], paper, fills.colours).astype(np.uint8))
     blank = np.where(clear, int(FillKind.BACKGROUND), fills.kind)
-    base = replace(_mixed(sheet, tint, amount), opacity=np.where(clear, 1.0, fills.opacity), kind=blank)
-    seen = (Overlay(_mixed(o.fills, tint[o.after], amount[o.after]), o.after) for o in overlays)
+    base = replace(mixed(sheet, tint, amount), opacity=np.where(clear, 1.0, fills.opacity), kind=blank)
+    seen = (Overlay(mixed(o.fills, tint[o.after], amount[o.after]), o.after) for o in overlays)
     return base, tuple(seen)
-
-
-def _mixed(fills: Fills, tint: Colours, amount: Floats) -> Fills:
-    """Polygons with some amount (m,) of other colours (m,3)."""
-    sizes = np.diff(fills.offsets)
-    share = np.repeat(amount, sizes)[:, None]
-    colours = (1.0 - share) * fills.colours + share * np.repeat(tint, sizes, axis=0)
-    return replace(fills, colours=np.rint(colours).astype(np.uint8))

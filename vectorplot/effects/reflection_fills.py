@@ -7,14 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from vectorplot.drawing.fills import FillKind, Fills
+from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.flattened import flattened
 from vectorplot.drawing.page import page_from_world
 from vectorplot.drawing.painted import Overlay, Placed
 from vectorplot.effects.decal_fills import decal_fills
 from vectorplot.effects.decals import Decals
 from vectorplot.effects.reflections import DIMMED, Mirrors, doubled, reflections
-from vectorplot.effects.seen_fills import seen_fills
+from vectorplot.effects.seen_fills import mixed, seen_fills
 from vectorplot.effects.windows import SeenThrough
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.scene import Light
@@ -24,6 +24,10 @@ from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positio
 
 DecalsOf = Callable[[int, Lighting, Bools], Sequence[Decals]]
 """The decals, in the double of a view, on what the mirror with a number shows; the light there; (f,) the faces."""
+
+
+WEAK_ON_MIRRORS = (FillKind.SHADOW, FillKind.SHADOW_BORDER, FillKind.CLEAR_SHADOW, FillKind.LIGHT)
+"""What hardly shows on mirrors."""
 
 
 def reflection_fills(
@@ -49,6 +53,23 @@ def reflection_fills(
     if not parts:
         return Overlay(Fills.empty(), np.zeros(0, dtype=np.intp))
     return Overlay(Fills.joined(*(part.fills for part in parts)), np.concatenate([part.after for part in parts]))
+
+
+def silvered(
+    fills: Fills, pane: Bools, paper: Colours, overlays: Sequence[Overlay]
+) -> tuple[Fills, tuple[Overlay, ...]]:
+    """Painted polygons, those of mirrors (m,) as they show the paper, and overlays, shadows and light on mirrors as
+    weak as their own colours are: where a mirror shows nothing else it shows the paper, DIMMED."""
+    base = mixed(fills, np.broadcast_to(paper, (len(fills), 3)), np.where(pane, DIMMED, 0.0))
+    return base, tuple(_on_mirrors(overlay, pane, paper) for overlay in overlays)
+
+
+def _on_mirrors(overlay: Overlay, pane: Bools, paper: Colours) -> Overlay:
+    fills = overlay.fills
+    weak = pane[overlay.after] & np.isin(fills.kind, WEAK_ON_MIRRORS)
+    found = mixed(fills, np.broadcast_to(paper, (len(fills), 3)), np.where(weak & (fills.opacity == 1.0), DIMMED, 0.0))
+    veil = np.where(weak & (fills.opacity < 1.0), 1.0 - DIMMED, 1.0)
+    return replace(overlay, fills=replace(found, opacity=veil * fills.opacity))
 
 
 def _of_double(

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from vectorplot.drawing.fills import FillKind
+from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.painted import Overlay, Placed, fills_on_page
 from vectorplot.effects.windows import SeenThrough
+from vectorplot.geometry.mesh import Floats
 from vectorplot.scene.view import View
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
 from vectorplot.visibility.painter.image_faces import unmapped
@@ -30,3 +33,11 @@ def seen_fills(view: View, lighting: Lighting, seen: SeenThrough, placed: Placed
         kind=np.full(len(seen), int(kind)),
     )
     return Overlay(fills, seen.window)
+
+
+def mixed(fills: Fills, tint: Colours, amount: Floats) -> Fills:
+    """Polygons with some amount (m,) of other colours (m,3)."""
+    sizes = np.diff(fills.offsets)
+    share = np.repeat(amount, sizes)[:, None]
+    colours = (1.0 - share) * fills.colours + share * np.repeat(tint, sizes, axis=0)
+    return replace(fills, colours=np.rint(colours).astype(np.uint8))
