@@ -417,7 +417,7 @@ def _fills(
         from vectorplot.effects.reflections import mirrors
 
         panes = np.isin(faces.source, mirrors(seen.scene, view, seen.projected).face)
-        fills, overlays = silvered(fills, panes, _paper(seen.scene)[0], overlays)
+        fills, laid = silvered(fills, panes, _paper(seen.scene)[0], laid)
     if walk.calls_for("refraction"):
         from vectorplot.effects.glass import refracting_items
         from vectorplot.effects.glass_fills import tinted
