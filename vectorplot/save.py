@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-import tempfile
+import secrets
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
@@ -21,6 +21,8 @@ _BACKENDS = {
     "png": ("cairo", "png_bytes"),
     "json": ("json_file", "json_bytes"),
 }
+
+_BINARY = getattr(os, "O_BINARY", 0)
 
 FORMATS = tuple(_BACKENDS)
 """The formats that write knows."""
@@ -72,14 +74,15 @@ def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
 
 
 def _replace(target: Path, content: bytes) -> None:
-    handle, beside = tempfile.mkstemp(prefix=".vectorplot-", suffix=".part", dir=target.parent)
+    # Its name is known before it is there, so that whatever stops the work leaves none behind.
+    beside = target.parent / f".vectorplot-{secrets.token_hex(8)}.part"
     try:
-        with os.fdopen(handle, "wb") as file:
+        with os.fdopen(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | _BINARY, 0o600), "wb") as file:
             file.write(content)
         os.chmod(beside, _mode(target))
         os.replace(beside, target)
     except BaseException:
-        Path(beside).unlink(missing_ok=True)
+        beside.unlink(missing_ok=True)
         raise
 
 

@@ -31,13 +31,20 @@ def cylinder_intersection(r: float, s: float, a: float) -> tuple[Curve, ...]:
     Errors: InputError for radii that are not positive, a < 0.
     Source: Glaeser, section 8.1, example 4, equations 6 to 8; errata G8-01, G8-02.
     """
+    branches = cylinder_branches(r, s, a)
+    if not branches and a <= (r + s) * (1.0 + 2.0 * ROUNDING):
+        warnings.warn(f"the cylinders touch in one point, ({r:g}, 0, 0): no curve", InputWarning, stacklevel=2)
+    return branches
+
+
+def cylinder_branches(r: float, s: float, a: float) -> tuple[Curve, ...]:
+    """The branches that cylinder_intersection gives, without a word where the cylinders touch in a point. Errors: as
+    there."""
     r, s, a = positive("cylinder radius r", r), positive("cylinder radius s", s), number("distance of the axes a", a)
     if a < 0.0:
         raise InputError(f"distance of the axes a must not be negative, not {a:g}")
     gap = ROUNDING * (r + s + a)
     if a >= r + s - gap:
-        if a <= r + s + gap:
-            warnings.warn(f"the cylinders touch in one point, ({r:g}, 0, 0): no curve", InputWarning, stacklevel=2)
         return ()
     inner, outer = abs(s - (r - a)) <= gap, abs(s - (r + a)) <= gap
     if inner and outer:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
+from threading import Lock
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ _NODES = np.arange(-2.0, 3.0)
 
 FEW_LOOKS = 15
 """Places along each side at which a function is looked at where every place is a call."""
+_FILTERS = Lock()
 
 
 @dataclass(frozen=True)
@@ -95,8 +97,10 @@ class NumericFunction:
     def by_complex_step(self) -> bool:
         """Whether the function takes complex numbers and its complex derivatives are the real ones."""
         try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("error")
+            # The filters of warnings belong to the whole process: one thread at a time may change them, and no more of
+            # them than it must.
+            with _FILTERS, warnings.catch_warnings():
+                warnings.simplefilter("error", np.exceptions.ComplexWarning)
                 return all(self._complex_is_right(axis) for axis in range(len(self.ranges)))
         except (InputError, Warning):
             return False

@@ -76,6 +76,26 @@ def prism(base_points: ArrayLike, vector: ArrayLike, *, caps: Collection[str] = 
     Errors: InputError for fewer than three points, a vector in the plane of the base. A base that is not planar is used
     with an InputWarning. Source: Glaeser, section 3.5.
     """
+    body = swept_polygon(base_points, vector, caps=caps)
+    if not is_planar(base_points):
+        warnings.warn(NOT_PLANAR, InputWarning, stacklevel=2)
+    return body
+
+
+NOT_PLANAR = "base_points do not lie in one plane"
+"""What is said of a base that is not planar."""
+
+
+def is_planar(points: ArrayLike) -> bool:
+    """Whether the corners of a polygon, points (b,3), lie in one plane, but for a millionth of its extent."""
+    corners = np.asarray(points, dtype=np.float64)
+    arm, extent = corners - corners[0], float(np.ptp(corners, axis=0).max())
+    area = np.cross(arm, np.roll(arm, -1, axis=0)).sum(axis=0)
+    return not np.abs(arm @ area).max() > 1e-6 * extent * float(np.linalg.norm(area))
+
+
+def swept_polygon(base_points: ArrayLike, vector: ArrayLike, *, caps: Collection[str] = BOTH_CAPS) -> Mesh:
+    """The body that prism makes, whether its base is planar or not, without a word about it. Errors: as of prism."""
     base = checked_points(base_points, "base_points")
     step = np.asarray(vector, dtype=np.float64)
     if len(base) < 3:
@@ -92,8 +112,6 @@ def prism(base_points: ArrayLike, vector: ArrayLike, *, caps: Collection[str] = 
         or not size > ZERO_OF_EXTENT * extent * extent
     ):
         raise InputError("trans_vector lies in the plane of the base, or the base has no area")
-    if np.abs(arm @ area).max() > 1e-6 * extent * size:
-        warnings.warn("base_points do not lie in one plane", InputWarning, stacklevel=2)
     count = len(base)
     here = np.arange(count)
     there = np.roll(here, -1)

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from math import degrees, pi
 from typing import Any
 
 from vectorplot.curves.circle import Circle
 from vectorplot.curves.curve import Curve
-from vectorplot.curves.cylinder_intersection import cylinder_intersection
+from vectorplot.curves.cylinder_intersection import cylinder_branches
 from vectorplot.curves.helix import Helix
 from vectorplot.curves.line import Line
 from vectorplot.curves.loxodrome import Loxodrome
-from vectorplot.errors import InputError, InputWarning
+from vectorplot.errors import InputError
 from vectorplot.io.scene_formulas import (
     Formulas,
     formula_curve,
@@ -169,12 +168,9 @@ def _loxodrome(*, radius: float, course: float, arc: Pair) -> Loxodrome:
 
 def _cylinders(*, r: float, s: float, a: float, branch: int) -> Curve:
     """One branch of the curve common to two cylinders."""
-    with warnings.catch_warnings(record=True) as said:
-        warnings.simplefilter("always", InputWarning)
-        branches = cylinder_intersection(r, s, a)
+    branches = cylinder_branches(r, s, a)
     if not branches:
-        cause = said[0].message if said else "the cylinders do not meet: no curve"
-        raise InputError(f"cylinder_intersection: {cause}")
+        raise InputError("cylinder_intersection: the cylinders do not meet, or in one point only: no curve")
     if not 1 <= branch <= len(branches):
         raise InputError(f"cylinder_intersection: there is no branch {branch}, there {_are(len(branches))}")
     return branches[branch - 1]

@@ -17,11 +17,13 @@ from vectorplot.geometry.solids import (
     BOTH_CAPS,
     BOTTOM,
     IDENTITY,
+    NOT_PLANAR,
     TOP,
     box,
     has_convex_outline,
+    is_planar,
     placed,
-    prism,
+    swept_polygon,
     turned_outwards,
 )
 from vectorplot.io.scene_curves import CurveDraft
@@ -181,11 +183,10 @@ def _revolution(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
 
 
 def _translation(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
-    with warnings.catch_warnings(record=True) as said:
-        warnings.simplefilter("always", InputWarning)
-        body = prism(np.array(draft.base_points).T, np.array(draft.trans_vector), caps=draft.caps)
-    for warning in said:
-        _warn(draft, words, str(warning.message))
+    base = np.array(draft.base_points).T
+    body = swept_polygon(base, np.array(draft.trans_vector), caps=draft.caps)
+    if not is_planar(base):
+        _warn(draft, words, NOT_PLANAR)
     return placed(body, draft.placement)
 
 
