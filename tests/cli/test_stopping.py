@@ -1,0 +1,220 @@
+"""Whatever stops the command, at whatever stage: one line, no half-written file, the old file untouched."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+import vectorplot as vp
+from vectorplot.cli.main import run
+from vectorplot.cli.stopping import stoppable
+from vectorplot.plan import Walk
+from vectorplot.save import write
+
+ROOT = Path(__file__).resolve().parents[2]
+
+SCENE = """
+light LAMP position 4 -6 9
+FLOOR gray box 6 6 0.1 translation -3 -3 -0.2
+CUBE blue box 2 2 2 translation -1 -1 0 patterns face 6 polygon SPOT red 0 0, 0.5 0, 0 0.5
+GLASS transparent refraction 1.4 box 1 1 1 translation 1.2 -2 0
+MIRROR mirror box 0.1 3 3 translation -2.5 -1 0
+"""
+BALL = "BALL red surface sphere 0.6 translation 0 0 2.7\n"
+
+COMMANDS = [
+    ["draw", "--hidden", "dashed", "--halo", "0.5", "--lines", "contour,crease,pattern,intersection"],
+    ["draw", "--style", "wireframe"],
+    ["paint", "--lines", "contour"],
+    ["paint", "--fills", "visible"],
+    ["paint", "--fills", "erasing"],
+    ["render", "--size", "60x40", "--lines", "contour"],
+]
+
+SIGNALS = [(signal.SIGINT, 130, "interrupted"), (signal.SIGTERM, 143, "terminated"), (signal.SIGHUP, 129, "hung up")]
+
+
+@pytest.fixture
+def place(tmp_path):
+    """A scene file, and an old picture that is to be replaced."""
+    scene = tmp_path / "all.scene"
+    scene.write_text(SCENE, encoding="utf-8")
+    return scene
+
+
+def test_a_signal_amid_curves_of_smooth_surfaces_leaves_one_line(place, monkeypatch, capsys):
+    place.write_text(SCENE + BALL, encoding="utf-8")
+    arguments, out = command(place, COMMANDS[1])
+    stages = stages_of(arguments, monkeypatch)
+    capsys.readouterr()
+    for number, stage in enumerate(stages):
+        if stage in ("curves", "smooth surfaces"):
+            command(place, COMMANDS[1])
+            with monkeypatch.context() as patch, stoppable():
+                stop_at(number, lambda: os.kill(os.getpid(), signal.SIGTERM), patch)
+                assert run(arguments) == 143
+            assert capsys.readouterr().err == "vectorplot: terminated\n"
+            assert_untouched(out, place)
+
+
+def command(scene: Path, words: list[str]) -> tuple[list[str], Path]:
+    out = scene.parent / ("old.png" if words[0] == "render" else "old.svg")
+    out.write_text("old", encoding="utf-8")
+    return [words[0], str(scene), "-o", str(out), *words[1:]], out
+
+
+def assert_untouched(out: Path, scene: Path) -> None:
+    assert out.read_text(encoding="utf-8") == "old"
+    assert sorted(path.name for path in scene.parent.iterdir()) == ["all.scene", out.name]
+
+
+def stages_of(arguments: list[str], monkeypatch) -> list[str]:
+    names, real = [], Walk.run
+
+    def recorded(walk, name, *rest, **more):
+        names.append(name)
+        return real(walk, name, *rest, **more)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Walk, "run", recorded)
+        assert run(arguments) == 0
+    return names
+
+
+def stop_at(number: int, what, monkeypatch) -> None:
+    """From the stage with this number on, call what; in the middle of the stage's own work where that is the last."""
+    real, seen = Walk.run, []
+
+    def stopping(self, name, function, *rest, **more):
+        seen.append(name)
+        if len(seen) <= number:
+            return real(self, name, function, *rest, **more)
+
+        def stopped(*args, **kwargs):
+            function(*args, **kwargs)
+            what()
+
+        return real(self, name, stopped, *rest, **more)
+
+    monkeypatch.setattr(Walk, "run", stopping)
+
+
+@pytest.mark.parametrize("words", COMMANDS, ids=" ".join)
+def test_a_signal_at_any_stage_leaves_one_line_and_the_old_file(words, place, monkeypatch, capsys):
+    arguments, out = command(place, words)
+    stages = stages_of(arguments, monkeypatch)
+    assert len(stages) > 5 and stages[-1] == "write"
+    capsys.readouterr()
+    for number in range(len(stages)):
+        sent, status, said = SIGNALS[number % len(SIGNALS)]
+        command(place, words)
+        with monkeypatch.context() as patch, stoppable():
+            stop_at(number, lambda sent=sent: os.kill(os.getpid(), sent), patch)
+            assert run(arguments) == status, stages[number]
+        assert capsys.readouterr().err == f"vectorplot: {said}\n"
+        assert_untouched(out, place)
+
+
+@pytest.mark.parametrize("words", COMMANDS, ids=" ".join)
+@pytest.mark.parametrize(
+    ("error", "line"),
+    [
+        (MemoryError(), "there is not enough memory for this"),
+        (OSError(28, os.strerror(28)), os.strerror(28)),
+    ],
+    ids=["memory", "disk"],
+)
+def test_what_runs_out_at_any_stage_is_said_in_one_line(words, error, line, place, monkeypatch, capsys):
+    arguments, out = command(place, words)
+    count = len(stages_of(arguments, monkeypatch))
+    capsys.readouterr()
+
+    def fail():
+        raise error
+
+    for number in (0, count // 2, count - 1):
+        command(place, words)
+        with monkeypatch.context() as patch:
+            stop_at(number, fail, patch)
+            assert run(arguments) == 1
+        assert capsys.readouterr().err == f"vectorplot: {line}\n"
+        assert_untouched(out, place)
+
+
+def limited(code: str, arguments: list[str], **more) -> subprocess.CompletedProcess[bytes]:
+    script = f"import resource, sys\n{code}\nfrom vectorplot.cli.main import main\nmain()"
+    return subprocess.run([sys.executable, "-c", script, *arguments], capture_output=True, timeout=120, **more)
+
+
+@pytest.mark.parametrize("words", [COMMANDS[0], COMMANDS[2]], ids=" ".join)
+def test_a_disk_that_fills_up_leaves_the_old_file(words, place):
+    arguments, out = command(place, words)
+    result = limited("resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))", arguments)
+    assert result.returncode == 1
+    assert result.stderr.decode().splitlines() == [f"vectorplot: {out}: {os.strerror(27)}"]
+    assert_untouched(out, place)
+
+
+def test_a_signal_while_the_command_loads_is_one_line(place):
+    arguments, out = command(place, COMMANDS[0])
+    code = "import builtins, os, signal\nreal = builtins.__import__\n"
+    code += "def late(name, *rest):\n    if name == 'click': os.kill(os.getpid(), signal.SIGTERM)\n"
+    code += "    return real(name, *rest)\nbuiltins.__import__ = late"
+    result = limited(code, arguments)
+    assert (result.returncode, result.stderr) == (143, b"vectorplot: terminated\n")
+    assert_untouched(out, place)
+
+
+def test_a_signal_that_was_ignored_stays_so():
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with stoppable():
+            os.kill(os.getpid(), signal.SIGHUP)
+        assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
+def test_outside_the_main_thread_there_are_no_signals():
+    done = []
+
+    def work():
+        with stoppable():
+            done.append(True)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert done == [True]
+
+
+@pytest.mark.parametrize("stream", ["stdout", "stderr"])
+def test_nobody_reads_what_is_said(stream, place):
+    reading, writing = os.pipe()
+    os.close(reading)
+    arguments = ["draw", str(place), "-o", "-", "--format", "svg", "--explain"]
+    with os.fdopen(writing, "wb") as pipe:
+        others = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, stream: pipe}
+        result = subprocess.run([sys.executable, "-m", "vectorplot", *arguments], timeout=60, **others)
+    assert result.returncode == 1
+    assert b"Traceback" not in (result.stderr or b"")
+
+
+def test_eight_threads_at_once_give_the_same_bytes():
+    names = ["pencil", "table", "shadows", "mirror", "patterns", "three_bars", "cubes", "box"]
+
+    def pictures(name: str) -> list[bytes]:
+        scene = vp.read(ROOT / "data" / f"{name}.scene")
+        image = vp.render(scene, size=(80, 60))
+        return [write(vp.draw(scene), "svg"), write(vp.paint(scene, tolerance_mm=0.2), "pdf"), write(image, "png")]
+
+    alone = [pictures(name) for name in names]
+    with ThreadPoolExecutor(8) as pool:
+        assert list(pool.map(pictures, names)) == alone
