@@ -14,6 +14,7 @@ from vectorplot.drawing.drawing import Drawing, Layer, Paths
 from vectorplot.drawing.ink import inked
 from vectorplot.drawing.layers import layers_by_colour, layers_by_kind, layers_by_object
 from vectorplot.drawing.page import mm_per_image, page_from_image, page_from_world, strokes_on_page
+from vectorplot.drawing.shared_kinds import with_shared_kinds
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.budget import Budget, budget_of
 from vectorplot.geometry.camera import Camera, Point
@@ -205,7 +206,7 @@ def _straight_lines(
         found.append(walk.run("patterns", pattern_lines, scene, view, kinds))
     if walk.calls_for("lines on meshes"):
         found.append(walk.run("lines on meshes", mesh_curve_lines, scene, view, kinds))
-    return joined_lines(found)
+    return with_shared_kinds(view, joined_lines(found))
 
 
 def _check_options(

@@ -40,7 +40,7 @@ def without_duplicates(paths: Paths, rank: Ints, tolerance_mm: float, page_from_
     long = length > tolerance_mm
     if not long.all():
         return without_duplicates(chosen(paths, long), rank[long], tolerance_mm, page_from_world)
-    owner, starts = _overlapping(start, end, *_crowds(start, end, length, tolerance_mm), tolerance_mm)
+    owner, starts = nearly_collinear(start, end, tolerance_mm)
     if not len(owner):
         return paths
     candidates, index = np.unique(owner, return_inverse=True)
@@ -53,6 +53,13 @@ def without_duplicates(paths: Paths, rank: Ints, tolerance_mm: float, page_from_
     gap[ordered] = tolerance_mm / segments.length
     world = np.eye(4) if page_from_world is None else page_from_world
     return _without(paths, ordered[dropped], ordered[loser], low, high, gap, world)
+
+
+def nearly_collinear(start: Floats, end: Floats, tolerance: float) -> tuple[Ints, Ints]:
+    """(owner, starts): groups of strokes from start to end (n,2), longer than the tolerance, some of which may lie on
+    each other; a group has the strokes owner[starts[k] : starts[k + 1]]. All that do lie on each other share one."""
+    length = np.hypot(*(end - start).T)
+    return _overlapping(start, end, *_crowds(start, end, length, tolerance), tolerance)
 
 
 def _without(
@@ -174,14 +181,14 @@ def _covered(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints
         alive = ~dropped[owner]
         owner, run = owner[alive], run[alive]
     parts = [(np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros(0))]
-    for winner, loser in _pairs(owner, run):
+    for winner, loser in pairs_in_crowds(owner, run):
         over, low, high = segments.overlaps(winner, loser)
         parts.append((loser[over], low[over], high[over]))
     loser, low, high = (np.concatenate(column) for column in zip(*parts, strict=True))
     return np.flatnonzero(dropped), loser, low, high
 
 
-def _pairs(owner: Ints, run: Ints) -> Iterator[tuple[Ints, Ints]]:
+def pairs_in_crowds(owner: Ints, run: Ints) -> Iterator[tuple[Ints, Ints]]:
     """Blocks of all pairs of different strokes of a crowd, the more important first."""
     if not len(run):
         return
