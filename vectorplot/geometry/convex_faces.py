@@ -9,6 +9,10 @@ import numpy as np
 
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.tolerance import ROUNDING
+
+PLANE = 1e-6
+"""Halves of a plane quadrilateral turn from each other by an angle with a square below this."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +76,9 @@ def _planar_convex(p: list[Floats], tolerance: float) -> Bools:
     normal = _cross(p[1] - p[0], p[2] - p[0])
     for k in range(3, len(p)):
         normal = normal + _cross(p[k - 1] - p[0], p[k] - p[0])
+    longest = np.max([_dot(s, s) for s in side], axis=0)
+    # The two halves of a bow tie cancel out.
+    has_area = np.sqrt(_dot(normal, normal)) > ROUNDING * longest
     normal = normal / np.maximum(np.sqrt(_dot(normal, normal)), np.finfo(float).tiny)
     planar = np.ones(normal.shape[1], dtype=np.bool_)
     left = np.ones(normal.shape[1], dtype=np.bool_)
@@ -80,7 +87,7 @@ def _planar_convex(p: list[Floats], tolerance: float) -> Bools:
         planar &= np.abs(_dot(p[k] - p[0], normal)) <= tolerance
         left &= _dot(turn[k], normal) >= -tolerance * np.maximum(length[k - 1], length[k])
     if len(p) == 4:
-        return planar & left
+        return planar & left & has_area
     angle = sum(np.arctan2(_dot(turn[k], normal), _dot(side[k - 1], side[k])) for k in range(len(p)))
     return np.asarray(planar & left & (angle < 3.0 * np.pi), dtype=np.bool_)
 
@@ -104,12 +111,30 @@ def _cut_quads(points: Floats, quads: Ints) -> tuple[Ints, Bools]:
         normal = np.cross(p[:, :, b] - p[:, :, a], p[:, :, c] - p[:, :, a], axis=0)
         return np.asarray((normal * mean).sum(axis=0) <= 0.0, dtype=np.bool_)
 
+    crossing = int(_crossing_quads(p).sum())
+    if crossing:
+        warnings.warn(f"{crossing} faces cross themselves: cut along a diagonal", InputWarning, stacklevel=4)
     first_bad, second_bad = folds(0, 1, 2) | folds(0, 2, 3), folds(1, 2, 3) | folds(1, 3, 0)
     first = ((p[:, :, 2] - p[:, :, 0]) ** 2).sum(axis=0) <= ((p[:, :, 3] - p[:, :, 1]) ** 2).sum(axis=0)
     use_first = np.where(first_bad == second_bad, first, second_bad)
     turned = np.where(use_first[:, None], quads, np.roll(quads, -1, axis=1))
     triangles = np.stack([turned[:, [0, 1, 2]], turned[:, [0, 2, 3]]], axis=1).reshape(-1, 3)
     return triangles, np.tile(np.array([[False, False, True], [True, False, False]]), (len(quads), 1))
+
+
+def _crossing_quads(p: Floats) -> Bools:
+    """(q,) which plane quadrilaterals (3,q,4) cross themselves: along either diagonal their halves lie over each
+    other."""
+    halves = [(0, 1, 2), (0, 2, 3), (1, 2, 3), (1, 3, 0)]
+    normals = np.stack([_cross(p[:, :, b] - p[:, :, a], p[:, :, c] - p[:, :, a]) for a, b, c in halves])
+    sizes = (normals * normals).sum(axis=1)
+    largest = normals[sizes.argmax(axis=0), :, np.arange(p.shape[1])]
+    size = np.maximum(sizes.max(axis=0), np.finfo(float).tiny)
+    heights = np.einsum("hkq,qk->hq", normals, largest) / size
+    # Halves of a quadrilateral in space turn away from the plane of the largest one.
+    plane = (heights * heights >= (1.0 - PLANE) * sizes / size).all(axis=0)
+    one, two, three, four = heights
+    return np.asarray((one * two < 0.0) & (three * four < 0.0) & plane, dtype=np.bool_)
 
 
 def _cut_polygons(points: Floats, corners: Ints, offsets: Ints, faces: Ints) -> tuple[Ints, Bools, Ints]:
