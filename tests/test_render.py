@@ -555,14 +555,14 @@ def test_progress_never_goes_back(monkeypatch):
 
 def test_only_the_stages_that_the_scene_calls_for_run():
     plain = vp.Scene((vp.Item("A", box((-1, -1, -1), (1, 1, 1))),))
-    assert stage_names(plain) == ["look", "triangles", "depth", "shading", "average"]
+    assert stage_names(plain) == ["look", "triangles", "coplanar", "depth", "shading", "average"]
     assert "shadows" not in stage_names(plain, shadows="exact"), "no light that casts"
     assert "facets" in stage_names(vp.Scene((sphere(),)))
     assert "mirrors" in stage_names(coloured_boxes())
     reports = []
     render(replace(plain, lights=(SUN,)), size=(20, 20), shadows="buffer", lines=("crease",), explain=reports.append)
     assert [report.name for report in reports] == [
-        *("look", "triangles", "shadows", "depth", "shading", "lines", "average")
+        *("look", "triangles", "shadows", "coplanar", "depth", "shading", "lines", "average")
     ]
 
 

@@ -146,6 +146,7 @@ def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple
         stages.append(Stage("shadows", f"{len(scene.lights)} lights cast them: {how}" + (why and f", as {why}")))
         if any(map(dims_light, scene.items)):
             stages.append(Stage("clear shadows", "items are transparent"))
+    stages.append(Stage("coplanar", "which of the faces in one plane is seen"))
     stages.append(Stage("depth", "which triangle is in front in every pixel"))
     stages.append(Stage("shading", "every visible point once"))
     if any(item.material.is_mirror for item in scene.items):

@@ -20,6 +20,7 @@ from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seams import without_seams
 from vectorplot.scene.unbounded import tell_what_is_cut_off
 from vectorplot.scene.view import LARGEST, View, look
+from vectorplot.shading.coplanar import coplanar_faces
 from vectorplot.shading.face_shades import view_lights
 from vectorplot.shading.faceted import FacetedScene, faceted
 from vectorplot.shading.image import Image
@@ -121,7 +122,8 @@ def render(
     opacity = np.array([item.material.opacity for item in scene.items])
     mirror = np.array([item.material.is_mirror for item in scene.items], dtype=np.bool_)
     paper = palette(background or scene.background or BACKGROUND)[-1].astype(np.float64)
-    picture = picture_of(triangles, system, fine, lighting, opacity, mirror, outer_sides(view), paper)
+    coplanar = walk.run("coplanar", coplanar_faces, view)
+    picture = picture_of(triangles, system, fine, lighting, opacity, mirror, outer_sides(view), coplanar, paper)
     if how == "exact":
         picture = replace(picture, points_at_once=EXACT_POINTS_AT_ONCE)
     pixels = _pixels(walk, picture, samples)

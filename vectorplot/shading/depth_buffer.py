@@ -119,7 +119,7 @@ def layers_before(buffer: DepthBuffer, chosen: Bools) -> tuple[Ints, Ints, NDArr
     rows, columns = buffer.code.shape
     task = _task(buffer.triangles, buffer.depth_code, columns, buffer.top, buffer.top + rows)
     mask = (1 << task.number_bits) - 1
-    opaque = np.where(buffer.code > 0, (buffer.code << task.number_bits) + mask, 0)
+    opaque = np.where(buffer.code > 0, (buffer.code << task.number_bits) + mask - buffer.triangle, 0)
     pixel, key = keys_before(task, np.flatnonzero(chosen), opaque)
     order = np.lexsort((key, pixel))
     pixel, key = pixel[order], key[order]
@@ -136,7 +136,15 @@ def _task(triangles: ScreenTriangles, depth_code: DepthCode, columns: int, top: 
     depths[used] = depth_code.scaled(triangles.points[used, 2])
     grid = coverage.snap(triangles.points)
     grid[1] -= top << coverage.SUBPIXEL_BITS
-    return Task(grid, depths, triangles.corners, len(triangles).bit_length(), columns, bottom - top)
+    sheet, slopes = np.zeros(0, dtype=np.intp), np.zeros((3, 0))
+    if triangles.sheet is not None and triangles.slopes is not None:
+        start, by_column, by_row = triangles.slopes
+        sheet = triangles.sheet
+        slopes = np.stack(
+            [depth_code.of_any(start + top * by_row), *(depth_code.rate * by for by in (by_column, by_row))]
+        )
+    bits, last = len(triangles).bit_length(), depth_code.first + depth_code.steps
+    return Task(grid, depths, triangles.corners, bits, columns, bottom - top, sheet, slopes, last)
 
 
 def _numbers(keys: NDArray[np.int64], bits: int) -> NDArray[np.int32]:

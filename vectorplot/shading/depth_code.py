@@ -50,8 +50,19 @@ class DepthCode:
         d = np.asarray(depth, dtype=np.float64)
         if d.size and not (d.min() >= self.minimum and d.max() <= self.maximum):
             raise InputError(f"a depth lies outside the range from {self.minimum:g} to {self.maximum:g}: clip first")
+        return self.of_any(d)
+
+    def of_any(self, depth: ArrayLike) -> Floats:
+        """The codes (...) of depths (...), outside the range too."""
+        d = np.asarray(depth, dtype=np.float64)
         size = self.maximum - self.minimum
         return np.asarray(self.first + self.steps * ((d - self.minimum) / (size if size > 0.0 else 1.0)))
+
+    @property
+    def rate(self) -> float:
+        """How many steps a unit of depth is."""
+        size = self.maximum - self.minimum
+        return self.steps / (size if size > 0.0 else 1.0)
 
     def code(self, depth: ArrayLike) -> NDArray[np.int64]:
         """The codes (...) of depths (...)."""

@@ -39,7 +39,12 @@ TILE, SMALL_TILE = 64, 16
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """Triangles to be covered: grid (2, n) subpixels, depths (n,) codes not yet cut off, corners (t, 3)."""
+    """Triangles to be covered.
+
+    grid (2, n) subpixels, depths (n,) codes not yet cut off, corners (t, 3); sheet (t,): the plane of slopes (3, k)
+    that has the codes of a triangle, -1 for none: code at the first column and row, and how it grows with column and
+    row. So triangles in one plane have the same codes; last: the largest of all.
+    """
 
     grid: NDArray[np.int32]
     depths: Floats
@@ -47,6 +52,15 @@ class Task:
     number_bits: int
     columns: int
     rows: int
+    sheet: Ints
+    slopes: Floats
+    last: float
+
+    @property
+    def nearest(self) -> Floats:
+        """(t,) codes that no fragment of a triangle exceeds by more than one."""
+        found = self.depths[self.corners].max(axis=1)
+        return np.where(self.sheet >= 0, self.last, found) if len(self.sheet) else found
 
     @property
     def stride(self) -> int:
@@ -96,7 +110,8 @@ def keys_before(task: Task, number: Ints, opaque: Keys) -> tuple[Ints, Keys]:
 
     def collect(pixel: Ints, key: Keys) -> None:
         row, column = np.divmod(pixel, task.stride)
-        closer = (key >> task.number_bits > keys[pixel] >> task.number_bits) & (column < task.columns)
+        # Of equal depths, the smaller number.
+        closer = (key > keys[pixel]) & (column < task.columns)
         closer &= row < task.rows
         pixels.append((row * task.columns + column)[closer])
         found.append(key[closer])
@@ -138,6 +153,12 @@ def _keys(task: Task, planes: Planes, found: Fragments) -> Keys:
     """(f,) the keys of fragments."""
     t = found.triangle
     depth = planes.base[t] + found.second * planes.rise[t] + found.third * planes.other_rise[t]
+    if len(task.sheet):
+        sheet = task.sheet[planes.number[t]]
+        flat = np.flatnonzero(sheet >= 0)
+        row, column = np.divmod(found.pixel[flat], task.stride)
+        start, by_column, by_row = task.slopes[:, sheet[flat]]
+        depth[flat] = np.clip(start + column * by_column + row * by_row, 1.0, task.last)
     key = depth.astype(np.int64)
     key <<= task.number_bits
     key += ((1 << task.number_bits) - 1 - planes.number)[t]
@@ -146,8 +167,7 @@ def _keys(task: Task, planes: Planes, found: Fragments) -> Keys:
 
 def _cover_by_tiles(keys: Keys, task: Task, number: Ints, take: Take) -> None:
     """Offer the keys of triangles that are not small, the nearest first."""
-    nearest = task.depths[task.corners[number]].max(axis=1)
-    number = number[np.argsort(-nearest, kind="stable")]
+    number = number[np.argsort(-task.nearest[number], kind="stable")]
     for begin in range(0, len(number), SETUP_AT_ONCE):
         planes = _planes(task, number[begin : begin + SETUP_AT_ONCE])
         side = np.maximum(planes.box.right - planes.box.left, planes.box.bottom - planes.box.top)
@@ -160,8 +180,7 @@ def _tiles(keys: Keys, task: Task, planes: Planes, chosen: Ints, side: int, take
     ends = np.cumsum(coverage.tile_counts(planes.box, chosen, side))
     across = task.stride // side
     farthest = keys.reshape(-1, side, across, side).min(axis=(1, 3)).reshape(-1)
-    corners = task.corners[planes.number]
-    nearest = task.depths[corners].max(axis=1)
+    nearest = task.nearest[planes.number]
     begin = 0
     while begin < len(chosen):
         done = ends[begin - 1] if begin else 0

@@ -11,6 +11,7 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.projection import CoordinateSystem
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.shading.barycentrics import points_in_pixels, visible_points
+from vectorplot.shading.coplanar import CoplanarFaces, ranked
 from vectorplot.shading.depth_buffer import DepthBuffer, layers_before, strip
 from vectorplot.shading.lighting import Lighting, shaded_points
 from vectorplot.shading.scene_triangles import SceneTriangles
@@ -34,8 +35,8 @@ class Picture:
 
     system: view coordinates to pixels; homogeneous (n, 4): the triangles' points there; screen: the triangles there;
     opacity (i,) and mirror (i,) of every item; outer_side (i,): 1 and -1 for those of which only the outside is seen,
-    wound as it should be or inside out, 0 for others; background (3,); points_at_once: so many points are
-    shaded together.
+    wound as it should be or inside out, 0 for others; coplanar: faces in one plane; background (3,); points_at_once: so
+    many points are shaded together.
     """
 
     triangles: SceneTriangles
@@ -48,6 +49,7 @@ class Picture:
     opacity: Floats
     mirror: Bools
     outer_side: Ints
+    coplanar: CoplanarFaces
     background: Floats
     points_at_once: int = POINTS_AT_ONCE
 
@@ -65,12 +67,16 @@ def picture_of(
     opacity: Floats,
     mirror: Bools,
     outer_side: Ints,
+    coplanar: CoplanarFaces,
     background: Floats,
 ) -> Picture:
     """A picture of size columns x rows."""
     homogeneous = system.homogeneous(triangles.points)
     screen = screen_triangles(homogeneous, triangles.corners)
-    return Picture(triangles, system, homogeneous, screen, *size, lighting, opacity, mirror, outer_side, background)
+    screen = ranked(screen, triangles, homogeneous, coplanar, lighting.eye, outer_side)
+    return Picture(
+        triangles, system, homogeneous, screen, *size, lighting, opacity, mirror, outer_side, coplanar, background
+    )
 
 
 def opaque_buffer(picture: Picture, top: int, bottom: int) -> DepthBuffer:
@@ -171,7 +177,10 @@ def _reflection(picture: Picture, buffer: DepthBuffer, triangle: int, pixel: Int
     double = picture.system.homogeneous(triangles.points - 2.0 * height[:, None] * normal)
     # What is on the mirror's own side, as a half-space of the double.
     side = HalfSpace(_in_pixels(picture.system, np.append(-normal, a @ normal)), ZERO_OF_EXTENT)
+    x, y, z = (eye[:3] - 2.0 * (eye[:3] @ normal - eye[3] * (a @ normal)) * normal).tolist()
+    lighting = replace(picture.lighting, eye=(x, y, z, float(eye[3])))
     flat = screen_triangles(double, triangles.corners, sides=[side])
+    flat = ranked(flat, triangles, double, picture.coplanar, lighting.eye, picture.outer_side)
     columns = picture.columns
     top, bottom = int(pixel.min()) // columns, int(pixel.max()) // columns + 1
     chosen = picture.opacity[triangles.item[flat.source]] >= 1.0
@@ -182,8 +191,6 @@ def _reflection(picture: Picture, buffer: DepthBuffer, triangle: int, pixel: Int
     colours[:] = picture.background
     met = np.flatnonzero(number >= 0)
     found = points_in_pixels(window, inside[met], number[met].astype(np.intp), double, triangles.corners)
-    x, y, z = (eye[:3] - 2.0 * (eye[:3] @ normal - eye[3] * (a @ normal)) * normal).tolist()
-    lighting = replace(picture.lighting, eye=(x, y, z, float(eye[3])))
     colours[met] = shaded_points(triangles, found, lighting).colours
     if (picture.opacity >= 1.0).all():
         return colours

@@ -36,12 +36,15 @@ class ScreenTriangles:
     """Triangles in pixels, all of them in front of the near plane and inside the guard band.
 
     points (p, 3): column, row and depth after T2 (z / (d - z), in a parallel projection z); corners (t, 3) into points;
-    source (t,): the triangle each is a part of.
+    source (t,): the triangle each is a part of; sheet (t,): the plane that it shares with others, -1 for none (None:
+    none shares any); slopes (3, k): the depth of each such plane at column 0 and row 0, and how it grows with these.
     """
 
     points: Floats
     corners: Ints
     source: Ints
+    sheet: Ints | None = None
+    slopes: Floats | None = None
 
     def __len__(self) -> int:
         return len(self.corners)
