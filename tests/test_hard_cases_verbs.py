@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -316,7 +317,9 @@ def test_patterns_that_cross_themselves_stay_within_their_face(verb: str) -> Non
     tie = np.array([(-0.4, -0.4), (0.4, 0.4), (0.4, -0.4), (-0.4, 0.4)])
     item = vp.Item("CUBE", box((0, 0, 0), (1, 1, 1)), "orange", patterns=(vp.Pattern("TIE", "blue", 5, tie),))
     camera = vp.Camera((3, -4, 6), (0.5, 0.5, 0.5))
-    made = getattr(vp, verb)(vp.Scene((item,)), camera)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", vp.InputWarning)
+        made = getattr(vp, verb)(vp.Scene((item,)), camera)
     marks = [mark for layer in made.layers for mark in (*layer.fills, *layer.strokes)]
     on_top = np.concatenate([mark.points3d for mark in marks if len(mark)])
     assert (on_top >= -1e-9).all() and (on_top <= 1 + 1e-9).all()

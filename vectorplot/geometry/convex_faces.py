@@ -87,7 +87,7 @@ def _planar_convex(p: list[Floats], tolerance: float) -> Bools:
         planar &= np.abs(_dot(p[k] - p[0], normal)) <= tolerance
         left &= _dot(turn[k], normal) >= -tolerance * np.maximum(length[k - 1], length[k])
     if len(p) == 4:
-        return planar & left & has_area
+        return np.asarray(planar & left & has_area, dtype=np.bool_)
     angle = sum(np.arctan2(_dot(turn[k], normal), _dot(side[k - 1], side[k])) for k in range(len(p)))
     return np.asarray(planar & left & (angle < 3.0 * np.pi), dtype=np.bool_)
 

@@ -178,10 +178,9 @@ def separations_after_moves(
         raise InputError(f"{len(first)} pairs need as many separations, not {len(before.info)}")
     anew = np.flatnonzero(moved[first] | moved[second])
     found = separations(around, first[anew], second[anew])
-    columns = (before.info.copy(), before.planes.copy(), before.spheres.copy())
-    for column, part in zip(columns, (found.info, found.planes, found.spheres), strict=True):
-        column[anew] = part
-    return Separations(*columns)
+    info, planes, spheres = before.info.copy(), before.planes.copy(), before.spheres.copy()
+    info[anew], planes[anew], spheres[anew] = found.info, found.planes, found.spheres
+    return Separations(info, planes, spheres)
 
 
 def _between_boxes(around: Surroundings, one: Ints, two: Ints, limit: Floats) -> tuple[Bools, Floats]:
