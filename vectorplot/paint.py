@@ -311,7 +311,7 @@ def _shaded(walk: Walk, seen: _Seen, lighting: Lighting, page: Page, aura_mm: fl
     aura = aura_mm / float(seen.placed.page_from_image[0, 0])
     decals, lighting = _decals(walk, seen, lighting, aura)
     laid = _laid(seen, lighting, decals)
-    overlays = _overlays(walk, seen, lighting, aura, tolerance_mm)
+    overlays = _overlays(walk, seen, lighting, decals, aura, tolerance_mm)
     return walk.run("fills", _fills, walk, seen, lighting, shades, laid, overlays, page)
 
 
@@ -350,7 +350,9 @@ def _laid(seen: _Seen, lighting: Lighting, decals: tuple[Decals, ...]) -> tuple[
     return tuple(decal_fills(seen.view, lighting, some, seen.faces, seen.placed) for some in decals)
 
 
-def _overlays(walk: Walk, seen: _Seen, lighting: Lighting, aura: float, tolerance_mm: float) -> tuple[Overlay, ...]:
+def _overlays(
+    walk: Walk, seen: _Seen, lighting: Lighting, decals: tuple[Decals, ...], aura: float, tolerance_mm: float
+) -> tuple[Overlay, ...]:
     """What polygons of the picture show, painted right after them and what lies on them.
 
     aura: the width of soft borders of shadows in the image.
@@ -384,6 +386,7 @@ def _overlays(walk: Walk, seen: _Seen, lighting: Lighting, aura: float, toleranc
                 seen.faces,
                 seen.placed,
                 tolerance_mm,
+                decals,
             )
         )
     return tuple(found)

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from seen_rays import first_hits, sight_rays, topmost, triangles
 
+from vectorplot.effects.decals import Decals
 from vectorplot.effects.glass import refracting_items, seen_in_glass
 from vectorplot.effects.refraction import refracted
 from vectorplot.geometry.camera import Camera
@@ -71,6 +72,12 @@ class Picture:
             behind[here] = np.where(at >= 0, self.seen.source[shown][at], -1)
         return face, behind
 
+    def behind(self, samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The face that each ray meets in the glass or behind it, -1 for none, -2 beside the glass, and where."""
+        self.place = np.zeros((samples.shape[1], 3))
+        face = self.true_at(samples)[1]
+        return face, self.place
+
     def true_at(self, samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The face that each ray meets, and what it meets when it has been refracted into the glass and out of it."""
         origin, direction = sight_rays(self.view, samples)
@@ -82,11 +89,16 @@ class Picture:
         start = origin[into] + far[into, None] * direction[into]
         ray, _ = refracted(direction[into], self.normal[face[into]], self.constant)
         met, far = first_hits(start, ray, *self.triangles)
+        place = start + np.where(np.isfinite(far), far, 0.0)[:, None] * ray
         out = np.flatnonzero((met >= 0) & self.own[met])
         leaving = start[out] + far[out, None] * ray[out]
         ray, total = refracted(ray[out], self.normal[met[out]], 1.0 / self.constant)
-        met[out] = np.where(total, -1, first_hits(leaving, ray, *self.triangles)[0])
+        last, far = first_hits(leaving, ray, *self.triangles)
+        met[out] = np.where(total, -1, last)
+        place[out] = leaving + np.where(np.isfinite(far), far, 0.0)[:, None] * ray
         behind[into] = met
+        self.place = np.zeros((len(face), 3))
+        self.place[into] = place
         return face, behind
 
 
@@ -195,7 +207,7 @@ def test_only_closed_convex_bodies_that_are_clear_refract() -> None:
         glass(cube, 1.5),
         glass(cube, 1.0),
         glass(open_cube, 1.5),
-        Item("SOLID", cube, material=Material("transparent", 0.5, 1.5)),
+        Item("SOLID", cube, material=Material("transparent", 0.5, 1.5), occludes=True),
     )
     scene = Scene(items)
     view = look(scene, Camera(eye=(5.0, 4.0, 3.0)))
@@ -205,3 +217,61 @@ def test_only_closed_convex_bodies_that_are_clear_refract() -> None:
 def test_glass_with_nothing_behind_it() -> None:
     picture = Picture(Scene((glass(box((0, 0, 0), (1, 1, 1)), 1.5),)), Camera(eye=(5.0, 4.0, 3.0)))
     assert len(picture.seen) == 0 and len(picture.painted) == 3
+
+
+def triangles_on_faces(view: View, random: np.random.Generator) -> Decals:
+    """A triangle on every face of the view, as large as a half of it or so."""
+    parts = []
+    for face in range(view.face_count):
+        ring = view.points[:, view.corners[view.offsets[face] : view.offsets[face + 1]]]
+        parts.append(ring @ random.dirichlet(np.full(ring.shape[1], 0.3), 3).T)
+    count = np.arange(view.face_count)
+    none = np.zeros_like(count)
+    points = np.concatenate(parts, axis=1)
+    return Decals(points, np.arange(0, 3 * view.face_count + 1, 3), count, none, none, none - 1, none - 1, none)
+
+
+@pytest.mark.parametrize("start", [0, 8])
+def test_what_lies_on_faces_behind_glass_is_where_the_refracted_ray_meets_it(start: int) -> None:
+    random = np.random.default_rng(start)
+    checked = marked = 0
+    for seed in range(start, start + 8):
+        scene, camera = random_scene(seed)
+        picture = Picture(scene, camera)
+        decals = triangles_on_faces(picture.view, random)
+        projected = project_faces(picture.view)
+        bare = picture.seen
+        picture.seen = seen_in_glass(scene, picture.view, projected, picture.painted, 1e-3, decals)
+        assert (picture.seen.decal < 0).sum() == len(bare)
+        faces = picture.seen.some(np.flatnonzero(picture.seen.decal < 0))
+        assert np.array_equal(faces.points, bare.points) and np.array_equal(faces.window, bare.window)
+        corners = decals.points.T.reshape(-1, 3, 3)
+        view = picture.view
+        of_glass = view.image[:, view.item_vertices[-2] :]
+        low, high = of_glass.min(axis=1), of_glass.max(axis=1)
+        samples = low[:, None] + random.uniform(size=(2, 200)) * (high - low)[:, None]
+
+        def true_at(samples: np.ndarray, picture: Picture = picture, corners: np.ndarray = corners) -> np.ndarray:
+            """The face that each ray meets behind glass, plus a half where the triangle on it is met."""
+            face, point = picture.behind(samples)
+            a, b, c = np.moveaxis(corners[np.maximum(face, 0)], 1, 0)
+            normal = np.cross(b - a, c - a)
+            turns = [(np.cross(q - p, point - p) * normal).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))]
+            return face + 0.5 * ((np.array(turns) >= 0.0).all(axis=0) & (face >= 0))
+
+        true = true_at(samples)
+        steady = np.ones(200, dtype=bool)
+        for step in ([1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, -1]):
+            steady &= true_at(samples + 4e-3 * np.array(step)[:, None]) == true
+        top = topmost(picture.painted.points, picture.painted.offsets, samples)
+        found = np.full(200, -2.0)
+        for window in np.unique(picture.seen.window).tolist():
+            here = np.flatnonzero(top == window)
+            shown = picture.seen.some(np.flatnonzero(picture.seen.window == window))
+            at = topmost(shown.points, shown.offsets, samples[:, here])
+            found[here] = np.where(at >= 0, shown.source[at] + 0.5 * (shown.decal[at] >= 0), -1.0)
+        some = steady & (true >= 0)
+        assert (found == true)[some].all()
+        checked += int(some.sum())
+        marked += int((true % 1.0 > 0.0)[some].sum())
+    assert checked > 80 and marked > 8

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from vectorplot.drawing.fills import FillKind
+from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted import Overlay, Placed, fills_on_page
 from vectorplot.effects.convex_decals import convex_decals
 from vectorplot.effects.decals import Decals
@@ -29,17 +29,27 @@ def decal_fills(
     faces: the painted polygons. On transparent faces there are patterns only: light goes through them.
     Source: Glaeser, sections 6.3, 6.5 and 6.6.
     """
+    decals = shown_decals(view, lighting, decals)
+    parts = laid(view, decals, faces.points, faces.offsets, faces.source)
+    return Overlay(laid_fills(view, lighting, decals, parts, placed), parts.piece)
+
+
+def shown_decals(view: View, lighting: Lighting, decals: Decals) -> Decals:
+    """Those of decals that show, as convex polygons: on transparent faces there are patterns only."""
     opaque = opacities(lighting.items)[view.face_item[decals.face]] >= 1.0
     decals = decals.of(np.flatnonzero(opaque | (decals.kind == FillKind.PATTERN)))
-    decals = convex_decals(view, decals, smooth_faces(view, lighting.normals))
-    parts = laid(view, decals, faces.points, faces.offsets, faces.source)
+    return convex_decals(view, decals, smooth_faces(view, lighting.normals))
+
+
+def laid_fills(view: View, lighting: Lighting, decals: Decals, parts: Laid, placed: Placed) -> Fills:
+    """Parts of decals in the shades of their faces, those that lack lights darker."""
     points = unmapped(view, parts.points)
     shades = corner_shades_of(view, lighting, points, parts.offsets, decals.face[parts.decal])
     shade = _shades(decals, parts, shades)
     for number in np.unique(decals.light[(decals.kind == FillKind.LIGHT) & (decals.light >= 0)]).tolist():
         corner, brighter = _with_double(view, lighting, decals, parts, points, shades, number)
         shade[..., corner] = brighter
-    fills = fills_on_page(
+    return fills_on_page(
         view,
         parts.points,
         parts.offsets,
@@ -49,7 +59,6 @@ def decal_fills(
         item=view.face_item[decals.face[parts.decal]],
         kind=decals.kind[parts.decal],
     )
-    return Overlay(fills, parts.piece)
 
 
 def _shades(decals: Decals, parts: Laid, shades: Shades) -> Floats:

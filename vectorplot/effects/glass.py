@@ -9,8 +9,17 @@ import numpy as np
 from vectorplot.effects.beams import TOUCHING, Beams, Solid, soup_above, soup_in_beams
 from vectorplot.effects.bending import Soup, bent
 from vectorplot.effects.bent_order import bent_order
-from vectorplot.effects.windows import SeenThrough, clipped_pairs, joined_seen, nothing_seen, sorted_by_window
+from vectorplot.effects.decals import Decals, no_decals
+from vectorplot.effects.windows import (
+    SeenThrough,
+    clipped_pairs,
+    joined_seen,
+    nothing_seen,
+    one_after_another,
+    sorted_by_window,
+)
 from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.plane_cuts import cut_by_planes
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.occluders import solid_items
@@ -46,13 +55,19 @@ def refracting_items(scene: Scene, view: View, projected: ProjectedFaces) -> Boo
 
 
 def seen_in_glass(
-    scene: Scene, view: View, projected: ProjectedFaces, painted: ImageFaces, tolerance: float
+    scene: Scene,
+    view: View,
+    projected: ProjectedFaces,
+    painted: ImageFaces,
+    tolerance: float,
+    decals: Decals | None = None,
 ) -> SeenThrough:
     """What is seen in and behind transparent solids, refracted, to be painted after what is painted of the solids'
     front faces has been filled with the colour of the paper; then comes the tint of these faces.
 
     painted: the polygons of the picture, back to front. tolerance: how far, in units of the image, straight sides of
-    polygons may be off the curves that refraction makes of them in a perspective; their corners are exact.
+    polygons may be off the curves that refraction makes of them in a perspective; their corners are exact. decals:
+    convex ones on faces, in the order in which they are painted, seen as their faces are.
     Other transparent solids are seen without refraction, and total reflection within a solid shows nothing.
     Degenerate: of material thinner than its surroundings (constants below 1), which a perspective can see through up to
     the angle of total reflection only, parts near that angle may be missing.
@@ -66,20 +81,22 @@ def seen_in_glass(
         if len(window):
             front, way = np.unique(painted.source[window], return_inverse=True)
             panes = Panes(painted.some(window), way, window)
-            parts += _seen_in(_Glass(view, solid, np.searchsorted(solid.face, front), panes, tolerance))
+            number = np.searchsorted(solid.face, front)
+            parts += _seen_in(_Glass(view, solid, number, panes, tolerance, no_decals() if decals is None else decals))
     return joined_seen(parts)
 
 
 @dataclass(frozen=True, eq=False)
 class _Glass:
     """A solid in a view: front (w,) those of its faces that one looks through, by panes whose ways are the numbers of
-    these faces; tolerance as of seen_in_glass."""
+    these faces; tolerance and decals as of seen_in_glass."""
 
     view: View
     solid: Solid
     front: Ints
     panes: Panes
     tolerance: float
+    decals: Decals
 
     @property
     def boxes(self) -> Floats:
@@ -99,10 +116,22 @@ def _seen_in(glass: _Glass) -> list[SeenThrough]:
     parts = [_behind(glass, beams, soup) for beams, soup in soup_in_beams(view, solid, front, boxes, rest)]
     walls = -solid.planes
     walls[3] -= TOUCHING * view.tolerance
-    inside = soup_above(rest, walls, view.tolerance)
-    way, polygon = (grid.ravel() for grid in np.mgrid[: len(front), : len(inside)])
-    within = bent(view, solid.passages(front), inside.on_ways(polygon, way), boxes, glass.tolerance)
-    return [*parts, _shown(view, within, glass.panes, glass.tolerance)]
+    inside = _bent_inside(glass, soup_above(rest, walls, view.tolerance))
+    lying = _bent_inside(glass, soup_above(_as_soup(glass.decals), walls, view.tolerance))
+    return [*parts, _shown(glass, inside, lying, glass.panes)]
+
+
+def _bent_inside(glass: _Glass, soup: Soup) -> Soup:
+    """What is in a solid as it is seen through each of its front faces."""
+    way, polygon = (grid.ravel() for grid in np.mgrid[: len(glass.front), : len(soup)])
+    passages = glass.solid.passages(glass.front)
+    return bent(glass.view, passages, soup.on_ways(polygon, way), glass.boxes, glass.tolerance)
+
+
+def _as_soup(decals: Decals) -> Soup:
+    """Decals as polygons of their own."""
+    every = np.arange(len(decals))
+    return Soup(decals.points, decals.offsets, every, np.zeros_like(every))
 
 
 def _behind(glass: _Glass, beams: Beams, soup: Soup) -> SeenThrough:
@@ -110,6 +139,7 @@ def _behind(glass: _Glass, beams: Beams, soup: Soup) -> SeenThrough:
     the solid by."""
     view, solid = glass.view, glass.solid
     found = bent(view, beams.leaves, soup, beams.box, glass.tolerance)
+    lying = bent(view, beams.leaves, _decals_in(glass, beams, soup), beams.box, glass.tolerance)
     used = np.unique(found.way)
     outlines = replace(solid.outlines(beams.back[used]), source=used, way=beams.front[used])
     backs = bent(view, solid.passages(glass.front), outlines, glass.boxes, glass.tolerance)
@@ -118,7 +148,20 @@ def _behind(glass: _Glass, beams: Beams, soup: Soup) -> SeenThrough:
     source = glass.panes.faces.source[pane]
     parts = ImageFaces(points, ends, faces.planes[:, face], source, faces.rank[face])
     panes = Panes(parts, backs.source[faces.source[face]], glass.panes.window[pane])
-    return _shown(view, found, panes, glass.tolerance)
+    return _shown(glass, found, lying, panes)
+
+
+def _decals_in(glass: _Glass, beams: Beams, soup: Soup) -> Soup:
+    """The decals on the faces of polygons in beams, cut off as these are, each on the way of its beam."""
+    decals = glass.decals
+    face, way = np.unique(np.stack([soup.source, soup.way]), axis=1)
+    order = np.argsort(decals.face, kind="stable")
+    first, last = (np.searchsorted(decals.face[order], face, side=side) for side in ("left", "right"))
+    counts = last - first
+    step = np.arange(int(counts.sum())) - np.repeat(np.cumsum(counts) - counts, counts)
+    decal, beam = order[np.repeat(first, counts) + step], np.repeat(way, counts)
+    parts = cut_by_planes(decals.points, decals.offsets, beams.bundles, decal, beam, glass.view.tolerance)
+    return Soup(parts.points, parts.offsets, decal[parts.pair], beam[parts.pair])
 
 
 def _in_panes(view: View, faces: ImageFaces, way: Ints, panes: Panes) -> tuple[Floats, Ints, Ints, Ints]:
@@ -133,8 +176,10 @@ def _in_panes(view: View, faces: ImageFaces, way: Ints, panes: Panes) -> tuple[F
     return points, offsets, face[pair], pane[pair]
 
 
-def _shown(view: View, soup: Soup, panes: Panes, tolerance: float) -> SeenThrough:
-    """Bent polygons as far as they are seen in the panes of their ways, back to front."""
+def _shown(glass: _Glass, soup: Soup, lying: Soup, panes: Panes) -> SeenThrough:
+    """Bent polygons as far as they are seen in the panes of their ways, back to front, each followed by the bent decals
+    (lying, whose sources are their numbers) on its face."""
+    view = glass.view
     faces = polygons_of(mapped(view, soup.points), soup.offsets, np.arange(len(soup)), view.tolerance)
     points, offsets, face, pane = _in_panes(view, faces, soup.way, panes)
     if not len(pane):
@@ -142,10 +187,33 @@ def _shown(view: View, soup: Soup, panes: Panes, tolerance: float) -> SeenThroug
     parts = polygons_of(points, offsets, np.arange(len(pane)), view.tolerance)
     piece = faces.source[face]
     _, bent_face = np.unique(np.stack([soup.way[piece], soup.source[piece]]), axis=1, return_inverse=True)
-    off = view.tolerance if view.eye is None else max(tolerance, view.tolerance)
+    off = view.tolerance if view.eye is None else max(glass.tolerance, view.tolerance)
     order = bent_order(view, parts, bent_face[parts.source], off)
-    through = pane[order.source]
-    source = soup.source[piece[order.source]]
-    return sorted_by_window(
-        SeenThrough(order.points, order.offsets, source, panes.window[through], panes.faces.source[through])
+    through, piece = pane[order.source], piece[order.source]
+    source, window = soup.source[piece], panes.window[through]
+    bare = SeenThrough(
+        order.points, order.offsets, source, window, panes.faces.source[through], np.full(len(order), -1, dtype=np.intp)
     )
+    if not len(lying):
+        return sorted_by_window(bare)
+    part, laid = _laid_on(glass, order, source, soup.way[piece], lying)
+    both = one_after_another([bare, replace(laid, window=window[part], pane=bare.pane[part])])
+    # After all parts of a face that follow each other: a part would cover the border of what lies on its neighbour.
+    new = np.append(True, (np.diff(source) != 0) | (np.diff(soup.way[piece]) != 0))
+    run = np.cumsum(new)
+    return sorted_by_window(both.some(np.lexsort((both.decal, np.concatenate([run, run[part]])))))
+
+
+def _laid_on(glass: _Glass, parts: ImageFaces, face: Ints, way: Ints, lying: Soup) -> tuple[Ints, SeenThrough]:
+    """Bent decals clipped with the parts (n,) of their faces on their ways: which part each lies on."""
+    view = glass.view
+    marks = polygons_of(mapped(view, lying.points), lying.offsets, np.arange(len(lying)), view.tolerance)
+    own_face, own_way = glass.decals.face[lying.source[marks.source]], lying.way[marks.source]
+    pairs = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
+    for mark, part in boxes_over(marks.box, parts.box, view.tolerance):
+        same = (own_face[mark] == face[part]) & (own_way[mark] == way[part])
+        pairs.append((mark[same], part[same]))
+    mark, part = (np.concatenate([pair[k] for pair in pairs]) for k in (0, 1))
+    points, offsets, pair = clipped_pairs(marks, parts, mark, part, view.tolerance)
+    mark, part = mark[pair], part[pair]
+    return part, SeenThrough(points, offsets, own_face[mark], part, part, lying.source[marks.source[mark]])

@@ -9,7 +9,10 @@ import numpy as np
 
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted import Overlay, Placed
+from vectorplot.effects.decal_fills import laid_fills, shown_decals
+from vectorplot.effects.decals import Decals, joined_decals
 from vectorplot.effects.glass import seen_in_glass
+from vectorplot.effects.laying import Laid
 from vectorplot.effects.seen_fills import mixed, seen_fills
 from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.scene.scene import Scene
@@ -28,14 +31,24 @@ def glass_fills(
     faces: ImageFaces,
     placed: Placed,
     tolerance_mm: float,
+    decals: Sequence[Decals] = (),
 ) -> Overlay:
     """What refracting solids show, after the painted polygons of their front faces.
 
-    tolerance_mm: how far sides of refracted polygons may be off the curves that they stand for.
+    tolerance_mm: how far sides of refracted polygons may be off the curves that they stand for; decals: what lies on
+    faces, in the order in which it is painted.
     Source: Glaeser, section 6.6, figure 12.
     """
-    seen = seen_in_glass(scene, view, projected, faces, tolerance_mm / placed.page_from_image[0, 0])
-    return seen_fills(view, lighting, seen, placed, FillKind.GLASS)
+    shown = [shown_decals(view, lighting, some) for some in decals]
+    lying = joined_decals(*(some.of(some.painting_order) for some in shown))
+    seen = seen_in_glass(scene, view, projected, faces, tolerance_mm / placed.page_from_image[0, 0], lying)
+    bare, marked = np.flatnonzero(seen.decal < 0), np.flatnonzero(seen.decal >= 0)
+    base = seen_fills(view, lighting, seen.some(bare), placed, FillKind.GLASS).fills
+    marks = seen.some(marked)
+    laid = laid_fills(view, lighting, lying, Laid(marks.points, marks.offsets, marks.decal, marks.window), placed)
+    laid = replace(laid, kind=np.full(len(laid), int(FillKind.GLASS)))
+    order = np.argsort(np.concatenate([bare, marked]))
+    return Overlay(Fills.joined(base, laid).some(order), seen.window)
 
 
 def tinted(

@@ -16,11 +16,11 @@ from vectorplot.effects.decals import Decals
 from vectorplot.effects.reflections import DIMMED, Mirrors, doubled, reflections
 from vectorplot.effects.seen_fills import mixed, seen_fills
 from vectorplot.effects.windows import SeenThrough
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
 from vectorplot.shading.painted_colours import Lighting
-from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions
+from vectorplot.visibility.painter.image_faces import ImageFaces
 
 DecalsOf = Callable[[int, Lighting, Bools], Sequence[Decals]]
 """The decals, in the double of a view, on what the mirror with a number shows; the light there; (f,) the faces."""
@@ -44,7 +44,7 @@ def reflection_fills(
     plane_of[mirrors.face] = mirrors.plane
     parts = []
     for number in range(len(mirrors)):
-        here = _some(seen, np.flatnonzero(plane_of[seen.pane] == number))
+        here = seen.some(np.flatnonzero(plane_of[seen.pane] == number))
         if len(here):
             there = _mirrored_light(lighting, mirrors, number)
             shown = np.isin(np.arange(view.face_count), here.source)
@@ -84,11 +84,6 @@ def _of_double(
     count = len(whole.fills)
     dimmed = np.rint(DIMMED * whole.fills.colours).astype(np.uint8)
     return replace(whole, fills=replace(whole.fills, colours=dimmed, kind=np.full(count, int(FillKind.REFLECTION))))
-
-
-def _some(seen: SeenThrough, which: Ints) -> SeenThrough:
-    corner, offsets = corner_positions(seen.offsets, which)
-    return SeenThrough(seen.points[:, corner], offsets, seen.source[which], seen.window[which], seen.pane[which])
 
 
 def _mirrored_light(lighting: Lighting, mirrors: Mirrors, number: int) -> Lighting:

@@ -19,7 +19,8 @@ class SeenThrough:
 
     points (3,c) in the image, as of ImageFaces: heights are those of the doubles; offsets (m+1,); source (m,): the face
     of the view that is seen; window (m,), ascending: the painted polygon each one is painted after; pane (m,): the face
-    of the view that this window is, or is a part of: the mirror.
+    of the view that this window is, or is a part of: the mirror; decal (m,): the decal on that face that is seen, -1
+    for the face itself.
     """
 
     points: Floats
@@ -27,15 +28,28 @@ class SeenThrough:
     source: Ints
     window: Ints
     pane: Ints
+    decal: Ints
 
     def __len__(self) -> int:
         return len(self.source)
+
+    def some(self, which: Ints) -> SeenThrough:
+        """Some of the polygons, in the order asked for."""
+        position, offsets = corner_positions(self.offsets, which)
+        return SeenThrough(
+            self.points[:, position],
+            offsets,
+            self.source[which],
+            self.window[which],
+            self.pane[which],
+            self.decal[which],
+        )
 
 
 def nothing_seen() -> SeenThrough:
     """No polygons at all."""
     none = np.zeros(0, dtype=np.intp)
-    return SeenThrough(np.zeros((3, 0)), np.zeros(1, dtype=np.intp), none, none, none)
+    return SeenThrough(np.zeros((3, 0)), np.zeros(1, dtype=np.intp), none, none, none, none)
 
 
 def seen_through(faces: ImageFaces, painted: ImageFaces, windows: Ints, tolerance: float) -> SeenThrough:
@@ -56,7 +70,8 @@ def seen_through(faces: ImageFaces, painted: ImageFaces, windows: Ints, toleranc
     window, face = windows[window[order]], face[order]
     points, offsets, pair = clipped_pairs(faces, painted, face, window, tolerance)
     window, source = window[pair], faces.source[face[pair]]
-    return sorted_by_window(SeenThrough(points, offsets, source, window, painted.source[window]))
+    faces_only = np.full(len(window), -1, dtype=np.intp)
+    return sorted_by_window(SeenThrough(points, offsets, source, window, painted.source[window], faces_only))
 
 
 def _wide(points: Floats, offsets: Ints, pair: Ints, tolerance: float) -> tuple[Floats, Ints, Ints]:
@@ -71,25 +86,27 @@ def _wide(points: Floats, offsets: Ints, pair: Ints, tolerance: float) -> tuple[
 
 def sorted_by_window(seen: SeenThrough) -> SeenThrough:
     """The same polygons by windows; those of one window in the order they have."""
-    order = np.argsort(seen.window, kind="stable")
-    position, offsets = corner_positions(seen.offsets, order)
-    return SeenThrough(seen.points[:, position], offsets, seen.source[order], seen.window[order], seen.pane[order])
+    return seen.some(np.argsort(seen.window, kind="stable"))
 
 
 def joined_seen(parts: list[SeenThrough]) -> SeenThrough:
-    """Polygons of different windows together."""
+    """Polygons of different windows together, by windows."""
+    return sorted_by_window(one_after_another(parts))
+
+
+def one_after_another(parts: list[SeenThrough]) -> SeenThrough:
+    """The polygons of all parts as they come."""
     if not parts:
         return nothing_seen()
     starts = np.cumsum([0, *(part.offsets[-1] for part in parts[:-1])])
     offsets = [np.zeros(1, dtype=np.intp), *(p.offsets[1:] + s for p, s in zip(parts, starts, strict=True))]
-    return sorted_by_window(
-        SeenThrough(
-            np.concatenate([part.points for part in parts], axis=1),
-            np.concatenate(offsets),
-            np.concatenate([part.source for part in parts]),
-            np.concatenate([part.window for part in parts]),
-            np.concatenate([part.pane for part in parts]),
-        )
+    return SeenThrough(
+        np.concatenate([part.points for part in parts], axis=1),
+        np.concatenate(offsets),
+        np.concatenate([part.source for part in parts]),
+        np.concatenate([part.window for part in parts]),
+        np.concatenate([part.pane for part in parts]),
+        np.concatenate([part.decal for part in parts]),
     )
 
 
