@@ -32,6 +32,9 @@ NEAR = 1.0 / 64.0
 ON = 0.03
 """A vertex is on a fold, or next to it, where the function of the fold is no larger."""
 
+BULGE = 0.05
+"""Part of the length of a side along the rim of a hole that the rim may be off it."""
+
 RIM_STEPS = 30
 """Halvings of the part of a side in which a hole begins."""
 
@@ -214,8 +217,21 @@ def _in_sight(start: Vertices, end: Vertices, between: Between, demand: Demand) 
     worst = excess.max(axis=0)
     # A hole between two points that are in none.
     hole = np.flatnonzero(~at.known.all(axis=0))
-    part[hole], worst[hole] = t[np.argmin(at.known[:, hole], axis=0), hole], np.inf
+    if len(hole):
+        part[hole] = t[np.argmin(at.known[:, hole], axis=0), hole]
+        worst[hole] = np.nan_to_num(demand.excess(_bulging(edges, hole)), nan=0.0).max(axis=0)
     return np.stack((worst, as_border, part))
+
+
+def _bulging(edges: Edges, hole: Ints) -> Edges:
+    """The sides with a hole beneath them, its points taken for points that are off the side by BULGE of its length: both
+    ends of a side along the rim of a hole are on the rim, and never is all of it."""
+    start, end = edges.start.some(hole), edges.end.some(hole)
+    at = Vertices(edges.at.places[:, hole], edges.at.points[:, hole], edges.at.normals[:, hole])
+    way = end.points - start.points
+    off = BULGE * np.linalg.norm(way, axis=1, keepdims=True) * np.nan_to_num(start.normals)
+    points = np.where(at.known[..., None], at.points, start.points + edges.t[:, hole, None] * way + off)
+    return Edges(start, end, Vertices(at.places, points, at.normals), edges.t[:, hole], edges.fold[:, hole])
 
 
 def _roots(start: Vertices, end: Vertices, values: Floats, between: Between, demand: Demand) -> tuple[Floats, Ints]:
