@@ -81,7 +81,7 @@ def paint(
     lines: words of LineKind, or one text with commas between them, drawn on top with exact hidden lines, or on blank
     polygons (none: all kinds); crease_angle_deg: sharper edges are creases.
     tolerance_mm: how far the sides of polygons may be off smooth surfaces and refracted lines. budget: as of
-    draw, for the lines. progress(stage, fraction) and explain(report) are called while it works.
+    draw, for lines and triangles. progress(stage, fraction) and explain(report) are called while it works.
     Errors: InputError for unknown words and colours, impossible cameras, and widths and counts out of range.
     Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off
     the principal ray, a fitted picture shows the camera's field of vision. A scene without lights is lit from the eye's
@@ -104,7 +104,7 @@ def paint(
         shaded = smooth and fills == "painted"
         casts = shadows != "none" and bool(scene.lights)
         demand = picture_fineness(scene, camera, casts, allowed) if shaded else lambda number: Within(allowed)
-        facets = walk.run("facets", faceted, scene, demand)
+        facets = walk.run("facets", faceted, scene, demand, budget_of(budget))
     facets = replace(facets, scene=_with_clear_items(facets.scene))
     view = walk.run("look", look, facets.scene, camera)
     projected = walk.run("faces", project_faces, view)

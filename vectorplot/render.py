@@ -86,7 +86,7 @@ def render(
     that show most of what is near the eye, or exactly; auto: as the view calls for. samples: every pixel is the mean
     light of samples x samples ones (None: 2 x 2, where there is room for so many). crease_angle_deg: faces that meet at
     less look round. lines: words of LineKind, or one text with commas between them, drawn over the picture with exact
-    hidden lines. background: a palette, a plain colour or #rrggbb. budget: as of draw, for the lines.
+    hidden lines. background: a palette, a plain colour or #rrggbb. budget: as of draw, for lines and triangles.
     progress(stage, fraction) and explain(report) are called while it works.
     Errors: InputError for unknown words and colours, impossible cameras, and sizes out of range.
     Degenerate: an empty scene gives the background. Where the scene reaches behind the eye, or more than 60 degrees off
@@ -110,7 +110,7 @@ def render(
     facets = FacetedScene(scene, (None,) * len(scene.items))
     if walk.calls_for("facets"):
         demand = Within(_allowed(scene, camera, fine, fit))
-        facets = walk.run("facets", faceted, scene, lambda number: demand)
+        facets = walk.run("facets", faceted, scene, lambda number: demand, budget_of(budget))
     view = walk.run("look", look, facets.scene, camera)
     triangles = walk.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
     system = raster_system(camera_in_view(view, camera), *fine)

@@ -8,7 +8,7 @@ lie along outlines; otherwise in the middle.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -112,10 +112,11 @@ class Demand(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Net:
-    """Triangles (t,3) of vertices (v,)."""
+    """Triangles (t,3) of vertices (v,); complete: whether there are as many as were called for."""
 
     vertices: Vertices
     triangles: Ints
+    complete: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,8 +156,10 @@ def refined(net: Net, between: Between, demand: Demand, most: int) -> Net:
         which = np.unique(sides[first])
         middle = np.full(len(edges), -1, dtype=np.intp)
         middle[which] = count + np.arange(len(which))
-        if not len(which) or len(net.triangles) + int((middle[sides] >= 0).sum()) > most:
+        if not len(which):
             break
+        if len(net.triangles) + int((middle[sides] >= 0).sum()) > most:
+            return replace(net, complete=False)
         ends = net.vertices.some(edges[which, 0]), net.vertices.some(edges[which, 1])
         vertices = net.vertices.joined(between(*ends, part[which]))
         net = Net(vertices, _divided(net.triangles, middle[sides], vertices))
@@ -224,8 +227,8 @@ def _in_sight(start: Vertices, end: Vertices, between: Between, demand: Demand) 
 
 
 def _bulging(edges: Edges, hole: Ints) -> Edges:
-    """The sides with a hole beneath them, its points taken for points that are off the side by BULGE of its length: both
-    ends of a side along the rim of a hole are on the rim, and never is all of it."""
+    """The sides with a hole beneath them, its points taken for points that are off the side by BULGE of its length:
+    both ends of a side along the rim of a hole are on the rim, but never all of it."""
     start, end = edges.start.some(hole), edges.end.some(hole)
     at = Vertices(edges.at.places[:, hole], edges.at.points[:, hole], edges.at.normals[:, hole])
     way = end.points - start.points

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from vectorplot.features.grid_triangulation import triangulate_surface
 from vectorplot.features.poles import Pole, poles
 from vectorplot.features.polygonize import onto_surface, settled_mesh
 from vectorplot.features.tessellation import grid_numbers
+from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
 from vectorplot.geometry.mesh import Floats, Mesh
 from vectorplot.surfaces.jumps import jumps
 from vectorplot.surfaces.normals import unit_normals
@@ -27,9 +28,6 @@ HALF = 0.5
 
 MOST = 0.75
 """Part of the sides that are too coarse when all of them are made finer."""
-
-MOST_TRIANGLES = 1 << 19
-"""Triangles of a surface at most; beyond it nothing is made finer."""
 
 IMPLICIT_CELLS = 32
 """Cells along the longest side of an implicit surface's box."""
@@ -52,10 +50,12 @@ INSIDE = 0.75
 
 @dataclass(frozen=True, eq=False)
 class Facets:
-    """A mesh, and the unit normals (v,3) of the true surface at its vertices, NaN where it has none."""
+    """A mesh, and the unit normals (v,3) of the true surface at its vertices, NaN where it has none; complete: whether
+    it is as fine as was asked for."""
 
     mesh: Mesh
     normals: Floats
+    complete: bool = True
 
 
 @dataclass(frozen=True)
@@ -102,22 +102,22 @@ def turning(edges: Edges) -> Floats:
     return np.asarray(np.where(smooth, steps, 0.0).sum(axis=0))
 
 
-def facets(shape: Surface | ImplicitSurface, demand: Demand) -> Facets:
+def facets(shape: Surface | ImplicitSurface, demand: Demand, most: int = USUAL_BUDGET.facets) -> Facets:
     """Triangles of a smooth surface as fine as the demand says, every vertex on the surface.
 
     Triangles turn as u to v does; those of an implicit surface are counter-clockwise from where F > 0. Vertices on
     seams and at poles are one; neighbours of different sizes share their vertices.
     Error: the demand is kept at LOOKS of every side, and where it crosses a fold; what is smaller may be missed, and
-    with more than MOST_TRIANGLES it is not kept. Sides that lead into a hole end at its rim.
+    where it calls for more than most triangles it is not kept. Sides that lead into a hole end at its rim.
     Errors: InputError for what is no smooth surface.
     Degenerate: triangles in holes, those without area, and those beneath which the surface jumps are left out.
     Source: Glaeser, section 8.4 (polygonised surfaces).
     """
     if is_parametrised(shape):
         net = _first_net(shape, demand)
-        return _facets(_without_jumps(shape, refined(net, _Patch(shape, tuple(poles(shape))), demand, MOST_TRIANGLES)))
+        return _facets(_without_jumps(shape, refined(net, _Patch(shape, tuple(poles(shape))), demand, most)))
     if is_implicit(shape):
-        return _facets(refined(_implicit_net(shape), _Level(shape), demand, MOST_TRIANGLES))
+        return _facets(refined(_implicit_net(shape), _Level(shape), demand, most))
     raise InputError(f"a {type(shape).__name__} is no smooth surface")
 
 
@@ -140,14 +140,14 @@ def _without_jumps(surface: Surface, net: Net) -> Net:
     side = np.flatnonzero(long)
     torn = np.zeros(len(a), dtype=np.bool_)
     torn[side] = jumps(surface, places[a][side], places[a][side] + way[side])
-    return Net(net.vertices, net.triangles[~torn.reshape(-1, 3).any(axis=1)])
+    return replace(net, triangles=net.triangles[~torn.reshape(-1, 3).any(axis=1)])
 
 
 def _facets(net: Net) -> Facets:
     triangles = net.triangles[net.vertices.known[net.triangles].all(axis=1)]
     used, corners = np.unique(triangles, return_inverse=True)
     vertices = net.vertices.some(used)
-    return Facets(Mesh.from_triangles(vertices.points, corners.reshape(-1, 3)), vertices.normals)
+    return Facets(Mesh.from_triangles(vertices.points, corners.reshape(-1, 3)), vertices.normals, net.complete)
 
 
 @dataclass(frozen=True, eq=False)

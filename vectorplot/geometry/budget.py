@@ -19,12 +19,14 @@ class Budget:
     cells: of one size that the domain of a surface is cut into around one family of curves. triangles: that an implicit
     surface is cut into around one. points: that the curves of one are refined to. pairs: of two chords, of a chord and
     a triangle, or of a sight line and a triangle, that come near each other in the image and are looked at closely.
+    facets: triangles that a surface is painted or rendered by.
     """
 
     cells: int = 1 << 13
     triangles: int = 1 << 17
     points: int = 1 << 16
     pairs: int = 1 << 20
+    facets: int = 1 << 16
 
 
 USUAL = Budget()
@@ -35,7 +37,7 @@ def budget_of(factor: float) -> Budget:
     """The usual budget, so many times. Errors: InputError unless the factor is finite and positive."""
     if not 0.0 < factor < math.inf:
         raise InputError(f"a budget of {factor:g}: expected a factor that is finite and positive")
-    limits = (USUAL.cells, USUAL.triangles, USUAL.points, USUAL.pairs)
+    limits = (USUAL.cells, USUAL.triangles, USUAL.points, USUAL.pairs, USUAL.facets)
     # No array has more elements than that.
     return Budget(*(max(1, int(min(limit * factor, 2.0**62))) for limit in limits))
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.errors import InputWarning
 from vectorplot.features.edge_splitting import Demand
 from vectorplot.features.facets import facets
+from vectorplot.geometry.budget import USUAL, Budget, unresolved
 from vectorplot.geometry.mesh import Floats
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
@@ -24,14 +27,14 @@ class FacetedScene:
     normals: tuple[Floats | None, ...]
 
 
-def faceted(scene: Scene, demand: Callable[[int], Demand]) -> FacetedScene:
+def faceted(scene: Scene, demand: Callable[[int], Demand], budget: Budget = USUAL) -> FacetedScene:
     """The scene with meshes in place of smooth surfaces. demand: how fine the triangles of an item have to be, by its
-    number.
+    number; budget: how many there may be. An InputWarning names the items for which it did not do.
 
     Errors: as of features.facets. Degenerate: a curve has no faces.
     Source: Glaeser, section 8.4 (polygonised surfaces and their normals).
     """
-    made = [_faceted_item(item, demand, number) for number, item in enumerate(scene.items)]
+    made = [_faceted_item(item, demand, number, budget) for number, item in enumerate(scene.items)]
     return FacetedScene(replace(scene, items=tuple(item for item, _ in made)), tuple(normals for _, normals in made))
 
 
@@ -43,9 +46,14 @@ def without_curved_mirror(item: Item) -> Item:
     return replace(item, material=replace(item.material, word="shiny"))
 
 
-def _faceted_item(item: Item, demand: Callable[[int], Demand], number: int) -> tuple[Item, Floats | None]:
+def _faceted_item(
+    item: Item, demand: Callable[[int], Demand], number: int, budget: Budget
+) -> tuple[Item, Floats | None]:
     shape = item.shape
     if not (is_parametrised(shape) or is_implicit(shape)):
         return replace(item, shape=item.mesh), None
-    found = facets(shape, demand(number))
+    found = facets(shape, demand(number), budget.facets)
+    if not found.complete:
+        text = unresolved("the surface is shown by triangles that are coarser than the tolerance")
+        warnings.warn(f"{item.name}: {text}", InputWarning, stacklevel=5)
     return replace(without_curved_mirror(item), shape=found.mesh), np.nan_to_num(found.normals)
