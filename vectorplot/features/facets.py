@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, 
 from vectorplot.features.grid_triangulation import triangulate_surface
 from vectorplot.features.poles import Pole, poles
 from vectorplot.features.polygonize import onto_surface, settled_mesh
+from vectorplot.features.singular_set import VANISHED, led_into_singular_set, usual_gradient
 from vectorplot.features.tessellation import grid_numbers
 from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
 from vectorplot.geometry.mesh import Floats, Mesh
@@ -117,7 +119,8 @@ def facets(shape: Surface | ImplicitSurface, demand: Demand, most: int = USUAL_B
         net = _first_net(shape, demand)
         return _facets(_without_jumps(shape, refined(net, _Patch(shape, tuple(poles(shape))), demand, most)))
     if is_implicit(shape):
-        return _facets(refined(_implicit_net(shape), _Level(shape), demand, most))
+        level = _Level(shape, led_into_singular_set(shape, settled_mesh(shape, IMPLICIT_CELLS)[0]))
+        return _facets(refined(level.net, level, demand, most))
     raise InputError(f"a {type(shape).__name__} is no smooth surface")
 
 
@@ -239,9 +242,20 @@ def _lines(patch: _Patch, count: int, across: bool) -> Edges:
 
 @dataclass(frozen=True, eq=False)
 class _Level:
-    """An implicit surface between vertices; the places of vertices are the points."""
+    """An implicit surface between vertices, and a mesh of it to begin with; the places of vertices are the points."""
 
     surface: ImplicitSurface
+    mesh: Mesh
+
+    @cached_property
+    def net(self) -> Net:
+        """The triangles of the mesh."""
+        return Net(self.at(self.mesh.vertices), self.mesh.corners.reshape(-1, 3))
+
+    @cached_property
+    def least(self) -> float:
+        """The length of gradients that are not but for rounding."""
+        return VANISHED * usual_gradient(self.surface, self.mesh.vertices)
 
     def __call__(self, start: Vertices, end: Vertices, t: Floats) -> Vertices:
         first, last = start.points, end.points
@@ -255,10 +269,6 @@ class _Level:
         """The vertices at some points (n,3) of the surface."""
         with np.errstate(all="ignore"):
             slopes = np.asarray(self.surface.gradients(points), dtype=np.float64)
-            normals = slopes / np.linalg.norm(slopes, axis=1, keepdims=True)
+            length = np.linalg.norm(slopes, axis=1, keepdims=True)
+            normals = np.where(length > self.least, slopes / length, np.nan)
         return Vertices(points, points, normals)
-
-
-def _implicit_net(surface: ImplicitSurface) -> Net:
-    mesh, _ = settled_mesh(surface, IMPLICIT_CELLS)
-    return Net(_Level(surface).at(mesh.vertices), mesh.corners.reshape(-1, 3))
