@@ -8,15 +8,23 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 from svg_strokes import LABEL, SVG
 
-_NUMBER = re.compile(r"-?[\d.]+")
+HREF = "{http://www.w3.org/1999/xlink}href"
+
+_NUMBER = re.compile(r"-?(?:\d+\.?\d*|\.\d+)")
 
 
 def filled_polygons(layer: ElementTree.Element) -> list[tuple[np.ndarray, np.ndarray]]:
     """Points (n,2) and mean colour (3,) of each filled polygon of a layer, in the order of painting; lines have two
     points."""
+    gradients = {gradient.get("id"): gradient for gradient in layer.iter(f"{SVG}linearGradient")}
+    colours = {
+        identity: np.mean([_rgb(stop.get("stop-color")) for stop in gradient], axis=0)
+        for identity, gradient in gradients.items()
+        if len(gradient)
+    }
     stops = {
-        f"url(#{gradient.get('id')})": np.mean([_rgb(stop.get("stop-color")) for stop in gradient], axis=0)
-        for gradient in layer.iter(f"{SVG}linearGradient")
+        f"url(#{identity})": colours[(gradient.get(HREF) or f"#{identity}")[1:]]
+        for identity, gradient in gradients.items()
     }
     found = []
     clips = {path for clip in layer.iter(f"{SVG}clipPath") for path in clip}
@@ -25,10 +33,14 @@ def filled_polygons(layer: ElementTree.Element) -> list[tuple[np.ndarray, np.nda
             continue
         fill = path.get("fill", path.get("stroke"))
         colour = stops[fill] if fill in stops else _rgb(fill)
-        for text in path.get("d").split("M")[1:]:
-            points = np.array(_NUMBER.findall(text), dtype=np.float64).reshape(-1, 2)
-            found.append((points, colour))
+        found += [(points, colour) for points in points_of(path)]
     return found
+
+
+def points_of(path: ElementTree.Element) -> list[np.ndarray]:
+    """The corners (n,2) of the polygons of a path: the first one is written, then the ways from corner to corner."""
+    parts = [np.array(_NUMBER.findall(text), dtype=np.float64) for text in path.get("d").split("M")[1:]]
+    return [np.cumsum(part.reshape(-1, 2), axis=0) for part in parts]
 
 
 def painted_by_layer(root: ElementTree.Element) -> dict[str, list[tuple[np.ndarray, np.ndarray]]]:

@@ -7,7 +7,8 @@ from fill_samples import fan, flat, shaded
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.backends.areas import RUN_LENGTH, SHADE_ERROR, areas
+from vectorplot.backends.areas import RUN_LENGTH, areas
+from vectorplot.backends.strips import SHADE_ERROR, nearly_flat
 from vectorplot.backends.svg import svg_text
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import SEAM_MM, FillKind, Fills
@@ -103,7 +104,7 @@ def test_triangles_of_nearly_one_colour_and_tiny_ones_are_flat():
     )
     triangle = SQUARE[:3]
     tiny = [(1, 1), (1.05, 1), (1, 1.05)]
-    found = on_page(shaded([triangle, triangle, tiny], [near, apart, [RED, GREEN, BLUE]]))
+    found = nearly_flat(on_page(shaded([triangle, triangle, tiny], [near, apart, [RED, GREEN, BLUE]])))
     assert found.shaded.tolist() == [False, True, False]
     assert found.colours[0].tolist() == [102, 100, 99]
 

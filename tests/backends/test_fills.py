@@ -9,8 +9,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
 from backend_samples import paths_of, run
 from fill_samples import colour_at, fan, flat, page_of, pictures, rgb, shaded
+from svg_fills import HREF, points_of
 
 from vectorplot.backends.cairo import eps_bytes, png_bytes, ps_bytes
 from vectorplot.backends.json_file import json_bytes, read_drawing
@@ -50,7 +52,8 @@ def test_every_reader_shows_the_colours_that_are_there(tmp_path):
         thirds = {(36.66, 26.66): (85, 85, 85), (33, 20.6): (203, 50, 2)}
         for (x, y), colour in {**places, **mixed, **thirds}.items():
             seen = colour_at(picture, x, y, 40)
-            assert np.abs(np.array(seen) - colour).max() <= (5 if (x, y) not in places else 1), (name, x, y, seen)
+            # Poppler paints triangles in pieces of nearly one colour.
+            assert np.abs(np.array(seen) - colour).max() <= (6 if (x, y) not in places else 1), (name, x, y, seen)
 
 
 def test_all_readers_agree(tmp_path):
@@ -89,7 +92,8 @@ def test_no_seam_between_dark_neighbours_on_white_paper(shape, kind, tmp_path):
 def test_the_seam_test_would_see_a_seam(tmp_path):
     """Without seams the paper shines through."""
     triangles = fan((30, 20), 60, 97)
-    text = svg_text(page_of(flat(list(triangles), [(16 + k % 2, 20, 24) for k in range(97)])))
+    apart = [shapely.Polygon(triangle).buffer(-1e-3).exterior.coords[:-1] for triangle in triangles]
+    text = svg_text(page_of(flat(apart, [(16 + k % 2, 20, 24) for k in range(97)])))
     (tmp_path / "a.svg").write_text(re.sub(r'stroke="#1[01]1418"', 'stroke="none"', text))
     assert rgb(run("rsvg-convert", "-d", 300, "-p", 300, "-b", "white", tmp_path / "a.svg"))[2:-3, 2:-3].max() > 60
 
@@ -153,7 +157,8 @@ def test_svg_is_well_formed_and_says_only_what_it_must():
     assert ids and len(set(ids)) == len(ids)
     assert all(identity.startswith(layer.get("id").split("-")[0]) for identity in ids)
     used = {path.get("fill") for path in paths if path.get("fill", "").startswith("url")}
-    assert used == {f"url(#{identity})" for identity in ids}
+    shared = {node.get(HREF)[1:] for node in root.iter(f"{SVG}linearGradient") if node.get(HREF)}
+    assert used == {f"url(#{identity})" for identity in set(ids) - shared}
     assert all(
         1 <= len(re.findall("M", path.get("d"))) and path.get("d").count("M") >= path.get("d").count("Z")
         for path in paths
@@ -169,10 +174,10 @@ def test_a_small_file_to_the_letter():
     )
     body = svg_text(page_of(fills, width=5, height=4)).split('stroke-width="0.5">\n', 1)[1]
     assert body == (
-        '<g stroke-width="0.15">\n'
-        '<path fill="#ff0000" stroke="#ff0000" d="M1,3 2,3 2,1.5ZM1,3 2,1.5 1,1.5Z"/>\n'
-        '<path fill="#0000ff" stroke="none" fill-opacity="0.25" d="M3,3 4,3 4,2Z"/>\n'
-        '<path stroke="#00ff00" stroke-width="0.5" d="M1,1 4,1"/>\n'
+        '<g stroke="none" stroke-width="0.15">\n'
+        '<path fill="#ff0000" stroke="#ff0000" d="M1,3l1,0 0-1.5-.385,0-.615,.923ZM1,3l1-1.5-1,0Z"/>\n'
+        '<path fill="#0000ff" fill-opacity="0.25" d="M3,3l1,0 0-1Z"/>\n'
+        '<path stroke="#00ff00" stroke-width="0.5" d="M1,1l3,0"/>\n'
         "</g>\n</g></svg>\n"
     )
 
@@ -186,7 +191,7 @@ def test_the_same_fills_are_the_same_bytes(format):
 def test_postscript_has_the_level_it_needs():
     assert b"%%LanguageLevel: 2" in ps_bytes(page_of(flat([SQUARE], [RED])))
     graded = ps_bytes(page_of(shaded([SQUARE], [[RED, GREEN, BLUE, RED]])))
-    assert b"%%LanguageLevel: 3" in graded and b"ShadingType 7" in graded
+    assert b"%%LanguageLevel: 3" in graded and b"ShadingType 4" in graded
     assert b"/ImageType" not in graded
 
 
@@ -294,8 +299,8 @@ def test_any_polygons_make_files_that_can_be_read(seed, tmp_path):
     drawing = page_of(fills, items=("x",))
     root = ET.fromstring(svg_bytes(drawing))
     for path in root.iter(f"{SVG}path"):
-        numbers = np.array(re.findall(r"-?[\d.]+", path.get("d")), dtype=float)
-        assert numbers.min() >= -SEAM_MM - 1e-9 and numbers.max() <= 60 + SEAM_MM + 1e-9
+        for points in points_of(path):
+            assert points.min() >= -SEAM_MM - 1e-9 and points.max() <= 60 + SEAM_MM + 1e-9
     save(drawing, tmp_path / "a.json")
     assert np.array_equal(read_drawing(tmp_path / "a.json").layers[0].fills[0].points, fills.points)
     if seed < 3:

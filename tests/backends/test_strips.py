@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.backends.areas import SHADE_ERROR
-from vectorplot.backends.strips import strips_of
+from vectorplot.backends.strips import SHADE_ERROR, strips_of
 
 
 def worst_error(corners, colours) -> tuple[float, int]:

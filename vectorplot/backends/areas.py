@@ -15,14 +15,12 @@ from vectorplot.drawing.pieces import offsets_of, ranges
 from vectorplot.geometry.convex_clipping import clipped
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 
-SHADE_ERROR = 2.0
-"""By how many steps of 255 a shaded piece that is painted in one colour may differ from what it should be."""
-
-SMALLEST_SHADED_MM = 0.1
-"""Triangles that are no longer than this are painted in one colour."""
-
 RUN_LENGTH = 1000
 """So many polygons are painted at once; one huge path makes the rasterisers of all readers slow."""
+
+
+MESH_LENGTH = 1 << 16
+"""Triangles of a mesh."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +29,8 @@ class Areas:
 
     microns (p,2) int64, y upwards; offsets (m+1,); colours (p,3) of the corners; opacity (m,), more than 0; bare (m,):
     those without a line around them: transparent ones, and blank ones that are there to hide things; group (m,): the
-    transparency groups, ascending, -1 for none: those of a group are opaque, and their opacity is that of all. A
+    transparency groups, ascending, -1 for none: those of a group are opaque, and their opacity is that of all; item
+    (m,): of the drawing. A
     polygon of two corners is a line. All others are counter-clockwise, have an area, and no two neighbouring corners
     that are equal; they are flat, or triangles that are shaded linearly.
     """
@@ -42,6 +41,7 @@ class Areas:
     opacity: Floats
     bare: Bools
     group: Ints
+    item: Ints
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
@@ -55,6 +55,21 @@ class Areas:
     def shaded(self) -> Bools:
         """(m,) whether the corners of a polygon differ in colour."""
         return _differ(self.colours, self.offsets)
+
+    @cached_property
+    def solid(self) -> Bools:
+        """(m,) which hide what is below them, and have a colour."""
+        return np.asarray((self.own_opacity == 1.0) & (self.sizes > 2) & ~self.bare, dtype=np.bool_)
+
+    @cached_property
+    def meshed(self) -> Bools:
+        """(m,) triangles that are shaded, or follow each other with such ones: together they are a mesh."""
+        able = self.solid & (self.sizes == 3)
+        new = np.ones(len(self), dtype=np.bool_)
+        new[1:] = (able[1:] != able[:-1]) | (self.group[1:] != self.group[:-1])
+        run = np.cumsum(new) - 1
+        some = np.bincount(run, weights=self.shaded, minlength=int(new.sum())) > 0.0
+        return np.asarray(self.shaded | (able & some[run]), dtype=np.bool_)
 
     @cached_property
     def own_opacity(self) -> Floats:
@@ -81,13 +96,14 @@ class Areas:
         if not len(self):
             return np.zeros(1, dtype=np.intp)
         colour = self.colours[self.offsets[:-1]].astype(np.intp) @ (65536, 256, 1)
-        colour = np.where(self.shaded, -1, 4 * colour + 2 * self.bare + (self.sizes == 2))
+        colour = np.where(self.meshed, -1, 4 * colour + 2 * self.bare + (self.sizes == 2))
         alone = self.own_opacity < 1.0
         new = np.ones(len(self), dtype=np.bool_)
         new[1:] = (colour[1:] != colour[:-1]) | (self.group[1:] != self.group[:-1]) | alone[1:] | alone[:-1]
         starts = np.flatnonzero(new)
         since = np.arange(len(self)) - np.repeat(starts, np.diff(np.append(starts, len(self))))
-        return np.append(np.flatnonzero(since % RUN_LENGTH == 0), len(self))
+        length = np.where(self.meshed, MESH_LENGTH, RUN_LENGTH)
+        return np.append(np.flatnonzero(since % length == 0), len(self))
 
 
 def areas(fills: Fills, width_mm: float, height_mm: float) -> Areas:
@@ -99,13 +115,13 @@ def areas(fills: Fills, width_mm: float, height_mm: float) -> Areas:
     solid = fills if (fills.opacity > 0.0).all() else fills.some(np.flatnonzero(fills.opacity > 0.0))
     sizes = np.diff(solid.offsets)
     drawn = _with_flat_lines(Polygons(solid.points, solid.offsets, solid.colours, np.arange(len(solid))), sizes == 2)
-    drawn = _nearly_flat(_fanned(drawn))
+    drawn = _fanned(drawn)
     drawn = _fanned(_clipped(drawn, width_mm, height_mm))
     microns, offsets, colours, kept = rounded(drawn)
     source = drawn.source[kept]
     opacity, blank = solid.opacity[source], solid.kind[source] == FillKind.BACKGROUND
     group = groups_of(microns, offsets, _alike(solid, source, np.diff(offsets)))
-    return Areas(microns, offsets, colours, opacity, blank | ((opacity < 1.0) & (group < 0)), group)
+    return Areas(microns, offsets, colours, opacity, blank | ((opacity < 1.0) & (group < 0)), group, solid.item[source])
 
 
 def _alike(fills: Fills, source: Ints, sizes: Ints) -> Ints:
@@ -185,23 +201,6 @@ def _fanned(polygons: Polygons) -> Polygons:
         polygons.source[owner],
     )
     return _in_order((polygons.some(others), fans), (others, owner))
-
-
-def _nearly_flat(polygons: Polygons) -> Polygons:
-    """The same, but triangles that are very small, or the colours of which span no more than twice SHADE_ERROR, have
-    the middle one."""
-    which = np.flatnonzero((np.diff(polygons.offsets) == 3) & _differ(polygons.colours, polygons.offsets))
-    if not len(which):
-        return polygons
-    corner = polygons.offsets[which, None] + np.arange(3)
-    of_corners = polygons.colours[corner].astype(np.intp)
-    low, high = of_corners.min(axis=1), of_corners.max(axis=1)
-    sides = polygons.points[corner] - polygons.points[np.roll(corner, 1, axis=1)]
-    near = ((high - low) <= 2.0 * SHADE_ERROR).all(axis=1)
-    near |= np.hypot(sides[..., 0], sides[..., 1]).max(axis=1) <= SMALLEST_SHADED_MM
-    colours = polygons.colours.copy()
-    colours[corner[near]] = ((low + high) // 2)[near, None].astype(np.uint8)
-    return Polygons(polygons.points, polygons.offsets, colours, polygons.source)
 
 
 def _clipped(polygons: Polygons, width_mm: float, height_mm: float) -> Polygons:

@@ -19,6 +19,7 @@ import numpy as np
 
 from vectorplot.backends.areas import Areas
 from vectorplot.backends.cairo_areas import paint
+from vectorplot.backends.gouraud import with_triangles_in_pdf, with_triangles_in_postscript
 from vectorplot.backends.sheet import Lines, Sheet, sheet
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import SEAM_MM
@@ -73,7 +74,7 @@ def pdf_bytes(drawing: Drawing) -> bytes:
     if page.title:
         surface.set_metadata(cairo.PDFMetadata.TITLE, page.title)
     _draw(surface, page, height)
-    return stream.getvalue()
+    return with_triangles_in_pdf(stream.getvalue())
 
 
 def png_bytes(drawing: Drawing, dpi: float = DPI) -> bytes:
@@ -117,7 +118,7 @@ def _postscript(page: Sheet, *, eps: bool) -> bytes:
     if page.title:
         surface.dsc_comment(f"%%Title: ({postscript_string(page.title)})")
     _draw(surface, page, height)
-    text = re.sub(rb"(?m)^%%CreationDate:.*\n", b"", stream.getvalue(), count=1)
+    text = with_triangles_in_postscript(re.sub(rb"(?m)^%%CreationDate:.*\n", b"", stream.getvalue(), count=1))
     if not any(len(part) for ink in page.inks for part in ink.parts):
         text = _with_page_box(text, page)
     return text

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vectorplot.backends.areas import Areas
-from vectorplot.geometry.mesh import Ints
+from vectorplot.backends.mesh_borders import border_sides, rings, skirts
+from vectorplot.backends.underlaps import Underlaps, grown, underlaps
+from vectorplot.geometry.mesh import Floats, Ints
 
 if TYPE_CHECKING:
     import cairo
 
-Corners = list[list[float]]
-Colours = list[tuple[float, float, float]]
+Corners = Any
+Colours = list[list[float]]
 
 
 def paint(
@@ -23,54 +27,106 @@ def paint(
     """Paint the polygons. Cairo takes one side a call, so this loops over points.
 
     scale: device units per micron; height: of the page's lower border in them, from the top; line_width: of polygons of
-    two corners; seam: of the line around opaque ones.
+    two corners; seam: of the line around opaque ones that have sides without a neighbour.
     """
-    points = (areas.microns * (scale, -scale) + (0.0, height)).tolist()
-    colours = [(r, g, b) for r, g, b in (areas.colours / 255.0).tolist()]
-    starts, shaded, line = areas.offsets.tolist(), areas.shaded.tolist(), (areas.sizes == 2).tolist()
+    place = _Place(scale, height)
+    laps = underlaps(areas.microns, areas.offsets, areas.solid, areas.group)
+    outlines, offsets, parts = grown(areas.microns, areas.offsets, laps)
+    points, starts = place.of(outlines), offsets.tolist()
+    colours = [(r, g, b) for r, g, b in (areas.colours[areas.offsets[:-1]] / 255.0).tolist()]
+    meshed, line, open_ = areas.meshed.tolist(), (areas.sizes == 2).tolist(), laps.open
     opacity, bare, group = areas.own_opacity.tolist(), areas.bare.tolist(), areas.group.tolist()
     ends = dict(areas.group_ends.tolist())
     end, clip = -1, None
     for first, last in pairwise(areas.runs.tolist()):
         if first in ends:
-            corners, rings = areas.group_outline(group[first])
-            end, clip = ends[first], ((corners * (scale, -scale) + (0.0, height)).tolist(), rings.tolist())
+            corners, border = areas.group_outline(group[first])
+            end, clip = ends[first], (place.of(corners), border.tolist())
             _begin_group(context, clip[0])
-        if shaded[first]:
-            _paint_shaded(context, areas, points, colours, (first, last), seam)
+        if meshed[first]:
+            _paint_mesh(context, areas, place, laps, (first, last), seam)
         else:
-            _outline(context, points, starts[first : last + 1])
-            red, green, blue = colours[starts[first]]
+            _outline(context, points, starts[parts[first] : parts[last] + 1])
+            red, green, blue = colours[first]
             context.set_source_rgba(red, green, blue, opacity[first])
             if line[first]:
                 context.set_line_width(line_width)
                 context.stroke()
-            elif bare[first]:
+            elif bare[first] or not open_[first:last].any():
                 context.fill()
             else:
-                _filled(context, seam)
+                context.set_line_width(seam)
+                context.fill_preserve()
+                context.stroke()
         if clip is not None and last == end:
             _end_group(context, *clip, areas.opacity[first])
             clip = None
 
 
-def _paint_shaded(
-    context: cairo.Context[Any], areas: Areas, points: Corners, colours: Colours, run: tuple[int, int], seam: float
+@dataclass(frozen=True)
+class _Place:
+    """Where microns are on the device."""
+
+    scale: float
+    height: float
+
+    def of(self, microns: NDArray[Any]) -> Corners:
+        """Places (..., 2) on the device."""
+        found: Corners = (microns * (self.scale, -self.scale) + (0.0, self.height)).tolist()
+        return found
+
+
+def _paint_mesh(
+    context: cairo.Context[Any], areas: Areas, place: _Place, laps: Underlaps, run: tuple[int, int], seam: float
 ) -> None:
-    """Paint a run of shaded triangles."""
-    starts = areas.offsets[run[0] : run[1] + 1].tolist()
+    """Paint a run of shaded triangles as one mesh, on lines along its border, and within it: there are readers that
+    smooth what is clipped, but not meshes, and others that do not smooth that either."""
+    starts = areas.offsets[[run[0], run[1]]].tolist()
+    corners, colours = areas.microns[starts[0] : starts[1]], areas.colours[starts[0] : starts[1]] / 255.0
     opacity = float(areas.own_opacity[run[0]])
-    corners = range(starts[0], starts[-1], 3)
+    patches = corners.astype(np.float64).reshape(-1, 3, 2)[:, [0, 1, 2, 0]]
+    at = np.arange(len(corners)).reshape(-1, 3)[:, [0, 1, 2, 0]]
+    context.save()
     if opacity == 1.0:
-        sides = _outer_sides(areas.microns[corners.start : corners.stop])
-        _seams(context, points, colours, sides, corners.start, seam)
-    context.set_source(_mesh(points, colours, corners, opacity))
-    if opacity == 1.0:
-        context.paint()
+        sides = border_sides(corners)
+        _seams(context, place.of(corners[sides]), colours[sides].mean(axis=1), seam)
+        patches = np.concatenate((skirts(corners, sides), patches))
+        at = np.concatenate((sides[:, [0, 1, 1, 0]], at))
+        path = [corners[ring] for ring in rings(corners, sides)]
+        path += list(_underlaps_of(areas, laps, (starts[0], starts[1]), sides[:, 0]))
     else:
         # Meshes cover all of the pixels on their borders: where neighbours meet, things would be seen twice.
-        _outline(context, points, starts)
-        context.fill()
+        path = list(corners.reshape(-1, 3, 2))
+    sizes = [0, *(len(ring) for ring in path)]
+    _outline(context, place.of(np.concatenate(path)), np.cumsum(sizes).tolist())
+    context.clip()
+    context.set_source(_mesh(place.of(patches), colours[at].tolist(), opacity))
+    context.paint()
+    context.restore()
+
+
+def _seams(context: cairo.Context[Any], sides: list[Corners], colours: Floats, seam: float) -> None:
+    """Stroke sides, given by their ends, in their colours; those of one colour that follow each other at once."""
+    context.set_line_width(seam)
+    levels = np.rint(255.0 * colours) / 255.0
+    changes = np.append((levels[1:] != levels[:-1]).any(axis=1), True)[: len(levels)]
+    for (start, end), (red, green, blue), last in zip(sides, levels.tolist(), changes.tolist(), strict=True):
+        context.move_to(*start)
+        context.line_to(*end)
+        if last:
+            context.set_source_rgb(red, green, blue)
+            context.stroke()
+
+
+def _underlaps_of(areas: Areas, laps: Underlaps, corners: tuple[int, int], border: Ints) -> Floats:
+    """(k,4,2) what is added to a run of triangles under polygons of other runs, counter-clockwise; border: the corners
+    of the run at which its border sides begin."""
+    low, high = np.searchsorted(laps.side, corners)
+    side = laps.side[low:high]
+    which = np.isin(side - corners[0], border)
+    side, near, far = side[which], laps.near[low:high][which], laps.far[low:high][which]
+    end = np.where((side - corners[0]) % 3 == 2, side - 2, side + 1)
+    return np.stack((areas.microns[end], areas.microns[side], near, far), axis=1)
 
 
 def _begin_group(context: cairo.Context[Any], corners: Corners) -> None:
@@ -106,57 +162,17 @@ def _outline(context: cairo.Context[Any], points: Corners, starts: list[int]) ->
             close_path()
 
 
-def _filled(context: cairo.Context[Any], seam: float) -> None:
-    """Paint the path, and stroke it in the same colour."""
-    context.set_line_width(seam)
-    context.fill_preserve()
-    context.stroke()
-
-
-def _outer_sides(corners: Ints) -> list[list[int]]:
-    """The sides that only one of some triangles has, by the numbers of their ends. corners (3 t, 2): places."""
-    place = np.unique(corners[:, 0] << 32 | corners[:, 1] & 0xFFFFFFFF, return_inverse=True)[1].ravel()
-    start = np.arange(len(corners))
-    end = start.reshape(-1, 3)[:, [1, 2, 0]].ravel()
-    low, high = np.sort(np.stack((place[start], place[end])), axis=0)
-    _, first, count = np.unique(low * len(corners) + high, return_index=True, return_counts=True)
-    outer = np.sort(first[count == 1])
-    sides: list[list[int]] = np.stack((start[outer], end[outer]), axis=1).tolist()
-    return sides
-
-
-def _seams(
-    context: cairo.Context[Any], points: Corners, colours: Colours, sides: list[list[int]], first: int, seam: float
-) -> None:
-    """Stroke sides, given by their ends from the first corner on, in their own colours."""
-    import cairo
-
-    context.set_line_width(seam)
-    for side in sides:
-        ends = [points[first + k] for k in side]
-        along = cairo.LinearGradient(*ends[0], *ends[1])
-        for place, k in enumerate(side):
-            red, green, blue = colours[first + k]
-            along.add_color_stop_rgb(place, red, green, blue)
-        context.set_source(along)
-        context.move_to(*ends[0])
-        context.line_to(*ends[1])
-        context.stroke()
-
-
-def _mesh(points: Corners, colours: Colours, corners: range, opacity: float) -> cairo.MeshPattern:
-    """Triangles that begin at the given corners, shaded. The last corner of a patch of four is the first one."""
+def _mesh(patches: list[Corners], colours: list[Colours], opacity: float) -> cairo.MeshPattern:
+    """Patches of four corners, the last of which may be the first one, shaded."""
     import cairo
 
     mesh = cairo.MeshPattern()
-    for k in corners:
+    for corners, shades in zip(patches, colours, strict=True):
         mesh.begin_patch()
-        mesh.move_to(*points[k])
-        mesh.line_to(*points[k + 1])
-        mesh.line_to(*points[k + 2])
-        mesh.line_to(*points[k])
-        for side, corner in enumerate((k, k + 1, k + 2, k)):
-            red, green, blue = colours[corner]
-            mesh.set_corner_color_rgba(side, red, green, blue, opacity)
+        mesh.move_to(*corners[0])
+        for corner in corners[1:]:
+            mesh.line_to(*corner)
+        for number, (red, green, blue) in enumerate(shades):
+            mesh.set_corner_color_rgba(number, red, green, blue, opacity)
         mesh.end_patch()
     return mesh

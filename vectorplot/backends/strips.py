@@ -7,15 +7,20 @@ seen.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.backends.areas import SHADE_ERROR, Polygons, rounded
-from vectorplot.drawing.fills import Colours
+from vectorplot.backends.areas import Areas, Polygons, rounded
 from vectorplot.drawing.pieces import ranges
 from vectorplot.geometry.convex_clipping import clipped
 from vectorplot.geometry.mesh import Floats, Ints
+
+SHADE_ERROR = 2.0
+"""By how many steps of 255 a shaded piece that is painted in one colour may differ from what it should be."""
+
+SMALLEST_MICRONS, NARROWEST_MICRONS = 250.0, 60.0
+"""Triangles that are no longer, or no wider, than this are painted in one colour: less than a pixel of a screen."""
 
 THINNEST = 1e-6
 """Triangles narrower than this part of their length have colours along it only."""
@@ -30,7 +35,24 @@ class Strips:
     offsets: Ints
     triangle: Ints
     ends: Floats
-    colours: Colours
+    colours: Floats
+
+
+def nearly_flat(areas: Areas) -> Areas:
+    """The same, but triangles that are very small or narrow, or the colours of which span no more than twice
+    SHADE_ERROR, have the middle one."""
+    which = np.flatnonzero(areas.shaded)
+    corner = areas.offsets[which, None] + np.arange(3)
+    of_corners = areas.colours[corner].astype(np.intp)
+    low, high = of_corners.min(axis=1), of_corners.max(axis=1)
+    sides = (areas.microns[corner] - areas.microns[np.roll(corner, 1, axis=1)]).astype(np.float64)
+    near = ((high - low) <= 2.0 * SHADE_ERROR).all(axis=1)
+    longest = np.hypot(sides[..., 0], sides[..., 1]).max(axis=1)
+    width = np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]) / longest
+    near |= (longest <= SMALLEST_MICRONS) | (width <= NARROWEST_MICRONS)
+    colours = areas.colours.copy()
+    colours[corner[near]] = ((low + high) // 2)[near, None].astype(np.uint8)
+    return replace(areas, colours=colours)
 
 
 def strips_of(corners: Floats, colours: Floats) -> Strips:
@@ -62,7 +84,7 @@ def strips_of(corners: Floats, colours: Floats) -> Strips:
     along = np.einsum("pi,pi->p", from_first, np.repeat(directions[owner, :, 0], size, axis=0))
     ways = np.stack([np.stack((end, middle), axis=-1) for end in _extremes(along, offsets)], axis=1)
     ways = ways @ directions[owner].transpose(0, 2, 1)
-    values = np.rint(np.clip(colours[owner, :1] + ways @ slopes[owner], 0.0, 255.0)).astype(np.uint8)
+    values = np.clip(colours[owner, :1] + ways @ slopes[owner], 0.0, 255.0)
     return Strips(microns, offsets, owner, corners[owner, :1] + ways, values)
 
 

@@ -177,4 +177,4 @@ def _content_hash(page: Sheet, bodies: list[bytes]) -> str:
     for ink, body in zip(page.inks, bodies, strict=True):
         digest.update(f"\n{ink.label}\n{ink.pen}\n".encode())
         digest.update(body)
-    return f"d{digest.hexdigest()[:12]}"
+    return f"d{digest.hexdigest()[:8]}"

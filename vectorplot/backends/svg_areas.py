@@ -5,17 +5,25 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.backends.areas import Areas
-from vectorplot.backends.strips import Strips, strips_of
-from vectorplot.backends.svg_numbers import formatted
+from vectorplot.backends.ramps import NONE, Ramps, item_ramps
+from vectorplot.backends.strips import Strips, nearly_flat, strips_of
+from vectorplot.backends.svg_numbers import formatted, path_data
+from vectorplot.backends.underlaps import grown, underlaps
 from vectorplot.drawing.fills import SEAM_MM
 from vectorplot.drawing.pieces import offsets_of, ranges
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry.mesh import Bools, Ints
 
 ID_PREFIX = b"\7"
 """Stands for the beginning of all ids, a hash of the content, which is not known before the content."""
 
+LINE_SPAN = 8.0
+"""Lines around gradients that span no more than so many steps of 255 have the colour in the middle."""
+
+FLAT = 1.0 / 512.0
+"""Gradients that are a smaller part of a ramp have their own colours."""
+
 _RUN = b"\1"
-_POINTS_AT_ONCE = 1 << 16
+_POLYGONS_AT_ONCE = 1 << 14
 
 
 def area_elements(areas: Areas, pen_mm: float, name: str, height: int) -> bytes:
@@ -26,21 +34,25 @@ def area_elements(areas: Areas, pen_mm: float, name: str, height: int) -> bytes:
     """
     if not len(areas):
         return b""
-    pieces, strips, place = _with_strips(areas)
+    pieces, strips, place, ramps = _with_strips(nearly_flat(areas))
     alone = np.concatenate((place, place + 1))
     starts = np.union1d(pieces.runs[:-1], alone[alone < len(pieces)])
-    heads = _heads(pieces, starts, pen_mm)
-    of_strips = _gradient_heads(strips, pieces.own_opacity[place], name, height)
+    laps = underlaps(pieces.microns, pieces.offsets, pieces.solid, pieces.group)
+    stroked = np.logical_or.reduceat(laps.open, starts)
+    heads = _heads(pieces, starts, stroked, pen_mm)
+    seams = stroked[np.searchsorted(starts, place)]
+    of_strips = _gradient_heads(strips, ramps, pieces, place, seams, name, height)
     for k, head in zip(np.searchsorted(starts, place).tolist(), of_strips, strict=True):
         heads[k] = head
-    bodies = _data(pieces, starts, height).split(_RUN)[1:]
+    microns, offsets, parts = grown(pieces.microns, pieces.offsets, laps)
+    bodies = _data(microns, offsets, parts[starts], height).split(_RUN)[1:]
     begins, ends = np.searchsorted(starts, pieces.group_ends.T).tolist()
     numbers = pieces.group[pieces.group_ends[:, 0]].tolist()
     for number, begin, end in zip(numbers, begins, ends, strict=True):
         heads[begin] = _group_head(areas, number, name, height) + heads[begin]
         bodies[end - 1] += b"</g>\n"
     paths = b"".join([part for pair in zip(heads, bodies, strict=True) for part in pair])
-    return f'<g stroke-width="{SEAM_MM:g}">\n'.encode() + paths + b"</g>\n"
+    return f'<g stroke="none" stroke-width="{SEAM_MM:g}">\n'.encode() + paths + b"</g>\n"
 
 
 def _group_head(areas: Areas, number: int, name: str, height: int) -> bytes:
@@ -58,70 +70,102 @@ def _group_head(areas: Areas, number: int, name: str, height: int) -> bytes:
     )
 
 
-def _data(areas: Areas, starts: Ints, height: int) -> bytes:
+def _data(microns: Ints, offsets: Ints, starts: Ints, height: int) -> bytes:
     """The data of all paths and the ends of their elements; each begins with a mark. starts: the first polygons of the
     runs that are painted by one path."""
-    at, ends = areas.offsets[:-1], areas.offsets[1:]
-    first = np.full(len(areas.microns), ord(" "), np.uint8)
-    first[at] = ord("M")
-    first[at[starts]] = ord(_RUN)
-    last = np.zeros(len(areas.microns), np.uint8)
-    last[ends - 1] = np.where(areas.sizes == 2, 0, ord("Z"))
+    opening = np.full(len(offsets) - 1, ord("M"), np.uint8)
+    opening[starts] = ord(_RUN)
+    closing = np.where(np.diff(offsets) == 2, 0, ord("Z")).astype(np.uint8)
+    flipped = microns * (1, -1) + (0, height)
     text = []
-    for start in range(0, len(first), _POINTS_AT_ONCE):
-        block = slice(start, start + _POINTS_AT_ONCE)
-        x, y = areas.microns[block].T
-        text.append(formatted(first[block], x, height - y, last[block]))
+    for begin in range(0, len(opening), _POLYGONS_AT_ONCE):
+        block = slice(begin, begin + _POLYGONS_AT_ONCE)
+        own = offsets[begin : begin + _POLYGONS_AT_ONCE + 1]
+        text.append(path_data(flipped[own[0] : own[-1]], own[:-1] - own[0], opening[block], closing[block]))
     end = b'"/>\n'
     return b"".join(text).replace(_RUN, end + _RUN)[len(end) :] + end
 
 
-def _heads(areas: Areas, starts: Ints, pen_mm: float) -> list[bytes]:
-    """The elements of the runs up to their data, those of flat polygons and lines."""
-    packed = areas.colours[areas.offsets[starts]].astype(np.intp) @ (65536, 256, 1)
-    heads = [b'<path fill="#%06x" stroke="#%06x" d="M' % (c, c) for c in packed.tolist()]
-    line, clear, bare = areas.sizes[starts] == 2, areas.own_opacity[starts] < 1.0, areas.bare[starts]
-    for k in np.flatnonzero(line | bare).tolist():
-        opacity = f"{areas.opacity[starts[k]]:.3g}"
-        if line[k]:
-            faint = f' stroke-opacity="{opacity}"' if clear[k] else ""
-            head = f'<path stroke="#{packed[k]:06x}" stroke-width="{pen_mm:.6g}"{faint} d="M'
-        else:
-            faint = f' fill-opacity="{opacity}"' if clear[k] else ""
-            head = f'<path fill="#{packed[k]:06x}" stroke="none"{faint} d="M'
-        heads[k] = head.encode("ascii")
+def _heads(areas: Areas, starts: Ints, stroked: Bools, pen_mm: float) -> list[bytes]:
+    """The elements of the runs up to their data, those of flat polygons and lines; stroked: runs of polygons with a
+    line around them."""
+    packed = (areas.colours[areas.offsets[starts]].astype(np.intp) @ (65536, 256, 1)).tolist()
+    line, opacity = (areas.sizes[starts] == 2).tolist(), areas.own_opacity[starts].tolist()
+    heads = []
+    for colour, is_line, seam, clear in zip(packed, line, stroked.tolist(), opacity, strict=True):
+        what = "stroke" if is_line else "fill"
+        faint = f' {what}-opacity="{clear:.3g}"' if clear < 1.0 else ""
+        around = f' stroke-width="{pen_mm:.6g}"' if is_line else f' stroke="#{colour:06x}"' if seam else ""
+        heads.append(f'<path {what}="#{colour:06x}"{around}{faint} d="M'.encode())
     return heads
 
 
-def _gradient_heads(strips: Strips, opacity: Floats, name: str, height: int) -> list[bytes]:
-    """Gradients, and the elements up to their data of the strips they paint."""
-    flipped = np.array((0.0, height)) + strips.ends * (1.0, -1.0)
-    numbers = np.round(flipped.reshape(-1, 4) / 1000.0, 3) + 0.0
-    packed = (strips.colours.astype(np.intp) @ (65536, 256, 1)).tolist()
-    heads = []
-    for k, (ends, (low, high), clear) in enumerate(zip(numbers.tolist(), packed, opacity.tolist(), strict=True)):
-        x1, y1, x2, y2 = (f"{number:.9g}" for number in ends)
-        identity = f"{ID_PREFIX.decode()}-{name}-{k}"
-        rest = f'stroke="none" fill-opacity="{clear:.3g}"' if clear < 1.0 else f'stroke="url(#{identity})"'
-        heads.append(
-            f'<linearGradient id="{identity}" gradientUnits="userSpaceOnUse" x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}">'
-            f'<stop stop-color="#{low:06x}"/><stop offset="1" stop-color="#{high:06x}"/></linearGradient>\n'
-            f'<path fill="url(#{identity})" {rest} d="M'
-        )
-    return [head.encode("ascii") for head in heads]
+def _gradient_heads(
+    strips: Strips, ramps: Ramps, pieces: Areas, place: Ints, stroked: Bools, name: str, height: int
+) -> list[bytes]:
+    """Gradients, and the elements up to their data of the strips they paint, which stand at some places among all
+    pieces. Those of one ramp share its colours: each runs from where the ramp would begin to where it would end."""
+    ends = np.array((0.0, height)) + strips.ends * (1.0, -1.0)
+    ramp = ramps.numbers(pieces.item[place])
+    of_ramp = np.flatnonzero(ramp >= 0)
+    low, high = ramps.parts(ramp[of_ramp], strips.colours[of_ramp]).T
+    flat = np.abs(high - low) < FLAT
+    ramp[of_ramp[flat]] = NONE
+    of_ramp, low, high = of_ramp[~flat], low[~flat], high[~flat]
+    slope = (ends[of_ramp, 1] - ends[of_ramp, 0]) / (high - low)[:, None]
+    start = ends[of_ramp, 0] - low[:, None] * slope
+    ends[of_ramp] = np.stack((start, start + slope), axis=1)
+    numbers = (np.round(ends.reshape(-1, 4) / 1000.0, 2) + 0.0).tolist()
+    stops = (np.rint(strips.colours).astype(np.intp) @ (65536, 256, 1)).tolist()
+    common = f"{ID_PREFIX.decode()}-{name}-"
+    opacity = pieces.own_opacity[place].tolist()
+    heads = [_shared_gradients(ramps, common)] if len(place) else []
+    middles = (np.rint(strips.colours.mean(axis=1)).astype(np.intp) @ (65536, 256, 1)).tolist()
+    wide = (np.abs(strips.colours[:, 1] - strips.colours[:, 0]).max(axis=1) > LINE_SPAN).tolist()
+    rows = zip(numbers, ramp.tolist(), opacity, stroked.tolist(), middles, wide, strict=True)
+    for k, (run, number, clear, seam, middle, much) in enumerate(rows):
+        x1, y1, x2, y2 = (f"{number:.7g}" for number in run)
+        own, where = f"{common}{k}", f'x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}"'
+        if number == NONE:
+            gradient = _gradient(own, f" {where}", *stops[k])
+        else:
+            gradient = f'<linearGradient id="{own}" xlink:href="#{common}c{number}" {where}/>\n'
+        faint = f' fill-opacity="{clear:.3g}"' if clear < 1.0 else ""
+        line = f"url(#{own})" if much else f"#{middle:06x}"
+        around = f' stroke="{line}"' if seam else ""
+        heads.append(f'{gradient}<path fill="url(#{own})"{faint}{around} d="M')
+    return [head.encode("ascii") for head in [*["".join(heads[:2])], *heads[2:]] if head]
 
 
-def _with_strips(areas: Areas) -> tuple[Areas, Strips, Ints]:
-    """The areas with strips instead of the shaded triangles, the strips, and where each one stands."""
+def _shared_gradients(ramps: Ramps, common: str) -> str:
+    stops = (np.rint(ramps.ends).astype(np.intp) @ (65536, 256, 1)).tolist()
+    return "".join(_gradient(f"{common}c{number}", "", *ends) for number, ends in enumerate(stops))
+
+
+def _gradient(identity: str, where: str, low: int, high: int) -> str:
+    return (
+        f'<linearGradient id="{identity}" gradientUnits="userSpaceOnUse"{where}>'
+        f'<stop stop-color="#{low:06x}"/><stop offset="1" stop-color="#{high:06x}"/></linearGradient>\n'
+    )
+
+
+def _with_strips(areas: Areas) -> tuple[Areas, Strips, Ints, Ramps]:
+    """The areas with strips instead of the shaded triangles, the strips, where each one stands, and the ramps of
+    colours."""
     shaded = np.flatnonzero(areas.shaded)
     corner = areas.offsets[shaded, None] + np.arange(3)
-    strips = strips_of(areas.microns[corner].astype(np.float64), areas.colours[corner].astype(np.float64))
+    colours = areas.colours[corner].astype(np.float64)
+    ramps = item_ramps(colours, areas.item[shaded])
+    ramp = ramps.numbers(areas.item[shaded])
+    on = np.flatnonzero(ramp >= 0)
+    colours[on] = ramps.on(ramp[on], colours[on])
+    strips = strips_of(areas.microns[corner].astype(np.float64), colours)
     others, owner = np.flatnonzero(~areas.shaded), shaded[strips.triangle]
     source = np.concatenate((others, owner))
     order = np.argsort(source, kind="stable")
     sizes = np.concatenate((areas.sizes[others], np.diff(strips.offsets)))
     corner, moved = ranges(areas.offsets[others], areas.sizes[others]), ranges(offsets_of(sizes)[order], sizes[order])
-    one_colour = np.repeat(strips.colours[:, 0], np.diff(strips.offsets), axis=0)
+    one_colour = np.repeat(np.rint(strips.colours[:, 0]).astype(np.uint8), np.diff(strips.offsets), axis=0)
     pieces = Areas(
         np.concatenate((areas.microns[corner], strips.microns))[moved],
         offsets_of(sizes[order]),
@@ -129,5 +173,6 @@ def _with_strips(areas: Areas) -> tuple[Areas, Strips, Ints]:
         areas.opacity[source[order]],
         areas.bare[source[order]],
         areas.group[source[order]],
+        areas.item[source[order]],
     )
-    return pieces, strips, np.flatnonzero(order >= len(others))
+    return pieces, strips, np.flatnonzero(order >= len(others)), ramps

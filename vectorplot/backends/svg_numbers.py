@@ -33,3 +33,30 @@ def millimetres(microns: Ints) -> NDArray[np.uint8]:
         shown = part % (unit * 10) > 0
         text[:, digits + column] = np.where(shown, part // unit % 10 + ord("0"), 0)
     return text
+
+
+def path_data(points: Ints, first: Ints, opening: NDArray[np.uint8], closing: NDArray[np.uint8]) -> bytes:
+    """Polygons as the data of paths: their first points (m,) among all points (n,2), in thousandths of a mm, written
+    whole after opening (m,), all others as ways from those before them; closing (m,) follows the last one, if it is not
+    zero."""
+    ways = np.diff(points, axis=0, prepend=points[:1])
+    ways[first] = points[first]
+    lead, last = np.zeros(len(points), np.uint8), np.zeros(len(points), np.uint8)
+    second = np.delete(first + 1, np.flatnonzero(np.append(first[1:], len(points)) == first + 1))
+    lead[ways[:, 0] >= 0] = ord(" ")
+    lead[second] = ord("l")
+    lead[first] = opening
+    last[np.append(first[1:], len(points)) - 1] = closing
+    comma = np.where(ways[:, 1] < 0, 0, ord(",")).astype(np.uint8)
+    table = np.column_stack((lead, _short(ways[:, 0]), comma, _short(ways[:, 1]), last))
+    text: NDArray[np.uint8] = table[table != 0]
+    return text.tobytes()
+
+
+def _short(microns: Ints) -> NDArray[np.uint8]:
+    """The same as millimetres, without a zero before the point."""
+    text = millimetres(microns)
+    column = text.shape[1] - 5
+    small = (np.abs(microns) < 1000) & (microns != 0)
+    text[small, column] = 0
+    return text
