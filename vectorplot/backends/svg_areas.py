@@ -7,7 +7,7 @@ import numpy as np
 from vectorplot.backends.areas import Areas
 from vectorplot.backends.ramps import NONE, Ramps, item_ramps
 from vectorplot.backends.strips import Strips, nearly_flat, strips_of
-from vectorplot.backends.svg_numbers import formatted, path_data
+from vectorplot.backends.svg_numbers import path_data
 from vectorplot.backends.underlaps import grown, underlaps
 from vectorplot.drawing.fills import SEAM_MM
 from vectorplot.drawing.pieces import offsets_of, ranges
@@ -58,14 +58,13 @@ def area_elements(areas: Areas, pen_mm: float, name: str, height: int) -> bytes:
 def _group_head(areas: Areas, number: int, name: str, height: int) -> bytes:
     """The outline of a transparency group, which clips it, and the beginning of its element."""
     corners, offsets = areas.group_outline(number)
-    x, y = corners.astype(np.int64).T
-    first, last = np.full(len(x), ord(" "), np.uint8), np.zeros(len(x), np.uint8)
-    first[offsets[:-1]], last[offsets[1:] - 1] = ord("M"), ord("Z")
+    flipped = corners.astype(np.int64) * (1, -1) + (0, height)
+    letters = (np.full(len(offsets) - 1, ord(letter), np.uint8) for letter in "MZ")
     identity = f"{ID_PREFIX.decode()}-{name}-group-{number}"
     opacity = areas.opacity[areas.group_ends[number, 0]]
     return (
         f'<clipPath id="{identity}"><path clip-rule="evenodd" d="'.encode()
-        + formatted(first, x, height - y, last)
+        + path_data(flipped, offsets[:-1], *letters)
         + f'"/></clipPath>\n<g opacity="{opacity:.3g}" clip-path="url(#{identity})">\n'.encode()
     )
 
