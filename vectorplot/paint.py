@@ -337,7 +337,8 @@ def _decals(walk: Walk, seen: _Seen, lighting: Lighting, aura: float) -> tuple[t
     if walk.calls_for("clear shadows"):
         from vectorplot.effects.clear_shadows import clear_shadows
 
-        found.append(walk.run("clear shadows", partial(clear_shadows, projected=projected), view, scene, scene.lights))
+        clear = partial(clear_shadows, projected=projected)
+        found.append(walk.run("clear shadows", clear, view, scene, scene.lights, found[0] if found else None))
     return tuple(found), lighting
 
 

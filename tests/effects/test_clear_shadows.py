@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from blocked_lights import face_points, highest_grade
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind
@@ -40,7 +41,8 @@ def test_they_have_the_colours_of_the_items_and_come_last() -> None:
     assert sorted(names) == ["blue"] * 4 + ["green"] * 2
     assert np.allclose(clear.opacities[on_floor], [0.3 if name == "blue" else 0.5 for name in names])
     assert sorted(clear.light[on_floor].tolist()) == [0, 0, 0, 1, 1, 1]
-    assert (clear.kind == FillKind.CLEAR_SHADOW).all() and not clear.lights_lacking.any()
+    assert (clear.kind == FillKind.CLEAR_SHADOW).all()
+    assert (clear.lights_lacking == 1 << clear.light).all()
     dark = shadow_decals(view, LIGHTS)
     both = joined_decals(clear, dark)
     on_one = [k for k in both.painting_order if both.face[k] == clear.face[on_floor[0]]]
@@ -95,3 +97,29 @@ def test_for_pens_they_are_sparse_lines_after_the_shadows() -> None:
     boxes = [painted.points[painted.offsets[k] : painted.offsets[k + 1]] for k in clear]
     inside = [((ends >= b.min(axis=0) - 0.3) & (ends <= b.max(axis=0) + 0.3)).all(axis=1) for b in boxes]
     assert np.any(inside, axis=0).all(), "they lie in the shadows"
+
+
+def test_where_a_light_does_not_get_anyway_nothing_dims_it_and_others_lack_too() -> None:
+    floor, brick = scene().items[0], Item("brick", box((0.5, -1, 2), (3, 2, 2.5)))
+    panes = (glass("a", 0, "blue", 0.3), glass("b", 0.25, "blue", 0.3))
+    view = look(Scene((floor, *panes, brick)), Camera((3, -9, 15), (0, 0, 0)))
+    dark = shadow_decals(view, LIGHTS)
+    clear = clear_shadows(view, Scene((floor, *panes, brick)), LIGHTS, dark)
+    at = face_points(view, np.flatnonzero(view.face_item == 0), 30000, np.random.default_rng(3))
+    masks = {}
+    for name, decals in (("dark", dark), ("clear", clear)):
+        masks[name] = np.zeros((2, len(at.face)), dtype=int)
+        for k in range(len(decals)):
+            alone = replace(decals.of(np.array([k])), grade=np.ones(1, dtype=int))
+            inside, _ = highest_grade(view, alone, at)
+            for light in range(2):
+                if name == "dark":
+                    masks[name][light] |= inside * (int(decals.lights_lacking[k]) >> light & 1)
+                elif decals.light[k] == light:
+                    masks[name][light] += inside
+                    others = int(decals.lights_lacking[k]) & ~(1 << light)
+                    assert (masks["dark"][1 - light][inside > 0] == (others >> (1 - light) & 1)).mean() > 0.999
+    assert masks["clear"].max() == 1, "things of one colour dim a light once"
+    assert not (masks["clear"] & masks["dark"]).any()
+    both = masks["clear"].astype(bool) & masks["dark"][::-1].astype(bool)
+    assert masks["clear"].sum() > 100 and both.sum() > 10

@@ -1,4 +1,7 @@
-"""Shadows of what is transparent: light that is dimmed and coloured."""
+"""Shadows of what is transparent: light that is dimmed and coloured.
+
+In them half of what their light would give is left, in the colour of what dims it, as far as that is opaque.
+"""
 
 from __future__ import annotations
 
@@ -7,9 +10,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from vectorplot.drawing.fills import FillKind
-from vectorplot.effects.decals import Decals, joined_decals
+from vectorplot.effects.decals import Decals, joined_decals, no_decals
+from vectorplot.effects.face_frames import FaceFrames
+from vectorplot.effects.shadow_grades import Shadows
 from vectorplot.effects.shadows import cast_shadows
-from vectorplot.geometry.mesh import Bools
+from vectorplot.effects.united_decals import disjoint_decals
+from vectorplot.geometry.mesh import Bools, Ints
+from vectorplot.geometry.regions import corners_of, polygons_of, unions, without_holes, without_splinters
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
@@ -27,6 +34,7 @@ def clear_shadows(
     view: View,
     scene: Scene,
     lights: Sequence[Light],
+    shadows: Decals | None = None,
     *,
     receivers: Bools | None = None,
     projected: ProjectedFaces | None = None,
@@ -34,7 +42,9 @@ def clear_shadows(
     """The shadows of the transparent items of a scene that do not occlude: decals of the items' colours and opacities,
     each with one light, to be drawn after the shadows of what is not transparent.
 
-    receivers, errors and degenerate cases as of cast_shadows. Source: Glaeser, section 6.6.
+    shadows: those; where they keep a light away nothing dims it, and where they keep others away those lack, too.
+    Things of one colour and opacity dim a light once. receivers, errors and degenerate cases as of cast_shadows.
+    Source: Glaeser, section 6.6.
     """
     groups: dict[tuple[str, float], Bools] = {}
     for number, item in enumerate(scene.items):
@@ -44,31 +54,63 @@ def clear_shadows(
     if not groups:
         return joined_decals()
     projected = project_faces(view) if projected is None else projected
-    return joined_decals(*(_of_group(view, lights, items, *key, receivers, projected) for key, items in groups.items()))
+    dark = no_decals() if shadows is None else shadows.of(np.flatnonzero(shadows.kind == FillKind.SHADOW))
+    found = []
+    for (colour, opacity), items in groups.items():
+        cast = cast_shadows(view, lights, casters=items, receivers=receivers, projected=projected)
+        here = dark.of(np.flatnonzero(np.isin(dark.face, cast.face)))
+        found.append(_dimmed(view, cast, disjoint_decals(view, here), colour, opacity))
+    return joined_decals(*found)
 
 
-def _of_group(
-    view: View,
-    lights: Sequence[Light],
-    items: Bools,
-    colour: str,
-    opacity: float,
-    receivers: Bools | None,
-    projected: ProjectedFaces,
-) -> Decals:
-    """The shadows of items of one colour and opacity."""
-    shadows = cast_shadows(view, lights, casters=items, receivers=receivers, projected=projected)
-    count = np.zeros(len(shadows), dtype=np.intp)
-    return Decals(
-        shadows.points,
-        shadows.offsets,
-        shadows.face,
-        count + int(FillKind.CLEAR_SHADOW),
-        count,
-        np.log2(shadows.lacking).astype(np.intp),
-        count,
-        count + CLEAR_LEVEL,
-        (colour,),
-        count,
-        np.full(len(shadows), opacity),
+def _dimmed(view: View, cast: Shadows, dark: Decals, colour: str, opacity: float) -> Decals:
+    """Where things of one colour and opacity throw shadows of single lights, cut along disjoint dark ones."""
+    import shapely
+
+    if not len(cast):
+        return no_decals()
+    dark = dark.of(np.argsort(dark.face, kind="stable"))
+    frames = FaceFrames.of(view, cast.face)
+    polygons = polygons_of(frames.flat(cast.points, _owner(cast.offsets)), cast.offsets)
+    _, leader, group = np.unique(
+        np.stack([cast.face, cast.lacking], axis=1), axis=0, return_index=True, return_inverse=True
     )
+    region = unions(polygons, group.ravel(), view.tolerance)
+    face, light = cast.face[leader], cast.lacking[leader]
+    others = polygons_of(FaceFrames.of(view, dark.face).flat(dark.points, _owner(dark.offsets)), dark.offsets)
+    first, last = (np.searchsorted(dark.face, face, side=side) for side in ("left", "right"))
+    mine = np.repeat(np.arange(len(region)), last - first)
+    other = np.arange(len(mine)) - np.repeat(np.cumsum(last - first) - last, last - first)
+    bright = region.copy()
+    covered = np.flatnonzero(last > first)
+    if len(covered):
+        around = unions(others[other], np.searchsorted(covered, mine), view.tolerance)
+        bright[covered] = shapely.difference(region[covered], around, grid_size=view.tolerance)
+    still = np.flatnonzero(dark.lights_lacking[other] & light[mine] == 0)
+    mine, other = mine[still], other[still]
+    inner = shapely.intersection(region[mine], others[other], grid_size=view.tolerance)
+    every = np.concatenate([bright, inner])
+    number = np.concatenate([np.arange(len(region)), mine])
+    lacking = np.concatenate([light, light[mine] | dark.lights_lacking[other]])
+    parts, of = without_splinters(every, view.tolerance)
+    parts, of = without_holes(parts, of)
+    flat, offsets = corners_of(parts)
+    lead = leader[number[of]]
+    none = np.zeros(len(of), dtype=np.intp)
+    return Decals(
+        frames.lifted(flat, np.repeat(lead, np.diff(offsets))),
+        offsets,
+        cast.face[lead],
+        none + int(FillKind.CLEAR_SHADOW),
+        none,
+        np.log2(light[number[of]]).astype(np.intp),
+        none,
+        none + CLEAR_LEVEL,
+        (colour,),
+        lacking[of],
+        np.full(len(of), opacity),
+    )
+
+
+def _owner(offsets: Ints) -> Ints:
+    return np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))

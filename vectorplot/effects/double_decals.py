@@ -42,7 +42,7 @@ def double_decals(
     if lights and any(item.material.opacity < 1.0 for item in scene.items):
         from vectorplot.effects.clear_shadows import clear_shadows
 
-        found.append(clear_shadows(mirrored, scene, lights, receivers=shown, projected=projected))
+        found.append(clear_shadows(mirrored, scene, lights, found[0], receivers=shown, projected=projected))
     return tuple(found)
 
 
