@@ -72,11 +72,12 @@ def test_the_comparison_finds_wrong_pictures() -> None:
     scene = FAMILIES["on_a_floor"](random)
     scene = replace(scene, lights=random_lights(scene, random, 2))
     camera = random_camera(scene, random)
+    flat = {"page": PAGE, "fit": False, "palette": 256, "smooth": False}
     moved = [
         replace(light, position=tuple(np.asarray(light.position) + np.array([4.0, 0.0, 0.0]))) for light in scene.lights
     ]
-    assert compared(scene, camera, paint(scene, camera, page=PAGE, fit=False, palette=256, lights=moved))[1] > 50
-    assert compared(scene, camera, paint(scene, camera, page=PAGE, fit=False, palette=256, shadows="none"))[1] > 50
+    assert compared(scene, camera, paint(scene, camera, **flat, lights=moved))[1] > 50
+    assert compared(scene, camera, paint(scene, camera, **flat, shadows="none"))[1] > 50
     fewer = replace(scene, items=scene.items[1:])
     assert compared(scene, camera, paint(fewer, camera, page=PAGE, fit=False, palette=256))[0] > 100
 

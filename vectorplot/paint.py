@@ -29,9 +29,12 @@ from vectorplot.scene.view import View, look
 from vectorplot.shading.face_shades import Shades, item_colours, view_lights
 from vectorplot.shading.faceted import FacetedScene, faceted
 from vectorplot.shading.fineness import picture_fineness
+from vectorplot.shading.flat_regions import plane_numbers
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
+from vectorplot.shading.painted_normals import painted_normals
 from vectorplot.shading.palettes import SIZE, shaded_colours
 from vectorplot.shading.palettes import palette as shades_of
+from vectorplot.shading.refinement import SHORTEST_MM, refined
 from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
 from vectorplot.visibility.painter.order import Painted, painters_order
@@ -75,12 +78,13 @@ def paint(
     camera and page: those of the scene where None, else default_camera and A4. fit: the picture fills the page but for
     its margin; otherwise the page centre is the target and the page height the camera's picture height. lights: in
     place of those of the scene. shadows: whether lights cast any. aura_mm: the width of their soft borders. palette:
-    how many shades every colour has. smooth: smooth surfaces are shaded from corner to corner, not face by face.
+    how many shades every colour has. smooth: smooth surfaces, meshes that look round and planes on which the light
+    varies are shaded from corner to corner; otherwise every plane has one shade.
     fills: polygons painted one over the other, or only what is seen of each, for pens, which cannot paint over things,
     with transparent ones as sparse lines; or blank, with the visible lines on them: hidden lines by erasing.
     lines: words of LineKind, or one text with commas between them, drawn on top with exact hidden lines, or on blank
-    polygons (none: all kinds); crease_angle_deg: sharper edges are creases.
-    tolerance_mm: how far the sides of polygons may be off smooth surfaces and refracted lines. budget: as of
+    polygons (none: all kinds); crease_angle_deg: sharper edges are creases, and meshes look round where faces meet at
+    less. tolerance_mm: how far the sides of polygons may be off smooth surfaces and refracted lines. budget: as of
     draw, for lines and triangles. progress(stage, fraction) and explain(report) are called while it works.
     Errors: InputError for unknown words and colours, impossible cameras, and widths and counts out of range.
     Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off
@@ -122,7 +126,15 @@ def paint(
     placed = placed_faces(view, faces, page, fit)
     seen = _Seen(facets.scene, view, projected, placed.framed(faces, page, view.tolerance), placed)
     world = page_from_world(view, placed.page_from_image)
-    lighting = Lighting(scene.items, view_lights(view, scene.lights), _normals(view, facets, smooth), palette)
+    plane = plane_numbers(view)
+    here = view_lights(view, scene.lights)
+    normals = np.full((3, len(view.corners)), np.nan)
+    if smooth and fills == "painted":
+        normals = painted_normals(view, scene.items, here, facets.normals, plane, crease_angle_deg)
+    elif smooth and fills == "visible":
+        # Pens have no gradients: meshes and planes keep one shade for each of their faces.
+        normals = painted_normals(view, scene.items, (), facets.normals, plane, 0.0)
+    lighting = Lighting(scene.items, here, normals, plane, palette)
     ruler = _Ruler(camera, page, seen, fit, crease_angle_deg, tolerance_mm, budget)
     if walk.calls_for("erasing"):
         polygons = _erased(walk, seen, scene, ruler, kinds or line_kinds(LINE_WORDS), palette)
@@ -250,13 +262,14 @@ def _check_options(
         raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected a length that is finite and positive")
 
 
-def _normals(view: View, facets: FacetedScene, smooth: bool) -> Floats:
-    """(3,v) the true normals at the vertices of the view, NaN for those of polyhedra."""
-    parts = [
-        normals if smooth and normals is not None else np.full((len(item.mesh.vertices), 3), np.nan)
-        for item, normals in zip(facets.scene.items, facets.normals, strict=True)
-    ]
-    return np.asarray(view.axes @ np.concatenate([np.zeros((0, 3)), *parts]).T)
+def _finer(seen: _Seen, lighting: Lighting) -> ImageFaces:
+    """The polygons, those that are shaded so small that no corner shows."""
+    faces = seen.faces
+    shortest = SHORTEST_MM / float(seen.placed.page_from_image[0, 0])
+    points, offsets, parent = refined(seen.view, lighting, faces.points, faces.offsets, faces.source, shortest)
+    if len(parent) == len(faces):
+        return faces
+    return ImageFaces(points, offsets, faces.planes[:, parent], faces.source[parent], faces.rank[parent])
 
 
 def _shades(seen: _Seen, lighting: Lighting) -> Shades:
@@ -307,6 +320,7 @@ def _coloured_strokes(
 
 def _shaded(walk: Walk, seen: _Seen, lighting: Lighting, page: Page, aura_mm: float, tolerance_mm: float) -> Fills:
     """The polygons of the picture in their colours, with all that lies on them and is seen in them."""
+    seen = replace(seen, faces=_finer(seen, lighting))
     shades = walk.run("shades", _shades, seen, lighting)
     aura = aura_mm / float(seen.placed.page_from_image[0, 0])
     decals, lighting = _decals(walk, seen, lighting, aura)

@@ -192,7 +192,7 @@ def _depths(camera: Camera, faces: Faces, points: Floats, pane: int) -> Floats:
 
 def compared(scene: Scene, camera: Camera, drawing: Drawing | None = None) -> tuple[int, int, int]:
     """How many pixels show the wrong item, how many the wrong shade, and how many are compared."""
-    drawing = drawing or paint(scene, camera, page=PAGE, fit=False, palette=256)
+    drawing = drawing or paint(scene, camera, page=PAGE, fit=False, palette=256, smooth=False)
     fills = fills_of(drawing)
     places = pixel_places(drawing, COLUMNS, ROWS)
     truth = truth_of(scene, camera, places)

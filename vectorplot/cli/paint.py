@@ -34,7 +34,7 @@ FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
 @click.option("--shadows", type=click.Choice(["auto", "none"]), default="auto", help="Whether lights cast shadows.")
 @click.option("--aura", type=at_least(0.0), default=0.0, metavar="MM", help="Width of the soft border of shadows.")
 @click.option("--palette", type=click.IntRange(2, 256), default=32, metavar="N", help="Shades of every colour.")
-@click.option("--flat", is_flag=True, help="One shade for each face of smooth surfaces too.")
+@click.option("--flat", is_flag=True, help="One shade for every plane: no gradients, nothing looks round.")
 @click.option(
     "--fills",
     type=click.Choice(["painted", "visible", "erasing"]),
@@ -45,7 +45,11 @@ FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
     "--lines", type=kinds, default="none", metavar="KIND,...", help=f"Lines on top, or on blank polygons: {KINDS}."
 )
 @click.option(
-    "--crease-angle", type=at_least(0.0, at_most=180.0), default=25.0, metavar="DEG", help="Sharper edges are creases."
+    "--crease-angle",
+    type=at_least(0.0, at_most=180.0),
+    default=25.0,
+    metavar="DEG",
+    help="Sharper edges are creases; meshes look round where faces meet at less.",
 )
 @click.option("--tolerance", type=between(0.0, math.inf), default=0.02, metavar="MM", help="For approximations.")
 @click.option(

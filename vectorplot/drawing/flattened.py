@@ -20,7 +20,15 @@ from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted import Overlay, stacked
 from vectorplot.drawing.visible_fills import GRID_MM, in_space
 from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
-from vectorplot.geometry.regions import areas_of, corners_of, polygons_of, unions, without_holes, without_splinters
+from vectorplot.geometry.regions import (
+    corners_of,
+    insides_of,
+    polygons_of,
+    triangles_of,
+    unions,
+    without_holes,
+    without_splinters,
+)
 
 MARGIN_MM = 0.5
 """So far inside a polygon its border is not in the same pixel, from 72 dots per inch on, its seam included."""
@@ -125,32 +133,20 @@ def _cut_apart(base: Fills, overlay: Overlay, page_from_world: Floats) -> Overla
     import shapely
 
     fills, stack = overlay.fills, overlay.after
-    region = _regions(fills)
+    region = insides_of(polygons_of(fills.points.T, fills.offsets))
     count = len(fills)
     layers = _Layers(region, stack, np.arange(count), np.ones(count), np.zeros((count, 3)), fills.opacity, fills.kind)
     layers = _united(_mixed(layers, fills), fills)
     numbers, of = np.unique(layers.stack, return_inverse=True)
     ground = base.some(numbers)
-    inside = shapely.buffer(_regions(ground), -MARGIN_MM, join_style="mitre")
+    inside = shapely.buffer(insides_of(polygons_of(ground.points.T, ground.offsets)), -MARGIN_MM, join_style="mitre")
     above = _above(layers)
     hidden = shapely.covers(above, layers.region)
     cover = shapely.difference(above, inside[of])
     covered = np.flatnonzero(~shapely.is_empty(cover))
     region = layers.region.copy()
-    region[covered] = shapely.difference(region[covered], areas_of(cover[covered]))
+    region[covered] = insides_of(shapely.difference(region[covered], insides_of(cover[covered])))
     return _listed(replace(layers, region=region).some(np.flatnonzero(~hidden)), fills, page_from_world)
-
-
-def _regions(fills: Fills) -> NDArray[np.object_]:
-    """(n,) the insides of polygons."""
-    import shapely
-
-    raw = polygons_of(fills.points.T, fills.offsets)
-    found = areas_of(shapely.make_valid(raw, method="structure", keep_collapsed=False))
-    # Where sides touch within the last digits the result may cross itself.
-    crossed = np.flatnonzero(~shapely.is_valid(found))
-    found[crossed] = shapely.buffer(found[crossed], 0.0)
-    return np.asarray(found)
 
 
 def _above(layers: _Layers) -> NDArray[np.object_]:
@@ -164,8 +160,8 @@ def _above(layers: _Layers) -> NDArray[np.object_]:
     from_top = np.repeat(ends, np.diff(ends, prepend=-1)) - np.arange(count)
     for depth in range(1, int(from_top.max(initial=0)) + 1):
         here = np.flatnonzero(from_top == depth)
-        result[here] = areas_of(shapely.union(result[here + 1], layers.region[here + 1]))
-    return np.asarray(areas_of(shapely.buffer(result, CLEARANCE_MM, join_style="mitre")))
+        result[here] = insides_of(shapely.union(result[here + 1], layers.region[here + 1]))
+    return np.asarray(insides_of(shapely.buffer(result, CLEARANCE_MM, join_style="mitre")))
 
 
 def _mixed(layers: _Layers, fills: Fills) -> _Layers:
@@ -185,8 +181,8 @@ def _mixed(layers: _Layers, fills: Fills) -> _Layers:
         below = np.flatnonzero(number < veil)
         below = below[own[below]]
         under = layers.some(below)
-        seen = areas_of(shapely.difference(under.region, _above(under)))
-        seen = areas_of(shapely.intersection(seen, layers.region[veil[below]]))
+        seen = insides_of(shapely.difference(under.region, _above(under)))
+        seen = insides_of(shapely.intersection(seen, layers.region[veil[below]]))
         share = layers.opacity[veil[below]]
         tint = _means(fills)[layers.source[veil[below]]]
         veiled = replace(
@@ -259,7 +255,7 @@ def _convex_if_shaded(parts: Any, of: Ints, layers: _Layers, fills: Fills) -> tu
     bent = shaded & (hull > GRID_MM * shapely.length(parts))
     if not bent.any():
         return parts, of
-    triangles, owner = shapely.get_parts(shapely.constrained_delaunay_triangles(parts[bent]), return_index=True)
+    triangles, owner = triangles_of(parts[bent])
     every = np.concatenate([parts[~bent], triangles])
     number = np.concatenate([np.flatnonzero(~bent), np.flatnonzero(bent)[owner]])
     order = np.argsort(number, kind="stable")

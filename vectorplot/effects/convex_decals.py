@@ -9,14 +9,12 @@ import numpy as np
 from vectorplot.effects.decals import Decals, joined_decals
 from vectorplot.effects.face_frames import FaceFrames
 from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
-from vectorplot.geometry.regions import corners_of, polygons_of
+from vectorplot.geometry.regions import corners_of, polygons_of, triangles_of
 from vectorplot.scene.view import View
 
 
 def convex_decals(view: View, decals: Decals, chosen: Bools) -> Decals:
     """The decals, those on chosen faces (f,) that are not convex cut into triangles."""
-    import shapely
-
     which = np.flatnonzero(chosen[decals.face] & (np.diff(decals.offsets) > 3))
     if not len(which):
         return decals
@@ -28,7 +26,7 @@ def convex_decals(view: View, decals: Decals, chosen: Bools) -> Decals:
     if not len(bent):
         return decals
     polygons = polygons_of(flat, some.offsets)[bent]
-    parts, of = shapely.get_parts(shapely.constrained_delaunay_triangles(polygons), return_index=True)
+    parts, of = triangles_of(polygons)
     corners, offsets = corners_of(parts)
     of = bent[of]
     cut = replace(some.of(of), points=frames.lifted(corners, np.repeat(of, np.diff(offsets))), offsets=offsets)

@@ -13,13 +13,14 @@ from vectorplot.drawing.page import page_from_world
 from vectorplot.drawing.painted import Overlay, Placed
 from vectorplot.effects.decal_fills import decal_fills
 from vectorplot.effects.decals import Decals
-from vectorplot.effects.reflections import DIMMED, Mirrors, doubled, reflections
+from vectorplot.effects.reflections import DIMMED, Mirrors, backwards, doubled, reflections
 from vectorplot.effects.seen_fills import mixed, seen_fills
 from vectorplot.effects.windows import SeenThrough
 from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
 from vectorplot.shading.painted_colours import Lighting
+from vectorplot.shading.refinement import SHORTEST_MM, refined
 from vectorplot.visibility.painter.image_faces import ImageFaces
 
 DecalsOf = Callable[[int, Lighting, Bools], Sequence[Decals]]
@@ -46,7 +47,7 @@ def reflection_fills(
     for number in range(len(mirrors)):
         here = seen.some(np.flatnonzero(plane_of[seen.pane] == number))
         if len(here):
-            there = _mirrored_light(lighting, mirrors, number)
+            there = _mirrored_light(view, lighting, mirrors, number)
             shown = np.isin(np.arange(view.face_count), here.source)
             decals = decals_of(number, there, shown)
             parts.append(_of_double(doubled(view, mirrors, number), there, decals, here, placed))
@@ -75,6 +76,10 @@ def _on_mirrors(overlay: Overlay, pane: Bools, paper: Colours) -> Overlay:
 def _of_double(
     mirrored: View, lighting: Lighting, decals: Sequence[Decals], seen: SeenThrough, placed: Placed
 ) -> Overlay:
+    points, offsets, parent = refined(
+        mirrored, lighting, seen.points, seen.offsets, seen.source, SHORTEST_MM / float(placed.page_from_image[0, 0])
+    )
+    seen = SeenThrough(points, offsets, seen.source[parent], seen.window[parent], seen.pane[parent])
     shown = seen_fills(mirrored, lighting, seen, placed, FillKind.REFLECTION)
     laid = [decal_fills(mirrored, lighting, some, seen, placed) for some in decals]
     whole = shown
@@ -86,10 +91,10 @@ def _of_double(
     return replace(whole, fills=replace(whole.fills, colours=dimmed, kind=np.full(count, int(FillKind.REFLECTION))))
 
 
-def _mirrored_light(lighting: Lighting, mirrors: Mirrors, number: int) -> Lighting:
+def _mirrored_light(view: View, lighting: Lighting, mirrors: Mirrors, number: int) -> Lighting:
     """Lights and normals as they are in the mirror."""
     lights = tuple(replace(light, position=_reflected(light, mirrors, number)) for light in lighting.lights)
-    return replace(lighting, lights=lights, normals=_turned(lighting.normals, mirrors, number))
+    return replace(lighting, lights=lights, normals=_turned(lighting.normals[:, backwards(view)], mirrors, number))
 
 
 def _reflected(light: Light, mirrors: Mirrors, number: int) -> tuple[float, float, float]:

@@ -147,10 +147,15 @@ def half_of_view(view: View, height: Floats, wanted: Bools, body: Bools) -> tupl
     return _with_cut_faces(view, whole, cut, height)
 
 
+def backwards(view: View) -> Ints:
+    """(c,) the corner of a view that each corner of its double is the double of."""
+    last = np.repeat(view.offsets[:-1] + view.offsets[1:], view.face_sizes) - 1
+    return np.asarray(last - np.arange(len(view.corners)), dtype=np.intp)
+
+
 def _turned_round(view: View) -> View:
     """The view with every face listed the other way round."""
-    last = np.repeat(view.offsets[:-1] + view.offsets[1:], view.face_sizes) - 1
-    order = last - np.arange(len(view.corners))
+    order = backwards(view)
     # The side that leads away from a corner is the one that led to it.
     return replace(view, corners=view.corners[order], inner=view.inner[_before(view, order)])
 

@@ -67,6 +67,29 @@ def areas_of(regions: Any) -> Any:
     return result
 
 
+def insides_of(regions: Any) -> Any:
+    """(n,) valid regions with the insides of others, which may touch or cross themselves."""
+    import shapely
+
+    found = areas_of(shapely.make_valid(regions, method="structure", keep_collapsed=False))
+    # Where sides touch within the last digits the result may cross itself.
+    crossed = np.flatnonzero(~shapely.is_valid(found))
+    if len(crossed):
+        found = found.copy()
+        found[crossed] = shapely.buffer(found[crossed], 0.0)
+    return found
+
+
+def triangles_of(regions: Any) -> tuple[Any, Ints]:
+    """Triangles that regions (n,) consist of, with no other corners than theirs, and the region of each."""
+    import shapely
+
+    parts, of = shapely.get_parts(insides_of(regions), return_index=True)
+    full = np.flatnonzero(shapely.area(parts) > 0.0)
+    triangles, part = shapely.get_parts(shapely.constrained_delaunay_triangles(parts[full]), return_index=True)
+    return triangles, of[full[part]]
+
+
 def without_splinters(regions: Any, tolerance: float) -> tuple[Any, Ints]:
     """The polygons that regions (n,) consist of, and the region of each; parts narrower than a few tolerances are left
     out, and holes that narrow filled."""

@@ -5,12 +5,15 @@ Source: Glaeser, section 8.4, figure 12 (average normals).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.tolerance import ROUNDING
+from vectorplot.scene.view import View
+from vectorplot.shading.screen import fans
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,6 +22,31 @@ class CornerNormals:
 
     normals: Floats
     index: Ints
+
+
+def view_normals(view: View, normals: Sequence[Floats | None], crease_angle_deg: float) -> CornerNormals:
+    """The normals at the corners of the triangles (t, 3) that the faces of a view make, as of screen.fans.
+
+    normals: for every item the unit normals (v, 3) of the world at its vertices, None where its faces are flat or,
+    where they meet at less than the crease angle, look round.
+    """
+    triangles, _ = fans(view.corners, view.offsets)
+    points = np.ascontiguousarray(view.points.T)
+    known, given = np.zeros(len(points), dtype=np.bool_), np.zeros((len(points), 3))
+    for item, own in enumerate(normals):
+        if own is not None:
+            part = slice(view.item_vertices[item], view.item_vertices[item + 1])
+            given[part] = own @ view.axes.T
+            known[part] = True
+    return corner_normals(points, triangles, crease_angle_deg, given, known)
+
+
+def at_corners(view: View, normals: CornerNormals) -> Floats:
+    """(3, c) the normals, as of view_normals, at the corners of the faces of a view."""
+    place, _ = fans(np.arange(len(view.corners)), view.offsets)
+    found = np.zeros((3, len(view.corners)))
+    found[:, place.ravel()] = normals.normals[normals.index.ravel()].T
+    return found
 
 
 def face_normals(points: Floats, triangles: Ints) -> Floats:

@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.scene.view import View
-from vectorplot.shading.corner_normals import CornerNormals, corner_normals
+from vectorplot.shading.corner_normals import CornerNormals, view_normals
 from vectorplot.shading.screen import fans
 
 
@@ -30,19 +30,10 @@ class SceneTriangles:
 
 
 def scene_triangles(view: View, normals: Sequence[Floats | None], crease_angle_deg: float) -> SceneTriangles:
-    """The faces of a view. normals: for every item the unit normals (v, 3) of the world at its vertices, None where its
-    faces are flat or, where they meet at less than the crease angle, look round."""
+    """The faces of a view; normals and crease angle as of view_normals."""
     corners, face = fans(view.corners, view.offsets)
     points = np.ascontiguousarray(view.points.T)
-    known, given = np.zeros(len(points), dtype=np.bool_), np.zeros((len(points), 3))
-    for item, own in enumerate(normals):
-        if own is not None:
-            part = slice(view.item_vertices[item], view.item_vertices[item + 1])
-            given[part] = own @ view.axes.T
-            known[part] = True
-    return SceneTriangles(
-        points, corners, face, view.face_item[face], corner_normals(points, corners, crease_angle_deg, given, known)
-    )
+    return SceneTriangles(points, corners, face, view.face_item[face], view_normals(view, normals, crease_angle_deg))
 
 
 def camera_in_view(view: View, camera: Camera) -> Camera:
