@@ -79,7 +79,7 @@ def _of_double(
     points, offsets, parent = refined(
         mirrored, lighting, seen.points, seen.offsets, seen.source, SHORTEST_MM / float(placed.page_from_image[0, 0])
     )
-    seen = SeenThrough(points, offsets, seen.source[parent], seen.window[parent], seen.pane[parent])
+    seen = replace(seen.some(parent), points=points, offsets=offsets)
     shown = seen_fills(mirrored, lighting, seen, placed, FillKind.REFLECTION)
     laid = [decal_fills(mirrored, lighting, some, seen, placed) for some in decals]
     whole = shown
