@@ -145,7 +145,7 @@ def test_placed_curves_keep_every_digit():
     ("scene", "message"),
     [
         (Scene((Item("A", curve_of_function(lambda t: (t, t, t), 0, 1)),)), "A: .* Python"),
-        (Scene((Item("A", Circle(), curves=SurfaceLines(columns=2)),)), "A: .* surfaces only"),
+        (Scene((Item("A", Circle(), curves=SurfaceLines(columns=2)),)), "A: .* polyhedra only"),
         (Scene((Item("A", "circle"),)), "A: the scene language has no word for a str"),
     ],
 )

@@ -81,6 +81,16 @@ def read_level_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tu
     return _planes(words, at, at + 1, owner, draft, AXES["z"])
 
 
+def read_smooth_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
+    """Lines of a polyhedron as smooth curves."""
+    return _with_lines(draft, at, replace(draft.lines, smooth=True)), at + 1
+
+
+def read_isophote_edges(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
+    """Isophotes of a polyhedron along its edges."""
+    return _with_lines(draft, at, replace(draft.lines, along_edges=True)), at + 1
+
+
 def _planes(words: Words, start: int, at: int, owner: str, draft: CurveDraft, normal: Vector) -> tuple[CurveDraft, int]:
     count, offsets, at = _count_or_list(words, at, owner, words.words[start])
     try:

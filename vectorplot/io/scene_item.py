@@ -113,6 +113,10 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
             shape = _space_curve(draft, words, draft.curve)
         else:
             shape = _polyhedron(draft, words, parts)
+            if draft.curves:
+                from vectorplot.io.scene_surface import curves_of
+
+                curves = curves_of(draft.curves, shape, shape.bounds)
     except InputError as error:
         if error.file is not None:
             raise
@@ -134,6 +138,12 @@ def _surface(draft: Draft, surface: Surface | ImplicitSurface) -> tuple[Surface 
     from vectorplot.io.scene_surface import checked_bounds, curves_of, placed_surface
 
     _check_faceless(draft, "surface")
+    for word, given in (
+        ("smooth_lines", draft.curves.lines.smooth),
+        ("isophote_edges", draft.curves.lines.along_edges),
+    ):
+        if given:
+            raise InputError(f"'{word}' is for polyhedra only")
     shape = placed_surface(surface, draft.placement)
     return shape, curves_of(draft.curves, shape, checked_bounds(shape))
 
@@ -156,8 +166,13 @@ def _check_lineless(draft: Draft, words: Words) -> None:
         words.fail(draft.curves.index, f"{draft.owner}'{words.words[draft.curves.index]}' is for surfaces only")
 
 
+def _check_unparametrised(draft: Draft, words: Words) -> None:
+    if draft.curves.lines.columns or draft.curves.lines.rows:
+        words.fail(draft.curves.index, f"{draft.owner}'parameter_lines' is for surfaces only")
+
+
 def _polyhedron(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
-    _check_lineless(draft, words)
+    _check_unparametrised(draft, words)
     mesh = _SHAPES[draft.kind or ""](draft, words, parts)
     if draft.removed is not None:
         mesh = _without_faces(mesh, draft.removed)

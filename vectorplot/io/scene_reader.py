@@ -11,10 +11,12 @@ import numpy as np
 from vectorplot.errors import InputWarning
 from vectorplot.io.scene_curves import (
     CurveDraft,
+    read_isophote_edges,
     read_isophotes,
     read_level_lines,
     read_parameter_lines,
     read_sections,
+    read_smooth_lines,
 )
 from vectorplot.io.scene_item import CAP_WORDS, Draft
 from vectorplot.io.scene_placement import Placement, moved, read_matrix, read_rotation, read_scale
@@ -389,6 +391,8 @@ HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
     "isophotes": _curves(read_isophotes),
     "sections": _curves(read_sections),
     "level_lines": _curves(read_level_lines),
+    "smooth_lines": _curves(read_smooth_lines),
+    "isophote_edges": _curves(read_isophote_edges),
 }
 """What reads the words of an item."""
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.mesh import Floats, Mesh
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.geometry.solids import IDENTITY
 from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
@@ -63,8 +63,8 @@ def checked_bounds(shape: Surface | ImplicitSurface) -> Floats:
     return bounds
 
 
-def curves_of(draft: CurveDraft, shape: Surface | ImplicitSurface, bounds: Floats) -> SurfaceLines:
-    """The lines that a draft asks for on a surface that stands in its place, within bounds (2,3)."""
+def curves_of(draft: CurveDraft, shape: Mesh | Surface | ImplicitSurface, bounds: Floats) -> SurfaceLines:
+    """The lines that a draft asks for on a surface or a polyhedron that stands in its place, within bounds (2,3)."""
     sections = tuple(
         Section(planes.normal, planes.offsets or even_offsets(shape, bounds, planes.normal, planes.count))
         for planes in draft.planes
@@ -72,13 +72,17 @@ def curves_of(draft: CurveDraft, shape: Surface | ImplicitSurface, bounds: Float
     return replace(draft.lines, sections=sections)
 
 
-def even_offsets(shape: Surface | ImplicitSurface, bounds: Floats, normal: Vector, count: int) -> tuple[float, ...]:
+def even_offsets(
+    shape: Mesh | Surface | ImplicitSurface, bounds: Floats, normal: Vector, count: int
+) -> tuple[float, ...]:
     """Heights along a normal that divide the extent of a surface, of an implicit one that of its box, evenly.
 
-    Errors: InputError for a surface that lies in one such plane.
+    Errors: InputError for a shape that lies in one such plane.
     """
     if normal in AXES.values():
         heights = bounds @ normal
+    elif isinstance(shape, Mesh):
+        heights = shape.vertices @ normal
     elif is_parametrised(shape):
         heights = smooth_bounds(PlacedSurface(shape, axis_frame(normal).T))[:, 2]
     else:

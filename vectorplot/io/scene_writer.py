@@ -100,14 +100,16 @@ def _item(item: Item, lights: tuple[Light, ...]) -> str:
 
 
 def _shape(item: Item, lights: tuple[Light, ...]) -> str:
-    if item.curves and (isinstance(item.shape, Mesh) or is_curve(item.shape)):
-        raise InputError(f"{item.name}: the scene language has lines of its own for surfaces only")
-    if isinstance(item.shape, Mesh):
+    if item.curves and is_curve(item.shape):
+        raise InputError(f"{item.name}: the scene language has lines of its own for surfaces and polyhedra only")
+    if isinstance(item.shape, Mesh) and not item.curves:
         return _mesh(item.shape)
     from vectorplot.io.scene_surface_writer import curve_text, lines_text, surface_text
 
     shape = item.shape
     try:
+        if isinstance(shape, Mesh):
+            return _mesh(shape) + lines_text(item.curves, lights)
         if is_parametrised(shape) or is_implicit(shape):
             return f"\nsurface {surface_text(shape)}{lines_text(item.curves, lights)}"
         if is_curve(shape):

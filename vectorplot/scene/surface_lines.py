@@ -54,11 +54,13 @@ class Section:
 
 @dataclass(frozen=True)
 class SurfaceLines:
-    """The lines that a smooth item asks for.
+    """The lines that an item asks for.
 
     columns, rows: into how many parts lines u = const. and v = const. divide the surface, 0 for no lines; isophotes:
     the cosines of the angle between normal and light along them; light: which light of the scene they are of, None for
-    the first one, or, in a scene without, one from the upper left of the eye; sections: families of plane sections.
+    the first one, or, in a scene without, one from the upper left of the eye; sections: families of plane sections;
+    smooth: those of a polyhedron are drawn as smooth curves through their points; along_edges: isophotes of a
+    polyhedron are its edges between lighter and darker faces.
     Errors: InputError for counts below 0 or above MAX_LINES, cosines that are not between -1 and 1.
     Source: Glaeser, sections 8.2 and 9.3.
     """
@@ -68,6 +70,8 @@ class SurfaceLines:
     isophotes: tuple[float, ...] = ()
     light: int | None = None
     sections: tuple[Section, ...] = ()
+    smooth: bool = False
+    along_edges: bool = False
 
     def __post_init__(self) -> None:
         for word, count in (("columns", self.columns), ("rows", self.rows)):

@@ -11,7 +11,13 @@ import numpy as np
 from vectorplot.features.edges import Faces, mesh_edges
 from vectorplot.features.intersections import face_intersections
 from vectorplot.features.mesh_curves import MeshCurves
-from vectorplot.features.mesh_lines import mesh_isophotes, mesh_plane_sections, mesh_point_light_isophotes
+from vectorplot.features.mesh_lines import (
+    mesh_isophote_edges,
+    mesh_isophotes,
+    mesh_plane_sections,
+    mesh_point_light_isophote_edges,
+    mesh_point_light_isophotes,
+)
 from vectorplot.features.patterns import pattern_outline
 from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
 from vectorplot.geometry.winding import pieces_of_faces
@@ -195,22 +201,25 @@ def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Li
         if isinstance(item.shape, Mesh) and item.shape.face_count:
             if LineKind.ISOPHOTE in wanted and item.curves.isophotes:
                 found = _mesh_isophotes(scene, view, item)
-                parts.append(_lines_of_curves(view, found, LineKind.ISOPHOTE, number))
+                parts.append(_lines_of_curves(view, found, LineKind.ISOPHOTE, number, item.curves.smooth))
             if LineKind.SECTION in wanted:
                 for section in item.curves.sections:
                     found = mesh_plane_sections(item.shape, section.normal, section.offsets)
-                    parts.append(_lines_of_curves(view, found, LineKind.SECTION, number))
+                    parts.append(_lines_of_curves(view, found, LineKind.SECTION, number, item.curves.smooth))
     return joined_lines(parts)
 
 
 def _mesh_isophotes(scene: Scene, view: View, item: Item) -> MeshCurves:
     light, cosines = curve_light(scene, view, item), item.curves.isophotes
-    across = mesh_isophotes if light.parallel else mesh_point_light_isophotes
-    return across(item.mesh, light.position, cosines)
+    if item.curves.along_edges:
+        trace = mesh_isophote_edges if light.parallel else mesh_point_light_isophote_edges
+    else:
+        trace = mesh_isophotes if light.parallel else mesh_point_light_isophotes
+    return trace(item.mesh, light.position, cosines)
 
 
-def _lines_of_curves(view: View, curves: MeshCurves, kind: LineKind, item: int) -> Lines:
-    """The segments of curves."""
+def _lines_of_curves(view: View, curves: MeshCurves, kind: LineKind, item: int, smooth: bool) -> Lines:
+    """The segments of curves; smooth: they are chords of smooth curves through their ends."""
     points = view.points_of(curves.points)
     after = np.arange(1, len(curves.points) + 1)
     last = curves.offsets[1:] - 1
@@ -218,4 +227,5 @@ def _lines_of_curves(view: View, curves: MeshCurves, kind: LineKind, item: int) 
     begin = np.flatnonzero(after != np.arange(len(after)))
     numbers = np.full(len(begin), item)
     kinds = np.full(len(begin), int(kind))
-    return straight_lines(points[:, begin], points[:, after[begin]], kinds, numbers, np.zeros_like(numbers))
+    lines = straight_lines(points[:, begin], points[:, after[begin]], kinds, numbers, np.zeros_like(numbers))
+    return replace(lines, smooth=np.full(len(begin), smooth))
