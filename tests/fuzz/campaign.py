@@ -16,8 +16,10 @@ from __future__ import annotations
 import argparse
 import itertools
 import resource
+import signal
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
@@ -66,13 +68,16 @@ def _campaign(target: str, options: argparse.Namespace) -> int:
     slowest, count = (0.0, ""), 0
     start = time.process_time()
     seeds = (f"{options.seed} {number}" for number in itertools.count(options.start))
-    for seed, found, data, suffix, seconds in attacks(target, itertools.islice(seeds, options.count)):
-        count += 1
-        slowest = max(slowest, (seconds, seed))
-        if found is not None:
-            _note(target, seed, found, data, suffix, smallest, options.keep)
-        if time.process_time() - start > 60.0 * options.minutes:
-            break
+    # What stops it early, Ctrl-C or a time limit of the shell, still gets the counts.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    with suppress(KeyboardInterrupt):
+        for seed, found, data, suffix, seconds in attacks(target, itertools.islice(seeds, options.count)):
+            count += 1
+            slowest = max(slowest, (seconds, seed))
+            if found is not None:
+                _note(target, seed, found, data, suffix, smallest, options.keep)
+            if time.process_time() - start > 60.0 * options.minutes:
+                break
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     print(f"{target}: {count} inputs in {time.process_time() - start:.0f} s, {len(smallest)} causes;"
           f" slowest {slowest[0]:.2f} s (seed '{slowest[1]}'), peak {peak:.0f} MB", flush=True)  # fmt: skip

@@ -138,7 +138,7 @@ def stl_file(rng: Random) -> bytes:
 
 
 def glb_file(rng: Random) -> bytes:
-    tree, binary = _tree(rng)
+    tree, binary = random_tree(rng)
     if rng.random() < 0.5:
         _damage(rng, tree)
     text = json.dumps(tree).encode()
@@ -150,7 +150,8 @@ def glb_file(rng: Random) -> bytes:
     return head + text + struct.pack("<II", len(binary), 0x004E4942) + binary
 
 
-def _tree(rng: Random) -> tuple[dict[str, Any], bytes]:
+def random_tree(rng: Random) -> tuple[dict[str, Any], bytes]:
+    """A right glTF tree of one to four nodes that show a few triangles, and its binary chunk."""
     count = rng.randint(3, 6)
     points = struct.pack(f"<{3 * count}f", *(rng.randint(-3, 3) for _ in range(3 * count)))
     indices = struct.pack("<12H", *(rng.randrange(count) for _ in range(12)))

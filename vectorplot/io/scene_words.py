@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import re
-from functools import cached_property
+from bisect import bisect_right
 from math import isfinite
+from operator import itemgetter
 from typing import NoReturn
 
 from vectorplot.errors import InputError
@@ -22,6 +23,9 @@ _STRING = re.compile(r'"(?:[^"\\\n]++|\\.)*+"')
 _WORD = re.compile(r'"(?:[^"\\\n]++|\\.)*+"?|,|[^\s,"#]++|#[^\n]*+')
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
 _NUMBER = re.compile(r"[-+.]*\d")
+
+MARKED = 1000
+"""Looking for the line of a word begins no more than so many words before it, or at the last word looked for."""
 
 PADDING = 4
 """Empty words after the last one, so that looking ahead needs no test."""
@@ -45,6 +49,7 @@ class Words:
         if "#" in text:
             words = [word for word in words if word[0] != "#"]
         self.words: list[str] = words
+        self._marks = [(0, 0, 1)]
         if '"' in text:
             unclosed = (k for k, word in enumerate(words) if word[0] == '"' and not _STRING.fullmatch(word))
             if (first := next(unclosed, None)) is not None:
@@ -53,18 +58,19 @@ class Words:
 
     def line(self, index: int) -> int:
         """The line, from 1, on which a word stands; for a word behind the last one the last line."""
-        return self._lines[min(index, len(self._lines) - 1)]
-
-    @cached_property
-    def _lines(self) -> list[int]:
-        """The lines of all words, then the last line that holds anything; made when the first one is asked for."""
-        lines, line, end = [], 1, 0
-        for match in _WORD.finditer(self._text):
-            line += self._text.count("\n", end, match.start())
-            end = match.start()
-            if self._text[end] != "#":
-                lines.append(line)
-        return [*lines, line + self._text.count("\n", end, len(self._text.rstrip()))]
+        word, position, line = self._marks[bisect_right(self._marks, index, key=itemgetter(0)) - 1]
+        for match in _WORD.finditer(self._text, position):
+            if match[0][0] == "#":
+                continue
+            if word == index or word >= self._marks[-1][0] + MARKED:
+                line += self._text.count("\n", position, match.start())
+                position = match.start()
+                if word > self._marks[-1][0]:
+                    self._marks.append((word, position, line))
+            if word == index:
+                return line
+            word += 1
+        return line + self._text.count("\n", position, len(self._text.rstrip()))
 
     def fail(self, index: int, cause: str) -> NoReturn:
         """Raise InputError with file and line of a word."""
