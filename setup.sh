@@ -142,6 +142,6 @@ if [ "$goal" = test ]; then
     ruff check --quiet . || status=1
     ruff format --check --quiet . || { echo "setup.sh: not formatted; run: .venv/bin/ruff format ." >&2; status=1; }
     mypy || status=1
-    python -m pytest "$@" || status=$?
+    python -m pytest --numprocesses auto --dist loadfile "$@" || status=$?
     exit "$status"
 fi
