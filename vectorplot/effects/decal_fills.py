@@ -68,8 +68,16 @@ def _shades(decals: Decals, parts: Laid, shades: Shades) -> Floats:
     border = decals.kind[parts.decal] == FillKind.SHADOW_BORDER
     dimmed = np.repeat(np.where(border, decals.light[parts.decal], -1), sizes)
     step = np.repeat(np.where(border, decals.level[parts.decal] % LEVELS, 1), sizes)
-    dark = shadow_shades(shades.shares, shades.intensity, lacking, shades.cue, dimmed=dimmed, step=step)
+    dark = shadow_shades(
+        _without_highlights(shades, lacking), shades.intensity, lacking, shades.cue, dimmed=dimmed, step=step
+    )
     return np.where((lacking > 0) | (dimmed >= 0), dark, shades.total)
+
+
+def _without_highlights(shades: Shades, lacking: Ints) -> Floats:
+    """(l,n) the shares of points, without highlights of the lights that do not get there."""
+    number = np.arange(len(shades.shares))[:, None]
+    return np.where((lacking[None] >> number) & 1 == 1, shades.matt, shades.shares)
 
 
 def _with_double(
@@ -81,13 +89,14 @@ def _with_double(
     corner, offsets = corner_positions(parts.offsets, lit)
     only = replace(lighting, lights=(lighting.doubles[number],))
     own = corner_shades_of(view, only, points[:, corner], offsets, decals.face[parts.decal[lit]])
-    shares = np.concatenate([shades.shares[:, corner], own.shares])
+    lacking = np.repeat(decals.lights_lacking[parts.decal[lit]], np.diff(offsets))
+    here = replace(shades, shares=shades.shares[:, corner], matt=shades.matt[:, corner])
+    shares = np.concatenate([_without_highlights(here, lacking), own.shares])
     # White lights beside coloured ones send as much of red, green and blue.
     one, other = shades.intensity, own.intensity
     if one.ndim != other.ndim:
         one, other = (np.tile(some[:, None], 3) if some.ndim == 1 else some for some in (one, other))
     intensity = np.concatenate([one, other])
-    lacking = np.repeat(decals.lights_lacking[parts.decal[lit]], np.diff(offsets))
     return corner, shadow_shades(shares, intensity, lacking, shades.cue[corner])
 
 

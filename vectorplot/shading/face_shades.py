@@ -40,10 +40,12 @@ HEADLIGHT = Light(UPPER_LEFT, parallel=True, intensity=1.0)
 @dataclass(frozen=True, eq=False)
 class Shades:
     """How bright n points are. shares (l,n): what a light of intensity 1 gives, 1 and more being as bright as can be;
-    backlit (l,n): whether a light shines on their far side; intensity (l,) of the lights, or (l,3) of their red,
-    green and blue where one of them is coloured; cue (n,): what is added because they are near the eye."""
+    matt (l,n): the same without highlights; backlit (l,n): whether a light shines on their far side; intensity (l,) of
+    the lights, or (l,3) of their red, green and blue where one of them is coloured; cue (n,): what is added because
+    they are near the eye."""
 
     shares: Floats
+    matt: Floats
     backlit: Bools
     intensity: Floats
     cue: Floats
@@ -132,16 +134,20 @@ def point_shades(
     eye = view_eye(view)
     words = list(dict.fromkeys(some.material.word for some in items))
     word = np.array([words.index(some.material.word) for some in items], dtype=np.intp)[item]
-    shares = np.zeros((len(lights), len(points)))
+    shares, matt = np.zeros((2, len(lights), len(points)))
     for number, name in enumerate(words):
         own = np.flatnonzero(word == number)
         finish = FINISHES.get(name, Finish())
         shares[:, own] = light_shares(points[own], normals[own], eye, lights, finish)
+        plain = replace(finish, highlight=0.0)
+        matt[:, own] = (
+            light_shares(points[own], normals[own], eye, lights, plain) if finish.highlight else shares[:, own]
+        )
     dark = np.zeros((len(lights), len(points)), dtype=np.bool_)
     for row, light in zip(dark, lights, strict=True):
         row[:] = backlit(np.einsum("ij,ij->i", normals, towards(points, homogeneous_light(light))))
     low, high = depth_limits(view)
-    found = Shades(shares, dark, light_colours(lights), depth_cue(points[:, 2], low, high - low))
+    found = Shades(shares, matt, dark, light_colours(lights), depth_cue(points[:, 2], low, high - low))
     return faded(view, found, lights, points.T) if any(light.fading for light in lights) else found
 
 
@@ -150,10 +156,10 @@ def faded(view: View, found: Shades, lights: Sequence[Light], points: Floats) ->
 
     Parallel light does not fade. Source: Glaeser, section 4.5, equation 4, figure 5.
     """
-    shares = found.shares.copy()
-    for row, light in zip(shares, lights, strict=True):
-        row *= fading_factors(light, lamp_reach(view, light), points)
-    return replace(found, shares=shares)
+    factors = np.ones_like(found.shares)
+    for row, light in zip(factors, lights, strict=True):
+        row[:] = fading_factors(light, lamp_reach(view, light), points)
+    return replace(found, shares=factors * found.shares, matt=factors * found.matt)
 
 
 def depth_limits(view: View) -> tuple[float, float]:

@@ -58,13 +58,15 @@ def corner_shades_of(view: View, lighting: Lighting, points: Floats, offsets: In
     count = len(face)
     found = Shades(
         np.zeros((len(one.shares), count)),
+        np.zeros((len(one.shares), count)),
         np.zeros((len(one.shares), count), dtype=np.bool_),
         one.intensity,
         np.zeros(count),
     )
     on_flat = np.flatnonzero(~smooth[face])
     number = np.repeat(of.ravel(), np.diff(offsets)[~smooth[source]])
-    found.shares[:, on_flat], found.backlit[:, on_flat] = one.shares[:, number], one.backlit[:, number]
+    found.shares[:, on_flat], found.matt[:, on_flat] = one.shares[:, number], one.matt[:, number]
+    found.backlit[:, on_flat] = one.backlit[:, number]
     found.cue[on_flat] = one.cue[number]
     at = np.flatnonzero(smooth[face])
     if not len(at):
@@ -73,7 +75,8 @@ def corner_shades_of(view: View, lighting: Lighting, points: Floats, offsets: In
     inside = shows_inside(view)[face[at]]
     turned = np.where(inside, -normals, normals)
     own = point_shades(view, lighting.items, lighting.lights, points[:, at].T, turned.T, view.face_item[face[at]])
-    found.shares[:, at], found.backlit[:, at], found.cue[at] = own.shares, own.backlit, own.cue
+    found.shares[:, at], found.matt[:, at] = own.shares, own.matt
+    found.backlit[:, at], found.cue[at] = own.backlit, own.cue
     return found
 
 
