@@ -44,7 +44,7 @@ def with_shared_kinds(view: View, lines: Lines) -> Lines:
     run = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
     mixed = np.zeros((2, len(starts)), dtype=np.bool_)
     mixed[contour[owner].astype(np.intp), run] = True
-    kept = mixed.all(axis=0)[run]
+    kept = (mixed[0] & mixed[1])[run]
     owner, run = owner[kept], run[kept]
     order = np.lexsort((~contour[owner], run))
     found = [(np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros(0))]

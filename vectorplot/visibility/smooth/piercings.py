@@ -12,6 +12,7 @@ from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.events import Events, all_events, hopped, on_chord, once
 from vectorplot.visibility.smooth.sheet import Sheet, dot
 from vectorplot.visibility.smooth.targets import Target, inside, weights
+from vectorplot.visibility.smooth.unmet import unmet_stretches
 
 ROUNDS, HOPS = 10, 3
 """Steps of Newton; how often a place may go over to a neighbouring chord."""
@@ -30,12 +31,17 @@ and at its end."""
 ALONG = 1e-7
 """A curve that makes a smaller angle with the sheet touches it."""
 
+SHARPEST = 1e3
+"""Where a sheet bends more strongly, in a scene about 1 large, its normal tells nothing about the sides of it: it is at
+an apex, a pinch point or a cuspidal edge, or as good as there."""
+
 
 def piercings(
     view: View, targets: tuple[Target, ...], curves: Curves, meets_itself: Bools, pairs: int
 ) -> tuple[Events, tuple[int, ...]]:
     """The events where curves pierce sheets, behind which there is one more in front; and the items for which the
-    budget's pairs did not do.
+    budget's pairs did not do. Where curves come close to a sheet and no such event is found they are cut, with no
+    change (see unmet).
 
     meets_itself (s,): sheets that may be pierced by curves that lie on them.
     """
@@ -47,19 +53,21 @@ def piercings(
         chord = chord[(depth[chord] > view.near) & (depth[chord + 1] > view.near)]
         if len(chord) and len(target.corners):
 
-            def look(rows: Ints, target: Target = target) -> Block[tuple[Ints, Floats, Floats]]:
+            def look(rows: Ints, target: Target = target) -> Block[tuple[Ints, Floats, Floats, Floats]]:
                 return _close(target, curves, rows, image, depth)
 
             found, done = in_blocks(chord, pairs, look)
             if done < len(chord):
                 short.append(target.sheet.item)
-            chord, part, places = (np.concatenate(column) for column in zip(*found, strict=True))
+            chord, part, places, reach = (np.concatenate(column) for column in zip(*found, strict=True))
             elsewhere = _elsewhere(target.sheet, number, curves, chord, part, places, APART_AT_FIRST)
-            chord, part, places = chord[elsewhere], part[elsewhere], places[elsewhere]
+            chord, part, places, reach = chord[elsewhere], part[elsewhere], places[elsewhere], reach[elsewhere]
+            close = chord, part, reach
             chord, part, places = _met(view, target.sheet, curves, chord, part, places)
             elsewhere = _elsewhere(target.sheet, number, curves, chord, part, places, APART)
             chord, part, places = chord[elsewhere], part[elsewhere], places[elsewhere]
-            parts.append(_pierced(view, target.sheet, curves, chord, part, places))
+            pierced = _pierced(view, target.sheet, curves, chord, part, places)
+            parts += [pierced, unmet_stretches(curves, *close, pierced, target.sheet.item)]
     return all_events(parts), tuple(short)
 
 
@@ -73,8 +81,8 @@ def _elsewhere(
 
 def _close(
     target: Target, curves: Curves, chord: Ints, image: Floats, depth: Floats
-) -> Block[tuple[Ints, Floats, Floats]]:
-    """Chords, parts of them and places on the sheet where they come close to it."""
+) -> Block[tuple[Ints, Floats, Floats, Floats]]:
+    """Chords, parts of them and places on the sheet where they come close to it, and within how far."""
     a, b = image[chord], image[chord + 1]
     box, triangle = target.near_boxes(np.minimum(a, b), np.maximum(a, b))
     looked = len(box)
@@ -96,9 +104,10 @@ def _close(
     size = np.sqrt(((corners[:, 1:] - corners[:, :1]) ** 2).sum(axis=2)).max(axis=1)
     weight = _in_space(corners, middle)
     at = np.einsum("ij,ijk->ik", inside(weight), corners)
-    reach &= np.linalg.norm(at - middle, axis=1) <= margin + 0.25 * size
+    within = margin + 0.25 * size
+    reach &= np.linalg.norm(at - middle, axis=1) <= within
     places = np.einsum("ij,ijk->ik", inside(weight), target.sheet.vertex_places[target.corners[triangle]])
-    return Block((chord[reach], part[reach], places[reach]), looked, int(reach.sum()))
+    return Block((chord[reach], part[reach], places[reach], within[reach]), looked, int(reach.sum()))
 
 
 def _in_space(corners: Floats, points: Floats) -> Floats:
@@ -146,13 +155,20 @@ def _met(
 
 
 def _pierced(view: View, sheet: Sheet, curves: Curves, chord: Ints, part: Floats, places: Floats) -> Events:
-    """The events of places where curves meet a sheet, each once; where they only touch it nothing happens."""
+    """The events of places where curves meet a sheet, each once; where they only touch it nothing happens, and at
+    singular places nothing that is known."""
     kept = once(curves, chord, part, np.zeros(len(chord)))
     chord, part, places = chord[kept], part[kept], places[kept]
     at, normal = curves.at(chord, part), sheet.normals(places)
     through = dot(at.slopes, normal) / np.linalg.norm(at.slopes, axis=1).clip(1e-300)
     towards = dot(projection.sight(view, at.points), normal)
-    crosses = np.abs(through) > ALONG
+    crosses = (np.abs(through) > ALONG) & ~_sharp(sheet, places)
     change = np.where(crosses, -np.sign(through * towards), 0.0)
     change = np.where(np.isfinite(change), change, 0.0).astype(np.intp)
     return Events(chord, part, np.full(len(chord), sheet.item), change)
+
+
+def _sharp(sheet: Sheet, places: Floats) -> Bools:
+    """(k,) whether the sheet is all but singular at places."""
+    bends = [np.abs(sheet.bends(places, np.broadcast_to(axis, places.shape))) for axis in np.eye(3)]
+    return np.asarray(~(np.max(bends, axis=0) <= SHARPEST))
