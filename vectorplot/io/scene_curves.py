@@ -6,7 +6,15 @@ from dataclasses import dataclass, replace
 
 from vectorplot.errors import InputError
 from vectorplot.io.scene_words import Words
-from vectorplot.scene.surface_lines import MAX_LINES, NO_LINES, Section, SurfaceLines, Vector, even_cosines
+from vectorplot.scene.surface_lines import (
+    MAX_LINES,
+    NO_LINES,
+    Section,
+    SurfaceLines,
+    Vector,
+    even_cosines,
+    path_on_surface,
+)
 
 AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
@@ -79,6 +87,22 @@ def read_sections(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple
 def read_level_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
     """A number of horizontal sections, or their heights."""
     return _planes(words, at, at + 1, owner, draft, AXES["z"])
+
+
+def read_surface_curve(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
+    """Two formulas in t, u and v of a curve on the surface, and the range of t."""
+    from vectorplot.io.scene_slots import read_formulas, read_numbers
+
+    start = at
+    formulas, at = read_formulas(2, "t")(words, at + 1, owner, "surface_curve")
+    if words.words[at] != "t":
+        words.fail(at, f"{owner}surface_curve: expected 't' and its range, got {words.shown(at)}")
+    (first, last), at = read_numbers(2)(words, at + 1, owner, "t of surface_curve")
+    try:
+        path = path_on_surface(formulas, first, last)
+        return _with_lines(draft, start, replace(draft.lines, paths=(*draft.lines.paths, path))), at
+    except InputError as error:
+        words.fail(start, f"{owner}surface_curve: {error.cause}")
 
 
 def read_smooth_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:

@@ -31,7 +31,7 @@ from vectorplot.io.scene_placement import Placement
 from vectorplot.io.scene_words import Words
 from vectorplot.scene.scene import Item, Material, Pattern
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
-from vectorplot.surfaces.surface import ImplicitSurface, Surface
+from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
 
 _NORMAL = Material()
 
@@ -145,6 +145,8 @@ def _surface(draft: Draft, surface: Surface | ImplicitSurface) -> tuple[Surface 
         if given:
             raise InputError(f"'{word}' is for polyhedra only")
     shape = placed_surface(surface, draft.placement)
+    if draft.curves.lines.paths and not is_parametrised(shape):
+        raise InputError("'surface_curve' is for surfaces with parameters u and v only")
     return shape, curves_of(draft.curves, shape, checked_bounds(shape))
 
 
@@ -169,6 +171,8 @@ def _check_lineless(draft: Draft, words: Words) -> None:
 def _check_unparametrised(draft: Draft, words: Words) -> None:
     if draft.curves.lines.columns or draft.curves.lines.rows:
         words.fail(draft.curves.index, f"{draft.owner}'parameter_lines' is for surfaces only")
+    if draft.curves.lines.paths:
+        words.fail(draft.curves.index, f"{draft.owner}'surface_curve' is for surfaces only")
 
 
 def _polyhedron(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:

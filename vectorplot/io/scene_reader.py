@@ -17,6 +17,7 @@ from vectorplot.io.scene_curves import (
     read_parameter_lines,
     read_sections,
     read_smooth_lines,
+    read_surface_curve,
 )
 from vectorplot.io.scene_item import CAP_WORDS, Draft
 from vectorplot.io.scene_placement import Placement, moved, read_matrix, read_rotation, read_scale
@@ -391,6 +392,7 @@ HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
     "isophotes": _curves(read_isophotes),
     "sections": _curves(read_sections),
     "level_lines": _curves(read_level_lines),
+    "surface_curve": _curves(read_surface_curve),
     "smooth_lines": _curves(read_smooth_lines),
     "isophote_edges": _curves(read_isophote_edges),
 }

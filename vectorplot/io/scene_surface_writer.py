@@ -72,6 +72,7 @@ def lines_text(curves: SurfaceLines, lights: Sequence[Light]) -> str:
     for section in curves.sections:
         if section.offsets:
             words.append(f"sections normal {_numbers(section.normal)} at {_list(section.offsets)}")
+    words += [f"surface_curve {_quoted(path.function)} t {_numbers((path.start, path.end))}" for path in curves.paths]
     words += ["smooth_lines"] * curves.smooth + ["isophote_edges"] * curves.along_edges
     return "".join(f"\n  {word}" for word in words)
 

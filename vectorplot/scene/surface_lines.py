@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
+from vectorplot.curves.parameters import parameter_range
 from vectorplot.errors import InputError
 from vectorplot.geometry.tolerance import ROUNDING
 
@@ -53,6 +57,26 @@ class Section:
 
 
 @dataclass(frozen=True)
+class SurfacePath:
+    """A curve on a parametrised surface: function gives u and v at t from start to end; made by `path_on_surface`."""
+
+    function: NumericFunction
+    start: float
+    end: float
+
+
+def path_on_surface(function: Callable[..., Any], start: float, end: float) -> SurfacePath:
+    """The curve on a surface with the parameters function(t) = (u, v), start <= t <= end.
+
+    Errors: InputError, naming the function, when it raises, returns complex numbers or the wrong shape.
+    Degenerate: where it leaves the surface, or is not finite, the curve is interrupted.
+    Source: Glaeser, section 8.2, equation 9.
+    """
+    first, last = parameter_range("path", start, end)
+    return SurfacePath(numeric_function(function, 2, (Range(first, last, False),)), first, last)
+
+
+@dataclass(frozen=True)
 class SurfaceLines:
     """The lines that an item asks for.
 
@@ -60,7 +84,7 @@ class SurfaceLines:
     the cosines of the angle between normal and light along them; light: which light of the scene they are of, None for
     the first one, or, in a scene without, one from the upper left of the eye; sections: families of plane sections;
     smooth: those of a polyhedron are drawn as smooth curves through their points; along_edges: isophotes of a
-    polyhedron are its edges between lighter and darker faces.
+    polyhedron are its edges between lighter and darker faces; paths: curves u(t), v(t) on a parametrised surface.
     Errors: InputError for counts below 0 or above MAX_LINES, cosines that are not between -1 and 1.
     Source: Glaeser, sections 8.2 and 9.3.
     """
@@ -72,6 +96,7 @@ class SurfaceLines:
     sections: tuple[Section, ...] = ()
     smooth: bool = False
     along_edges: bool = False
+    paths: tuple[SurfacePath, ...] = ()
 
     def __post_init__(self) -> None:
         for word, count in (("columns", self.columns), ("rows", self.rows)):
@@ -87,7 +112,7 @@ class SurfaceLines:
         object.__setattr__(self, "sections", tuple(self.sections))
 
     def __bool__(self) -> bool:
-        return bool(self.columns or self.rows or self.isophotes or self.sections)
+        return bool(self.columns or self.rows or self.isophotes or self.sections or self.paths)
 
 
 NO_LINES = SurfaceLines()

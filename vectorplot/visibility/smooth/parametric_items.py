@@ -20,6 +20,7 @@ from vectorplot.features.parameter_lines import borders, parameter_lines
 from vectorplot.features.sections import plane_sections
 from vectorplot.features.singular_lines import singular_lines
 from vectorplot.features.surface_curves import SurfaceCurves
+from vectorplot.features.surface_paths import surface_path
 from vectorplot.features.zero_manifold import JUMPS
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
@@ -81,7 +82,7 @@ def _asked_for(
     wanted: frozenset[LineKind],
     tracing: Tracing,
 ) -> list[Found]:
-    """Parameter lines, isophotes and sections."""
+    """Parameter lines, isophotes, sections and paths."""
     surface, lines = sheet.surface, item.curves
     result: list[Found] = []
     if LineKind.PARAMETER in wanted and lines.columns + lines.rows > 0:
@@ -96,6 +97,10 @@ def _asked_for(
             plane = PlaneSection(surface, normal, 0.0)
             found = plane_sections(surface, normal, offsets, tracing=tracing)
             result.append((LineKind.SECTION, ConditionCurves(sheet, number, plane), found))
+    if LineKind.CURVE in wanted:
+        for path in lines.paths:
+            found = surface_path(surface, path.function.values, path.start, path.end, tracing=tracing)
+            result.append((LineKind.CURVE, ParameterCurves(sheet, number), found))
     return result
 
 
