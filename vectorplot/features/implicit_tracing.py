@@ -138,7 +138,7 @@ def curves_in_space(
     if not band.complete:
         doubts += (unresolved("a curve on an implicit surface is finer than its triangles"),)
     if len(band.singular):
-        doubts += ("the gradient vanishes along lines: curves are known to a thousandth there",)
+        doubts += ("the gradient vanishes along lines: curves are known to a hundredth of the box there",)
     special = special_points(curve, mesh, band)
     points, pairs, spans = _crossings(curve, band)
     tolerance = 1e-3 * extent if tracing.tolerance is None else tracing.tolerance

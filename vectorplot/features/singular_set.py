@@ -13,7 +13,7 @@ REACH = 1.5
 """Longest sides of triangles from which vertices are led there: polygonised sheets that cross keep clear of each other
 by up to so much."""
 
-FIRM = 0.1
+FIRM = 0.03
 """Part of the largest principal second derivative below which one belongs to a direction along a singular line."""
 
 ROUNDS = 8

@@ -28,7 +28,8 @@ def jumps(surface: Surface, start: Floats, end: Floats) -> Bools:
     """(k,) whether the surface jumps, or runs through a pole, on the straight way in the domain from start to end
     (k,2).
 
-    The half of the way with the longer chord is taken, again and again. Degenerate: no jump at the border of a hole.
+    The half of the way with the longer chord is taken, again and again. Degenerate: where the middle of what is left
+    of the way is in a hole, the surface is interrupted, which is as good as a jump.
     """
     start, end = start.copy(), end.copy()
     low, high = _points(surface, start), _points(surface, end)
@@ -47,7 +48,9 @@ def jumps(surface: Surface, start: Floats, end: Floats) -> Bools:
         start[there], low[there] = middle[~left], between[~left]
         longer = np.where(left, one, two)
         least = STAYS if step else UNEVEN
-        active = active[np.isfinite(longer) & (longer >= least * first[active])]
+        interrupted = ~np.isfinite(between).all(axis=1)
+        result[active[interrupted]] = True
+        active = active[~interrupted & (longer >= least * first[active])]
     result[active] = True
     return result
 

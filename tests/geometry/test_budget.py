@@ -1,0 +1,36 @@
+import numpy as np
+import pytest
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.budget import USUAL, budget_of, in_one_line, unresolved
+from vectorplot.visibility.smooth.blocks import Block, in_blocks
+
+
+def test_a_budget_is_so_many_times_the_usual_one() -> None:
+    assert budget_of(1.0) == USUAL
+    assert budget_of(4.0).pairs == 4 * USUAL.pairs and budget_of(4.0).cells == 4 * USUAL.cells
+    assert budget_of(1e-30).points == 1 and budget_of(1e300).points == 2**62
+    for wrong in (0.0, -1.0, float("nan"), float("inf")):
+        with pytest.raises(InputError, match="a budget of"):
+            budget_of(wrong)
+
+
+def test_all_that_a_budget_did_not_do_for_is_one_line() -> None:
+    doubts = in_one_line(["a", unresolved("b"), unresolved("c"), "a", unresolved("b")])
+    assert doubts == ("a", unresolved("b; c")) and "--budget" in doubts[1]
+    assert in_one_line([]) == () and in_one_line(["a"]) == ("a",)
+
+
+def test_blocks_hold_few_partners_and_end_with_the_budget() -> None:
+    rows = np.arange(10_000)
+    sizes: list[int] = []
+
+    def look(some: np.ndarray) -> Block[np.ndarray]:
+        sizes.append(len(some))
+        return Block(some, 1000 * len(some), len(some))
+
+    found, done = in_blocks(rows, 1 << 20, look)
+    assert done == len(rows) and (np.concatenate(found) == rows).all()
+    assert max(sizes) <= 262
+    assert 300 < in_blocks(rows, 300, look)[1] < 600
+    assert in_blocks(rows[:0], 300, look) == ([], 0)

@@ -1,0 +1,87 @@
+"""Surfaces of textbooks with poles, jumps and singular lines: drawn in seconds, right against rays, or with one line that
+says what is not."""
+
+from __future__ import annotations
+
+import resource
+import time
+import warnings
+
+import numpy as np
+import pytest
+
+import vectorplot as vp
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.io.expressions import parse_expression
+from vectorplot.io.scene_formulas import Formulas, formula_graph, formula_implicit
+from vectorplot.surfaces.surface import Domain
+from vectorplot.testing import assert_drawing_is_right
+from vectorplot.testing.stroke_points import stroke_points
+
+PAGE = vp.Page(100, 100, 5)
+SECONDS, MEGABYTES = 25.0, 1500.0
+"""Of the processor, and of the whole process; before there were limits, none of these ended in either."""
+
+
+def graph_of(text: str) -> object:
+    return formula_graph(Formulas((parse_expression(text, ("x", "y")),)), Domain(-2.0, 2.0, -2.0, 2.0))
+
+
+def implicit_of(text: str, size: float) -> object:
+    box = [[-size] * 3, [size] * 3]
+    return formula_implicit(Formulas((parse_expression(text, ("x", "y", "z")),)), box)
+
+
+def drawn(shape: object, lines: int = 5, **options: object) -> tuple[vp.Scene, vp.Camera, vp.Drawing, list[str]]:
+    scene = vp.Scene((vp.Item("S", shape, curves=vp.SurfaceLines(lines, lines)),))
+    low, high = scene.bounds
+    target = (low + high) / 2.0
+    eye = target + np.array([3.0, -5.0, 3.5]) * (high - low).max()
+    camera = vp.Camera(tuple(eye.tolist()), tuple(target.tolist()))
+    before = time.process_time()
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", InputWarning)
+        drawing = vp.draw(scene, camera, page=PAGE, hidden="solid", **options)
+    assert time.process_time() - before < SECONDS
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0 < MEGABYTES
+    return scene, camera, drawing, [str(warning.message) for warning in said]
+
+
+@pytest.mark.parametrize("text", ["1/(x^2+y^2)", "0.3/hypot(x,y)", "tan(x)"])
+def test_graphs_with_poles_are_cut_off_and_right(text: str) -> None:
+    scene, camera, drawing, said = drawn(graph_of(text))
+    assert any(line.startswith("S: runs to infinity: shown is z from ") for line in said)
+    assert assert_drawing_is_right(drawing, scene, camera, samples=300) > 50
+
+
+def test_a_graph_with_a_jump_has_no_wall() -> None:
+    scene, camera, drawing, _ = drawn(graph_of("atan2(y,x)"))
+    found = stroke_points(drawing, scene, camera, 4000, 0).points
+    # On the graph, and so nowhere between the heights on both sides of the negative x-axis.
+    beside = found[(np.abs(found[:, 1]) < 0.05) & (found[:, 0] < -0.3)]
+    assert len(beside) > 20 and (np.abs(beside[:, 2]) > 2.9).all()
+
+
+@pytest.mark.parametrize(("text", "size"), [("x*y", 1.0), ("y^2-x^3", 1.0)])
+def test_implicit_surfaces_with_singular_lines_end_and_say_so(text: str, size: float) -> None:
+    *_, said = drawn(implicit_of(text, size))
+    assert said and all(line.startswith("S: ") for line in said)
+
+
+def test_a_budget_that_does_not_do_is_one_line_and_a_larger_one_does() -> None:
+    waves = graph_of("0.3*sin(5*x)*cos(4*y)")
+    *_, poor = drawn(waves, budget=0.01)
+    *_, rich = drawn(waves, budget=1.0)
+    told = [line for line in poor if line.endswith("a larger budget may do (--budget)")]
+    assert told and all(line.startswith("S: ") for line in told)
+    assert not rich
+    for verb in (vp.draw, vp.paint, vp.render):
+        with pytest.raises(InputError, match="a budget of"):
+            verb(vp.Scene((vp.Item("S", waves),)), budget=-1.0)
+
+
+def test_the_bar_moves_while_smooth_surfaces_are_drawn() -> None:
+    told: list[tuple[str, float]] = []
+    drawn(graph_of("x*y"), progress=lambda stage, part: told.append((stage, part)))
+    parts = [part for stage, part in told if stage in ("curves", "smooth surfaces")]
+    assert len(set(parts)) >= 7 and parts == sorted(parts)
