@@ -1,4 +1,4 @@
-"""The hard cases 29, 48 and 49 as drawings: cusps of contours, pinch points, cuspidal edges."""
+"""The hard cases 29, 48, 49 and 72 as drawings: cusps of contours, pinch points, cuspidal edges, lines through them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
+from vectorplot.curves.line import Line
 from vectorplot.drawing.drawing import Curves, Drawing
+from vectorplot.surfaces.cylinder import Cone
 from vectorplot.surfaces.function import surface_of_function
 from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.torus import Torus
@@ -111,3 +113,13 @@ def test_the_edge_of_the_tangents_of_a_helix_is_drawn_whole() -> None:
     assert np.abs(np.hypot(x - np.cos(z), y - np.sin(z))).max() < 1e-9
     assert np.isclose(sum(abs(np.diff(line[:, 2])).sum() for line in edge), 6.0, atol=1e-6), "once, without gaps"
     assert_drawing_is_right(drawing, scene, camera, samples=200, clearance=1e-4)
+
+
+@pytest.mark.hard(72)
+@pytest.mark.parametrize("parallel", [True, False])
+def test_a_line_through_an_apex_is_hidden_to_the_apex_and_no_further(parallel: bool) -> None:
+    axis = vp.Item("AXIS", Line.through((0.0, 0.0, 0.0), (0.0, 0.0, 5.0)))
+    scene = vp.Scene((vp.Item("CONE", Cone.standing(2.0, 4.0)), axis))
+    drawing = vp.draw(scene, vp.Camera((9.0, -14.0, 7.0), parallel=parallel), lines=("curve",))
+    heights = np.concatenate([paths.points3d[:, 2] for layer in drawing.layers for paths in layer.strokes])
+    assert np.isclose(heights.min(), 4.0, atol=1e-6) and np.isclose(heights.max(), 5.0)
