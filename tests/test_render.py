@@ -14,7 +14,7 @@ import pytest
 import vectorplot as vp
 from vectorplot import render as render_verb
 from vectorplot.draw import default_camera
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.plan import chosen_shadows, plan_render
 from vectorplot.render import render
@@ -298,6 +298,24 @@ def test_a_plane_that_a_light_sees_alone_does_not_shadow_itself():
             picture = render(vp.Scene((wall,), (light,)), camera, size=SIZE, samples=samples, shadows="buffer")
             plain = render(vp.Scene((wall,), (light,)), camera, size=SIZE, samples=samples, shadows="none")
             assert (picture.pixels == plain.pixels).all()
+
+
+def test_what_is_not_rendered_is_said_in_one_line():
+    rug = vp.Pattern("RUG", "red", 1, np.array([(0, 0), (0.5, 0), (0.5, 0.5)]))
+    decorated = vp.Item("A", box((-1, -1, -1), (1, 1, 1)), patterns=(rug,))
+    lens = vp.Item("B", box((2, -1, -1), (3, 1, 1)), material=vp.Material("transparent", refraction=1.5))
+    for items, words in (
+        ((decorated,), "patterns"),
+        ((lens,), "refraction"),
+        ((decorated, lens), "patterns.*refraction"),
+    ):
+        with pytest.warns(InputWarning, match=f"^not rendered: {words}") as told:
+            render(vp.Scene(items), size=(20, 20))
+        assert len(told) == 1
+    render(vp.Scene((decorated,)), size=(20, 20), lines=("pattern",))
+    reports = []
+    render(replace(coloured_boxes(), lights=(SUN,)), size=(20, 20), explain=reports.append)
+    assert any(report.name == "left out" and "mirrors" in report.why for report in reports)
 
 
 def test_pictures_say_what_their_colours_and_their_size_are():

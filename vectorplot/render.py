@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from vectorplot.draw import default_camera, seen_part
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.facets import Within
 from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.camera import Camera
@@ -88,7 +89,8 @@ def render(
     less look round. lines: words of LineKind, or one text with commas between them, drawn over the picture with exact
     hidden lines. background: a palette, a plain colour or #rrggbb. budget: as of draw, for lines and triangles.
     progress(stage, fraction) and explain(report) are called while it works.
-    Errors: InputError for unknown words and colours, impossible cameras, and sizes out of range.
+    Errors: InputError for unknown words and colours, impossible cameras, and sizes out of range; an InputWarning names
+    what the scene has and pixels do not show: patterns and refraction.
     Degenerate: an empty scene gives the background. Where the scene reaches behind the eye, or more than 60 degrees off
     the principal ray, a fitted picture shows the camera's field of vision. A scene without lights is lit from the eye's
     upper left, which casts no shadows; nor do items that do not occlude. Transparent ones dim and colour light.
@@ -105,6 +107,7 @@ def render(
     camera = camera or scene.camera or default_camera(scene)
     how, why = chosen_shadows(scene, camera, size, fit) if shadows == "auto" else (shadows, "")
     walk = Walk((*plan_cuts(camera), *plan_render(scene, how, bool(kinds), why)), explain, progress)
+    _tell_what_is_missing(walk, scene, kinds)
     scene = seen_part(walk, scene, camera)
     fine = (size[0] * samples, size[1] * samples)
     facets = FacetedScene(scene, (None,) * len(scene.items))
@@ -131,6 +134,19 @@ def render(
         place = (view, system)
         pixels = walk.run("lines", _with_lines, pixels, scene, camera, *place, kinds, crease_angle_deg, samples, budget)
     return Image(walk.run("average", averaged_light, pixels, samples), scene.title)
+
+
+def _tell_what_is_missing(walk: Walk, scene: Scene, kinds: Sequence[str]) -> None:
+    """Say what paint would show of the scene, and a picture of pixels does not."""
+    missing = []
+    if any(item.patterns for item in scene.items) and "pattern" not in kinds:
+        missing.append("patterns (their outlines come with lines of the kind pattern)")
+    if any(item.material.is_clear and item.material.refraction != 1.0 for item in scene.items):
+        missing.append("refraction")
+    if missing:
+        warnings.warn(f"not rendered: {', '.join(missing)}; the verb paint shows them", InputWarning, stacklevel=3)
+    if scene.lights and any(item.material.is_mirror for item in scene.items):
+        walk.tell("left out", "light that mirrors throw back: the verb paint shows it", 0)
 
 
 def _usual_samples(size: tuple[int, int]) -> int:

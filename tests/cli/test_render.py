@@ -51,7 +51,7 @@ def test_explain_tells_the_stages_that_ran(cube, tmp_path, capsys):
     assert run(["render", str(cube), "-o", str(tmp_path / "cube.png"), *options]) == 0
     table = capsys.readouterr().err
     names = [line.split("  ")[0] for line in table.splitlines()[1:-1]]
-    assert names == ["read", "look", "triangles", "depth", "shading", "lines", "average", "write"]
+    assert names == ["read", "look", "triangles", "coplanar", "depth", "shading", "lines", "average", "write"]
 
 
 def test_stdout_needs_a_format(cube, capfdbinary):
