@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.effects.bending import Soup, joined_soups
-from vectorplot.effects.passages import Passages, traced, virtual_points
+from vectorplot.effects.passages import Passages, Rays, traced, virtual_points
 from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
 from vectorplot.geometry.plane_cuts import PlaneBundles, cut_by_planes, planes_of
 from vectorplot.scene.view import View
@@ -45,13 +45,14 @@ PAIRS_AT_ONCE = 1 << 20
 @dataclass(frozen=True, eq=False)
 class Solid:
     """A transparent solid: face (k,) of the view, their corners: points (3,c), offsets (k+1,); planes (4,k) outer unit
-    normals and constants; constant: of the rays that enter it."""
+    normals and constants; constant: of the rays that enter it; exits (k,): by which faces rays may leave it."""
 
     face: Ints
     points: Floats
     offsets: Ints
     planes: Floats
     constant: float
+    exits: Bools
 
     @classmethod
     def of(cls, view: View, item: int, constant: float) -> Solid:
@@ -62,7 +63,8 @@ class Solid:
         corner, offsets = corner_positions(view.offsets, face)
         middle = view.points[:, view.item_vertices[item] : view.item_vertices[item + 1]].mean(axis=1)
         planes[:, middle @ planes[:3] > planes[3]] *= -1.0
-        return cls(face, view.points[:, view.corners[corner]], offsets, planes, constant)
+        exits = np.ones(len(face), dtype=np.bool_)
+        return cls(face, view.points[:, view.corners[corner]], offsets, planes, constant, exits)
 
     def passages(self, front: Ints, *back: Ints) -> Passages:
         """The ways of sight rays into a solid by some of its faces (w,) and, if given, out by others (w,)."""
@@ -71,6 +73,30 @@ class Solid:
         side = np.array([-1.0, 1.0])[: len(face), None]
         constant = np.array([self.constant, 1.0 / self.constant])[: len(face)]
         return Passages(side * planes[:3], planes[:3] * planes[3], constant)
+
+    def reflected(self, points: Floats, face: int) -> Floats:
+        """(3,n) the mirror images of points (3,n) in the plane of one of the faces."""
+        normal, constant = self.planes[:3, face, None], self.planes[3, face]
+        return np.asarray(points - 2.0 * ((normal * points).sum(axis=0) - constant) * normal)
+
+    def behind_mirror(self, front: Ints, mirror: int) -> Solid:
+        """What rays pass that enter by some faces (w,) and are reflected at another one, thought straight: these faces,
+        and then the mirror images of all but that one, by which they leave."""
+        others = np.flatnonzero(np.arange(len(self.face)) != mirror)
+        one, two = self.outlines(front), self.outlines(others)
+        normal, constant = self.planes[:3, mirror, None], self.planes[3, mirror]
+        planes = self.planes[:, others].copy()
+        along = (normal * planes[:3]).sum(axis=0)
+        planes[:3] -= 2.0 * along * normal
+        planes[3] -= 2.0 * along * constant
+        return Solid(
+            np.concatenate([self.face[front], self.face[others]]),
+            np.concatenate([one.points, self.reflected(two.points, mirror)], axis=1),
+            np.concatenate([one.offsets, two.offsets[1:] + one.offsets[-1]]),
+            np.concatenate([self.planes[:, front], planes], axis=1),
+            self.constant,
+            np.arange(len(front) + len(others)) >= len(front),
+        )
 
     def outlines(self, face: Ints) -> Soup:
         """Some of the faces, each on a way of its own."""
@@ -105,6 +131,21 @@ def soup_in_beams(view: View, solid: Solid, front: Ints, windows: Floats, rest: 
         if len(soup):
             found.append((beams, soup))
     return found
+
+
+def totally_reflecting(view: View, solid: Solid, front: Ints, windows: Floats) -> tuple[Ints, Ints]:
+    """Pairs of faces, the first a number in front (n,), of which no ray that enters by the one, seen in its window
+    (4,n), leaves by the other, though some get there."""
+    found = []
+    first, back = _meeting(view, solid, front)
+    for some in _lots(np.diff(solid.offsets)[back] ** 2 * RAYS):
+        grid = _Grid.of(view, solid, front, first[some], back[some])
+        _, full = grid.seen_in(windows[:, first[some]])
+        none = ~np.logical_or.reduceat(grid.good, grid.offsets[:-1]) & full
+        found.append((first[some][none], back[some][none]))
+    if not found:
+        return first, back
+    return np.concatenate([pair[0] for pair in found]), np.concatenate([pair[1] for pair in found])
 
 
 def soup_above(soup: Soup, planes: Floats, tolerance: float) -> Soup:
@@ -151,6 +192,7 @@ def _meeting(view: View, solid: Solid, front: Ints) -> tuple[Ints, Ints]:
         meets &= along >= -reach
         meets |= np.isinf(spread[lot])[:, None]
         meets[np.arange(len(own)), own] = False
+        meets &= solid.exits
         first, back = np.nonzero(meets)
         found.append((first + lot.start, back))
     return np.concatenate([pair[0] for pair in found]), np.concatenate([pair[1] for pair in found])
@@ -176,21 +218,43 @@ def _beams(view: View, solid: Solid, front: Ints, windows: Floats, first: Ints, 
     Towards total reflection rays leave along the face: they are followed up to the last one of a grid of rays that
     leaves at all.
     """
-    points, offsets = _grids(solid.outlines(back))
-    owner = np.repeat(np.arange(len(back)), np.diff(offsets))
-    virtual, seen = virtual_points(view, solid.passages(front), points, first[owner])
-    image = view.image_of(virtual)
-    rays = traced(view, solid.passages(front[first], back).of(owner), image)
-    good = seen & rays.passes
-    box = _boxes(image, seen, offsets)
-    common = _common(box, windows[:, first])
-    full = (common[0] <= common[1]) & (common[2] <= common[3])
+    grid = _Grid.of(view, solid, front, first, back)
+    image, rays, good, offsets = grid.image, grid.rays, grid.good, grid.offsets
+    common, full = grid.seen_in(windows[:, first])
     kept = np.flatnonzero(np.logical_or.reduceat(good, offsets[:-1]) & full)
     position, offsets = corner_positions(offsets, kept)
     first, back = first[kept], back[kept]
     direction, good = rays.direction[:, position], good[position]
     leaves = replace(solid.passages(front[first], back), guides=_guides(image[:, position], good, offsets))
     return Beams(first, back, leaves, common[:, kept], _bundles(view, solid, back, direction, good, offsets))
+
+
+@dataclass(frozen=True, eq=False)
+class _Grid:
+    """Rays to points all over back faces: image (2,n), offsets (b+1,), rays behind these faces, and which are seen, and
+    good: leave too."""
+
+    image: Floats
+    offsets: Ints
+    rays: Rays
+    seen: Bools
+    good: Bools
+
+    @classmethod
+    def of(cls, view: View, solid: Solid, front: Ints, first: Ints, back: Ints) -> _Grid:
+        """Those of pairs of faces, the first a number in front."""
+        points, offsets = _grids(solid.outlines(back))
+        owner = np.repeat(np.arange(len(back)), np.diff(offsets))
+        virtual, seen = virtual_points(view, solid.passages(front), points, first[owner])
+        image = view.image_of(virtual)
+        rays = traced(view, solid.passages(front[first], back).of(owner), image)
+        return cls(image, offsets, rays, seen, seen & rays.passes)
+
+    def seen_in(self, windows: Floats) -> tuple[Floats, Bools]:
+        """(4,b) what windows (4,b) have in common with the rectangles of the rays that are seen, and (b,) whether that
+        is anything."""
+        common = _common(_boxes(self.image, self.seen, self.offsets), windows)
+        return common, np.asarray((common[0] <= common[1]) & (common[2] <= common[3]), dtype=np.bool_)
 
 
 def _grids(outlines: Soup) -> tuple[Floats, Ints]:

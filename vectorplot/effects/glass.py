@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.effects.beams import TOUCHING, Beams, Solid, soup_above, soup_in_beams
+from vectorplot.effects.beams import TOUCHING, Beams, Solid, soup_above, soup_in_beams, totally_reflecting
 from vectorplot.effects.bending import Soup, bent
 from vectorplot.effects.bent_order import bent_order
 from vectorplot.effects.decals import Decals, no_decals
@@ -31,6 +31,9 @@ from vectorplot.visibility.painter.image_faces import (
     polygons_of,
 )
 from vectorplot.visibility.projected_faces import ProjectedFaces
+
+MOST_FACES = 32
+"""Solids with more faces show nothing where they reflect all light: each face may be a mirror of its own."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +71,8 @@ def seen_in_glass(
     painted: the polygons of the picture, back to front. tolerance: how far, in units of the image, straight sides of
     polygons may be off the curves that refraction makes of them in a perspective; their corners are exact. decals:
     convex ones on faces, in the order in which they are painted, seen as their faces are.
-    Other transparent solids are seen without refraction, and total reflection within a solid shows nothing.
+    Other transparent solids are seen without refraction. A face that reflects all light that gets there from within, by
+    a front face, shows what is seen by way of it; further reflections, and those at parts of faces, show nothing.
     Degenerate: of material thinner than its surroundings (constants below 1), which a perspective can see through up to
     the angle of total reflection only, parts near that angle may be missing.
     Source: Glaeser, section 6.6 (transparent solid polyhedra; the swimming pool, figure 12).
@@ -82,14 +86,16 @@ def seen_in_glass(
             front, way = np.unique(painted.source[window], return_inverse=True)
             panes = Panes(painted.some(window), way, window)
             number = np.searchsorted(solid.face, front)
-            parts += _seen_in(_Glass(view, solid, number, panes, tolerance, no_decals() if decals is None else decals))
+            glass = _glass(view, solid, number, panes, tolerance, no_decals() if decals is None else decals)
+            parts += [*_seen_behind(glass), *_bounced(glass), _seen_inside(glass)]
     return joined_seen(parts)
 
 
 @dataclass(frozen=True, eq=False)
 class _Glass:
     """A solid in a view: front (w,) those of its faces that one looks through, by panes whose ways are the numbers of
-    these faces; tolerance and decals as of seen_in_glass."""
+    these faces; tolerance and decals as of seen_in_glass; rest: all things but the solid, and inside what of them is in
+    it, and lying what of decals is."""
 
     view: View
     solid: Solid
@@ -97,6 +103,9 @@ class _Glass:
     panes: Panes
     tolerance: float
     decals: Decals
+    rest: Soup
+    inside: Soup
+    lying: Soup
 
     @property
     def boxes(self) -> Floats:
@@ -107,18 +116,72 @@ class _Glass:
         return box
 
 
-def _seen_in(glass: _Glass) -> list[SeenThrough]:
-    """First what is seen behind a solid, then what is seen in it."""
-    view, solid, front, boxes = glass.view, glass.solid, glass.front, glass.boxes
+def _glass(view: View, solid: Solid, front: Ints, panes: Panes, tolerance: float, decals: Decals) -> _Glass:
     others = np.flatnonzero(view.face_item != view.face_item[solid.face[0]])
     position, offsets = corner_positions(view.offsets, others)
     rest = Soup(view.points[:, view.corners[position]], offsets, others, np.zeros_like(others))
-    parts = [_behind(glass, beams, soup) for beams, soup in soup_in_beams(view, solid, front, boxes, rest)]
     walls = -solid.planes
     walls[3] -= TOUCHING * view.tolerance
-    inside = _bent_inside(glass, soup_above(rest, walls, view.tolerance))
-    lying = _bent_inside(glass, soup_above(_as_soup(glass.decals), walls, view.tolerance))
-    return [*parts, _shown(glass, inside, lying, glass.panes)]
+    inside, lying = (soup_above(some, walls, view.tolerance) for some in (rest, _as_soup(decals)))
+    return _Glass(view, solid, front, panes, tolerance, decals, rest, inside, lying)
+
+
+def _seen_behind(glass: _Glass) -> list[SeenThrough]:
+    """What is seen through the faces that rays leave by."""
+    beams = soup_in_beams(glass.view, glass.solid, glass.front, glass.boxes, glass.rest)
+    return [_behind(glass, *some) for some in beams]
+
+
+def _seen_inside(glass: _Glass) -> SeenThrough:
+    """What is seen in a solid."""
+    return _shown(glass, _bent_inside(glass, glass.inside), _bent_inside(glass, glass.lying), glass.panes)
+
+
+def _bounced(glass: _Glass) -> list[SeenThrough]:
+    """What is seen by way of faces that reflect all light that gets there from within, once: what is seen behind the
+    mirror image of the solid, and in it."""
+    view, solid = glass.view, glass.solid
+    if len(solid.face) > MOST_FACES:
+        return []
+    first, back = totally_reflecting(view, solid, glass.front, glass.boxes)
+    parts = []
+    for mirror in np.unique(back).tolist():
+        front = np.unique(first[back == mirror])
+        panes = _panes_of(glass, front, mirror)
+        if len(panes.way):
+            there = _mirrored(glass, front, mirror, panes)
+            parts += [*_seen_behind(there), _seen_inside(there)]
+    return parts
+
+
+def _mirrored(glass: _Glass, front: Ints, mirror: int, panes: Panes) -> _Glass:
+    """The mirror image of what is seen through some (w,) of the front faces by way of another face."""
+    solid, decals = glass.solid, glass.decals
+    rest, inside, lying = (
+        replace(soup, points=solid.reflected(soup.points, mirror)) for soup in (glass.rest, glass.inside, glass.lying)
+    )
+    return replace(
+        glass,
+        solid=solid.behind_mirror(glass.front[front], mirror),
+        front=np.arange(len(front)),
+        panes=panes,
+        decals=replace(decals, points=solid.reflected(decals.points, mirror)),
+        rest=rest,
+        inside=inside,
+        lying=lying,
+    )
+
+
+def _panes_of(glass: _Glass, front: Ints, back: int) -> Panes:
+    """What is seen of a back face through some (w,) of the front faces, whose numbers there are the ways."""
+    view = glass.view
+    every = np.arange(len(front))
+    outlines = replace(glass.solid.outlines(np.full(len(front), back)), source=every, way=front)
+    backs = bent(view, glass.solid.passages(glass.front), outlines, glass.boxes, glass.tolerance)
+    faces = polygons_of(mapped(view, backs.points), backs.offsets, np.arange(len(backs)), view.tolerance)
+    points, ends, face, pane = _in_panes(view, faces, backs.way, glass.panes)
+    parts = ImageFaces(points, ends, faces.planes[:, face], glass.panes.faces.source[pane], faces.rank[face])
+    return Panes(parts, backs.source[faces.source[face]], glass.panes.window[pane])
 
 
 def _bent_inside(glass: _Glass, soup: Soup) -> Soup:
