@@ -13,6 +13,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot import render as render_verb
+from vectorplot.curves.circle import Circle
 from vectorplot.draw import default_camera
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.mesh import Mesh
@@ -23,6 +24,7 @@ from vectorplot.shading import picture
 from vectorplot.shading.illumination import AMBIENT, DARK_SIDE, FINISHES, REDUCED
 from vectorplot.shading.palettes import LIMITS, palette
 from vectorplot.surfaces.ellipsoid import Sphere
+from vectorplot.surfaces.spiral import spiral_surface
 from vectorplot.surfaces.torus import Torus
 from vectorplot.testing.shapes import box
 
@@ -613,3 +615,27 @@ def test_coloured_light_colours_what_it_falls_on_and_its_highlights():
     assert (both == white)[ball].all(), "red and cyan make white"
     with pytest.raises(InputError, match="mauve"):
         render(vp.Scene((item,), (replace(SUN, colour="mauve"),)), CAMERA, size=SIZE)
+
+
+@pytest.mark.capability("G8.6-nautilus")
+@pytest.mark.parametrize("shadows", ["buffer", "trapezoid", "exact"])
+@pytest.mark.parametrize(
+    ("circle", "growth"),
+    [(Circle((1.0, 0, 0), 0.52, axis=(0, 1, 0)), 0.175), (Circle((0.62, 0, -1.25), 0.5, axis=(0.15, 1, 0)), 0.085)],
+    ids=["nautilus", "snail"],
+)
+def test_a_shell_a_whorl_further_is_the_same_picture_enlarged(shadows, circle, growth):
+    """Spiral surfaces are similar to themselves; so are their shadows on themselves."""
+    pictures = []
+    for whorl in (0, 1, -2):
+        turn, size = 2.0 * np.pi * whorl, np.exp(2.0 * np.pi * growth * whorl)
+        shell = spiral_surface(circle, growth, start=turn - 4.0 * np.pi, end=turn)
+        lights = (vp.Light((-5, -3, 2.5), parallel=True, intensity=1.0),)
+        scene = vp.Scene((vp.Item("SHELL", shell, "orange", vp.Material("plastic")),), lights)
+        camera = vp.Camera(tuple(size * np.array((2.0, -5.0, 9.0))), (0, 0, 0), fov_deg=30)
+        options = {"size": (90, 70), "samples": 1, "shadow_size": 256}
+        pictures.append([levels(render(scene, camera, shadows=how, **options)) for how in (shadows, "none")])
+    for shaded, plain in pictures[1:]:
+        assert np.abs(shaded - pictures[0][0]).mean() < 0.5 and np.abs(plain - pictures[0][1]).mean() < 0.3
+    shaded, plain = pictures[0]
+    assert (shaded <= plain + 2).all() and (shaded < plain - 10).sum() > 3, "its whorls shade each other"

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -13,8 +16,18 @@ from vectorplot.geometry.adjacency import (
     mesh_edges,
     neighbour_faces,
 )
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import box, polyhedron
+from vectorplot.io.read import read
+from vectorplot.scene.scene import Light
+from vectorplot.scene.view import look
+from vectorplot.shading.face_shades import face_middles, face_normals, face_shades, view_lights
+from vectorplot.visibility.painter.face_pairs import BEHIND, IN_FRONT
+from vectorplot.visibility.painter.priorities import priorities, view_objects, wholly_hidden
+from vectorplot.words import MATERIALS, check_colour
+
+DATA = Path(__file__).parents[2] / "data"
 
 VERTICES = [
     [2, 0, 0], [1, 2, 0], [-1, 2, 0], [-2, 0, 0], [-1, -2, 0], [1, -2, 0],
@@ -112,3 +125,69 @@ def test_an_edge_of_three_faces_has_no_single_neighbour():
         [[0, 0, 0], [0, 0, 1], [1, 0, 0], [0, 1, 0], [-1, 0, 0]], [[0, 1, 2], [1, 0, 3], [0, 1, 4]]
     )
     assert (neighbour_faces(mesh) == NO_FACE).all()
+
+
+@pytest.mark.capability("G3.2-polyhedron", "G3.2-face")
+@pytest.mark.parametrize("name", ["pencil", "cubes", "pyramid", "town", "table", "interpenetrating"])
+def test_all_that_is_recorded_of_the_objects_of_a_scene_fits_together(name):
+    scene = read(DATA / f"{name}.scene")
+    items = [item for item in scene.items if item.mesh.present is None]
+    scene = replace(scene, items=tuple(items))
+    assert len({item.name for item in items}) == len(items)
+    for item in items:
+        check_colour(item.colour)
+        mesh, record, faces = item.mesh, body_record(item.mesh), face_records(item.mesh)
+        assert item.material.word in MATERIALS
+        assert (record.vertex_count, record.face_count) == (len(mesh.vertices), mesh.face_count)
+        assert record.edge_count == len(mesh_edges(mesh))
+        size = float(np.ptp(record.bounds, axis=0).max())
+        away = np.linalg.norm(mesh.vertices - record.barycentre, axis=1)
+        assert away.max() == pytest.approx(record.max_radius)
+        assert (mesh.vertices >= record.bounds[0]).all() and (mesh.vertices <= record.bounds[1]).all()
+        heights = np.einsum("ij,ij->i", faces.normals[mesh.corner_face], mesh.vertices[mesh.corners])
+        assert np.abs(heights - faces.constants[mesh.corner_face]).max() < 1e-9 * size
+        known = faces.neighbours >= 0
+        assert np.isin(mesh.corner_face[known], faces.neighbours).all()
+        assert faces.neighbours.max() < mesh.face_count
+    # In every system, of the eye or a light: boxes, priorities, and what is obscured.
+    middle = tuple(scene.bounds.mean(axis=0).tolist())
+    systems = [
+        scene.camera,
+        *(Camera(tuple(np.add(middle, li.position)), middle, parallel=True) for li in scene.lights),
+    ]
+    for camera in systems:
+        objects = view_objects(look(scene, camera))
+        points, first = objects.view.points, objects.view.item_vertices
+        image = objects.view.image
+        for k in range(len(items)):
+            own = slice(first[k], first[k + 1])
+            low, high = objects.box[0:4:2, k], objects.box[1:4:2, k]
+            assert (low >= image[:, own].min(axis=1) - 1e-6).all() and (high <= image[:, own].max(axis=1) + 1e-6).all()
+            centre, radius = objects.around.spheres[k, :3], objects.around.spheres[k, 3]
+            assert np.linalg.norm(points[:, own].T - centre, axis=1).max() <= radius + 1e-9
+        table = priorities(objects)
+        assert np.array_equal(table == IN_FRONT, (table == BEHIND).T)
+        obscured = wholly_hidden(objects)
+        assert obscured.shape == (len(items),) and not obscured.all()
+
+
+@pytest.mark.capability("G3.2-face")
+@pytest.mark.parametrize("name", ["pencil", "cubes", "town", "table"])
+def test_incidence_shade_and_dark_flag_of_every_face_in_every_lights_system(name):
+    scene = read(DATA / f"{name}.scene")
+    lights = (Light((3, -4, 5), parallel=True, intensity=1.0), Light((-60, 30, 90), intensity=0.7))
+    scene = replace(scene, lights=lights)
+    view = look(scene, scene.camera)
+    here = view_lights(view, lights)
+    found = face_shades(view, scene.items, here)
+    normals, middles = face_normals(view), face_middles(view)
+    towards_eye = view.eye[:, None] - middles
+    seen = (normals * towards_eye).sum(axis=0) > 1e-9
+    for number, light in enumerate(here):
+        place = np.array(light.position)[:, None]
+        way = np.broadcast_to(place, middles.shape) if light.parallel else place - middles
+        incidence = (normals * way).sum(axis=0) / np.linalg.norm(way, axis=0)
+        sure = (np.abs(incidence) > 1e-9) & seen
+        assert np.array_equal(found.backlit[number][sure], incidence[sure] < 0)
+        assert (found.shares[number] >= 0).all()
+    assert ((found.total >= 0) & (found.total <= 1)).all()

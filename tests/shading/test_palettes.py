@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
 from vectorplot.shading import palettes
+from vectorplot.shading.device import Device
 from vectorplot.shading.palettes import LIMITS, PLAIN, colour_map, palette, palette_number, ramp, spectrum
 from vectorplot.words import COLOURS, PALETTES
 
@@ -84,6 +85,25 @@ def test_the_fewer_palettes_are_used_the_more_shades_they_have():
         assert np.array_equal(some.entries[some.entry(name, shade)], expected)
     with pytest.raises(InputError, match="not in the colour map"):
         some.entry("gray", 0.5)
+
+
+@pytest.mark.capability("G4.3-background")
+def test_the_background_of_the_screen_is_the_darkest_gray_behind_all_ramps():
+    """A picture of all ramps on a device: its colour table, entry by entry, and the background where nothing is."""
+    names = [f"{half}{name}" for half in ("", "light", "dark") for name in palettes.LIMITS]
+    table = colour_map(names)
+    device = Device().opened(34, 26)
+    for number, rgb in enumerate(table.entries.tolist()):
+        device = device.with_rgb(number, *rgb)
+    device = device.cleared(int(table.entry("gray", 0.0)))
+    for row, name in enumerate(names):
+        for column, shade in enumerate(np.linspace(0.0, 1.0, 32)):
+            device = device.with_colour(int(table.entry(name, shade))).with_pixel(column + 1, row + 1)
+    picture = device.swapped().frame.picture()
+    for row, name in enumerate(names):
+        assert np.array_equal(picture[row + 1, 1:33], palette(name)[palettes.shade_numbers(np.linspace(0, 1, 32), 32)])
+    border = np.concatenate([picture[0], picture[-1], picture[:, 0], picture[:, -1]])
+    assert (border == table.background).all() and table.background == (0, 0, 0)
 
 
 @pytest.mark.capability("G4.3-background")
