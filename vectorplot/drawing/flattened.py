@@ -37,6 +37,10 @@ CLEARANCE_MM = 1e-3
 """What is cut away is wider by this than what lies above it: of two sides that nearly coincide nothing is left between
 them, which would be drawn as wide as a seam."""
 
+MOST_LAYERS, MOST_CLEAR = 256, 8
+"""Where more polygons lie on one, or more that one can see through, each of which cuts all below it, they stay as they
+are."""
+
 
 def flattened(base: Fills, overlays: Sequence[Overlay], page_from_world: Floats) -> Overlay:
     """The polygons of base with what lies on them, each after the one it lies on: the same picture, but that no more
@@ -46,11 +50,11 @@ def flattened(base: Fills, overlays: Sequence[Overlay], page_from_world: Floats)
     page_from_world (4,4) as in Drawing. Polygons of one colour that follow each other on the same one become one. What
     lies on polygons that one can see through stays as it is.
     Error: parts narrower than a few of GRID_MM are left out.
-    Degenerate: what is covered as a whole is left out.
+    Degenerate: what is covered as a whole is left out; heaps of more than MOST_LAYERS or MOST_CLEAR stay as they are.
     """
     opaque = (base.opacity >= 1.0) & (base.kind != FillKind.BACKGROUND)
     layers = _uncovered(base, stacked([Overlay(base, np.arange(len(base))), *overlays]), opaque)
-    changed = opaque[layers.after] & _reaching_borders(base, layers)[layers.after]
+    changed = (opaque & _within_limits(base, layers) & _reaching_borders(base, layers))[layers.after]
     which = np.flatnonzero(changed)
     if not len(which):
         return layers
@@ -72,6 +76,13 @@ def _uncovered(base: Fills, layers: Overlay, opaque: Bools) -> Overlay:
     np.maximum.at(top, layers.after[covers], number[covers])
     kept = np.flatnonzero((number >= top[layers.after]) | ~opaque[layers.after])
     return Overlay(layers.fills.some(kept), layers.after[kept])
+
+
+def _within_limits(base: Fills, layers: Overlay) -> Bools:
+    """(n,) the polygons of base with no more on them than can be cut apart in a short time."""
+    count = np.bincount(layers.after, minlength=len(base))
+    clear = np.bincount(layers.after[layers.fills.opacity < 1.0], minlength=len(base))
+    return np.asarray((count <= MOST_LAYERS) & (clear <= MOST_CLEAR), dtype=np.bool_)
 
 
 def _measures(fills: Fills) -> tuple[Floats, Floats]:
