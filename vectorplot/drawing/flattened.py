@@ -37,7 +37,7 @@ CLEARANCE_MM = 1e-3
 """What is cut away is wider by this than what lies above it: of two sides that nearly coincide nothing is left between
 them, which would be drawn as wide as a seam."""
 
-MOST_LAYERS, MOST_CLEAR = 256, 8
+MOST_LAYERS, MOST_CLEAR = 48, 8
 """Where more polygons lie on one, or more that one can see through, each of which cuts all below it, they stay as they
 are."""
 
