@@ -147,6 +147,36 @@ def test_surfaces_in_horizontal_slices(seed):
     assert (np.diff(rank[number[ordered.source]]) >= 0).all()
 
 
+DOMAINS = {
+    "a half ring": lambda t, r: ((0.5 + r) * np.cos(np.pi * t), (0.5 + r) * np.sin(np.pi * t)),
+    "a leaf": lambda t, r: (2 * t - 1, (r - 0.5) * np.sin(np.pi * np.clip(t, 0.02, 0.98))),
+    "a slanted strip": lambda t, r: (2 * t - 1 + 0.8 * r, r + 0.3 * np.sin(5 * t)),
+    "a star": lambda t, r: tuple(
+        (0.05 + r * (1 + 0.3 * np.cos(10 * np.pi * t))) * f(1.9 * np.pi * t) for f in (np.cos, np.sin)
+    ),
+}
+
+
+@pytest.mark.capability("G5.4-graph-horizontal")
+@pytest.mark.parametrize("domain", DOMAINS)
+@pytest.mark.parametrize("height", [4.0, 0.6, 0.05, -0.4, -5.0])
+def test_graphs_over_any_domain_in_horizontal_slices_from_above_below_and_amid_them(domain, height):
+    t, r = np.meshgrid(np.linspace(0, 1, 15), np.linspace(0, 1, 7), indexing="ij")
+    x, y = DOMAINS[domain](t, r)
+    z = 0.5 * np.sin(3.1 * x + 0.4) * np.cos(2.7 * y)
+    shape = Mesh.from_triangles(np.stack([x, y, z], axis=-1).reshape(-1, 3), graph_triangles(14, 6))
+    view = look(numbered([shape]), Camera((3.0, -4.0, height), (0.1, 0.2, 0.0)))
+    world = view.world_of(view.points)[view.corners]
+    levels = np.linspace(world[:, 2].min(), world[:, 2].max(), 8)[1:-1]
+    pieces, source, number = cut_into_slices(world, view.offsets, 2, levels)
+    rank = np.empty(7, dtype=np.intp)
+    rank[slice_order(np.concatenate([[-99.0], levels, [99.0]]), height)] = np.arange(7)
+    points = mapped(view, view.points_of(pieces.points))
+    faces = polygons_of(points, pieces.offsets, np.arange(len(source)), view.tolerance)
+    ordered = sliced_order(faces, rank[number[faces.source]], view.tolerance)
+    assert wrong_points(view, replace(ordered, source=source[ordered.source])) == 0
+
+
 MERIDIANS = {
     "vase": [(0, 0), (1.0, 0), (1.3, 0.6), (0.6, 1.4), (0.9, 2.0)],
     "goblet": [(0, 0), (1.0, 0.1), (0.2, 0.4), (0.2, 1.2), (1.2, 1.6), (1.3, 2.2), (1.1, 2.2), (0.9, 1.7), (0, 1.5)],
