@@ -18,11 +18,14 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints
 REACH_MICRONS = 320.0
 """So far polygons reach under others: more than a pixel of a screen of 96 dots per inch, slantwise as well."""
 
-AROUND_MICRONS = 460.0
-"""So far they reach around corners: then a square about the corner covers the pixel that it is in."""
+AROUND_MICRONS = 600.0
+"""So far they reach around corners: then a square about the corner covers the pixels next to it."""
 
 INSIDE = 0.9
 """Part of the height of the other polygon that is used at most."""
+
+THIN_MICRONS = 700.0
+"""Polygons that are thinner are open: several sides of them run through one pixel."""
 
 MOST_CORNERS = 8
 """Nothing is added around corners of polygons that have more."""
@@ -77,7 +80,7 @@ def underlaps(microns: Ints, offsets: Ints, covers: Bools, group: Ints) -> Under
     high = [np.abs(along[:, 0] * way[:, 1] - along[:, 1] * way[:, 0]) / length for way in ways]
     part = [np.minimum(REACH_MICRONS / np.maximum(h, 1e-9), INSIDE)[:, None] for h in high]
     far, near = microns[after[later]] + part[0] * ways[0], microns[later] + part[1] * ways[1]
-    thin = later[np.minimum(*high) * INSIDE < REACH_MICRONS]
+    thin = later[np.minimum(*high) < THIN_MICRONS]
     open_ = np.zeros(count, dtype=np.bool_)
     met[later] = True
     open_[owner[~met]] = True

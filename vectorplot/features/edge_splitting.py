@@ -29,7 +29,7 @@ STEPS = 4
 NEAR = 1.0 / 64.0
 """Part of a side below which what is found on it is its end."""
 
-ON = 0.03
+ON = 0.01
 """A vertex is on a fold, or next to it, where the function of the fold is no larger."""
 
 BULGE = 0.05

@@ -36,8 +36,9 @@ SHORTEST = 4.0
 class PictureFineness:
     """What a picture asks of the triangles of one item, as features.edge_splitting.Demand.
 
-    Its outlines, seen by the eye and by the lights, its borders, and what is near other items are within the tolerance;
-    shades along sides within SHADE_ERROR. Surfaces fold over where sight rays and light rays touch them: there outlines
+    Its outlines, seen by the eye and by the lights, its borders, and what is near other items are within the tolerance
+    (where a narrow triangle beside an outline turns away, within five times of it); shades along sides within
+    SHADE_ERROR. Surfaces fold over where sight rays and light rays touch them: there outlines
     and the borders of dark sides begin.
 
     view: of the scene, its points being what it reaches; lights: in its coordinates, as of view_lights; casts: whether
