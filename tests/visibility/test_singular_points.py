@@ -81,3 +81,11 @@ def test_the_axis_of_a_cone_is_hidden_up_to_its_apex_from_every_side() -> None:
             drawing = draw(scene, Camera(eye, (0.0, 0.0, 2.0), parallel=parallel))
             height = drawn(drawing).of(1).world[..., 2]
             assert np.isclose(height.min(), 4.0, atol=1e-6) and np.isclose(height.max(), 5.0), (eye, parallel, height)
+
+
+@pytest.mark.hard(48)
+def test_the_contour_of_an_umbrella_is_one_to_its_pinch_point() -> None:
+    scene = Scene((Item("UMBRELLA", SURFACES["Whitney umbrella"].surface),))
+    chords = chords_seen(scene, Camera((3.0, 4.0, -6.0), (0.0, 0.0, 0.3)))
+    hidden = chords.hidden_by[chords.kind == LineKind.CONTOUR]
+    assert np.count_nonzero(np.diff(hidden)) <= 4

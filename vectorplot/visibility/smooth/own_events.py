@@ -14,14 +14,19 @@ from vectorplot.visibility.smooth.events import Events, all_events
 from vectorplot.visibility.smooth.family import Along
 from vectorplot.visibility.smooth.roots import roots_along
 from vectorplot.visibility.smooth.sheet import Sheet, dot
+from vectorplot.words import LineKind
 
 EDGE_ON = 1e-9
 """Cosine of the angle between sight line and tangent plane below which a curve lies on the contour."""
 
 
 def edge_on_curves(view: View, sheets: tuple[Sheet, ...], curves: Curves) -> Bools:
-    """(m,) the curves that lie on the contour of their own sheet all along."""
-    return np.asarray(~np.isin(np.arange(len(curves)), curves.owner[~_is_edge_on(view, sheets, curves)]))
+    """(m,) the curves that lie on the contour of their own sheet all along.
+
+    Contours do, whatever rounding makes of normals close to singular points.
+    """
+    contour = (curves.kind == LineKind.CONTOUR) & (curves.sheet >= 0)
+    return np.asarray(contour | ~np.isin(np.arange(len(curves)), curves.owner[~_is_edge_on(view, sheets, curves)]))
 
 
 def _is_edge_on(view: View, sheets: tuple[Sheet, ...], curves: Curves) -> Bools:
