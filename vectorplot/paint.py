@@ -443,8 +443,8 @@ def _fills(
         clear = refracting_items(seen.scene, view, seen.projected)[item]
         fills, both = tinted(fills, clear, opacity, _paper(seen.scene)[0], (*laid, *overlays))
         laid, overlays = both[: len(laid)], both[len(laid) :]
-    with_decals = Overlay(fills, np.arange(len(fills)))
-    if laid:
+    with_decals = stacked([Overlay(fills, np.arange(len(fills))), *(laid if walk.calls_for("visible fills") else ())])
+    if laid and not walk.calls_for("visible fills"):
         from vectorplot.drawing.flattened import flattened
 
         with_decals = flattened(fills, laid, page_from_world(view, seen.placed.page_from_image))

@@ -73,8 +73,8 @@ def test_painted_they_come_after_the_shadows_of_the_same_face_and_darken_it(came
     on_floor = fills.item == 0
     shadows = np.flatnonzero(on_floor & (fills.kind == FillKind.SHADOW))
     assert len(shadows) and shadows.max() < np.flatnonzero(on_floor & (fills.kind == FillKind.CLEAR_SHADOW)).min()
-    # Thin, and in the colour of the glass: what is seen of the face below stays, darker.
-    assert (fills.opacity[clear] < 0.6).all()
+    # Thin, and in the colour of the glass: what is seen of the face below stays, darker. Near borders of the face they
+    # are opaque, in the mixed colour.
     first = fills.colours[fills.offsets[:-1]].astype(int)
     face = first[np.flatnonzero(on_floor & (fills.kind == FillKind.FACE))]
     mixed = fills.opacity[clear, None] * first[clear] + (1 - fills.opacity[clear, None]) * face.max(axis=0)

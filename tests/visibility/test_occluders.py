@@ -68,3 +68,22 @@ def test_what_does_not_occlude_is_no_solid() -> None:
     scene = Scene((Item("glass", box((-1, -1, -1), (1, 1, 1)), occludes=False),))
     view = look(scene, CAMERA)
     assert solid_items(view, project_faces(view)).tolist() == [False]
+
+
+@pytest.mark.parametrize("times", [2, 3])
+@pytest.mark.parametrize("flat", [False, True])
+def test_faces_listed_several_times_hide_like_one(times: int, flat: bool) -> None:
+    triangle = Mesh.from_polygons([[-2, -2, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 1]] * 2)
+    once = triangle if flat else box((-1.0, -1.5, -0.5), (1.0, 1.5, 0.5))
+    again = Mesh.from_polygons(once.vertices, once.polygons() * times)
+    points = np.random.default_rng(1).uniform(-1.0, 1.0, (3, 4000))
+    found = []
+    for mesh in (once, again):
+        view = look(Scene((Item("A", mesh),)), CAMERA)
+        faces = project_faces(view)
+        assert solid_items(view, faces).all()
+        solid = hides(solid_occluders(view, faces, np.array([0])), points)[0]
+        front = face_occluders(view, faces, np.flatnonzero(faces.facing > 0))
+        assert (solid == hides(front, points).any(axis=0)).all()
+        found.append(solid)
+    assert found[0].any() and (found[0] == found[1]).all()

@@ -113,12 +113,14 @@ def solid_occluders(view: View, faces: ProjectedFaces, items: Ints) -> Occluders
     a, b = view.corners[position], view.corners[view.after(position)]
     key = np.minimum(a, b) * view.points.shape[1] + np.maximum(a, b)
     order = np.argsort(key, kind="stable")
-    same = key[order][1:] == key[order][:-1]
-    single = np.ones(len(key), dtype=np.bool_)
-    single[order[1:][same]] = False
-    single[order[:-1][same]] = False
-    outline = np.flatnonzero(single)
-    side = _side_planes(view, a[outline], b[outline])
+    begin = np.flatnonzero(np.concatenate([key[:1] >= 0, key[order][1:] != key[order][:-1]]))
+    # Faces may be listed several times: an edge is on the outline where uses in both directions do not cancel.
+    net = np.add.reduceat(np.where(a < b, 1, -1)[order], begin) if len(begin) else begin
+    turned = np.zeros(len(key), dtype=np.bool_)
+    turned[order[begin]] = (net > 0) != (a < b)[order[begin]]
+    outline = np.sort(order[begin[net != 0]])
+    start, end = np.where(turned, b, a)[outline], np.where(turned, a, b)[outline]
+    side = _side_planes(view, start, end)
     side_owner = np.repeat(owner, sizes)[outline]
     depth_counts = np.bincount(owner, minlength=len(items))
     side_counts = np.bincount(side_owner, minlength=len(items))
