@@ -50,7 +50,7 @@ def main(folder: Path) -> None:
         cast = lamp + (above - lamp) * (lamp[2] / (lamp[2] - above[:, 2]))[:, None]
         inner = cast[(cast[:, 0] < 6) & (cast[:, 1] < 5)]
         gap = min(np.linalg.norm(s[:, None] - inner, axis=2).min(axis=0).max() for s in shadows)
-        assert gap < 1e-9, f"{body.name}: the corners of a shadow are those of the outline"
+        assert gap < 1e-8, f"{body.name}: the corners of a shadow are those of the outline"
     assert len(shadows) == len(bodies) and len(spatial_hull(bodies[0].mesh, lamp)) < 40
     alone = look(vp.Scene((bodies[0],)), camera)
     assert len(shadow_decals(alone, scene.lights)) == 0, "none on itself"

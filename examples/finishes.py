@@ -9,8 +9,10 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import shapely
 
 import vectorplot as vp
+from vectorplot.geometry.regions import polygons_of
 from vectorplot.geometry.revolution import revolution
 from vectorplot.geometry.vectors import translated
 from vectorplot.shading.illumination import FINISHES, lambert
@@ -38,7 +40,9 @@ def main(folder: Path) -> None:
     falling = [lambert(cosine, FINISHES[word].exponent) for word in ("mat", "wood", "normal", "metallic")]
     assert (np.diff(falling, axis=0) < 0).all(), "the higher the exponent, the darker what is not lit from the front"
     (fills,) = drawing.layers[0].fills
-    brightness = [fills.colours[np.repeat(fills.item == k, np.diff(fills.offsets))].mean() for k in range(3)]
+    middle = np.add.reduceat(fills.colours.mean(axis=1), fills.offsets[:-1]) / np.diff(fills.offsets)
+    area = shapely.area(polygons_of(fills.points.T, fills.offsets))
+    brightness = [np.average(middle[fills.item == k], weights=area[fills.item == k]) for k in range(3)]
     assert brightness[0] > brightness[1] > brightness[2], "so it is in the picture: mat, wood, normal"
 
 

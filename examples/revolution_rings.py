@@ -64,7 +64,7 @@ def main(folder: Path) -> None:
         drawing = vp.Drawing(90, 110, (vp.Layer("rings", vp.Pen(), (part,)),), title="Rings")
         vp.save(drawing, folder / f"revolution_rings_{name}.svg")
 
-    compared = vp.paint(scene, camera, shadows="none")
+    compared = vp.paint(scene, camera, shadows="none", smooth=False)
     (others,) = compared.layers[0].fills
     scale = np.ptp(fills.points[:, 1]) / np.ptp(others.points[:, 1])
     low = others.points.min(axis=0)

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import shapely
 
 import vectorplot as vp
 from vectorplot.drawing.fills import Fills
@@ -19,13 +20,6 @@ from vectorplot.testing import visible_by_rays
 DATA = Path(__file__).resolve().parent.parent / "data"
 SHADES = palette("orange")[[31, 21, 11, 0]]
 """The colours of grades 0 to 3."""
-
-
-def covers(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Which points lie in a convex polygon."""
-    along, arm = np.roll(corners, -1, axis=0) - corners, points[:, None] - corners
-    side = along[:, 0] * arm[..., 1] - along[:, 1] * arm[..., 0]
-    return (side > 0).all(axis=1) | (side < 0).all(axis=1)
 
 
 def main(folder: Path) -> None:
@@ -50,7 +44,7 @@ def main(folder: Path) -> None:
     sample = np.column_stack([random.uniform(-8.9, 8.9, 600), random.uniform(-6.9, 6.9, 600), np.zeros(600)])
     grade = np.zeros(len(sample), dtype=int)
     for k, part in zip(on_floor, parts, strict=True):
-        grade[covers(part[:, :2], sample[:, :2])] = decals.grade[k]
+        grade[shapely.contains_xy(shapely.Polygon(part[:, :2]), sample[:, :2])] = decals.grade[k]
     blocked, sure = np.zeros(len(sample), dtype=int), np.ones(len(sample), dtype=bool)
     for lamp in scene.lights:
         sight = visible_by_rays(scene, vp.Camera(eye=lamp.position, target=(0, 0, 0)), sample)

@@ -2,7 +2,7 @@
 
 from click.testing import CliRunner
 
-from vectorplot.cli.main import vectorplot
+from vectorplot.cli.verbs import vectorplot
 
 
 def test_an_empty_picture_is_said(tmp_path):

@@ -19,7 +19,7 @@ ALIGNED = 0.2
 LEVELS = 16
 """How often triangles are cut at most."""
 
-STUBBORN = 2
+STUBBORN = 3
 """How often a triangle at a singular point of the surface is cut: there slopes never agree."""
 
 

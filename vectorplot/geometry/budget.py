@@ -26,7 +26,7 @@ class Budget:
     triangles: int = 1 << 17
     points: int = 1 << 16
     pairs: int = 1 << 20
-    facets: int = 1 << 16
+    facets: int = 1 << 18
 
 
 USUAL = Budget()
