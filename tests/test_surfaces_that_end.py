@@ -67,6 +67,12 @@ def test_a_graph_with_a_jump_has_no_wall() -> None:
     assert len(beside) > 20 and (np.abs(beside[:, 2]) > 2.9).all()
 
 
+def test_waves_finer_than_any_resolution_end_and_say_what_is_left_out() -> None:
+    _, _, drawing, said = drawn(graph_of("sin(1/hypot(x,y))"), lines=0)
+    assert any("wind more finely than the resolution" in line for line in said)
+    assert any(len(mark) for layer in drawing.layers for mark in layer.marks)
+
+
 @pytest.mark.parametrize(("text", "size"), [("x*y", 1.0), ("y^2-x^3", 1.0)])
 def test_implicit_surfaces_with_singular_lines_end(text: str, size: float) -> None:
     _, _, drawing, said = drawn(implicit_of(text, size))

@@ -18,6 +18,7 @@ from vectorplot.features.scalar_field import (
     in_units,
     scalar_field,
 )
+from vectorplot.features.tangles import without_tangles
 from vectorplot.features.zero_cells import (
     Lattice,
     Subdivision,
@@ -136,14 +137,16 @@ def zero_manifold_of_f_uv(
     flat = flat_cells(lattice, w, NOISE * scale)
     # Along the border of an area where f is zero slopes say nothing.
     subdivision = subdivided(lattice, odd & ~beside(flat, field.closed), NOISE * scale, budget.cells)
-    found = _found(subdivision, crossing_segments(lattice, triangles_near(subdivision, w, near), scale, zero), scale)
+    traced = crossing_segments(lattice, triangles_near(subdivision, w, near), scale, zero)
+    subdivision, traced, tangled = without_tangles(subdivision, traced)
+    found = _found(subdivision, traced, scale)
     lines, unsure, enough = found.lines, 0, True
     if np.isnan(w).any():
         lines = _to_holes(field, lines, _smallest_cell(lattice), zero)
     if tolerance is not None:
         measure = positions or (lambda u, v: np.stack([u, v], axis=-1))
         lines, unsure, enough = refined(field, lines, measure, tolerance, zero, budget.points)
-    doubts = _doubts(int(flat.sum()), found, subdivision.complete, unsure, enough)
+    doubts = _doubts(int(flat.sum()), found, subdivision.complete, unsure, enough, tangled)
     return _result(
         field, lines, found, doubts, np.concatenate([grid_points(field, columns, rows), unit * w[..., None]], axis=2)
     )
@@ -342,12 +345,16 @@ def _result(field: ScalarField, lines: Polylines, found: _Found, doubts: tuple[s
     )
 
 
-def _doubts(flat: int, found: _Found, complete: bool, unsure: int, enough: bool) -> tuple[str, ...]:
+def _doubts(flat: int, found: _Found, complete: bool, unsure: int, enough: bool, tangled: float) -> tuple[str, ...]:
     """What could not be decided, a sentence each."""
     poles, line = found.poles, len(found.touching) - found.beads
     texts = [
         (flat > 0, f"f is zero all over {flat} cells: only the border towards negative values is a curve"),
         (poles > 0, f"{JUMPS} at {poles} places: poles or jumps, not part of the curve"),
+        (
+            tangled > 0.0,
+            f"curves that wind more finely than the resolution are left out in {100.0 * tangled:.1g} % of the domain",
+        ),
         (not complete, unresolved("branches of a curve are too small or too many")),
         (not enough, unresolved("curves are off by more than the tolerance")),
         (unsure > 0, f"{unsure} segments could not be refined: the curve was not found beside their chords"),

@@ -10,7 +10,7 @@ from vectorplot.geometry.mesh import Ints
 
 T = TypeVar("T")
 
-FIRST = 256
+FIRST = 16
 """Rows of the first block: how many partners rows have is not known yet."""
 
 AT_ONCE = 1 << 18
@@ -42,5 +42,5 @@ def in_blocks(rows: Ints, pairs: int, look: Callable[[Ints], Block[T]]) -> tuple
         done = min(done + size, len(rows))
         close += block.close
         # The next block may have more partners than this one had: it grows slowly.
-        size = max(1, min(4 * size, int(size * AT_ONCE / max(block.partners, 1))))
+        size = max(1, min(4 * size, int(size * min(AT_ONCE, most) / max(block.partners, 1))))
     return found, done

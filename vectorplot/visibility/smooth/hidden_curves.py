@@ -65,11 +65,12 @@ def hidden_curves(
     pieces = cut(curves, events, items)
     counts = counted(view, targets, curves, edges, edge_on, pieces, items, budget.pairs)
     done(0.8)
-    more = missed_events(view, targets, curves, edge_on, pieces, counts, items, budget.pairs)
+    more, short_of_halvings = missed_events(view, targets, curves, edge_on, pieces, counts, items, budget.pairs)
     if len(more):
         pieces = cut(curves, all_events([events, more]), items)
         counts = counted(view, targets, curves, edges, edge_on, pieces, items, budget.pairs)
-    short = {*short_of_crossings, *short_of_piercings, *np.flatnonzero(counts.unlooked).tolist()}
+    short = {*short_of_crossings, *short_of_piercings, *short_of_halvings}
+    short |= set(np.flatnonzero(counts.unlooked).tolist())
     hidden_by = np.asarray((carried(pieces, counts) > 0).sum(axis=1))
     hidden_by = without_short_runs(view, curves, pieces, hidden_by, 2.0 * tolerance)
     return HiddenCurves(pieces, hidden_by, tuple(sorted(short)))

@@ -17,6 +17,9 @@ LOOKS = 16
 
 HALVINGS = 40
 
+SHARE = 8
+"""The first sight lines and the halving get one in so many of the budget's pairs each: missed events are few."""
+
 
 def missed_events(
     view: View,
@@ -27,9 +30,9 @@ def missed_events(
     counts: Counts,
     items: int,
     pairs: int,
-) -> Events:
-    """Events inside pieces whose count does not follow from that of a neighbour by the changes between; pairs: what the
-    budget has for the sight lines of a round.
+) -> tuple[Events, tuple[int, ...]]:
+    """Events inside pieces whose count does not follow from that of a neighbour by the changes between; and the items
+    for which the budget's pairs, a share for the first sight lines and one for halving, did not do.
 
     Where a change alone was told wrongly nothing is found, and the sight lines of the pieces stand.
     """
@@ -40,18 +43,32 @@ def missed_events(
     shares = (np.arange(LOOKS) + 0.5) / LOOKS
     at = (begin[:, None] + shares * (end - begin)[:, None]).ravel()
     last = np.repeat(pieces.end_chord[suspects], LOOKS)
-    found = _counts(view, targets, curves, edge_on, at, last, items, pairs).reshape(len(suspects), LOOKS, items)
-    piece, look = np.nonzero((found[:, 1:] != found[:, :-1]).any(axis=2))
+    found, looked = _counts(view, targets, curves, edge_on, at, last, items, max(1, pairs // SHARE))
+    short = ~looked.all(axis=0)
+    found, looked = (x.reshape(len(suspects), LOOKS, items) for x in (found, looked))
+    seen = looked.all(axis=2)
+    piece, look = np.nonzero((found[:, 1:] != found[:, :-1]).any(axis=2) & seen[:, 1:] & seen[:, :-1])
     low, high = at.reshape(-1, LOOKS)[piece, look], at.reshape(-1, LOOKS)[piece, look + 1]
     below, above = found[piece, look], found[piece, look + 1]
     last = pieces.end_chord[suspects][piece]
-    for _ in range(HALVINGS if len(piece) else 0):
-        middle = 0.5 * (low + high)
-        same = (_counts(view, targets, curves, edge_on, middle, last, items, pairs // HALVINGS) == below).all(axis=1)
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    row = np.arange(len(piece))
+    for _ in range(HALVINGS):
+        if not len(row):
+            break
+        middle = 0.5 * (low[row] + high[row])
+        counts_there, looked = _counts(
+            view, targets, curves, edge_on, middle, last[row], items, max(1, pairs // SHARE // HALVINGS)
+        )
+        short |= ~looked.all(axis=0)
+        # What the budget does not do for stays where it is.
+        on = np.flatnonzero(looked.all(axis=1))
+        same = (counts_there == below[row]).all(axis=1)
+        row, middle, same = row[on], middle[on], same[on]
+        low[row], high[row] = np.where(same, middle, low[row]), np.where(same, high[row], middle)
     chord = np.minimum(low.astype(np.intp), last)
     which, item = np.nonzero(above - below)
-    return Events(chord[which], (low - chord)[which], item, (above - below)[which, item])
+    events = Events(chord[which], (low - chord)[which], item, (above - below)[which, item])
+    return events, tuple(np.flatnonzero(short).tolist())
 
 
 def _suspects(pieces: Pieces, counts: Counts) -> Ints:
@@ -75,8 +92,8 @@ def _counts(
     last: Ints,
     items: int,
     pairs: int,
-) -> Ints:
-    """(k, items) sheets in front of places at (k,): the number of the chord and the part of it; last (k,): the last
-    chord of the piece."""
+) -> tuple[Ints, Bools]:
+    """(k, items) sheets in front of places at (k,): the number of the chord and the part of it; and (k, items) whether
+    the budget's pairs did for them. last (k,): the last chord of the piece."""
     chord = np.minimum(at.astype(np.intp), last)
-    return counts_in_front(view, targets, samples_at(curves, edge_on, chord, at - chord), items, pairs)[0]
+    return counts_in_front(view, targets, samples_at(curves, edge_on, chord, at - chord), items, pairs)
