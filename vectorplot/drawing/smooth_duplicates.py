@@ -88,9 +88,10 @@ def _covered(ends: Floats, slopes: Floats, rank: Ints, tolerance: float) -> Bool
     own = np.tile(np.arange(len(ends)), 3)
     # The ends are points of the curve; the middle is known but for a little.
     room = tolerance + HEIGHT_SHARE * np.concatenate((np.zeros(2 * len(ends)), height))
-    tree = shapely.STRtree(shapely.linestrings(ends))
-    reach = tolerance + (1.0 + 2.0 * HEIGHT_SHARE) * float(height.max())
-    point, arc = tree.query(shapely.points(points), predicate="dwithin", distance=reach)
+    # Each arc looks no farther than its own height: one long chord would else call for all pairs.
+    tree = shapely.STRtree(shapely.points(points))
+    reach = tolerance + (1.0 + HEIGHT_SHARE) * height + HEIGHT_SHARE * float(height.max())
+    arc, point = tree.query(shapely.linestrings(ends), predicate="dwithin", distance=reach)
     better = rank[arc] < rank[own[point]]
     point, arc = point[better], arc[better]
     arm = points[point] - ends[arc, 0]

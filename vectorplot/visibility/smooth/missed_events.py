@@ -45,8 +45,8 @@ def missed_events(
     last = np.repeat(pieces.end_chord[suspects], LOOKS)
     found, looked = _counts(view, targets, curves, edge_on, at, last, items, max(1, pairs // SHARE))
     short = ~looked.all(axis=0)
-    found, looked = (x.reshape(len(suspects), LOOKS, items) for x in (found, looked))
-    seen = looked.all(axis=2)
+    found = found.reshape(len(suspects), LOOKS, items)
+    seen = looked.all(axis=1).reshape(len(suspects), LOOKS)
     piece, look = np.nonzero((found[:, 1:] != found[:, :-1]).any(axis=2) & seen[:, 1:] & seen[:, :-1])
     low, high = at.reshape(-1, LOOKS)[piece, look], at.reshape(-1, LOOKS)[piece, look + 1]
     below, above = found[piece, look], found[piece, look + 1]
