@@ -5,6 +5,7 @@ import pytest
 
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.self_intersection import self_intersections
+from vectorplot.io.scene_language import parse_scene
 from vectorplot.surfaces.cylinder import Cylinder
 from vectorplot.surfaces.ellipsoid import Sphere
 from vectorplot.surfaces.function import surface_of_function
@@ -191,3 +192,9 @@ def test_a_surface_that_covers_itself_says_so():
     twice = surface_of_function(lambda u, v: (np.cos(u), np.sin(u), v), Domain(0, 3 * np.pi, 0, 1))
     curves = self_intersections(twice)
     assert len(curves) == 0 and "coincide in an area" in curves.doubts[0]
+
+
+def test_a_surface_that_all_but_covers_itself_says_so_at_once():
+    scene = parse_scene("S surface rotoidal 3.9 -0.7 loxodrome 3.2 course 90")
+    found = self_intersections(scene.items[0].shape)
+    assert len(found.points) == 0 and any("very many curves" in doubt for doubt in found.doubts)
