@@ -15,9 +15,9 @@ from vectorplot.surfaces.surface import Surface
 
 DEFAULT = Tracing()
 
-POINTS_A_CURVE = 256
+POINTS_A_CURVE = 64
 """There are so many times fewer double curves than points that the budget allows: a surface that all but covers itself
-has thousands of them, a few chords each."""
+has thousands of them, a few chords each; beside an isolated double point there are some hundreds."""
 
 
 def self_intersections(surface: Surface, *, tracing: Tracing = DEFAULT) -> DoubleCurves:
