@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from vectorplot.geometry.mesh import Floats, Ints
-from vectorplot.words import LineKind as LineKind
-from vectorplot.words import line_kinds as line_kinds
 
 
 @dataclass(frozen=True, eq=False)
