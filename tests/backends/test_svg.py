@@ -108,16 +108,20 @@ def test_a_notebook_shows_the_drawing(sample):
     assert sample._repr_png_().startswith(b"\x89PNG")
 
 
-def test_300_000_points_take_less_than_half_a_second():
+def test_300_000_points_take_little_more_than_their_text():
     random = np.random.default_rng(0)
     count = 100_000
     points = random.uniform(0.0, 200.0, (3 * count, 2))
     zero = np.zeros(count, dtype=np.intp)
     paths = Paths(points, np.arange(count + 1) * 3, zero > 0, zero, zero, zero, np.zeros((len(points), 3)))
     drawing = Drawing(210.0, 297.0, (Layer("visible", Pen(), (paths,)),))
-    start = time.perf_counter()
+    start = time.process_time()
     text = svg_bytes(drawing)
-    seconds = time.perf_counter() - start
-    print(f"{seconds:.3f} s, {seconds / len(points) * 1e6:.2f} us a point")
+    seconds = time.process_time() - start
+    # Beside the bare cost of spelling the numbers one by one, in the same process.
+    start = time.process_time()
+    " ".join(f"{x:.3f}" for x in points.ravel().tolist())
+    bare = time.process_time() - start
+    print(f"{seconds:.3f} s, {seconds / len(points) * 1e6:.2f} us a point, {seconds / bare:.2f} times the bare cost")
     assert text.count(b"<polyline") == count
-    assert seconds < 0.5
+    assert seconds < 8.0 * bare

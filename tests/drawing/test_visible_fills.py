@@ -74,7 +74,7 @@ def test_nothing_and_lines_only() -> None:
 
 @pytest.mark.parametrize("name", ["town", "table", "interpenetrating", "patterns"])
 def test_the_picture_stays_the_same_and_nothing_overlaps(name: str) -> None:
-    painted = paint(vp.read(DATA / f"{name}.scene"))
+    painted = paint(vp.read(DATA / f"{name}.scene"), smooth=False)
     before = painted.layers[0].fills[0]
     after = visible_fills(before, painted.page_from_world)
     points = np.random.default_rng(3).uniform([0, 0], [painted.width_mm, painted.height_mm], (4000, 2))

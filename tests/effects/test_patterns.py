@@ -131,7 +131,7 @@ def test_every_point_of_a_face_gets_the_colour_on_top_and_the_grade_of_its_shado
     random = np.random.default_rng(5)
     for _ in range(12):
         patterns = [
-            Pattern(f"P{k}", "c" + str(k), 5, random.uniform(-6, 6, 2) + random.uniform(1, 3) * SQUARE)
+            Pattern(f"P{k}", f"#0000{k:02x}", 5, random.uniform(-6, 6, 2) + random.uniform(1, 3) * SQUARE)
             for k in range(4)
         ]
         item = cube(patterns)

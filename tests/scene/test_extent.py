@@ -59,9 +59,9 @@ def test_holes_do_not_count():
         _ = Scene((Item("VOID", graph(lambda x, y: np.sqrt(-1.0 - x * x), Domain(0.0, 1.0, 0.0, 1.0))),)).bounds
 
 
-def test_a_pole_ends_with_the_grid_and_infinity_on_the_grid_is_an_error():
+def test_a_pole_is_cut_off_and_infinity_on_the_grid_is_an_error():
     chimney = surface_of_function(lambda u, v: (u, v, 1.0 / (u - 0.0101)), Domain(-1.0, 1.0, -1.0, 1.0))
-    assert smooth_bounds(chimney)[1, 2] == pytest.approx(1.0 / (1.0 / 32.0 - 0.0101))
+    assert 1.0 < smooth_bounds(chimney)[1, 2] < 1.0 / (1.0 / 32.0 - 0.0101)
     with pytest.raises(InputError, match="infinity"):
         smooth_bounds(dupin_cyclide(3.0, 1.0, (3.0, 0.0, 1.0), 1.0))
 

@@ -24,6 +24,7 @@ PERCEPTUAL = 0
 """How a device should bring colours into its own range."""
 
 METRES_PER_INCH = 0.0254
+"""An inch, in which dots are counted, in metres, in which PNG files count them."""
 
 Bytes = NDArray[np.uint8]
 
