@@ -151,7 +151,7 @@ def _difference(whole: Any, above: Any, of: Ints, grid: float | None) -> Any:
 
 
 def _faulty(faces: _Covers, covers: _Covers, behind: Ints, front: Ints, of: Ints, left: Any, tolerance: float) -> Bools:
-    """(k,) which parts left contain the middle of what a cover covers, or are smaller than all covers could leave."""
+    """(k,) which parts left contain some of what a cover covers, or are smaller than all covers could leave."""
     import shapely
 
     subject, starts = _some(faces, behind)
@@ -159,10 +159,10 @@ def _faulty(faces: _Covers, covers: _Covers, behind: Ints, front: Ints, of: Ints
     overlaps = polygons_of(points, offsets)
     width = WIDTH_KEPT * tolerance
     wide = shapely.area(overlaps) > width * shapely.length(overlaps)
-    middle = np.add.reduceat(points[:2], offsets[:-1], axis=1)[:, wide] / np.diff(offsets)[wide]
     wrong = np.zeros(len(left), dtype=np.bool_)
     place = of[pair[wide]]
-    wrong[place[shapely.contains_xy(left[place], middle[0], middle[1])]] = True
+    kept = shapely.intersection(left[place], overlaps[wide], grid_size=tolerance)
+    wrong[place[shapely.area(kept) > width * shapely.length(kept)]] = True
     covered = np.bincount(of[pair], shapely.area(overlaps), minlength=len(left))
     whole = polygons_of(*_some(faces, np.unique(behind)))
     too_small = shapely.area(left) < shapely.area(whole) - covered - width * shapely.length(whole)
