@@ -41,7 +41,7 @@ def module_of(test: Path) -> str:
     room = Path("vectorplot", *parts[:-1])
     name = parts[-1].removeprefix("test_")
     module = room / name if (ROOT / room / name).exists() else room / name.removesuffix(".py")
-    shown = module if (ROOT / module).exists() else room
+    shown = next(place for place in (module, room, Path("vectorplot")) if (ROOT / place).exists())
     return f"[{shown.as_posix()}](../{shown.as_posix()})"
 
 
