@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Literal
@@ -24,6 +24,7 @@ from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_paint
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seams import without_seams
+from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.unbounded import tell_what_is_cut_off
 from vectorplot.scene.view import View, look
 from vectorplot.shading.face_shades import Shades, item_colours, view_lights
@@ -113,7 +114,9 @@ def paint(
     view = walk.run("look", look, facets.scene, camera)
     projected = walk.run("faces", project_faces, view)
     known, groups = known_orders(facets.scene, view), _groups(scene)
-    painted = walk.run("order", painters_order, view, projected, known=known, group=groups)
+    sliced = {number: planes for number, item in enumerate(scene.items) if (planes := item.curves.slices)}
+    painted = walk.run("order", painters_order, view, projected, known=known, sliced=sliced, group=groups)
+    _tell_slices(walk, scene, sliced, painted)
     _tell_knots(walk, scene, painted)
     _tell_groups(walk, scene, painted)
     faces = painted.faces
@@ -237,6 +240,17 @@ def _tell_groups(walk: Walk, scene: Scene, painted: Painted) -> None:
         walk.tell("groups", f"{', '.join(kept)}: ordered as wholes, then within", len(kept))
     if undone:
         walk.tell("groups undone", f"{', '.join(undone)}: something else comes between", len(undone))
+
+
+def _tell_slices(walk: Walk, scene: Scene, sliced: Mapping[int, Section], painted: Painted) -> None:
+    """Tell the listener which items are painted slice by slice, and which are not."""
+    for number, planes in sliced.items():
+        name = scene.items[number].name
+        if number in painted.ribbons:
+            count = painted.ribbons[number]
+            walk.tell("ribbons", f"{name}: in {len(planes.offsets) + 1} slices, ribbon by ribbon", count)
+        else:
+            walk.tell("ribbons undone", f"{name}: something else is in front of it or behind it", 0)
 
 
 def _tell_knots(walk: Walk, scene: Scene, painted: Painted) -> None:

@@ -520,7 +520,7 @@ DOCUMENTED = (Path(__file__).parents[2] / "docs" / "scene-language.md").read_tex
 def test_the_examples_of_the_documentation_are_scenes():
     examples = [text for text in DOCUMENTED if " = " not in text and "expected" not in text]
     names = [[item.name for item in parse_scene(text).items] for text in examples]
-    surfaces = [["RING"], ["SPRING", "VASE", "WAVES", "HEART"], ["EGG"]]
+    surfaces = [["RING"], ["SPRING", "VASE", "WAVES", "HEART"], ["EGG"], ["RING"]]
     curves = ["GLOBE", "COURSE", "SPRING", "KNOT"]
     assert names == [["TOP", "MUG"], ["CUBE"], *surfaces, curves, ["PENCIL"], ["HOUSE"]]
 

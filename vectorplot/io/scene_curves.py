@@ -21,11 +21,13 @@ AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0
 
 @dataclass(frozen=True)
 class Planes:
-    """Parallel planes as the file asks for them: so many, evenly spread over the item, or at given distances."""
+    """Parallel planes as the file asks for them: so many, evenly spread over the item, or at given distances; slices:
+    whether they cut it into slices."""
 
     normal: Vector
     count: int
     offsets: tuple[float, ...]
+    slices: bool = False
 
 
 @dataclass(frozen=True)
@@ -72,21 +74,27 @@ def read_isophotes(words: Words, at: int, owner: str, draft: CurveDraft) -> tupl
 
 def read_sections(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
     """An axis or a normal, and a number of sections or the distances of their planes from the origin."""
-    start, word = at, words.words[at + 1]
-    at += 2
-    if word in AXES:
-        normal = AXES[word]
-    elif word == "normal":
-        (x, y, z), at = words.numbers(at, 3, owner, "the normal of sections")
-        normal = (x, y, z)
-    else:
-        words.fail(at - 1, f"{owner}sections: expected x, y, z or 'normal', got {words.shown(at - 1)}")
-    return _planes(words, start, at, owner, draft, normal)
+    normal, after = _direction(words, at, owner)
+    planes, after = _planes(words, at, after, owner, normal)
+    return _with_planes(words, at, owner, draft, planes), after
+
+
+def read_slices(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
+    """An axis or a normal, and a number of slices or the distances from the origin of the planes between them."""
+    normal, after = _direction(words, at, owner)
+    planes, end = _planes(words, at, after, owner, normal)
+    if any(other.slices for other in draft.planes):
+        words.fail(at, f"{owner}slices: an item is cut into slices in one direction only")
+    if planes.count == 1:
+        words.fail(after, f"{owner}slices: 1 of them, expected 2 to {MAX_LINES}")
+    planes = replace(planes, count=max(planes.count - 1, 0), slices=True)
+    return _with_planes(words, at, owner, draft, planes), end
 
 
 def read_level_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
     """A number of horizontal sections, or their heights."""
-    return _planes(words, at, at + 1, owner, draft, AXES["z"])
+    planes, after = _planes(words, at, at + 1, owner, AXES["z"])
+    return _with_planes(words, at, owner, draft, planes), after
 
 
 def read_surface_curve(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
@@ -115,17 +123,31 @@ def read_isophote_edges(words: Words, at: int, owner: str, draft: CurveDraft) ->
     return _with_lines(draft, at, replace(draft.lines, along_edges=True)), at + 1
 
 
-def _planes(words: Words, start: int, at: int, owner: str, draft: CurveDraft, normal: Vector) -> tuple[CurveDraft, int]:
+def _direction(words: Words, at: int, owner: str) -> tuple[Vector, int]:
+    """An axis, or a normal of any length."""
+    what, word = words.words[at], words.words[at + 1]
+    if word in AXES:
+        return AXES[word], at + 2
+    if word != "normal":
+        words.fail(at + 1, f"{owner}{what}: expected x, y, z or 'normal', got {words.shown(at + 1)}")
+    (x, y, z), at = words.numbers(at + 2, 3, owner, f"the normal of {what}")
+    return (x, y, z), at
+
+
+def _planes(words: Words, start: int, at: int, owner: str, normal: Vector) -> tuple[Planes, int]:
+    """How many planes, or where."""
     count, offsets, at = _count_or_list(words, at, owner, words.words[start])
     try:
-        unit = Section(normal, offsets).normal
+        return Planes(Section(normal, offsets).normal, count, offsets), at
     except InputError as error:
         words.fail(start, owner + error.cause)
-    total = draft.section_count + max(count, len(offsets))
+
+
+def _with_planes(words: Words, start: int, owner: str, draft: CurveDraft, planes: Planes) -> CurveDraft:
+    total = draft.section_count + max(planes.count, len(planes.offsets))
     if total > MAX_LINES:
         words.fail(start, f"{owner}sections: {total} of them, expected at most {MAX_LINES}")
-    planes = (*draft.planes, Planes(unit, count, offsets))
-    return _with_lines(replace(draft, planes=planes, section_count=total), start, draft.lines), at
+    return _with_lines(replace(draft, planes=(*draft.planes, planes), section_count=total), start, draft.lines)
 
 
 def _count_or_list(words: Words, at: int, owner: str, what: str) -> tuple[int, tuple[float, ...], int]:

@@ -16,6 +16,7 @@ from vectorplot.io.scene_curves import (
     read_level_lines,
     read_parameter_lines,
     read_sections,
+    read_slices,
     read_smooth_lines,
     read_surface_curve,
 )
@@ -392,6 +393,7 @@ HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
     "isophotes": _curves(read_isophotes),
     "sections": _curves(read_sections),
     "level_lines": _curves(read_level_lines),
+    "slices": _curves(read_slices),
     "surface_curve": _curves(read_surface_curve),
     "smooth_lines": _curves(read_smooth_lines),
     "isophote_edges": _curves(read_isophote_edges),

@@ -66,7 +66,11 @@ def checked_bounds(shape: Surface | ImplicitSurface) -> Floats:
 def curves_of(draft: CurveDraft, shape: Mesh | Surface | ImplicitSurface, bounds: Floats) -> SurfaceLines:
     """The lines that a draft asks for on a surface or a polyhedron that stands in its place, within bounds (2,3)."""
     sections = tuple(
-        Section(planes.normal, planes.offsets or even_offsets(shape, bounds, planes.normal, planes.count))
+        Section(
+            planes.normal,
+            planes.offsets or even_offsets(shape, bounds, planes.normal, planes.count),
+            planes.slices,
+        )
         for planes in draft.planes
     )
     return replace(draft.lines, sections=sections)

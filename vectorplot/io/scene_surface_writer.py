@@ -71,7 +71,8 @@ def lines_text(curves: SurfaceLines, lights: Sequence[Light]) -> str:
             words.append(f"lit_by {curves.light + 1}")
     for section in curves.sections:
         if section.offsets:
-            words.append(f"sections normal {_numbers(section.normal)} at {_list(section.offsets)}")
+            word = "slices" if section.slices else "sections"
+            words.append(f"{word} normal {_numbers(section.normal)} at {_list(section.offsets)}")
     words += [f"surface_curve {_quoted(path.function)} t {_numbers((path.start, path.end))}" for path in curves.paths]
     words += ["smooth_lines"] * curves.smooth + ["isophote_edges"] * curves.along_edges
     return "".join(f"\n  {word}" for word in words)

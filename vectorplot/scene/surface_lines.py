@@ -35,13 +35,15 @@ def _numbers(name: str, values: tuple[float, ...]) -> tuple[float, ...]:
 class Section:
     """Parallel planes, in world coordinates: the points whose height along the normal is one of the offsets.
 
-    normal: any length but zero, kept with length 1; offsets (k,): distances from the origin along the normal.
+    normal: any length but zero, kept with length 1; offsets (k,): distances from the origin along the normal; slices:
+    whether pictures are painted slice by slice between them.
     Errors: InputError for a normal without length, numbers that are not finite, more than MAX_LINES offsets.
-    Source: Glaeser, section 9.3.
+    Source: Glaeser, sections 5.3 and 9.3.
     """
 
     normal: Vector
     offsets: tuple[float, ...]
+    slices: bool = False
 
     def __post_init__(self) -> None:
         normal = np.array(self.normal, dtype=np.float64)
@@ -82,11 +84,13 @@ class SurfaceLines:
 
     columns, rows: into how many parts lines u = const. and v = const. divide the surface, 0 for no lines; isophotes:
     the cosines of the angle between normal and light along them; light: which light of the scene they are of, None for
-    the first one, or, in a scene without, one from the upper left of the eye; sections: families of plane sections;
+    the first one, or, in a scene without, one from the upper left of the eye; sections: families of plane sections, of
+    which one at most cuts the item into slices;
     smooth: those of a polyhedron are drawn as smooth curves through their points; along_edges: isophotes of a
     polyhedron are its edges between lighter and darker faces; paths: curves u(t), v(t) on a parametrised surface.
-    Errors: InputError for counts below 0 or above MAX_LINES, cosines that are not between -1 and 1.
-    Source: Glaeser, sections 8.2 and 9.3.
+    Errors: InputError for counts below 0 or above MAX_LINES, cosines that are not between -1 and 1, two families of
+    slices.
+    Source: Glaeser, sections 5.3, 8.2 and 9.3.
     """
 
     columns: int = 0
@@ -110,6 +114,13 @@ class SurfaceLines:
             raise InputError(f"isophotes: there is no light {self.light}, lights are counted from 0")
         object.__setattr__(self, "isophotes", cosines)
         object.__setattr__(self, "sections", tuple(self.sections))
+        if sum(section.slices for section in self.sections) > 1:
+            raise InputError("slices: an item is cut into slices in one direction only")
+
+    @property
+    def slices(self) -> Section | None:
+        """The planes between the slices of the item, or None."""
+        return next((section for section in self.sections if section.slices and section.offsets), None)
 
     def __bool__(self) -> bool:
         return bool(self.columns or self.rows or self.isophotes or self.sections or self.paths)

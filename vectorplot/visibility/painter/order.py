@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.bodies import Bodies, convex_bodies, outlined_items
 from vectorplot.visibility.painter.body_pairs import UNDECIDED, body_relations
@@ -31,6 +32,7 @@ from vectorplot.visibility.painter.image_faces import (
     joined,
 )
 from vectorplot.visibility.painter.mikado import component_ranks
+from vectorplot.visibility.painter.ribbons import in_slices, ribbon_order, ribbons
 from vectorplot.visibility.painter.splitting import dense
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 
@@ -42,12 +44,14 @@ PAIRS_AT_ONCE = 1 << 20
 class Painted:
     """Polygons back to front: faces, whose points (3,c) are places in the image and heights above it, and whose source
     is the face of the view that each one is or is a part of. uncut: how many there were before the cutting; knots (i,):
-    the items that pierce one another, or lie on one another in circles; undone: groups that could not stay together."""
+    the items that pierce one another, or lie on one another in circles; undone: groups that could not stay together;
+    ribbons: how many ribbons the items have that are painted slice by slice."""
 
     faces: ImageFaces
     uncut: int
     knots: Ints
     undone: tuple[int, ...] = ()
+    ribbons: Mapping[int, int] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.faces)
@@ -58,6 +62,7 @@ def painters_order(
     projected: ProjectedFaces | None = None,
     *,
     known: Mapping[int, Ints] | None = None,
+    sliced: Mapping[int, Section] | None = None,
     group: Ints | None = None,
 ) -> Painted:
     """The faces that can be seen, in an order in which each may be painted over those before it.
@@ -68,6 +73,8 @@ def painters_order(
     two faces in the same place is seen.
     known: for items whose structure tells the order (graph_order, ring_order) all faces of the view that each has, back
     to front. It is used where nothing else overlaps the item in the image; then none of its faces is compared.
+    sliced: planes that cut items into slices, in world coordinates: where nothing else overlaps such an item in the
+    image it is painted slice by slice, as of ribbon_order.
     group (i,): the group of each item, -1 for none: first the groups are put in order, then what is in each, but for
     those that lie on other things in a circle.
     Errors: InputError where a known order is not one of the item's faces.
@@ -76,32 +83,47 @@ def painters_order(
     """
     projected = project_faces(view) if projected is None else projected
     faces = image_faces(view, drawn_faces(view, projected))
-    if known:
-        lone, faces = _known_apart(view, faces, known)
-        rest = _ordered(view, projected, faces, group)
-        return Painted(joined(lone, rest.faces), len(lone) + rest.uncut, rest.knots, rest.undone)
-    return _ordered(view, projected, faces, group)
-
-
-def _known_apart(view: View, faces: ImageFaces, known: Mapping[int, Ints]) -> tuple[ImageFaces, ImageFaces]:
-    """The faces of known order, in this order, of items that no other item overlaps in the image; and the rest."""
+    _check_known(view, known or {})
     item = view.face_item[faces.source]
-    place = np.full(view.face_count, -1, dtype=np.intp)
-    lone = np.zeros(len(view.item_vertices) - 1, dtype=np.bool_)
+    alone = _alone(view, faces, item, [*(known or {}), *(sliced or {})])
+    rest = _ordered(view, projected, faces.some(np.flatnonzero(~alone[item])), group)
+    ordered, uncut, counts = rest.faces, rest.uncut, {}
+    for number in np.flatnonzero(alone).tolist():
+        own = faces.some(np.flatnonzero(item == number))
+        if sliced and number in sliced:
+            slices = in_slices(view, own, sliced[number])
+            found = ribbons(view, projected.facing, slices)
+            counts[number], uncut = len(found), uncut + len(slices.faces)
+            own = ribbon_order(view, slices, found)
+        elif known:
+            uncut += len(own)
+            place = np.full(view.face_count, -1, dtype=np.intp)
+            place[known[number]] = np.arange(len(known[number]))
+            own = own.some(np.argsort(place[own.source], kind="stable"))
+        ordered = joined(own, ordered)
+    return Painted(ordered, uncut, rest.knots, rest.undone, counts)
+
+
+def _check_known(view: View, known: Mapping[int, Ints]) -> None:
     for number, order in known.items():
-        own = np.flatnonzero(view.face_item == number)
-        if not np.array_equal(np.sort(order), own):
+        if not np.array_equal(np.sort(order), np.flatnonzero(view.face_item == number)):
             raise InputError(f"the known order of item {number} does not name each of its faces once")
-        place[order], lone[number] = np.arange(len(order)), True
-    box = np.tile(np.array([[np.inf], [-np.inf], [np.inf], [-np.inf]]), len(lone))
+
+
+def _alone(view: View, faces: ImageFaces, item: Ints, asked: Sequence[int]) -> Bools:
+    """(i,) the items, of those asked for, that no other item overlaps in the image."""
+    alone = np.zeros(len(view.item_vertices) - 1, dtype=np.bool_)
+    alone[list(asked)] = True
+    if not asked:
+        return alone
+    box = np.tile(np.array([[np.inf], [-np.inf], [np.inf], [-np.inf]]), len(alone))
     for row in range(4):
         (np.maximum if row % 2 else np.minimum).at(box[row], item, faces.box[row])
     drawn = np.flatnonzero(box[0] <= box[1])
     for first, second in box_pairs(box[:, drawn], view.tolerance):
-        lone[drawn[first]] = lone[drawn[second]] = False
-    apart = np.flatnonzero(lone[item])
-    in_order = np.lexsort((place[faces.source[apart]], item[apart]))
-    return faces.some(apart[in_order]), faces.some(np.flatnonzero(~lone[item]))
+        alone[drawn[first]] = alone[drawn[second]] = False
+    alone[np.setdiff1d(np.arange(len(alone)), drawn)] = False
+    return alone
 
 
 def _ordered(view: View, projected: ProjectedFaces, faces: ImageFaces, group_of_item: Ints | None) -> Painted:

@@ -98,14 +98,22 @@ def sliced_order(faces: ImageFaces, place: Ints, tolerance: float) -> ImageFaces
     slices overlap in the image.
     Source: Glaeser, section 5.3 (ribbons of a slice by priority).
     """
-    box = faces.box[:4].copy()
-    width = float(np.ptp(box[:2])) + 1.0 if len(faces) else 1.0
-    # Side by side, so that only faces of one slice meet.
-    box[:2] += width * place
-    lots = [Pairs(place[:0], place[:0], np.zeros(0, dtype=np.int8))]
-    for first, second in box_pairs(box, 0.0):
-        pairs = Pairs(first, second, face_relations(faces, first, second, tolerance))
-        lots.append(pairs.some(pairs.codes != APART))
-    found = Pairs(*(np.concatenate([getattr(lot, row) for lot in lots]) for row in ("first", "second", "codes")))
+    found = related(faces, pairs_in_slices(faces, place, tolerance), tolerance)
     pieces, places = cut_into_order(faces, place, found, tolerance)
     return pieces.some(np.lexsort((pieces.rank, places)))
+
+
+def pairs_in_slices(faces: ImageFaces, place: Ints, tolerance: float) -> Pairs:
+    """Pairs of pieces of one slice whose boxes in the image overlap, not compared yet."""
+    box = faces.box[:4].copy()
+    # Side by side, so that only pieces of one slice meet.
+    box[:2] += (float(np.ptp(box[:2])) + 1.0 if len(faces) else 1.0) * place
+    lots = [np.zeros((2, 0), dtype=np.intp), *(np.stack(pair) for pair in box_pairs(box, tolerance))]
+    first, second = np.concatenate(lots, axis=1)
+    return Pairs(first, second, np.full(len(first), APART, dtype=np.int8))
+
+
+def related(faces: ImageFaces, pairs: Pairs, tolerance: float) -> Pairs:
+    """Those of some pairs whose images overlap, compared."""
+    found = Pairs(pairs.first, pairs.second, face_relations(faces, pairs.first, pairs.second, tolerance))
+    return found.some(found.codes != APART)
