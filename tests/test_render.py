@@ -100,6 +100,69 @@ def test_four_materials_make_four_pictures():
     assert bright["plastic"] < bright["normal"], "a highlight is small"
 
 
+def blocks_on_a_floor(light):
+    """Closed bodies that stand on one another."""
+    random = np.random.default_rng(1)
+    lows = [(x, y, 0.0) for x, y in random.uniform(-4, 4, (6, 2))]
+    blocks = [box(low, np.add(low, (0.8, 0.8, 0.2 + 0.3 * k))) for k, low in enumerate(lows)]
+    items = [vp.Item(f"B{k}", shape) for k, shape in enumerate([box((-6, -6, -1), (6, 6, 0)), *blocks])]
+    return vp.Scene(tuple(items), (light,))
+
+
+def inside_out(mesh):
+    return Mesh.from_polygons(mesh.vertices, [polygon[::-1] for polygon in mesh.polygons()])
+
+
+MAP_LIGHTS = {
+    "sun": vp.Light((-3, -4, 4), parallel=True, intensity=1.0),
+    "lamp": vp.Light((-6, -7, 9), intensity=1.0),
+    "lamp amid the scene": vp.Light((0.5, 0.3, 2.5), intensity=1.0),
+}
+
+
+@pytest.mark.capability("N6-z")
+@pytest.mark.parametrize("shadows", ["buffer", "trapezoid"])
+@pytest.mark.parametrize("light", MAP_LIGHTS)
+def test_maps_of_what_turns_away_from_the_light_show_the_same_shadows_without_a_margin(shadows, light):
+    camera = vp.Camera((6, -11, 9), (0, 0, 0), fov_deg=35)
+    scene = blocks_on_a_floor(MAP_LIGHTS[light])
+
+    def picture_of(some, **options):
+        return levels(render(some, camera, size=(160, 120), samples=1, shadow_size=512, **options)).astype(int)
+
+    exact = picture_of(scene, shadows="exact")
+    away = picture_of(scene, shadows=shadows, shadow_casters="away")
+    assert (np.abs(away - exact) > 20).mean() < 0.005
+    turned = replace(scene, items=tuple(replace(item, shape=inside_out(item.shape)) for item in scene.items))
+    assert (picture_of(turned, shadows=shadows, shadow_casters="away") == away).mean() > 0.999
+    first = scene.items[1].shape
+    gaping = Mesh(first.vertices, first.corners, first.offsets, np.arange(first.face_count) > 0)
+    opened = replace(scene, items=(scene.items[0], vp.Item("OPEN", gaping), *scene.items[2:]))
+    both = [picture_of(opened, shadows=shadows, shadow_casters=word) for word in ("all", "away")]
+    assert (both[0] == both[1]).all(), "which way the faces of an open body turn nobody knows"
+
+
+@pytest.mark.capability("R-nonsquare")
+def test_maps_that_grow_with_what_is_in_focus_have_fewer_wrong_pixels():
+    random = np.random.default_rng(1)
+    blocks = [
+        box((x, y, 0), (x + 0.8, y + 0.8, 0.5 + 0.2 * k)) for k, (x, y) in enumerate(random.uniform(-9, 9, (12, 2)))
+    ]
+    items = [vp.Item(f"B{k}", shape) for k, shape in enumerate([box((-30, -30, -1), (30, 30, 0)), *blocks])]
+    scene = vp.Scene(tuple(items), (vp.Light((5, 2, 6), parallel=True, intensity=1.0),))
+    camera = vp.Camera((0, -14, 5), (0, 0, 0), fov_deg=35)
+
+    def picture_of(**options):
+        return levels(render(scene, camera, size=(160, 120), fit=False, samples=1, shadow_size=64, **options)).astype(
+            int
+        )
+
+    exact = picture_of(shadows="exact")
+    wrong = [(np.abs(picture_of(shadows="trapezoid", shadow_focus=f) - exact) > 20).mean() for f in (None, 0.2, 0.95)]
+    assert wrong[0] == wrong[1], "what is in focus has more of the map than that"
+    assert wrong[2] < wrong[0]
+
+
 def floor_scene(lights):
     """A ball over a square floor."""
     plate = vp.Item("FLOOR", box((-6, -6, -1.2), (6, 6, -1.0)), "gray")
@@ -498,6 +561,10 @@ def test_a_lamp_in_the_eye_shows_no_shadow_and_one_in_a_box_lights_nothing_outsi
         {"crease_angle_deg": -1.0},
         {"shadows": "buffer", "shadow_bits": 7},
         {"shadows": "buffer", "shadow_size": 10**6},
+        {"shadow_casters": "front"},
+        {"shadow_focus": 0.0},
+        {"shadow_focus": 1.5},
+        {"shadow_focus": float("nan")},
         {"size": (20_000, 20_000)},
     ],
 )

@@ -14,7 +14,7 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.facets import Within
 from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Bools, Floats
+from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.projection import CoordinateSystem
 from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, dims_light, plan_cuts, plan_render
 from vectorplot.scene.scene import Light, Page, Scene
@@ -26,6 +26,7 @@ from vectorplot.shading.face_shades import view_lights
 from vectorplot.shading.faceted import FacetedScene, faceted
 from vectorplot.shading.image import Image
 from vectorplot.shading.lighting import Blocked, Lighting, lighting_of
+from vectorplot.shading.map_settings import MapSettings
 from vectorplot.shading.palettes import palette
 from vectorplot.shading.picture import Picture, opaque_buffer, picture_of, shaded, with_glass, with_mirrors
 from vectorplot.shading.png import Bytes
@@ -71,6 +72,8 @@ def render(
     shadows: Literal["auto", "none", "buffer", "trapezoid", "exact"] = "auto",
     shadow_size: int = 1024,
     shadow_bits: int = 32,
+    shadow_casters: Literal["all", "away"] = "all",
+    shadow_focus: float | None = None,
     samples: int | None = None,
     crease_angle_deg: float = 25.0,
     lines: str | Iterable[str] = (),
@@ -84,7 +87,10 @@ def render(
     camera: that of the scene where None, else default_camera. size: columns and rows. fit: the picture fills the
     raster, otherwise the camera's field of vision is its height. lights: in place of those of the scene. shadows: of
     these lights, found with shadow buffers of shadow_size x shadow_size texels of shadow_bits bits, plain ones or such
-    that show most of what is near the eye, or exactly; auto: as the view calls for. samples: every pixel is the mean
+    that show most of what is near the eye, or exactly; auto: as the view calls for. shadow_casters: all
+    faces, or, where all items that cast shadows are closed, only those that turn away from the light, whose depths need
+    no margin. shadow_focus: a buffer of what is near the eye grows, to four times its side at most, until what is in
+    focus gets such a part of the texels of a square one. samples: every pixel is the mean
     light of samples x samples ones (None: 2 x 2, where there is room for so many). crease_angle_deg: faces that meet at
     less look round. lines: words of LineKind, or one text with commas between them, drawn over the picture with exact
     hidden lines. background: a palette, a plain colour or #rrggbb. budget: as of draw, for lines and triangles.
@@ -100,6 +106,7 @@ def render(
     samples = _usual_samples(size) if samples is None else samples
     _check_whole(columns=size[0], rows=size[1], samples=samples, shadow_size=shadow_size)
     _check(size, shadows, samples, crease_angle_deg)
+    settings = MapSettings(shadow_size, shadow_bits, shadow_casters, shadow_focus)
     budget_of(budget)
     scene = without_seams(scene if lights is None else replace(scene, lights=tuple(lights)))
     _check_lights(scene.lights)
@@ -121,7 +128,8 @@ def render(
         system = fitted(system, triangles.points, *fine)
     here = view_lights(view, scene.lights)
     region = _region(triangles, system, fine, how) if walk.calls_for("shadows") else None
-    lighting = _lighting(walk, scene, view, _Maps(triangles, here, how, shadow_size, shadow_bits, region))
+    maps = _Maps(triangles, here, how, settings, region, outer_sides(view))
+    lighting = _lighting(walk, scene, view, maps)
     opacity = np.array([item.material.opacity for item in scene.items])
     mirror = np.array([item.material.is_mirror for item in scene.items], dtype=np.bool_)
     paper = palette(background or scene.background or BACKGROUND)[-1].astype(np.float64)
@@ -191,15 +199,15 @@ def _allowed(scene: Scene, camera: Camera, size: tuple[int, int], fit: bool) -> 
 
 @dataclass(frozen=True, eq=False)
 class _Maps:
-    """How shadows of some triangles are found: by which way, with maps of how many texels and bits, tapered for what is
-    seen (None: not)."""
+    """How shadows of some triangles are found: by which way, with what maps, tapered for what is seen (None: not).
+    sides (i,): of items that are closed, as of outer_sides."""
 
     triangles: SceneTriangles
     lights: tuple[Light, ...]
     shadows: str
-    size: int
-    bits: int
+    settings: MapSettings
     region: SeenRegion | None
+    sides: Ints
 
     def of_items(self, casts: Bools) -> tuple[Blocked, ...]:
         """For every light what it does not reach as items (i,) stand before it."""
@@ -212,8 +220,13 @@ class _Maps:
             return exact_shadows(self.lights, triangles.points, triangles.corners[shown], number)
         from vectorplot.shading.shadow_buffer import shadow_buffers
 
-        corners = triangles.corners[shown]
-        return shadow_buffers(self.lights, triangles.points, corners, self.size, self.bits, self.region)
+        side, corners = self.sides[triangles.item[shown]], triangles.corners[shown]
+        settings = self.settings
+        if settings.casting == "away":
+            # Which way a face turns is known of closed bodies only.
+            settings = settings if (side != 0).all() else replace(settings, casting="all")
+            corners = np.where((side < 0)[:, None], corners[:, ::-1], corners)
+        return shadow_buffers(self.lights, triangles.points, corners, settings, self.region)
 
     def of_clear_items(self, scene: Scene) -> tuple[tuple[str, float, tuple[Blocked, ...]], ...]:
         """The same for what light comes through: colours and opacities, and what is dimmed by things that have them."""

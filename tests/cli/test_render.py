@@ -25,6 +25,16 @@ def test_it_writes_a_picture_of_the_size_that_was_asked_for(cube, tmp_path, shad
     assert capsys.readouterr().err == ""
 
 
+@pytest.mark.capability("N6-z", "R-nonsquare")
+@pytest.mark.parametrize("option", [["--shadow-casters", "away"], ["--shadow-focus", "0.9", "--shadows", "trapezoid"]])
+def test_how_shadow_maps_are_made_is_an_option(cube, tmp_path, option, capsys):
+    out = tmp_path / "cube.png"
+    lit = ["--lights", "5,-9,9", "--size", "64x48", "--shadow-size", "64"]
+    assert run(["render", str(cube), "-o", str(out), *lit, *option]) == 0
+    assert size_of(out.read_bytes()) == (64, 48)
+    assert capsys.readouterr().err == ""
+
+
 def test_the_camera_is_that_of_the_options(cube, tmp_path):
     image = pytest.importorskip("PIL.Image")
     pictures = []
@@ -72,6 +82,8 @@ def test_stdout_needs_a_format(cube, capfdbinary):
         ["-o", "x.png", "--shadows", "soft"],
         ["-o", "x.png", "--shadow-bits", "12"],
         ["-o", "x.png", "--shadow-size", "1"],
+        ["-o", "x.png", "--shadow-casters", "front"],
+        ["-o", "x.png", "--shadow-focus", "1.5"],
         ["-o", "x.png", "--lines", "wavy"],
         ["-o", "x.png", "--fov", "0"],
         ["-o", "x.png", "--page", "A4"],

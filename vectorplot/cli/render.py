@@ -37,6 +37,18 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
 @click.option("--shadows", type=click.Choice(SHADOWS), default="auto", help="How shadows are found.")
 @click.option("--shadow-size", type=click.IntRange(8, 8192), default=1024, metavar="N", help="Texels along a map.")
 @click.option("--shadow-bits", type=click.Choice(["8", "16", "32"]), default="32", help="Of a depth in a shadow map.")
+@click.option(
+    "--shadow-casters",
+    type=click.Choice(["all", "away"]),
+    default="all",
+    help="Faces that shadow buffers are made of: all, or, of closed items, those that turn away from the light.",
+)
+@click.option(
+    "--shadow-focus",
+    type=between(0.0, 1.0),
+    metavar="PART",
+    help="Trapezoids grow until what is near the eye has this part of --shadow-size squared.",
+)
 @click.option("--samples", type=click.IntRange(1, 8), metavar="N", help="N x N samples in every pixel.  [default: 2]")
 @click.option(
     "--crease-angle", type=at_least(0.0, at_most=180.0), default=25.0, metavar="DEG", help="Sharper edges stay sharp."
@@ -67,6 +79,8 @@ def render(scene_file: str, out: str, format_: str | None, quiet: bool, explain:
             shadows=options["shadows"],
             shadow_size=options["shadow_size"],
             shadow_bits=int(options["shadow_bits"]),
+            shadow_casters=options["shadow_casters"],
+            shadow_focus=options["shadow_focus"],
             samples=options["samples"],
             crease_angle_deg=options["crease_angle"],
             lines=options["lines"],

@@ -17,6 +17,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.projection import CoordinateSystem
 from vectorplot.scene.scene import Light
+from vectorplot.shading.map_settings import MapSettings
 from vectorplot.shading.screen import front_facing
 from vectorplot.shading.seen_region import SeenRegion
 from vectorplot.shading.shadow_map import (
@@ -131,7 +132,7 @@ def shape_of(frame: Floats, size: int) -> tuple[int, int]:
 
 
 def shadow_buffers(
-    lights: Sequence[Light], points: Floats, corners: Ints, size: int, bits: int, region: SeenRegion | None
+    lights: Sequence[Light], points: Floats, corners: Ints, maps: MapSettings, region: SeenRegion | None
 ) -> tuple[Blocks, ...]:
     """For every light the function of places (m, 3), normals of their faces (m, 3), and triangles (m,), which it does
     not need, that tells which of them it does not reach; with a region maps are trapezoids around it."""
@@ -140,7 +141,20 @@ def shadow_buffers(
     def blocks(buffer: ShadowBuffer, places: Floats, normals: Floats, triangle: Ints) -> Bools:
         return buffer.blocks(places, normals)
 
-    made = (shadow_buffer(one, points, corners, size=size, bits=bits, frame=frame, region=region) for one in lights)
+    made = (
+        shadow_buffer(
+            one,
+            points,
+            corners,
+            size=maps.size,
+            bits=maps.bits,
+            frame=frame,
+            region=region,
+            casting=maps.casting,
+            wanted_focus=maps.wanted_focus,
+        )
+        for one in lights
+    )
     return tuple(partial(blocks, buffer) for buffer in made)
 
 

@@ -1,0 +1,29 @@
+"""How the shadow maps of a picture are made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from vectorplot.errors import InputError
+from vectorplot.words import check_word
+
+
+@dataclass(frozen=True)
+class MapSettings:
+    """size: texels along the side of a map, were it a square; bits of a depth; casting: which faces the map is made of,
+    all or those that turn away from the light; wanted_focus: the part of the texels that what is in focus should get of
+    a trapezoidal map (None: as it comes).
+
+    Errors: InputError for other words, and for a part that is not between 0 and 1.
+    """
+
+    size: int = 1024
+    bits: int = 32
+    casting: Literal["all", "away"] = "all"
+    wanted_focus: float | None = None
+
+    def __post_init__(self) -> None:
+        check_word("shadow casters", self.casting, ("all", "away"))
+        if self.wanted_focus is not None and not 0.0 < self.wanted_focus < 1.0:
+            raise InputError(f"a shadow focus of {self.wanted_focus:g}: expected a part of the map, between 0 and 1")
