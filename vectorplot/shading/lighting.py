@@ -163,9 +163,10 @@ def _lit(triangles: SceneTriangles, found: VisiblePoints, lighting: Lighting) ->
         share = _shares(lighting, item, alpha, normals, to_light, to_eye)
         facing[number] = alpha > 0.0
         if lighting.blocked:
-            dark = lighting.blocked[number](places, faces, found.triangle) & facing[number] & receives
+            asked = np.flatnonzero(facing[number] & receives)
+            dark = asked[lighting.blocked[number](places[asked], faces[asked], found.triangle[asked])]
             share[dark] = _matt_shares(lighting, item[dark], alpha[dark])
-            gone[number] = dark
+            gone[number, dark] = True
         given[number] = share * fading_factors(light, lighting.reach[number], places.T)
     low, high = lighting.depths
     cue = depth_cue(places[:, 2], low, high - low)

@@ -19,8 +19,9 @@ from vectorplot.shading.screen import HalfSpace, ScreenTriangles, front_facing, 
 
 Colours = NDArray[np.float32]
 
-POINTS_AT_ONCE = 1 << 18
-"""So many visible points are shaded at a time, unless shadows are found for many points better than for few."""
+POINTS_AT_ONCE, SHARES_AT_ONCE = 1 << 18, 1 << 23
+"""So many visible points are shaded at a time, unless shadows are found for many points better than for few; with many
+lights fewer, so that what points get of lights are no more numbers than these."""
 
 MIRROR_SHARE = 0.85
 """The part of a mirror's colour that it gets from what it shows."""
@@ -52,6 +53,11 @@ class Picture:
     coplanar: CoplanarFaces
     background: Floats
     points_at_once: int = POINTS_AT_ONCE
+
+    @property
+    def shaded_at_once(self) -> int:
+        """So many points are shaded together, with regard to the number of lights."""
+        return max(1, min(self.points_at_once, SHARES_AT_ONCE // max(1, len(self.lighting.lights))))
 
     @property
     def opaque(self) -> Bools:
@@ -90,7 +96,7 @@ def shaded(picture: Picture, buffer: DepthBuffer) -> Colours:
     rows, columns = buffer.code.shape
     colours = np.empty((rows * columns, 3), dtype=np.float32)
     colours[:] = picture.background
-    step = max(1, picture.points_at_once // columns)
+    step = max(1, picture.shaded_at_once // columns)
     for top in range(0, rows, step):
         part = slice(top, top + step)
         piece = replace(buffer, code=buffer.code[part], triangle=buffer.triangle[part], top=buffer.top + top)
@@ -114,8 +120,8 @@ def _veil(picture: Picture, buffer: DepthBuffer, colours: Colours, wanted: Bools
     clear = _veils(picture)[buffer.triangles.source]
     pixel, triangle, _ = layers_before(buffer, clear)
     pixel, triangle = pixel[wanted[pixel]], triangle[wanted[pixel]]
-    for begin in range(0, len(pixel), picture.points_at_once):
-        part = slice(begin, begin + picture.points_at_once)
+    for begin in range(0, len(pixel), picture.shaded_at_once):
+        part = slice(begin, begin + picture.shaded_at_once)
         found = points_in_pixels(buffer, pixel[part], triangle[part], picture.homogeneous, picture.triangles.corners)
         made = shaded_points(picture.triangles, found, picture.lighting)
         blend(colours, pixel[part], made.colours, picture.opacity[picture.triangles.item[found.triangle]])

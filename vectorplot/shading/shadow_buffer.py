@@ -5,6 +5,7 @@ Source: Glaeser, section 8.6; for the tapered maps Ressler, and Martin and Tan.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -13,7 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.projection import CoordinateSystem
 from vectorplot.scene.scene import Light
@@ -40,6 +41,9 @@ WIDEST_COSINE = 0.5
 
 LONGEST = 4.0
 """A map is no longer than so many times its width."""
+
+MOST_TEXELS = 1 << 28
+"""The shadow maps of all lights have no more texels together: a gigabyte of 32-bit depths."""
 
 SIDES = np.concatenate([np.eye(3), -np.eye(3)])
 """The directions of the six maps of a lamp in the scene."""
@@ -135,8 +139,12 @@ def shadow_buffers(
     lights: Sequence[Light], points: Floats, corners: Ints, maps: MapSettings, region: SeenRegion | None
 ) -> tuple[Blocks, ...]:
     """For every light the function of places (m, 3), normals of their faces (m, 3), and triangles (m,), which it does
-    not need, that tells which of them it does not reach; with a region maps are trapezoids around it."""
+    not need, that tells which of them it does not reach; with a region maps are trapezoids around it.
+
+    Degenerate: maps of more texels together than MOST_TEXELS are made smaller, all alike, and an InputWarning says so.
+    """
     frame: Frame = "standard" if region is None else "trapezoid"
+    size = _affordable_size(lights, points, size)
 
     def blocks(buffer: ShadowBuffer, places: Floats, normals: Floats, triangle: Ints) -> Bools:
         return buffer.blocks(places, normals)
@@ -156,6 +164,18 @@ def shadow_buffers(
         for one in lights
     )
     return tuple(partial(blocks, buffer) for buffer in made)
+
+
+def _affordable_size(lights: Sequence[Light], points: Floats, size: int) -> int:
+    """The size of maps, or the largest one of which the maps of all lights have room."""
+    squares = sum(len(SIDES) / 4.0 if len(points) and is_inside(light, points) else 1.0 for light in lights)
+    # A size that one map alone cannot have is refused where maps are made.
+    if squares * size * size <= MOST_TEXELS or size * size > MOST_TEXELS:
+        return size
+    smaller = int(np.sqrt(MOST_TEXELS / squares))
+    cause = f"the shadow maps of {len(lights)} lights are {smaller} texels wide, not {size}: there is no room for more"
+    warnings.warn(cause, InputWarning, stacklevel=2)
+    return smaller
 
 
 def light_system(light: Light, points: Floats) -> CoordinateSystem:

@@ -65,10 +65,14 @@ class ShadowMap:
         """(3, 3) the inverse of texel_from_light."""
         return np.asarray(np.linalg.inv(self.texel_from_light))
 
-    @cached_property
+    @property
     def depth(self) -> Floats:
         """(rows, columns) depths in the lamp's system, -inf where it sees nothing."""
-        return np.asarray(np.where(self.code > 0, self.depth_code.depth(self.code), -np.inf))
+        return self.depths(self.code)
+
+    def depths(self, code: NDArray[np.unsignedinteger[Any]]) -> Floats:
+        """(...) depths in the lamp's system of codes (...) of this map, -inf where it sees nothing."""
+        return np.asarray(np.where(code > 0, self.depth_code.depth(code), -np.inf))
 
 
 def light_plane(system: CoordinateSystem, points: ArrayLike) -> Floats:
@@ -196,36 +200,42 @@ def blocked(found: ShadowMap, points: ArrayLike, normals: ArrayLike) -> Bools:
     """
     p, n = (np.asarray(x, dtype=np.float64).reshape(-1, 3) for x in (points, normals))
     result = np.zeros(len(p), dtype=np.bool_)
-    depth, inverse = found.depth, found.light_from_texel
     for begin in range(0, len(p), POINTS_AT_ONCE):
         part = slice(begin, begin + POINTS_AT_ONCE)
-        result[part] = _behind(found, depth, inverse, p[part], n[part])
+        result[part] = _behind(found, p[part], n[part])
     return result
 
 
-def _behind(found: ShadowMap, depth: Floats, inverse: Floats, points: Floats, normals: Floats) -> Bools:
+def _behind(found: ShadowMap, points: Floats, normals: Floats) -> Bools:
+    result = np.zeros(len(points), dtype=np.bool_)
+    rows, columns = found.code.shape
+    m, inverse = found.texel_from_light, found.light_from_texel
     h = found.system.homogeneous(points)
-    ahead = h[:, 3] > 0.0
-    plane = h[:, :3] / np.where(ahead, h[:, 3], 1.0)[:, None]
-    x, y, z = plane.T
-    m = found.texel_from_light
+    # What the map does not show is left out, step by step: of the six maps around a lamp one shows each point.
+    inside = np.flatnonzero(h[:, 3] > 0.0)
+    x, y, z = (h[inside, axis] / h[inside, 3] for axis in range(3))
     weight = m[2, 0] * x + m[2, 1] * y + m[2, 2]
-    ahead &= weight > STEEPEST
-    weight = np.where(ahead, weight, 1.0)
+    inside, x, y, z, weight = _chosen(weight > STEEPEST, inside, x, y, z, weight)
     column = (m[0, 0] * x + m[0, 1] * y + m[0, 2]) / weight
     row = (m[1, 0] * x + m[1, 1] * y + m[1, 2]) / weight
-    rows, columns = depth.shape
-    ahead &= (column > -0.5) & (column < columns - 0.5) & (row > -0.5) & (row < rows - 0.5)
-    at = np.where(ahead, np.rint(row) * columns + np.rint(column), 0.0).astype(np.intp)
-    stored = depth.ravel()[at]
-    # How the depth rises in the lamp's plane, and how far that plane reaches from one texel to the next.
-    by_x, by_y = slopes(found.system, points, normals)
-    by_column = np.abs(by_x * (inverse[0, 0] - x * inverse[2, 0]) + by_y * (inverse[1, 0] - y * inverse[2, 0]))
-    by_row = np.abs(by_x * (inverse[0, 1] - x * inverse[2, 1]) + by_y * (inverse[1, 1] - y * inverse[2, 1]))
-    if not found.biased:
-        return np.asarray(ahead & (z < stored - found.depth_code.step))
-    bias = SLOPE_BIAS * weight * np.maximum(by_column, by_row) + _constant_bias(found, z)
-    return np.asarray(ahead & (z < stored - bias))
+    shown = (column > -0.5) & (column < columns - 0.5) & (row > -0.5) & (row < rows - 0.5)
+    inside, x, y, z, weight, column, row = _chosen(shown, inside, x, y, z, weight, column, row)
+    stored = found.depths(found.code[np.rint(row).astype(np.intp), np.rint(column).astype(np.intp)])
+    if found.biased:
+        # How the depth rises in the lamp's plane, and how far that plane reaches from one texel to the next.
+        by_x, by_y = slopes(found.system, points[inside], normals[inside])
+        by_column = np.abs(by_x * (inverse[0, 0] - x * inverse[2, 0]) + by_y * (inverse[1, 0] - y * inverse[2, 0]))
+        by_row = np.abs(by_x * (inverse[0, 1] - x * inverse[2, 1]) + by_y * (inverse[1, 1] - y * inverse[2, 1]))
+        bias = SLOPE_BIAS * weight * np.maximum(by_column, by_row) + _constant_bias(found, z)
+    else:
+        bias = np.full(len(z), found.depth_code.step)
+    result[inside] = z < stored - bias
+    return result
+
+
+def _chosen(which: Bools, *columns: NDArray[Any]) -> tuple[NDArray[Any], ...]:
+    """The values of columns (n,) where which (n,) is true."""
+    return tuple(column[which] for column in columns)
 
 
 def _constant_bias(found: ShadowMap, depth: Floats) -> Floats:
