@@ -13,7 +13,7 @@ import pytest
 from vectorplot.geometry.camera import Camera
 from vectorplot.io.read import read
 from vectorplot.paint import paint
-from vectorplot.plan import StageReport
+from vectorplot.plan import Stage, StageReport, Walk
 from vectorplot.scene.scene import Item, Light, Material, Pattern, Scene
 from vectorplot.surfaces.ellipsoid import Sphere
 from vectorplot.testing.shapes import box
@@ -149,3 +149,10 @@ def test_an_effect_loads_its_own_code_and_not_that_of_the_others(effect: str) ->
 def test_transparency_without_refraction_loads_no_effect() -> None:
     more = ", material=vp.Material('transparent', 0.5), occludes=False"
     assert not effects_of(loaded(CUBE_TEXT.format(more=more) + "scene = vp.Scene((item,))"))
+
+
+def test_what_overflows_in_a_stage_is_infinite_without_a_warning() -> None:
+    walk = Walk((Stage("look", "always"),), None, None)
+    assert walk.run("look", lambda: np.float64(1e200) * np.array([1e200]))[0] == np.inf
+    with pytest.warns(RuntimeWarning, match="invalid"):
+        walk.run("look", lambda: np.array([np.inf]) - np.inf)

@@ -210,11 +210,16 @@ class Walk:
             self._explain(StageReport(name, why, 0.0, count, peak_mb()))
 
     def run(self, name: str, function: Callable[P, R], *args: P.args, **kwargs: P.kwargs) -> R:
-        """The result of a stage."""
+        """The result of a stage.
+
+        Degenerate: numbers beyond the range of floats become infinite without a warning, for every test of size takes
+        infinity for large; what is not a number is still warned of.
+        """
         stage = self._stages[name]
         self.fraction(name)(0.0)
         start = time.perf_counter()
-        result = function(*args, **kwargs)
+        with np.errstate(over="ignore"):
+            result = function(*args, **kwargs)
         seconds = time.perf_counter() - start
         if self._explain is not None:
             self._explain(StageReport(name, stage.why, seconds, _count(result), peak_mb()))

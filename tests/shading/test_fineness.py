@@ -98,3 +98,12 @@ def test_a_coarser_tolerance_makes_fewer_polygons():
 def test_pictures_have_few_polygons(surface, most):
     (fills,) = paint(Scene((Item("THING", surface),))).layers[0].marks
     assert 200 < len(fills) < most
+
+
+def test_boxes_of_other_items_count_where_they_meet_and_once():
+    """A crowd costs no box for each pair: those that lie elsewhere, and copies in one place, add nothing."""
+    balls = [Sphere(1.0)] * 50 + [Sphere(1.0, (5.0 * k, 0.0, 0.0)) for k in range(1, 50)]
+    scene = Scene(tuple(Item(f"BALL{number}", ball) for number, ball in enumerate(balls)))
+    camera = default_camera(scene)
+    demand = picture_fineness(scene, camera, False, allowed_in_space(scene, camera, Page(200, 150), True, 0.02))
+    assert [len(demand(number).others) for number in (0, 49, 60)] == [1, 1, 0]

@@ -66,8 +66,8 @@ def test_the_maps_of_many_lights_have_room(monkeypatch):
         return made[-1]
 
     monkeypatch.setattr(shadow_buffer, "shadow_buffer", kept)
-    with pytest.warns(InputWarning, match="the shadow maps of 8 lights are 73 texels wide, not 512"):
-        shadow_buffer.shadow_buffers(scattered(8), points, corners, 512, 32, None)
+    with pytest.warns(InputWarning, match="the shadow maps of 8 lights are 73 texels wide, not 128"):
+        shadow_buffer.shadow_buffers(scattered(8), points, corners, 128, 32, None)
     texels = sum(one.code.size for buffer in made for one in buffer.maps)
     assert 0.9 * (1 << 16) < texels <= 1 << 16
     assert not any("depth" in vars(one) for buffer in made for one in buffer.maps)

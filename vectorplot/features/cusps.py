@@ -59,10 +59,11 @@ def sight_curvatures(contour: Contour, u: Floats, v: Floats) -> Floats:
     sight = normalize(contour.sights(u, v))
     e, f, g = dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)
     p, q = dot(sight, along_u), dot(sight, along_v)
-    with np.errstate(invalid="ignore", divide="ignore"):
+    # Close to a pole the partials say as little as in it.
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         area = e * g - f * f
         a, b = (g * p - f * q) / area, (e * q - f * p) / area
-    return np.asarray(a * a * dot(normal, uu) + 2.0 * a * b * dot(normal, uv) + b * b * dot(normal, vv))
+        return np.asarray(a * a * dot(normal, uu) + 2.0 * a * b * dot(normal, uv) + b * b * dot(normal, vv))
 
 
 def contour_cusps(contour: Contour, curves: SurfaceCurves) -> Cusps:

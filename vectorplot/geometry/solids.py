@@ -20,6 +20,9 @@ BOTH_CAPS = (BOTTOM, TOP)
 IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
 """A placement: the three rows of a 3x4 matrix (rotation and translation) acting on columns, one after the other."""
 
+DISTANCES_AT_ONCE = 1 << 20
+"""So many distances of vertices from planes are held at a time; where there are more, a convex hull comes first."""
+
 _BOX = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7), (3, 2, 1, 0), (4, 5, 6, 7))
 
 
@@ -183,11 +186,34 @@ def has_convex_outline(mesh: Mesh) -> bool:
     zero = zero_distance(points)
     first = mesh.vertices[mesh.corners[mesh.offsets[:-1]]]
     centre = points.mean(axis=0)
-    constants = np.einsum("ij,ij->i", mesh.face_normals, first - centre)
+    arms, normals = points - centre, mesh.face_normals
+    constants = np.einsum("ij,ij->i", normals, first - centre)
+    if mesh.face_count * len(points) > DISTANCES_AT_ONCE:
+        doubtful = ~_touch_hull(arms, normals, constants, zero)
+        normals, constants = normals[doubtful], constants[doubtful]
     # In pieces of planes, so that the table of distances never gets large; most non-convex bodies fail in the first.
-    piece = max(1, (1 << 20) // len(points))
-    for start in range(0, mesh.face_count, piece):
-        normals = mesh.face_normals[start : start + piece]
-        if ((points - centre) @ normals.T - constants[start : start + piece]).max() > zero:
+    piece = max(1, DISTANCES_AT_ONCE // len(points))
+    for start in range(0, len(normals), piece):
+        if (arms @ normals[start : start + piece].T - constants[start : start + piece]).max() > zero:
             return False
     return True
+
+
+def _touch_hull(points: Floats, normals: Floats, constants: Floats, zero: float) -> Bools:
+    """(f,) which planes normal . p = constant are, up to zero, faces' planes of the convex hull of points (n,3) around
+    the origin: no point lies outside them. Of a plane with another place or direction nothing is said.
+
+    Degenerate: points in one plane have a hull of two faces; planes without a direction touch it.
+    """
+    from scipy.spatial import ConvexHull, QhullError, cKDTree
+
+    reach = float(np.linalg.norm(points, axis=1).max())
+    try:
+        hull = ConvexHull(points / reach).equations
+        sides, ends = hull[:, :3], -reach * hull[:, 3]
+    except QhullError:
+        sides = np.linalg.svd(points, full_matrices=False)[2][2] * np.array([[1.0], [-1.0]])
+        ends = (points @ sides.T).max(axis=0)
+    _, nearest = cKDTree(sides).query(normals)
+    turned = np.linalg.norm(normals - sides[nearest], axis=1)
+    return np.asarray((ends[nearest] + turned * reach <= constants + zero) | ~normals.any(axis=1))

@@ -43,7 +43,7 @@ class PictureFineness:
 
     view: of the scene, its points being what it reaches; lights: in its coordinates, as of view_lights; casts: whether
     they throw shadows; deep: by how many times the tolerance triangles may be off elsewhere; others (k,2,3): the boxes
-    of the other items, in the world.
+    of the other items that meet the item's, in the world.
     """
 
     view: View
@@ -124,10 +124,18 @@ def picture_fineness(scene: Scene, camera: Camera, casts: bool, allowed: Allowed
 
     def demand(number: int) -> PictureFineness:
         others = [box for other, box in enumerate(boxes) if other != number and len(box)]
+        near = _meeting(np.array(others).reshape(-1, 2, 3), boxes[number])
         item = without_curved_mirror(scene.items[number])
-        return PictureFineness(view, item, lights, casts, deep, np.array(others).reshape(-1, 2, 3), allowed)
+        return PictureFineness(view, item, lights, casts, deep, near, allowed)
 
     return demand
+
+
+def _meeting(boxes: Floats, box: Floats) -> Floats:
+    """(k,2,3) those of some boxes (n,2,3) that meet another one (2,3), each once; one without a point meets none."""
+    if not len(box):
+        return boxes[:0]
+    return np.unique(boxes[((boxes[:, 0] <= box[1]) & (boxes[:, 1] >= box[0])).all(axis=1)], axis=0)
 
 
 def _box(item: Item) -> Floats:

@@ -1,0 +1,95 @@
+"""What is installed elsewhere is whole: a wheel holds every file of the package, and works without the checkout."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+import tomllib
+from fnmatch import fnmatch
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+SETTINGS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+
+
+def package_files():
+    """The files of the package, as paths in the checkout."""
+    return [
+        path.relative_to(ROOT)
+        for path in sorted((ROOT / "vectorplot").rglob("*"))
+        if path.is_file() and "__pycache__" not in path.parts
+    ]
+
+
+def goes_into_wheels(path: Path) -> bool:
+    """By setuptools' rules: a module whose folders are all packages, or a file declared as data of the package."""
+    if not all((ROOT / folder / "__init__.py").is_file() for folder in path.parents if folder.parts):
+        return False
+    declared = SETTINGS["tool"]["setuptools"]["package-data"].get("vectorplot", [])
+    return path.suffix == ".py" or any(fnmatch(path.relative_to("vectorplot").as_posix(), one) for one in declared)
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory):
+    """A folder with what a wheel brings, and nothing else of the checkout."""
+    place = tmp_path_factory.mktemp("installed")
+    for path in filter(goes_into_wheels, package_files()):
+        (place / path).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / path, place / path)
+    return place
+
+
+def run(installed, folder, *words):
+    """Python in a folder far from the checkout, with the installed files on its path."""
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    environment["PYTHONPATH"] = str(installed)
+    command = [sys.executable, "-W", "error", *words]
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=60)
+
+
+def test_a_wheel_holds_every_file_of_the_package():
+    assert [str(path) for path in package_files() if not goes_into_wheels(path)] == []
+    assert Path("vectorplot/py.typed") in package_files()
+    assert SETTINGS["tool"]["setuptools"]["packages"]["find"]["include"] == ["vectorplot*"]
+
+
+def test_the_installed_command_works_in_any_folder(installed, tmp_path):
+    (tmp_path / "a folder").mkdir()
+    folder = tmp_path / "a folder"
+    shutil.copy(ROOT / "data" / "table.scene", folder / "table.scene")
+    for words in (
+        ("draw", "table.scene", "-o", "table.svg"),
+        ("paint", "table.scene", "-o", "table.pdf"),
+        ("render", "table.scene", "-o", "table.png", "--size", "40x30"),
+        ("info", "table.scene"),
+        ("--help",),
+    ):
+        result = run(installed, folder, "-m", "vectorplot", *words)
+        assert (result.returncode, result.stderr) == (0, ""), words
+        if "-o" in words:
+            assert (folder / words[3]).stat().st_size > 100
+    assert "Usage:" in result.stdout
+
+
+def test_every_installed_module_is_found_and_imported(installed, tmp_path):
+    code = (
+        "import importlib, pkgutil, vectorplot as vp, vectorplot.testing as testing\n"
+        "print(vp.__file__)\n"
+        "[getattr(vp, name) for name in vp.__all__], [getattr(testing, name) for name in testing.__all__]\n"
+        "names = [found.name for found in pkgutil.walk_packages(vp.__path__, 'vectorplot.')]\n"
+        "[importlib.import_module(name) for name in names if not name.endswith('__main__')]\n"
+    )
+    result = run(installed, tmp_path, "-c", code)
+    assert (result.returncode, result.stderr) == (0, "")
+    assert Path(result.stdout.strip()).is_relative_to(installed)
+
+
+def test_the_entry_point_leads_to_the_command():
+    module, _, name = SETTINGS["project"]["scripts"]["vectorplot"].partition(":")
+    assert importlib.util.find_spec(module) is not None
+    assert callable(getattr(importlib.import_module(module), name))
