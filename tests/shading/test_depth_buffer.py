@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from pixel_rays import beside_edges, first_triangles, pixel_rays
@@ -175,3 +177,25 @@ def test_the_default_camera_sees_all_of_a_mesh():
     seen = buffer_of(points, corners, camera).source
     assert not (seen[[0, -1]] >= 0).any()
     assert (seen >= 0).any()
+
+
+@pytest.mark.hard(24)
+@pytest.mark.parametrize("seed", range(6))
+def test_depths_are_those_of_the_true_triangle_wherever_its_corners_are_snapped_to(seed):
+    """As steep as they come, down to the rounding of doubles: so the nearer of two planes is known at any gap."""
+    random = np.random.default_rng(seed)
+    corners = random.uniform((0.0, 0.0, -1.0), (COLUMNS, ROWS, 1.0), (12, 3, 3))
+    points = np.concatenate([corners.reshape(-1, 3), np.ones((36, 1))], axis=1)
+    points[:, 2] *= 10.0 ** random.uniform(-3, 3)
+    flat = screen_triangles(points, np.arange(36).reshape(-1, 3))
+    for number in range(len(flat)):
+        one = replace(flat, corners=flat.corners[number : number + 1], source=flat.source[number : number + 1])
+        found = depth_buffer(one, COLUMNS, ROWS)
+        row, column = np.nonzero(found.triangle >= 0)
+        a, b, c = one.points[one.corners[0]]
+        by_x, by_y = np.linalg.solve(np.array([b - a, c - a])[:, :2], np.array([b - a, c - a])[:, 2])
+        true = a[2] + by_x * (column - a[0]) + by_y * (row - a[1])
+        longest = max(np.hypot(*(p - q)[:2]) for p, q in ((a, b), (b, c), (c, a)))
+        thin = abs(np.linalg.det(np.array([b - a, c - a])[:, :2])) / longest
+        if thin > 0.1:
+            assert np.abs(found.depth[row, column] - true).max() < 1e-11 * np.ptp(one.points[:, 2])

@@ -14,11 +14,9 @@ from vectorplot.shading.scene_triangles import SceneTriangles
 from vectorplot.shading.screen import ScreenTriangles, front_facing
 from vectorplot.visibility.painter.image_faces import image_faces
 
-SAME_PLANE = 4.0 * ZERO_OF_EXTENT
-"""Unit normals and distances of planes that differ by less, in the unit box, are those of one plane."""
-
-DIRECTIONS = np.random.default_rng(1).normal(size=(3, 4))
-"""Planes are sorted along these, one after the other."""
+SAME_NORMAL, SAME_DISTANCE = 4.0 * ZERO_OF_EXTENT, ZERO_OF_EXTENT
+"""Unit normals, coordinate by coordinate, and distances of planes that differ by less, in the unit box, are those of
+one plane: paint tells apart what is farther apart."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,10 +83,10 @@ def _planes(view: View) -> Ints:
     rows *= np.where(largest < 0.0, -1.0, 1.0)
     here = np.flatnonzero(largest != 0.0)
     label = np.zeros(len(here), dtype=np.intp)
-    for way in DIRECTIONS:
-        along = way @ rows[:, here]
+    for row, same in zip(rows[::-1], (SAME_DISTANCE, *[SAME_NORMAL] * 3), strict=True):
+        along = row[here]
         order = np.lexsort((along, label))
-        new = (np.diff(label[order], prepend=-1) != 0) | (np.diff(along[order], prepend=-np.inf) > SAME_PLANE)
+        new = (np.diff(label[order], prepend=-1) != 0) | (np.diff(along[order], prepend=-np.inf) > same)
         group = np.cumsum(new) - 1
         several = np.bincount(group)[group] > 1
         here, label = here[order[several]], group[several]

@@ -16,7 +16,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.shading import coverage
 from vectorplot.shading.depth_code import DepthCode
-from vectorplot.shading.depth_keys import KEY_BITS, Task, front_keys, keys_before
+from vectorplot.shading.depth_keys import KEY_BITS, THINNEST, Task, front_keys, keys_before
 from vectorplot.shading.screen import ScreenTriangles, raster_size
 
 FINEST_BITS = 48
@@ -127,7 +127,10 @@ def layers_before(buffer: DepthBuffer, chosen: Bools) -> tuple[Ints, Ints, NDArr
 
 
 def _finest_code(triangles: ScreenTriangles) -> DepthCode:
-    return DepthCode.fine(*depth_range(triangles), min(KEY_BITS - len(triangles).bit_length(), FINEST_BITS))
+    low, high = depth_range(triangles)
+    margin = (high - low) / THINNEST
+    bits = min(KEY_BITS - len(triangles).bit_length(), FINEST_BITS)
+    return DepthCode.fine(low - margin, high + margin, bits)
 
 
 def _task(triangles: ScreenTriangles, depth_code: DepthCode, columns: int, top: int, bottom: int) -> Task:
@@ -135,6 +138,7 @@ def _task(triangles: ScreenTriangles, depth_code: DepthCode, columns: int, top: 
     depths = np.zeros(len(used))
     depths[used] = depth_code.scaled(triangles.points[used, 2])
     grid = coverage.snap(triangles.points)
+    beside = triangles.points[:, :2].T * float(coverage.SUBPIXELS) - grid
     grid[1] -= top << coverage.SUBPIXEL_BITS
     sheet, slopes = np.zeros(0, dtype=np.intp), np.zeros((3, 0))
     if triangles.sheet is not None and triangles.slopes is not None:
@@ -143,8 +147,9 @@ def _task(triangles: ScreenTriangles, depth_code: DepthCode, columns: int, top: 
         slopes = np.stack(
             [depth_code.of_any(start + top * by_row), *(depth_code.rate * by for by in (by_column, by_row))]
         )
-    bits, last = len(triangles).bit_length(), depth_code.first + depth_code.steps
-    return Task(grid, depths, triangles.corners, bits, columns, bottom - top, sheet, slopes, last)
+    bits, first = len(triangles).bit_length(), depth_code.first
+    last = first + depth_code.steps
+    return Task(grid, beside, depths, triangles.corners, bits, columns, bottom - top, sheet, slopes, first, last)
 
 
 def _numbers(keys: NDArray[np.int64], bits: int) -> NDArray[np.int32]:

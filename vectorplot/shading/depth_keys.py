@@ -33,6 +33,9 @@ TILES_AT_ONCE = 1 << 11
 LARGE_SIDE = 128
 """From this side on a triangle is large."""
 
+THINNEST = 12.0
+"""Subpixels: the depths of thinner triangles are those of their corners wherever these are moved to."""
+
 TILE, SMALL_TILE = 64, 16
 """Sides of the tiles of large and of middling triangles, in pixels."""
 
@@ -41,12 +44,14 @@ TILE, SMALL_TILE = 64, 16
 class Task:
     """Triangles to be covered.
 
-    grid (2, n) subpixels, depths (n,) codes not yet cut off, corners (t, 3); sheet (t,): the plane of slopes (3, k)
-    that has the codes of a triangle, -1 for none: code at the first column and row, and how it grows with column and
-    row. So triangles in one plane have the same codes; last: the largest of all.
+    grid (2, n) subpixels; beside (2, n): how far beside these the points are, in subpixels; depths (n,) codes not yet
+    cut off; corners (t, 3); sheet (t,): the plane of slopes (3, k) that has the codes of a triangle, -1 for none: code
+    at the first column and row, and how it grows with column and row. So triangles in one plane have the same codes;
+    first, last: the smallest and the largest of all.
     """
 
     grid: NDArray[np.int32]
+    beside: Floats
     depths: Floats
     corners: Ints
     number_bits: int
@@ -54,12 +59,15 @@ class Task:
     rows: int
     sheet: Ints
     slopes: Floats
+    first: float
     last: float
 
     @property
     def nearest(self) -> Floats:
         """(t,) codes that no fragment of a triangle exceeds by more than one."""
-        found = self.depths[self.corners].max(axis=1)
+        corner = self.depths[self.corners]
+        found = corner.max(axis=1)
+        found += (found - corner.min(axis=1)) / THINNEST
         return np.where(self.sheet >= 0, self.last, found) if len(self.sheet) else found
 
     @property
@@ -141,12 +149,28 @@ def _planes(task: Task, number: Ints) -> Planes:
     with_area = np.flatnonzero(triangles.area)
     if len(with_area) < len(kept):
         kept, triangles = kept[with_area], triangles[with_area]
-    first, second, third = (task.depths[task.corners[number[kept], k]] for k in range(3))
-    second, third = np.where(triangles.turned, third, second), np.where(triangles.turned, second, third)
+    corner = task.corners[number[kept]].T
+    corner[1:] = np.where(triangles.turned, corner[:0:-1], corner[1:])
+    first, second, third = _snapped_depths(task, triangles, corner)
     rise, other = (second - first) / triangles.area, (third - first) / triangles.area
     # What the ownership of edges took away from the edge functions comes back here.
     base = first + coverage.lowered(triangles, 1) * rise + coverage.lowered(triangles, 2) * other
     return Planes(triangles, box[kept], number[kept], base, rise, other)
+
+
+def _snapped_depths(task: Task, triangles: Snapped, corner: Ints) -> Floats:
+    """(3, t) the depths that the planes of triangles, with vertices corner (3, t), have at their corners on the grid:
+    so every pixel has the depth of the true triangle there, however far its corners were moved."""
+    depth, (aside, below) = task.depths[corner], task.beside[:, corner]
+    u = (triangles.x[1:] - triangles.x[0]) + (aside[1:] - aside[0])
+    v = (triangles.y[1:] - triangles.y[0]) + (below[1:] - below[0])
+    rise = depth[1:] - depth[0]
+    area = u[0] * v[1] - u[1] * v[0]
+    longest = np.sqrt(np.maximum((u * u + v * v).max(axis=0), (u[1] - u[0]) ** 2 + (v[1] - v[0]) ** 2))
+    wide = np.abs(area) > THINNEST * longest
+    share = np.where(wide, 1.0, 0.0) / np.where(wide, area, 1.0)
+    by_x, by_y = (rise[0] * v[1] - rise[1] * v[0]) * share, (u[0] * rise[1] - u[1] * rise[0]) * share
+    return np.asarray(np.clip(depth - by_x * aside - by_y * below, task.first, task.last))
 
 
 def _keys(task: Task, planes: Planes, found: Fragments) -> Keys:
