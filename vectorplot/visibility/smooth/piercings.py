@@ -48,7 +48,7 @@ def piercings(
     depth, image = projection.depth(view, curves.points), projection.image(view, curves.points)
     parts, short = [], list[int]()
     for number, target in enumerate(targets):
-        stranger = (curves.second_sheet != number) & ((curves.sheet != number) | meets_itself[number])
+        stranger = ((curves.sheet != number) & (curves.second_sheet != number)) | meets_itself[number]
         chord = curves.chords[stranger[curves.owner[curves.chords]]]
         chord = chord[(depth[chord] > view.near) & (depth[chord + 1] > view.near)]
         if len(chord) and len(target.corners):
@@ -74,9 +74,14 @@ def piercings(
 def _elsewhere(
     sheet: Sheet, number: int, curves: Curves, chord: Ints, part: Floats, places: Floats, apart: float
 ) -> Bools:
-    """(k,) which places on a sheet are not those of the curves themselves, which lie on it."""
-    own = curves.places[chord] + part[:, None] * (curves.places[chord + 1] - curves.places[chord])
-    return np.asarray((curves.sheet[curves.owner[chord]] != number) | (sheet.apart(places, own) > apart))
+    """(k,) which places on a sheet are not those of the curves themselves, which may lie on it once or twice."""
+    away = np.ones(len(chord), dtype=np.bool_)
+    for on, own_places in ((curves.sheet, curves.places), (curves.second_sheet, curves.second_places)):
+        mine = np.flatnonzero(on[curves.owner[chord]] == number)
+        at, begin = part[mine, None], chord[mine]
+        own = own_places[begin] + at * (own_places[begin + 1] - own_places[begin])
+        away[mine] &= sheet.apart(places[mine], own) > apart
+    return away
 
 
 def _close(
