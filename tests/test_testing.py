@@ -110,6 +110,22 @@ def test_ears_of_a_polygon_with_many_notches_cover_it_once(seed):
     assert areas.sum() == pytest.approx(np.linalg.norm(mesh.area_vectors[0]) / 2.0, rel=1e-12)
 
 
+@pytest.mark.parametrize("offset", [0.0, 1e3])
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_corners_that_are_straight_but_for_rounding_are_no_ears(scale, offset):
+    """A comb with many corners along its back, turned anywhere: no ray can tell on which side of such an ear it is."""
+    back = [(x, -1.0) for x in np.linspace(0.0, 9.0, 28)]
+    teeth = [point for x in range(8, -1, -2) for point in [(x + 1, 0), (x + 1, 2), (x, 2), (x, 0)]]
+    ring = np.array([*back, *teeth], dtype=float)
+    for seed in range(20):
+        turn, _ = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
+        mesh = Mesh.from_polygons((np.c_[ring, 0.0 * ring[:, 0]] @ turn.T + offset) * scale, [list(range(len(ring)))])
+        triangles, _ = triangulated(mesh)
+        areas = triangle_areas(mesh, triangles) @ mesh.face_normals[0]
+        assert areas.min() > 1e-4 * scale**2
+        assert areas.sum() == pytest.approx(19.0 * scale**2, rel=1e-9)
+
+
 def test_a_notch_is_not_covered():
     mesh = prism([(0, 0), (3, 0), (3, 2), (2, 2), (2, 1), (1, 1), (1, 2), (0, 2)], 0.0, 1.0)
     scene = scene_of(CUP=mesh)

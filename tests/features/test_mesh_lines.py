@@ -118,6 +118,25 @@ def test_sections_through_vertices_and_along_edges_are_one_polyline():
     assert len(grid) == 2 and grid.closed.all()
 
 
+@pytest.mark.parametrize(
+    "faces",
+    [
+        [[0, 0, 1, 2]],
+        [[0, 0, 1, 2], [1, 1, 2], [1, 2, 0], [0, 2, 0]],
+        [[0, 1, 2], [2, 1, 0]],
+        [[0, 1, 2, 1, 0, 2]],
+        [[0, 1, 0, 2, 0, 1, 2]],
+    ],
+)
+def test_sections_of_faces_that_repeat_their_corners_have_points(faces):
+    vertices = np.array([(4.5, 11.8, -1.9), (5.5, 1.8, 2.6), (9.7, 1.0, -1.0)])
+    mesh = Mesh.from_polygons(vertices, faces)
+    found = mesh_plane_sections(mesh, (0.0, 0.0, 1.0), np.linspace(-1.9, 2.6, 9))
+    assert len(found) and (np.diff(found.offsets) > 1).all()
+    assert len(found.offsets) - 1 == len(found.closed) == len(found.levels) and found.offsets[-1] == len(found.points)
+    assert np.allclose(found.points[:, 2], np.repeat(found.levels, np.diff(found.offsets)))
+
+
 def test_the_side_of_larger_values_is_on_the_left():
     for curves in (mesh_level_lines(BALL, [0.3]), mesh_isophotes(BALL, (0, 0, 1), [0.3])):
         p = curves[0]

@@ -141,7 +141,8 @@ def joined_segments(points: Floats, pairs: Ints, face: Ints, level: float) -> Me
 
 
 def without_inner(curves: MeshCurves, extent: float) -> MeshCurves:
-    """The curves without the points between two segments in one face that go straight on there."""
+    """The curves without the points between two segments in one face that go straight on there; without those of
+    which less than two points are left."""
     if not len(curves):
         return curves
     sizes = np.diff(curves.offsets)
@@ -149,12 +150,16 @@ def without_inner(curves: MeshCurves, extent: float) -> MeshCurves:
     before, after = np.arange(-1, len(line) - 1), np.arange(1, len(line) + 1)
     before[curves.offsets[:-1]], after[curves.offsets[1:] - 1] = curves.offsets[1:] - 1, curves.offsets[:-1]
     here, chord = curves.points, curves.points[after] - curves.points[before]
+    on = np.einsum("ij,ij->i", here - curves.points[before], curves.points[after] - here) > 0.0
     length = np.maximum(np.linalg.norm(chord, axis=1), np.finfo(float).tiny)
     aside = np.linalg.norm(np.cross(here - curves.points[before], chord), axis=1) / length
-    inner = (curves.faces == curves.faces[before]) & (curves.faces != NO_FACE) & (aside <= ZERO_OF_EXTENT * extent)
-    kept = ~inner
-    offsets = np.concatenate([[0], np.cumsum(np.bincount(line[kept], minlength=len(sizes)))]).astype(np.intp)
-    return MeshCurves(here[kept], offsets, curves.closed, curves.faces[kept], curves.levels)
+    straight = on & (aside <= ZERO_OF_EXTENT * extent)
+    kept = ~(straight & (curves.faces == curves.faces[before]) & (curves.faces != NO_FACE))
+    counts = np.bincount(line[kept], minlength=len(sizes))
+    real = counts > 1
+    kept &= real[line]
+    offsets = np.concatenate([[0], np.cumsum(counts[real])]).astype(np.intp)
+    return MeshCurves(here[kept], offsets, curves.closed[real], curves.faces[kept], curves.levels[real])
 
 
 def _faces_between(start: Ints, end: Ints, pairs: Ints, face: Ints, count: int) -> Ints:

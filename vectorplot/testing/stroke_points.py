@@ -22,6 +22,9 @@ ASIDE = 10.0
 """A point found from a chord may be beside the true curve, and is compared only where the clearance is larger than so
 many times the distance of the chord from it."""
 
+ONE_POINT = 1e-9
+"""Points nearer to each other than this part of what is drawn are one."""
+
 ONE_SHEET = [int(kind) for kind in (LineKind.CONTOUR, LineKind.PARAMETER, LineKind.ISOPHOTE, LineKind.SECTION)]
 
 
@@ -44,13 +47,15 @@ def stroke_points(drawing: Drawing, scene: Scene, camera: Camera, samples: int, 
     """Random points on the strokes, half of them by length, half with one chance for each segment.
 
     Of straight strokes they lie anywhere. Of smooth strokes, whose chords are beside the curve, they are inner vertices
-    (at the ends visibility changes), or points of chords moved to the surface, those of a contour to the contour.
+    (at the ends visibility changes, and so it may where other strokes end), or points of chords moved to the surface,
+    those of a contour to the contour.
     """
     parts = [_segments(paths) for layer in drawing.layers for paths in layer.strokes if len(paths)]
     if not parts:
         return _none()
     lines, owner, smooth, sag, at_end = (np.concatenate(columns) for columns in zip(*parts, strict=True))
     random = np.random.default_rng(seed)
+    at_end |= _where_others_end(lines, at_end)
     index, share = some_of(lines, samples, random)
     if not len(index):
         return _none()
@@ -66,6 +71,17 @@ def stroke_points(drawing: Drawing, scene: Scene, camera: Camera, samples: int, 
     found = StrokePoints(points, kind, item, hidden_by, aside)
     moving = np.flatnonzero(smooth[index] & ~vertex)
     return _moved(found, moving, useful, lines[index, 1] - lines[index, 0], scene, camera)
+
+
+def _where_others_end(lines: Floats, at_end: Bools) -> Bools:
+    """(n,2) whether an end of a segment (n,2,3) is where some stroke begins or ends."""
+    from scipy.spatial import cKDTree
+
+    ends = lines[at_end]
+    if not len(ends):
+        return at_end
+    distance, _ = cKDTree(ends).query(lines.reshape(-1, 3))
+    return np.asarray(distance.reshape(-1, 2) <= ONE_POINT * float(np.ptp(lines, axis=(0, 1)).max()))
 
 
 def some_of(lines: Floats, samples: int, random: np.random.Generator) -> tuple[Ints, Floats]:

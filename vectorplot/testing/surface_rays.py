@@ -36,6 +36,9 @@ OWN = 1e-3
 SAME = 1e-6
 """A refined hit farther from it than this part of the extent is another sheet."""
 
+STEEP = 0.1
+"""Sine of an angle with the tangent plane above which a ray does not meet the surface next to its contour."""
+
 AROUND = 5e-3
 """Contour and borders on which a point lies are its own up to this distance, as a part of the extent."""
 
@@ -208,11 +211,11 @@ def _hits(net: Net, rays: Rays, feet: Feet) -> tuple[Bools, Floats]:
         met = np.isfinite(along)
         ray, along, triangle = ray[met], along[met], corners[solids.item[index[met]]]
         start = net.parameters[triangle].mean(axis=1)
-        along, there, lost = _refined(net, rays, ray, along, start)
+        along, there, lost, steep = _refined(net, rays, ray, along, start)
         clearance[ray[lost & (np.abs(along) > own[ray])]] = 0.0
-        ray, along = ray[there], along[there]
+        ray, along, steep = ray[there], along[there], steep[there]
         # Beside a cuspidal edge or a self-intersection another sheet may be that near.
-        other = ~feet.on_contour[ray] & (np.abs(along) > SAME) & (np.abs(along) <= own[ray])
+        other = (~feet.on_contour[ray] | steep) & (np.abs(along) > SAME) & (np.abs(along) <= own[ray])
         clearance[ray[other]] = 0.0
         free = np.abs(along) > own[ray]
         np.minimum.at(clearance, ray[free], np.abs(along[free]))
@@ -222,9 +225,10 @@ def _hits(net: Net, rays: Rays, feet: Feet) -> tuple[Bools, Floats]:
     return hidden, clearance
 
 
-def _refined(net: Net, rays: Rays, ray: Ints, along: Floats, start: Floats) -> tuple[Floats, Bools, Bools]:
-    """Where rays meet the surface near places where they meet the net, whether that is within the domain, and whether
-    Newton's method found no such place, as next to the contour: then it is left where the net has it."""
+def _refined(net: Net, rays: Rays, ray: Ints, along: Floats, start: Floats) -> tuple[Floats, Bools, Bools, Bools]:
+    """Where rays meet the surface near places where they meet the net, whether that is within the domain, whether
+    Newton's method found no such place, as next to the contour: then it is left where the net has it; and whether they
+    pass through the surface there rather than along it."""
     origin, direction = rays.origin[ray], rays.direction[ray]
     at, t = start.copy(), along.copy()
     for _ in range(NEWTON_STEPS):
@@ -247,7 +251,8 @@ def _refined(net: Net, rays: Rays, ray: Ints, along: Floats, start: Floats) -> t
     for axis, (low, high, closed) in enumerate(limits):
         rounding = 1e-12 * (high - low)
         within &= closed | ((at[:, axis] >= low - rounding) & (at[:, axis] <= high + rounding))
-    return np.where(good, t, along), within | ~good, ~good
+    steep = good & (np.abs(slope) > STEEP * np.sqrt(square))
+    return np.where(good, t, along), within | ~good, ~good, steep
 
 
 def feet_on(net: Net, rays: Rays) -> Feet:

@@ -11,18 +11,22 @@ from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 FLAT = 1e-12
 """A corner whose sine is smaller counts as straight."""
 
+NO_AREA = 1e-9
+"""An ear of less area, as a part of its longest side squared, is none: the corner is straight but for rounding, and of
+such an ear no ray can say whether it passes it."""
+
 
 def triangulated(mesh: Mesh) -> tuple[Ints, Ints]:
     """Triangles (t,3) of vertex indices that cover the faces that are there, and (t,) the face each belongs to.
 
-    Degenerate: a face without area gives triangles without area. A face that is not planar is the triangles that
+    Degenerate: a convex face without area gives triangles without area; ears without area are left out. A face that is not planar is the triangles that
     geometry.convex_faces makes of it: nothing but that convention says which surface it is.
     """
     present = np.ones(mesh.face_count, dtype=np.bool_) if mesh.present is None else mesh.present
     convex, bent = faces_are_convex(mesh), faces_are_bent(mesh)
     triangles, faces = fans(mesh, present & convex & ~bent)
     ears = [(ear_clipping(mesh, face), face) for face in np.flatnonzero(present & ~convex & ~bent).tolist()]
-    more = [np.asarray(cut, dtype=np.intp).reshape(-1, 3) for cut, _ in ears]
+    more = [with_area(mesh, np.asarray(cut, dtype=np.intp).reshape(-1, 3)) for cut, _ in ears]
     owner = [np.full(len(cut), face, dtype=np.intp) for cut, (_, face) in zip(more, ears, strict=True)]
     cut, source = bent_triangles(mesh, np.flatnonzero(present & bent))
     return np.concatenate([triangles, *more, cut]), np.concatenate([faces, *owner, source])
@@ -88,6 +92,14 @@ def ear_clipping(mesh: Mesh, face: int) -> list[list[int]]:
         del left[k]
     triangles.append([ring[corner] for corner in left])
     return triangles
+
+
+def with_area(mesh: Mesh, triangles: Ints) -> Ints:
+    """Those of some triangles that have an area."""
+    corners = mesh.vertices[triangles]
+    sides = np.roll(corners, -1, axis=1) - corners
+    twice = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    return triangles[twice > 2.0 * NO_AREA * (sides**2).sum(axis=2).max(axis=1, initial=0.0)]
 
 
 def next_ear(plane: Floats, left: list[int]) -> int:

@@ -34,7 +34,8 @@ SmoothSheet = ParametricSheet | ImplicitSheet
 
 @dataclass(frozen=True, eq=False)
 class Meetings:
-    """The curves in which sheets meet; for each sheet (s,) whether it meets itself; what could not be decided."""
+    """The curves in which sheets meet; for each sheet (s,) whether it meets itself, or may; what could not be
+    decided."""
 
     curves: Curves
     meets_itself: Bools
@@ -44,16 +45,18 @@ class Meetings:
 def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: Bools, tracing: Tracing) -> Meetings:
     """All meetings of sheets of which one belongs to an item that wants intersections; wants (i,).
 
-    A curve belongs to the item, of those that want it, that comes first in the scene.
+    A curve belongs to the item, of those that want it, that comes first in the scene. A sheet whose meetings with
+    itself nobody wants may meet itself, unless it is a graph.
     """
     parts, doubts = [], []
     itself = np.zeros(len(sheets), dtype=np.bool_)
     boxes = [_box(sheet.vertices) for sheet in sheets]
     for number, sheet in enumerate(sheets):
         # Where an implicit surface meets itself its gradient vanishes; these lines are not looked for.
-        if wants[sheet.item] and isinstance(sheet, ParametricSheet) and not is_graph(sheet.surface):
+        itself[number] = isinstance(sheet, ParametricSheet) and not is_graph(sheet.surface)
+        if itself[number] and wants[sheet.item] and isinstance(sheet, ParametricSheet):
             found = self_intersections(sheet.surface, tracing=tracing)
-            itself[number] = len(found) > 0
+            itself[number] = len(found) > 0 or bool(found.doubts)
             doubts += [f"{scene.items[sheet.item].name}: {text}" for text in found.doubts]
             parts.append(_double(found, sheet, number, sheet, number, sheet.item))
     for one, two in combinations(range(len(sheets)), 2):

@@ -170,7 +170,8 @@ def parametric_sheet(surface: Surface, item: int, hides: bool) -> ParametricShee
     corners = np.concatenate([np.stack([lower, right, right + 1], 1), np.stack([lower, right + 1, upper], 1)])
     whole: Bools = np.asarray(np.isfinite(vertices).all(axis=1))
     kept = whole[corners].all(axis=1) & ~np.tile(torn, 2)
-    sags = np.maximum(np.tile(_cell_sags(grid).ravel(), 2), SAG)[kept] if sag > SAG else np.full(int(kept.sum()), sag)
+    off = np.maximum(_cell_sags(grid), SAG) if sag > SAG else np.full((columns, rows), sag)
+    sags = np.tile(np.minimum(off, _around(grid)).ravel(), 2)[kept]
     places = np.stack([u, v, np.zeros_like(u)], axis=1)
     return ParametricSheet(surface, item, hides, vertices, places, corners[kept], sags, bool(torn.any()))
 
@@ -209,6 +210,18 @@ def _sag(surface: Surface, places: Floats) -> float:
     if len(far[0]):
         long[far] *= ~jumps(surface, places[:-1:2][far], places[2::2][far])
     return float(long.max(initial=0.0))
+
+
+def _around(points: Floats) -> Floats:
+    """(m-1,n-1) how large the largest is of each cell of a grid of points (m,n,3) and its neighbours: the surface is not
+    farther off, however much smaller cells are than elsewhere."""
+    with np.errstate(invalid="ignore"):
+        diagonal = [points[1:, 1:] - points[:-1, :-1], points[1:, :-1] - points[:-1, 1:]]
+    long = np.maximum(*(np.linalg.norm(way, axis=-1) for way in diagonal))
+    long[~np.isfinite(long)] = np.inf
+    padded = np.pad(long, 1, mode="edge")
+    one_way = np.maximum(np.maximum(padded[:-2], padded[1:-1]), padded[2:])
+    return np.asarray(np.maximum(np.maximum(one_way[:, :-2], one_way[:, 1:-1]), one_way[:, 2:]))
 
 
 def _cell_sags(points: Floats) -> Floats:

@@ -35,6 +35,8 @@ SHARPEST = 1e3
 """Where a sheet bends more strongly, in a scene about 1 large, its normal tells nothing about the sides of it: it is at
 an apex, a pinch point or a cuspidal edge, or as good as there."""
 
+_Found = tuple[Ints, Floats, Floats, Ints, Floats, Floats]
+
 
 def piercings(
     view: View, targets: tuple[Target, ...], curves: Curves, meets_itself: Bools, pairs: int
@@ -53,21 +55,23 @@ def piercings(
         chord = chord[(depth[chord] > view.near) & (depth[chord + 1] > view.near)]
         if len(chord) and len(target.corners):
 
-            def look(rows: Ints, target: Target = target) -> Block[tuple[Ints, Floats, Floats, Floats]]:
-                return _close(target, curves, rows, image, depth)
+            def look(rows: Ints, target: Target = target, number: int = number) -> Block[_Found]:
+                block = _close(target, curves, rows, image, depth)
+                chord, part, places, reach = block.found
+                kept = _elsewhere(target.sheet, number, curves, chord, part, places, APART_AT_FIRST)
+                chord, part, places, reach = chord[kept], part[kept], places[kept], reach[kept]
+                met = _met(view, target.sheet, curves, chord, part, places)
+                kept = _elsewhere(target.sheet, number, curves, *met, APART)
+                return Block((chord, part, reach, *(column[kept] for column in met)), block.partners, len(chord))
 
             found, done = in_blocks(chord, pairs, look)
             if done < len(chord):
                 short.append(target.sheet.item)
-            chord, part, places, reach = (np.concatenate(column) for column in zip(*found, strict=True))
-            elsewhere = _elsewhere(target.sheet, number, curves, chord, part, places, APART_AT_FIRST)
-            chord, part, places, reach = chord[elsewhere], part[elsewhere], places[elsewhere], reach[elsewhere]
-            close = chord, part, reach
-            chord, part, places = _met(view, target.sheet, curves, chord, part, places)
-            elsewhere = _elsewhere(target.sheet, number, curves, chord, part, places, APART)
-            chord, part, places = chord[elsewhere], part[elsewhere], places[elsewhere]
+            near, near_part, reach, chord, part, places = (
+                np.concatenate(column) for column in zip(*found, strict=True)
+            )
             pierced = _pierced(view, target.sheet, curves, chord, part, places)
-            parts += [pierced, unmet_stretches(curves, *close, pierced, target.sheet.item)]
+            parts += [pierced, unmet_stretches(curves, near, near_part, reach, pierced, target.sheet.item)]
     return all_events(parts), tuple(short)
 
 
@@ -135,16 +139,20 @@ def _met(
     view: View, sheet: Sheet, curves: Curves, chord: Ints, part: Floats, places: Floats
 ) -> tuple[Ints, Floats, Floats]:
     """Places where the curves meet the sheet: chords, parts, places on the sheet."""
+    part = part.copy()
     for _ in range(HOPS):
         off = np.full(len(chord), np.inf)
+        places, active = places.copy(), np.arange(len(chord))
         for _ in range(ROUNDS):
-            at = curves.at(chord, part)
-            away = at.points - sheet.points(places)
-            off = np.sqrt(dot(away, away))
-            step, places = sheet.missed(at.points, at.slopes, places)
-            part = np.clip(part + np.clip(np.where(np.isfinite(step), step, 0.0), -0.7, 0.7), -1.5, 2.5)
-            if not (off > SETTLED).any():
+            if not len(active):
                 break
+            at = curves.at(chord[active], part[active])
+            away = at.points - sheet.points(places[active])
+            off[active] = np.sqrt(dot(away, away))
+            step, places[active] = sheet.missed(at.points, at.slopes, places[active])
+            step = np.clip(np.where(np.isfinite(step), step, 0.0), -0.7, 0.7)
+            part[active] = np.clip(part[active] + step, -1.5, 2.5)
+            active = active[off[active] > SETTLED]
         kept = np.isfinite(places).all(axis=1) & ((off <= NEARLY_MET) | (part < 0.0) | (part > 1.0))
         chord, part, places = chord[kept], part[kept], places[kept]
         now, part = hopped(curves, chord, part)
