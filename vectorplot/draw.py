@@ -250,10 +250,10 @@ def _with_curves(
     tolerance: float,
     budget: Budget,
 ) -> Lines:
-    """The lines and the curves of smooth surfaces, cut where one of these begins to hide them or ends."""
+    """The lines and the curves of smooth surfaces, cut where one of these begins to hide them or ends, if they hide."""
     if not walk.calls_for("curves"):
         return lines
-    from vectorplot.visibility.smooth.smooth_lines import with_curves
+    from vectorplot.visibility.smooth.smooth_lines import with_curves, with_whole_curves
     from vectorplot.visibility.smooth.traced import traced_scene
 
     if tolerance < FINEST:
@@ -262,11 +262,15 @@ def _with_curves(
     tolerance = max(tolerance, FINEST)
     done = walk.fraction("curves")
     traced = walk.run("curves", traced_scene, scene, view, sheets, kinds, tolerance, budget, done)
+    for doubt in traced.doubts:
+        warnings.warn(doubt, InputWarning, stacklevel=3)
+    if not walk.calls_for("smooth surfaces"):
+        return with_whole_curves(view, traced, lines)
     done = walk.fraction("smooth surfaces")
     count = len(scene.items)
     cut, unsure = walk.run("smooth surfaces", with_curves, view, traced, lines, count, tolerance, budget, done)
-    for doubt in (*traced.doubts, *(f"{scene.items[item].name}: {text}" for item, text in unsure)):
-        warnings.warn(doubt, InputWarning, stacklevel=3)
+    for item, text in unsure:
+        warnings.warn(f"{scene.items[item].name}: {text}", InputWarning, stacklevel=3)
     return cut if not walk.calls_for("visible lines") else cut.some(cut.behind == 0)
 
 

@@ -79,7 +79,8 @@ def plan_draw(
         stages.append(Stage("lines on meshes", "polyhedra carry isophotes or sections"))
     if any(not isinstance(item.shape, Mesh) for item in scene.items):
         stages.append(Stage("curves", "items are smooth surfaces"))
-        stages.append(Stage("smooth surfaces", "they hide curves and lines"))
+        if style == "plain":
+            stages.append(Stage("smooth surfaces", "they hide curves and lines"))
     stages.append(Stage("frame", "what is in front of the eye and inside the picture"))
     if style != "plain":
         stages.append(Stage("all lines", f"nothing hides anything in the style {style}"))

@@ -1,5 +1,7 @@
 """Wireframes by every way they are asked for: all edges once, in the shades of palettes, near ones brighter."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,8 +11,12 @@ from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.adjacency import mesh_edges
 from vectorplot.geometry.revolution import revolution
 from vectorplot.shading.palettes import palette
+from vectorplot.surfaces.ellipsoid import Sphere
+from vectorplot.surfaces.quadric import implicit_sphere
 from vectorplot.surfaces.torus import Torus
+from vectorplot.testing import assert_drawings_equal
 from vectorplot.testing.shapes import box
+from vectorplot.words import WIRES
 
 COLOURS = ("orange", "lightcyan", "darkgreen", "gray", "#3366cc")
 VIEWS = [vp.Camera(eye=eye, target=(1, 1, 1)) for eye in ((14, -17, 11), (-20, -9, 3), (2, 3, 31), (5, -9, -13))]
@@ -126,6 +132,22 @@ def test_smooth_surfaces_and_curves_are_seen_through():
         assert drawing.layers[1].pen.colour != drawing.layers[-1].pen.colour
     plain = vp.draw(scene, camera)
     assert {int(i) for layer in plain.layers for paths in layer.strokes for i in paths.item} == {1}
+
+
+@pytest.mark.capability("G4.4-wireframe", "G4.4-depthcue")
+@pytest.mark.parametrize("style", ["wireframe", "depth-cue"])
+@pytest.mark.parametrize("camera", [vp.Camera(eye=(3, -4, 30)), vp.Camera(eye=(30, 0, 0), parallel=True)])
+def test_smooth_surfaces_are_drawn_as_if_none_of_them_hid_anything(style, camera):
+    curves = vp.SurfaceLines(columns=5, rows=4)
+    ring = vp.Item("RING", Torus(3.0, 1.0), curves=curves)
+    ball = vp.Item("BALL", Sphere(2.0), curves=curves)
+    knot = vp.Item("KNOT", implicit_sphere(2.5))
+    block = vp.Item("BLOCK", box((-9, -9, 2), (9, 9, 3)))
+    stages = []
+    drawn = vp.draw(vp.Scene((ring, ball, knot, block)), camera, style=style, explain=stages.append)
+    assert "smooth surfaces" not in {stage.name for stage in stages}
+    clear = vp.Scene(tuple(replace(item, occludes=False) for item in (ring, ball, knot, block)))
+    assert_drawings_equal(drawn, vp.draw(clear, camera, lines=WIRES), 0.05)
 
 
 @pytest.mark.capability("G4.4-wireframe", "G4.4-depthcue")

@@ -12,15 +12,16 @@ FLAT = 1e-12
 """A corner whose sine is smaller counts as straight."""
 
 NO_AREA = 1e-9
-"""An ear of less area, as a part of its longest side squared, is none: the corner is straight but for rounding, and of
-such an ear no ray can say whether it passes it."""
+"""An ear of less area, as a part of its longest side squared, is none: its corner is straight but for rounding, and no
+ray can say whether it meets it."""
 
 
 def triangulated(mesh: Mesh) -> tuple[Ints, Ints]:
     """Triangles (t,3) of vertex indices that cover the faces that are there, and (t,) the face each belongs to.
 
-    Degenerate: a convex face without area gives triangles without area; ears without area are left out. A face that is not planar is the triangles that
-    geometry.convex_faces makes of it: nothing but that convention says which surface it is.
+    Degenerate: a convex face without area gives triangles without area; ears without area are left out. A face that is
+    not planar is the triangles that geometry.convex_faces makes of it: nothing but that convention says which surface
+    it is.
     """
     present = np.ones(mesh.face_count, dtype=np.bool_) if mesh.present is None else mesh.present
     convex, bent = faces_are_convex(mesh), faces_are_bent(mesh)
@@ -99,7 +100,8 @@ def with_area(mesh: Mesh, triangles: Ints) -> Ints:
     corners = mesh.vertices[triangles]
     sides = np.roll(corners, -1, axis=1) - corners
     twice = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
-    return triangles[twice > 2.0 * NO_AREA * (sides**2).sum(axis=2).max(axis=1, initial=0.0)]
+    kept = np.asarray(twice > 2.0 * NO_AREA * (sides**2).sum(axis=2).max(axis=1, initial=0.0))
+    return np.asarray(triangles[kept], dtype=np.intp)
 
 
 def next_ear(plane: Floats, left: list[int]) -> int:

@@ -213,8 +213,8 @@ def _sag(surface: Surface, places: Floats) -> float:
 
 
 def _around(points: Floats) -> Floats:
-    """(m-1,n-1) how large the largest is of each cell of a grid of points (m,n,3) and its neighbours: the surface is not
-    farther off, however much smaller cells are than elsewhere."""
+    """(m-1,n-1) how large the largest is of each cell of a grid of points (m,n,3) and its neighbours: the surface is
+    not farther off, however much smaller cells are than elsewhere."""
     with np.errstate(invalid="ignore"):
         diagonal = [points[1:, 1:] - points[:-1, :-1], points[1:, :-1] - points[:-1, 1:]]
     long = np.maximum(*(np.linalg.norm(way, axis=-1) for way in diagonal))

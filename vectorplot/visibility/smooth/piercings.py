@@ -36,6 +36,8 @@ SHARPEST = 1e3
 an apex, a pinch point or a cuspidal edge, or as good as there."""
 
 _Found = tuple[Ints, Floats, Floats, Ints, Floats, Floats]
+"""Chords that come close to a sheet, the parts of them where they do, and within how far; and chords that meet it, the
+parts of them where they do, and the places there."""
 
 
 def piercings(
@@ -60,9 +62,9 @@ def piercings(
                 chord, part, places, reach = block.found
                 kept = _elsewhere(target.sheet, number, curves, chord, part, places, APART_AT_FIRST)
                 chord, part, places, reach = chord[kept], part[kept], places[kept], reach[kept]
-                met = _met(view, target.sheet, curves, chord, part, places)
-                kept = _elsewhere(target.sheet, number, curves, *met, APART)
-                return Block((chord, part, reach, *(column[kept] for column in met)), block.partners, len(chord))
+                at, at_part, met = _met(view, target.sheet, curves, chord, part, places)
+                kept = _elsewhere(target.sheet, number, curves, at, at_part, met, APART)
+                return Block((chord, part, reach, at[kept], at_part[kept], met[kept]), block.partners, len(chord))
 
             found, done = in_blocks(chord, pairs, look)
             if done < len(chord):

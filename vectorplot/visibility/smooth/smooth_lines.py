@@ -13,8 +13,10 @@ from vectorplot.scene.view import View
 from vectorplot.visibility.lines import Lines
 from vectorplot.visibility.smooth.curves import Curves, together
 from vectorplot.visibility.smooth.edge_sides import covered_sides
+from vectorplot.visibility.smooth.events import all_events
 from vectorplot.visibility.smooth.family import StraightLines
-from vectorplot.visibility.smooth.hidden_curves import cut_curves, hidden_curves
+from vectorplot.visibility.smooth.hidden_curves import HiddenCurves, cut_curves, hidden_curves
+from vectorplot.visibility.smooth.pieces import cut
 from vectorplot.visibility.smooth.traced import TracedScene
 from vectorplot.words import LineKind
 
@@ -39,6 +41,20 @@ def with_curves(
     """
     curves = together([traced.curves, _straight(lines)])
     found = hidden_curves(view, traced, curves, items, tolerance, budget, done)
+    doubts = tuple((item, unresolved("lines in front of or behind it may be drawn wrong")) for item in found.short)
+    return _as_lines(view, traced, lines, curves, found), doubts
+
+
+def with_whole_curves(view: View, traced: TracedScene, lines: Lines) -> Lines:
+    """Straight lines and the chords of curves, from end to end, as if nothing hid them."""
+    curves = together([traced.curves, _straight(lines)])
+    pieces = cut(curves, all_events([]), 0)
+    whole = HiddenCurves(pieces, np.zeros(len(pieces), dtype=np.intp), ())
+    return _as_lines(view, traced, lines, curves, whole)
+
+
+def _as_lines(view: View, traced: TracedScene, lines: Lines, curves: Curves, found: HiddenCurves) -> Lines:
+    """The chords of pieces of curves: those of the scene, and after them the straight lines."""
     start, end, chords, behind = cut_curves(curves, found)
     long = (start != end).any(axis=1)
     start, end, chords, behind = start[long], end[long], chords.some(long), behind[long]
@@ -49,8 +65,7 @@ def with_curves(
     outline = np.flatnonzero(smooth & np.isin(curves.kind[curve], OUTLINES) & (curves.sheet[curve] >= 0))
     side[outline] = _sides(view, traced, curves, chord[outline])
     chords = replace(chords, chord=np.where(smooth, chord, -1))
-    doubts = tuple((item, unresolved("lines in front of or behind it may be drawn wrong")) for item in found.short)
-    return Lines(start.T, end.T, curves.kind[curve], curves.item[curve], side, smooth, behind, chords), doubts
+    return Lines(start.T, end.T, curves.kind[curve], curves.item[curve], side, smooth, behind, chords)
 
 
 def _sides(view: View, traced: TracedScene, curves: Curves, chord: Ints) -> Ints:

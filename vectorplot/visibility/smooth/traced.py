@@ -34,9 +34,9 @@ HIDING = (LineKind.CONTOUR, LineKind.BOUNDARY, LineKind.CREASE)
 
 @dataclass(frozen=True, eq=False)
 class TracedScene:
-    """The sheets of all smooth items, and for each (s,) whether it may meet itself; the curves that are drawn; edges: the
-    folds, borders and cuspidal edges of the sheets that hide; doubts: what could not be decided, with the name of the
-    item."""
+    """The sheets of all smooth items, and for each (s,) whether it may meet itself; the curves that are drawn; edges:
+    the folds, borders and cuspidal edges of the sheets that hide; doubts: what could not be decided, with the name of
+    the item."""
 
     sheets: tuple[SmoothSheet, ...]
     meets_itself: Bools
