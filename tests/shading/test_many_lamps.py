@@ -10,6 +10,7 @@ from vectorplot.errors import InputWarning
 from vectorplot.geometry.solids import box
 from vectorplot.scene.scene import Light
 from vectorplot.shading import picture, shadow_buffer, shadow_map
+from vectorplot.shading.map_settings import MapSettings
 
 FLOOR = vp.Item("FLOOR", box((8, 8, 0.5)))
 
@@ -67,7 +68,7 @@ def test_the_maps_of_many_lights_have_room(monkeypatch):
 
     monkeypatch.setattr(shadow_buffer, "shadow_buffer", kept)
     with pytest.warns(InputWarning, match="the shadow maps of 8 lights are 73 texels wide, not 128"):
-        shadow_buffer.shadow_buffers(scattered(8), points, corners, 128, 32, None)
+        shadow_buffer.shadow_buffers(scattered(8), points, corners, MapSettings(size=128), None)
     texels = sum(one.code.size for buffer in made for one in buffer.maps)
     assert 0.9 * (1 << 16) < texels <= 1 << 16
     assert not any("depth" in vars(one) for buffer in made for one in buffer.maps)

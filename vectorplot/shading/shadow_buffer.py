@@ -144,7 +144,7 @@ def shadow_buffers(
     Degenerate: maps of more texels together than MOST_TEXELS are made smaller, all alike, and an InputWarning says so.
     """
     frame: Frame = "standard" if region is None else "trapezoid"
-    size = _affordable_size(lights, points, size)
+    size = _affordable_size(lights, points, maps)
 
     def blocks(buffer: ShadowBuffer, places: Floats, normals: Floats, triangle: Ints) -> Bools:
         return buffer.blocks(places, normals)
@@ -154,7 +154,7 @@ def shadow_buffers(
             one,
             points,
             corners,
-            size=maps.size,
+            size=size,
             bits=maps.bits,
             frame=frame,
             region=region,
@@ -166,9 +166,10 @@ def shadow_buffers(
     return tuple(partial(blocks, buffer) for buffer in made)
 
 
-def _affordable_size(lights: Sequence[Light], points: Floats, size: int) -> int:
-    """The size of maps, or the largest one of which the maps of all lights have room."""
-    squares = sum(len(SIDES) / 4.0 if len(points) and is_inside(light, points) else 1.0 for light in lights)
+def _affordable_size(lights: Sequence[Light], points: Floats, maps: MapSettings) -> int:
+    """The size of maps, or the largest one of which the maps of all lights have room, grown for their focus too."""
+    size, growth = maps.size, 1.0 if maps.wanted_focus is None else LONGEST**2
+    squares = growth * sum(len(SIDES) / 4.0 if len(points) and is_inside(light, points) else 1.0 for light in lights)
     # A size that one map alone cannot have is refused where maps are made.
     if squares * size * size <= MOST_TEXELS or size * size > MOST_TEXELS:
         return size
