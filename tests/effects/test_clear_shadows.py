@@ -73,12 +73,15 @@ def test_painted_they_come_after_the_shadows_of_the_same_face_and_darken_it(came
     on_floor = fills.item == 0
     shadows = np.flatnonzero(on_floor & (fills.kind == FillKind.SHADOW))
     assert len(shadows) and shadows.max() < np.flatnonzero(on_floor & (fills.kind == FillKind.CLEAR_SHADOW)).min()
-    # Thin, and in the colour of the glass: what is seen of the face below stays, darker. Near borders of the face they
-    # are opaque, in the mixed colour.
+    # Thin, and in the colour of the glass, or opaque, in the mixed colour: of the face below more than a half stays.
     first = fills.colours[fills.offsets[:-1]].astype(int)
     face = first[np.flatnonzero(on_floor & (fills.kind == FillKind.FACE))]
     mixed = fills.opacity[clear, None] * first[clear] + (1 - fills.opacity[clear, None]) * face.max(axis=0)
     assert (mixed.sum(axis=1) < face.max(axis=0).sum()).all()
+    thin = fills.opacity[clear] < 1.0
+    assert (fills.opacity[clear[thin]] < 0.6).all()
+    assert (first[clear[~thin]] > 0.5 * face.max(axis=0)).all()
+    assert (np.ptp(first[clear[~thin]], axis=1) > 10).all(), "it has a colour, which the floor has not"
 
 
 @pytest.mark.capability("G6.6-transparent-shadow")
