@@ -36,6 +36,7 @@ from vectorplot.shading.painted_normals import painted_normals
 from vectorplot.shading.palettes import SIZE, shaded_colours
 from vectorplot.shading.palettes import palette as shades_of
 from vectorplot.shading.refinement import SHORTEST_MM, refined
+from vectorplot.visibility.painter.gathering import side_by_side
 from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
 from vectorplot.visibility.painter.order import Painted, painters_order
@@ -126,10 +127,11 @@ def paint(
         item = view.face_item[faces.source]
         sheet = np.where(opacities(facets.scene.items)[item] < 1.0, item, -1)
         faces = faces.some(walk.run("transparent sheets", gathered, faces, sheet, view.tolerance))
+    plane = plane_numbers(view)
+    faces = faces.some(side_by_side(faces, _planes_of(facets.scene, view, faces, plane), view.tolerance))
     placed = placed_faces(view, faces, page, fit)
     seen = _Seen(facets.scene, view, projected, placed.framed(faces, page, view.tolerance), placed)
     world = page_from_world(view, placed.page_from_image)
-    plane = plane_numbers(view)
     here = view_lights(view, scene.lights)
     normals = np.full((3, len(view.corners)), np.nan)
     if smooth and fills == "painted":
@@ -223,6 +225,12 @@ def _with_clear_items(scene: Scene) -> Scene:
         return scene
     items = (replace(item, occludes=item.hides and not see) for see, item in zip(clear, scene.items, strict=True))
     return replace(scene, items=tuple(items))
+
+
+def _planes_of(scene: Scene, view: View, faces: ImageFaces, plane: Ints) -> Ints:
+    """(n,) the planes of painted polygons, -1 for those of transparent items, which stand together as sheets."""
+    clear = opacities(scene.items)[view.face_item[faces.source]] < 1.0
+    return np.where(clear, -1, plane[faces.source])
 
 
 def _groups(scene: Scene) -> Ints | None:
@@ -458,10 +466,11 @@ def _fills(
         fills, both = tinted(fills, clear, opacity, _paper(seen.scene)[0], (*laid, *overlays))
         laid, overlays = both[: len(laid)], both[len(laid) :]
     with_decals = stacked([Overlay(fills, np.arange(len(fills))), *(laid if walk.calls_for("visible fills") else ())])
-    if laid and not walk.calls_for("visible fills"):
+    if not walk.calls_for("visible fills"):
         from vectorplot.drawing.flattened import flattened
 
-        with_decals = flattened(fills, laid, page_from_world(view, seen.placed.page_from_image))
+        world, plane = page_from_world(view, seen.placed.page_from_image), lighting.plane[faces.source]
+        with_decals = flattened(fills, laid, world, plane)
     return Fills.joined(*_background(seen.scene, page), stacked([with_decals, *overlays]).fills)
 
 

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-import numpy as np
+from pathlib import Path
 
+import numpy as np
+import shapely
+
+import vectorplot as vp
 from vectorplot.drawing.fills import FillKind
 from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.regions import polygons_of
 from vectorplot.paint import paint
+from vectorplot.save import write
 from vectorplot.scene.scene import Item, Light, Material, Scene
 from vectorplot.shading.palettes import palette
 from vectorplot.testing.shapes import box
 
+DATA = Path(__file__).resolve().parents[2] / "data"
 SUN = Light((-1.0, -2.0, 4.0), parallel=True, intensity=0.8)
 ABOVE = Camera((0.0, 0.0, 10.0), up=(0.0, 1.0, 0.0), parallel=True, height=8.0)
 
@@ -43,3 +50,16 @@ def test_the_paper_behind_glass_is_that_of_the_scene():
     (black,) = paint(pool(0.5, "black"), ABOVE, fit=False, shadows="none").layers[0].fills
     one, two = (f.colours[f.offsets[:-1][f.item == 1]][0].astype(float) for f in (white, black))
     assert np.abs(one - two - 0.5 * 255.0).max() <= 1.0
+
+
+def test_what_is_seen_in_a_pool_is_one_region_for_each_face_and_shadow():
+    scene = vp.read(DATA / "pool.scene")
+    drawing = vp.paint(scene)
+    (fills,) = drawing.layers[0].fills
+    assert len(fills) < 1200 and len(write(drawing, "svg")) < 200_000
+    # Walls and floor touch all of the water: nothing is looked for behind it, or by way of total reflection.
+    seen = fills.some(np.flatnonzero((fills.kind == FillKind.GLASS) & (fills.opacity == 1.0)))
+    names = np.array(drawing.items)[seen.item]
+    walls = np.isin(names, ["NORTH", "EAST", "SOUTH", "WEST"])
+    polygons = polygons_of(seen.points.T, seen.offsets)[walls]
+    assert shapely.area(polygons).sum() < 1.3 * shapely.union_all(polygons).area

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.backends.areas import Areas
-from vectorplot.backends.mesh_borders import border_sides, rings, skirts
+from vectorplot.backends.mesh_borders import border_sides, last_of_sides, rings, skirts
 from vectorplot.backends.underlaps import Underlaps, grown, underlaps
 from vectorplot.geometry.mesh import Floats, Ints
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 Corners = Any
 Colours = list[list[float]]
 
-GROUND_STEPS = 64.0
+GROUND_STEPS = 32.0
 """Shades of each colour below meshes."""
 
 
@@ -92,10 +92,11 @@ def _paint_mesh(
     context.save()
     if opacity == 1.0:
         sides = border_sides(corners)
-        _seams(context, place.of(corners[sides]), colours[sides].mean(axis=1), seam)
-        _ground(context, place.of(corners), colours.reshape(-1, 3, 3).mean(axis=1))
-        patches = np.concatenate((skirts(corners, sides), patches))
-        at = np.concatenate((sides[:, [0, 1, 1, 0]], at))
+        seen = sides[last_of_sides(corners, sides)]
+        _seams(context, place.of(corners[seen]), colours[seen].mean(axis=1), seam)
+        _ground(context, place, corners, colours.reshape(-1, 3, 3).mean(axis=1))
+        patches = np.concatenate((skirts(corners, seen), patches))
+        at = np.concatenate((seen[:, [0, 1, 1, 0]], at))
         path = [corners[ring] for ring in rings(corners, sides)]
         path += list(_underlaps_of(areas, laps, (starts[0], starts[1]), sides[:, 0]))
     else:
@@ -122,16 +123,18 @@ def _seams(context: cairo.Context[Any], sides: list[Corners], colours: Floats, s
             context.stroke()
 
 
-def _ground(context: cairo.Context[Any], points: Corners, colours: Floats) -> None:
-    """Fill triangles, given by their corners, in about their colours, many at once: what a reader forgets between the
-    triangles of a mesh shows this."""
+def _ground(context: cairo.Context[Any], place: _Place, corners: Ints, colours: Floats) -> None:
+    """Fill triangles in about their colours, many at once by what encloses them together: what a reader forgets between
+    the triangles of a mesh shows this."""
     steps, group = np.unique(np.rint(colours * GROUND_STEPS), axis=0, return_inverse=True)
     order = np.argsort(group.ravel(), kind="stable")
     ends = np.searchsorted(group.ravel()[order], np.arange(1, len(steps) + 1)).tolist()
-    start = 0
+    triangles, start = corners.reshape(-1, 3, 2), 0
     for (red, green, blue), end in zip((steps / GROUND_STEPS).tolist(), ends, strict=True):
-        for number in order[start:end].tolist():
-            _outline(context, points, [3 * number, 3 * number + 3])
+        some = triangles[order[start:end]].reshape(-1, 2)
+        path = [some[ring] for ring in rings(some, border_sides(some))]
+        if path:
+            _outline(context, place.of(np.concatenate(path)), np.cumsum([0, *map(len, path)]).tolist())
         context.set_source_rgb(red, green, blue)
         context.fill()
         start = end

@@ -31,6 +31,14 @@ def border_sides(corners: Ints) -> Ints:
     return np.stack((start[kept], end[kept]), axis=1)
 
 
+def last_of_sides(corners: Ints, sides: Ints) -> Ints:
+    """Which of sides (s,2) are the last ones from their start to their end: where a surface folds over, the sides of
+    two triangles are there, and the later one is seen."""
+    place = places_of(corners)[sides]
+    _, first = np.unique(place[::-1], axis=0, return_index=True)
+    return np.sort(len(sides) - 1 - first)
+
+
 def places_of(corners: Ints) -> Ints:
     """(n,) numbers of different places; corners (n,2) whole coordinates."""
     return np.asarray(np.unique(corners[:, 0] << 32 | corners[:, 1] & 0xFFFFFFFF, return_inverse=True)[1].ravel())

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.backends.areas import Areas, Polygons, rounded
-from vectorplot.drawing.pieces import ranges
+from vectorplot.drawing.pieces import offsets_of, ranges
 from vectorplot.geometry.convex_clipping import clipped
 from vectorplot.geometry.mesh import Floats, Ints
 
@@ -36,6 +36,27 @@ class Strips:
     triangle: Ints
     ends: Floats
     colours: Floats
+
+    def some(self, which: Ints) -> Strips:
+        """Some of the strips, in the order asked for."""
+        sizes = np.diff(self.offsets)[which]
+        corner = ranges(self.offsets[which], sizes)
+        return Strips(
+            self.microns[corner], offsets_of(sizes), self.triangle[which], self.ends[which], self.colours[which]
+        )
+
+
+def joined_strips(one: Strips, other: Strips) -> Strips:
+    """The strips of both by their triangles."""
+    triangle = np.concatenate([one.triangle, other.triangle])
+    both = Strips(
+        np.concatenate([one.microns, other.microns]),
+        offsets_of(np.concatenate([np.diff(one.offsets), np.diff(other.offsets)])),
+        triangle,
+        np.concatenate([one.ends, other.ends]),
+        np.concatenate([one.colours, other.colours]),
+    )
+    return both.some(np.argsort(triangle, kind="stable"))
 
 
 def nearly_flat(areas: Areas) -> Areas:

@@ -6,6 +6,7 @@ places afterwards, because an object for each of them would cost a hundred times
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import xml.etree.ElementTree as ET
 from typing import Any
@@ -29,6 +30,9 @@ _ELEMENTS = (
     (_END, b'"/>\n'),
     (_RING, b'Z"/>\n'),
 )
+HASH_LENGTH = 6
+"""Characters of 32 kinds each: two pictures have the same with a chance of one in a thousand million."""
+
 _POINTS_AT_ONCE = 1 << 16
 _WIDEST_ARC = np.pi / 2.0
 """The centre of a wider arc would depend too much on the decimals of its ends and radii."""
@@ -67,10 +71,17 @@ def _body(ink: Ink, number: int, height: int) -> bytes:
     found = []
     for place, part in enumerate(ink.parts):
         if isinstance(part, Areas):
-            found.append(area_elements(part, ink.pen.width_mm, f"{number}-{place}", height))
+            found.append(area_elements(part, ink.pen.width_mm, _letters(number, place), height))
         else:
             found.append(elements(part, height))
     return b"".join(found)
+
+
+def _letters(number: int, place: int) -> str:
+    """Letters that no other part of a layer has."""
+    low = "abcdefghijklmnopqrstuvwxyz"
+    layer = low[number - 1] if number <= len(low) else f"z{number}z"
+    return layer + (low[place] if place < len(low) else f"z{place}z")
 
 
 def elements(lines: Lines, height: int) -> bytes:
@@ -177,4 +188,4 @@ def _content_hash(page: Sheet, bodies: list[bytes]) -> str:
     for ink, body in zip(page.inks, bodies, strict=True):
         digest.update(f"\n{ink.label}\n{ink.pen}\n".encode())
         digest.update(body)
-    return f"d{digest.hexdigest()[:8]}"
+    return "d" + base64.b32encode(digest.digest())[:HASH_LENGTH].decode().lower()

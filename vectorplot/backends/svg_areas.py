@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from vectorplot.backends.areas import Areas
+from vectorplot.backends.merged_triangles import merged, slopes
 from vectorplot.backends.ramps import NONE, Ramps, item_ramps
-from vectorplot.backends.strips import Strips, nearly_flat, strips_of
+from vectorplot.backends.strips import SHADE_ERROR, Strips, joined_strips, nearly_flat, strips_of
 from vectorplot.backends.svg_numbers import path_data
 from vectorplot.backends.underlaps import grown, underlaps
 from vectorplot.drawing.fills import SEAM_MM
 from vectorplot.drawing.pieces import offsets_of, ranges
-from vectorplot.geometry.mesh import Bools, Ints
+from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 ID_PREFIX = b"\7"
 """Stands for the beginning of all ids, a hash of the content, which is not known before the content."""
@@ -34,7 +37,7 @@ def area_elements(areas: Areas, pen_mm: float, name: str, height: int) -> bytes:
     """
     if not len(areas):
         return b""
-    pieces, strips, place, ramps = _with_strips(nearly_flat(areas))
+    pieces, strips, place, ramps = _with_strips(areas)
     alone = np.concatenate((place, place + 1))
     starts = np.union1d(pieces.runs[:-1], alone[alone < len(pieces)])
     laps = underlaps(pieces.microns, pieces.offsets, pieces.solid, pieces.group)
@@ -60,7 +63,7 @@ def _group_head(areas: Areas, number: int, name: str, height: int) -> bytes:
     corners, offsets = areas.group_outline(number)
     flipped = corners.astype(np.int64) * (1, -1) + (0, height)
     letters = (np.full(len(offsets) - 1, ord(letter), np.uint8) for letter in "MZ")
-    identity = f"{ID_PREFIX.decode()}-{name}-group-{number}"
+    identity = f"{ID_PREFIX.decode()}{name}-{number}"
     opacity = areas.opacity[areas.group_ends[number, 0]]
     return (
         f'<clipPath id="{identity}"><path clip-rule="evenodd" d="'.encode()
@@ -116,7 +119,7 @@ def _gradient_heads(
     ends[of_ramp] = np.stack((start, start + slope), axis=1)
     numbers = (np.round(ends.reshape(-1, 4) / 1000.0, 2) + 0.0).tolist()
     stops = (np.rint(strips.colours).astype(np.intp) @ (65536, 256, 1)).tolist()
-    common = f"{ID_PREFIX.decode()}-{name}-"
+    common = f"{ID_PREFIX.decode()}{name}"
     opacity = pieces.own_opacity[place].tolist()
     heads = [_shared_gradients(ramps, common)] if len(place) else []
     middles = (np.rint(strips.colours.mean(axis=1)).astype(np.intp) @ (65536, 256, 1)).tolist()
@@ -148,6 +151,39 @@ def _gradient(identity: str, where: str, low: int, high: int) -> str:
     )
 
 
+def _gradients(areas: Areas, shaded: Ints, ramps: Ramps, ramp: Ints, colours: Floats) -> Strips:
+    """The polygons with gradients that shaded triangles (t,), in colours (t,3,3), become: those of one ramp (t,) that
+    follow each other and hang together one, as far as SHADE_ERROR allows; others strips."""
+    corners = areas.microns[areas.offsets[shaded, None] + np.arange(3)]
+    on = np.flatnonzero(ramp >= 0)
+    off = np.flatnonzero(ramp < 0)
+    values = ramps.parts(ramp[on], colours[on])
+    tiny = (nearly_flat(areas).shaded != areas.shaded)[shaded]
+    middle = (colours.min(axis=1) + colours.max(axis=1)) / 2.0
+    colours = np.where(tiny[:, None, None], middle[:, None], colours)
+    others = strips_of(corners[off].astype(np.float64), colours[off])
+    others = replace(others, triangle=off[others.triangle])
+    if not len(on):
+        return others
+    span = np.abs(ramps.ends[ramp[on], 1] - ramps.ends[ramp[on], 0]).max(axis=1)
+    rows = np.column_stack([areas.item, areas.group, areas.own_opacity])[shaded[on]]
+    follows = np.append(False, (np.diff(shaded[on]) == 1) & (rows[1:] == rows[:-1]).all(axis=1))
+    found = merged(corners[on], values, follows & (rows[:, 2] == 1.0), SHADE_ERROR / span)
+    middle, value, slope = slopes(found)
+    direction = slope / np.maximum(np.hypot(*slope.T), np.finfo(float).tiny)[:, None]
+    of = np.repeat(np.arange(len(found)), np.diff(found.offsets))
+    along = ((found.microns - middle[of]) * direction[of]).sum(axis=1)
+    reach = np.stack([f.reduceat(along, found.offsets[:-1]) for f in (np.minimum, np.maximum)], axis=1)
+    ends = middle[:, None] + reach[..., None] * direction[:, None]
+    part = value[:, None] + reach * np.hypot(*slope.T)[:, None]
+    first, last = ramps.ends[ramp[on[found.first]]].transpose(1, 0, 2)
+    # A triangle that is too small for a gradient, alone.
+    alone = tiny[on[found.first]] & (found.first == found.last)
+    part = np.where(alone[:, None], value[:, None], part)
+    shades = np.clip(first[:, None] + part[..., None] * (last - first)[:, None], 0.0, 255.0)
+    return joined_strips(others, Strips(found.microns, found.offsets, on[found.first], ends, shades))
+
+
 def _with_strips(areas: Areas) -> tuple[Areas, Strips, Ints, Ramps]:
     """The areas with strips instead of the shaded triangles, the strips, where each one stands, and the ramps of
     colours."""
@@ -158,13 +194,16 @@ def _with_strips(areas: Areas) -> tuple[Areas, Strips, Ints, Ramps]:
     ramp = ramps.numbers(areas.item[shaded])
     on = np.flatnonzero(ramp >= 0)
     colours[on] = ramps.on(ramp[on], colours[on])
-    strips = strips_of(areas.microns[corner].astype(np.float64), colours)
+    strips = _gradients(areas, shaded, ramps, ramp, colours)
+    low, high = strips.colours.min(axis=1), strips.colours.max(axis=1)
+    # What has nearly one colour has the middle one.
+    flat = ((high - low) <= 2.0 * SHADE_ERROR).all(axis=1)
     others, owner = np.flatnonzero(~areas.shaded), shaded[strips.triangle]
     source = np.concatenate((others, owner))
     order = np.argsort(source, kind="stable")
     sizes = np.concatenate((areas.sizes[others], np.diff(strips.offsets)))
     corner, moved = ranges(areas.offsets[others], areas.sizes[others]), ranges(offsets_of(sizes)[order], sizes[order])
-    one_colour = np.repeat(np.rint(strips.colours[:, 0]).astype(np.uint8), np.diff(strips.offsets), axis=0)
+    one_colour = np.repeat(np.rint((low + high) / 2.0).astype(np.uint8), np.diff(strips.offsets), axis=0)
     pieces = Areas(
         np.concatenate((areas.microns[corner], strips.microns))[moved],
         offsets_of(sizes[order]),
@@ -174,4 +213,6 @@ def _with_strips(areas: Areas) -> tuple[Areas, Strips, Ints, Ramps]:
         areas.group[source[order]],
         areas.item[source[order]],
     )
-    return pieces, strips, np.flatnonzero(order >= len(others)), ramps
+    place = np.empty(len(order), dtype=np.intp)
+    place[order] = np.arange(len(order))
+    return pieces, strips.some(np.flatnonzero(~flat)), place[len(others) :][~flat], ramps

@@ -42,47 +42,116 @@ MOST_LAYERS, MOST_CLEAR = 48, 8
 are."""
 
 
-def flattened(base: Fills, overlays: Sequence[Overlay], page_from_world: Floats) -> Overlay:
+def flattened(base: Fills, overlays: Sequence[Overlay], page_from_world: Floats, plane: Ints | None = None) -> Overlay:
     """The polygons of base with what lies on them, each after the one it lies on: the same picture, but that no more
     than one of them covers a place near the border of a polygon of base.
 
-    overlays: polygons inside those of base that they come after, in the order in which they lie on each other.
-    page_from_world (4,4) as in Drawing. Polygons of one colour that follow each other on the same one become one. What
-    lies on polygons that one can see through stays as it is.
+    overlays: polygons inside those of base that they come after, in the order in which they lie on each other. plane
+    (m,): numbers of the planes of the polygons of base: those of one plane that follow each other become one, without
+    borders between them, and so does what lies on them. page_from_world (4,4) as in Drawing. Polygons of one colour
+    that follow each other on the same one become one. What lies on polygons that one can see through stays as it is.
     Error: parts narrower than a few of GRID_MM are left out.
-    Degenerate: what is covered as a whole is left out; heaps of more than MOST_LAYERS or MOST_CLEAR stay as they are.
+    Degenerate: what is covered as a whole is left out; heaps of more than MOST_LAYERS or MOST_CLEAR stay as they are,
+    but that what has one colour is brought together where several polygons are one.
     """
     opaque = (base.opacity >= 1.0) & (base.kind != FillKind.BACKGROUND)
-    layers = _uncovered(base, stacked([Overlay(base, np.arange(len(base))), *overlays]), opaque)
-    changed = (opaque & _within_limits(base, layers) & _reaching_borders(base, layers))[layers.after]
-    which = np.flatnonzero(changed)
+    layers = stacked([Overlay(base, np.arange(len(base))), *overlays])
+    kept = _uncovered(base, layers, opaque)
+    ground = np.append(True, layers.after[1:] != layers.after[:-1])[kept]
+    layers = Overlay(layers.fills.some(kept), layers.after[kept])
+    stack = _planes(base, opaque, np.arange(len(base)) if plane is None else plane)
+    several = np.bincount(stack, minlength=len(base))[stack] > 1
+    touched = opaque & (several | _reaching_borders(base, layers))
+    which = np.flatnonzero(touched[layers.after])
     if not len(which):
         return layers
-    stack = Overlay(layers.fills.some(which), layers.after[which])
-    cut = _cut_apart(base, stack, page_from_world)
-    rest = np.flatnonzero(~changed)
-    return stacked([Overlay(layers.fills.some(rest), layers.after[rest]), cut])
+    heaps = _brought_together(Overlay(layers.fills.some(which), layers.after[which]), ground[which], stack)
+    low = _within_limits(heaps)
+    # A high heap on a polygon that is one anyway has nothing to be brought together.
+    alone = ~low & ~several[heaps.stack]
+    source, done = layers.fills.some(which), [heaps.some(np.flatnonzero(~low & ~alone))]
+    if low.any():
+        done.append(_cut_apart(base, stack, heaps.some(np.flatnonzero(low)), source))
+    left = np.ones(len(base), dtype=np.bool_)
+    left[heaps.stack[~alone]] = False
+    rest = np.flatnonzero(left[stack[layers.after]])
+    whole = Overlay(layers.fills.some(rest), layers.after[rest])
+    return stacked([whole, *(_listed(some, source, page_from_world) for some in done)])
 
 
-def _uncovered(base: Fills, layers: Overlay, opaque: Bools) -> Overlay:
-    """The polygons without those that lie below one as large as that of base."""
+def _planes(base: Fills, opaque: Bools, plane: Ints) -> Ints:
+    """(m,) for each polygon the first one of those that follow each other in its plane and look alike."""
+    shaded = _shaded(base)
+    colours = base.colours[base.offsets[:-1]].astype(np.intp)
+    rows = np.column_stack([plane, base.item, base.kind, colours])
+    new = np.ones(len(base), dtype=np.bool_)
+    new[1:] = (rows[1:] != rows[:-1]).any(axis=1)
+    new |= shaded | ~opaque
+    new[1:] |= shaded[:-1] | ~opaque[:-1]
+    return np.maximum.accumulate(np.where(new, np.arange(len(base)), 0))
+
+
+def _brought_together(layers: Overlay, ground: Bools, stack: Ints) -> _Layers:
+    """Layers of stacks of one or more polygons of base, from below: of several those that have one colour and lie
+    equally deep as one region. ground (n,): those that are polygons of base; stack (m,) the stack of each of these."""
+    fills = layers.fills
+    count = len(fills)
+    of, number = stack[layers.after], np.arange(count)
+    region = insides_of(polygons_of(fills.points.T, fills.offsets))
+    every = _Layers(region, of, number, np.ones(count), np.zeros((count, 3)), fills.opacity, fills.kind)
+    several = np.zeros(int(of.max()) + 1, dtype=np.bool_)
+    several[of[layers.after != of]] = True
+    some = several[of]
+    depth = number.copy()
+    depth[some] = _depths(region[some], layers.after[some], ground[some])
+    tone = np.where(some, fills.colours[fills.offsets[:-1]].astype(np.intp) @ (65536, 256, 1), 0)
+    order = np.lexsort((number, tone, depth, of))
+    return _united(every.some(order), fills, depth[order])
+
+
+def _depths(region: NDArray[np.object_], piece: Ints, ground: Bools) -> Ints:
+    """(n,) on how many others regions lie, one on the other, on the same piece (n,): no two of one depth overlap, as
+    pieces do not. ground (n,): those that are pieces; of some they are left out."""
+    import shapely
+
+    number = np.arange(len(piece))
+    new = np.append(True, piece[1:] != piece[:-1])[: len(piece)]
+    start = np.maximum.accumulate(np.where(new, number, 0))
+    count = number - start
+    above = np.repeat(number, count)
+    below = np.arange(len(above)) - np.repeat(np.cumsum(count) - count - start, count)
+    common = shapely.intersects(region[below], region[above])
+    above, below = above[common], below[common]
+    both = shapely.area(insides_of(shapely.intersection(region[below], region[above])))
+    real = both > GRID_MM * np.minimum(shapely.length(region[below]), shapely.length(region[above]))
+    above, below = above[real], below[real]
+    depth = np.zeros(len(piece), dtype=np.intp)
+    depth[~ground] = 1
+    while True:
+        deeper = depth.copy()
+        np.maximum.at(deeper, above, depth[below] + 1)
+        if (deeper == depth).all():
+            return depth
+        depth = deeper
+
+
+def _uncovered(base: Fills, layers: Overlay, opaque: Bools) -> Ints:
+    """The numbers of the polygons without those that lie below one as large as that of base."""
     if len(layers.fills) == len(base):
-        return layers
+        return np.arange(len(base))
     area, _ = _measures(layers.fills)
     whole, around = _measures(base)
     covers = (area >= whole[layers.after] - GRID_MM * around[layers.after]) & (layers.fills.opacity >= 1.0)
     number = np.arange(len(area))
     top = np.full(len(base), -1, dtype=np.intp)
     np.maximum.at(top, layers.after[covers], number[covers])
-    kept = np.flatnonzero((number >= top[layers.after]) | ~opaque[layers.after])
-    return Overlay(layers.fills.some(kept), layers.after[kept])
+    return np.flatnonzero((number >= top[layers.after]) | ~opaque[layers.after])
 
 
-def _within_limits(base: Fills, layers: Overlay) -> Bools:
-    """(n,) the polygons of base with no more on them than can be cut apart in a short time."""
-    count = np.bincount(layers.after, minlength=len(base))
-    clear = np.bincount(layers.after[layers.fills.opacity < 1.0], minlength=len(base))
-    return np.asarray((count <= MOST_LAYERS) & (clear <= MOST_CLEAR), dtype=np.bool_)
+def _within_limits(layers: _Layers) -> Bools:
+    """(n,) the layers of stacks of no more than can be cut apart in a short time."""
+    clear = np.bincount(layers.stack, layers.opacity < 1.0)
+    return np.asarray((np.bincount(layers.stack) <= MOST_LAYERS) & (clear <= MOST_CLEAR), dtype=np.bool_)[layers.stack]
 
 
 def _measures(fills: Fills) -> tuple[Floats, Floats]:
@@ -139,25 +208,24 @@ class _Layers:
         return cls(*(np.concatenate(columns) for columns in zip(*(vars(p).values() for p in parts), strict=True)))
 
 
-def _cut_apart(base: Fills, overlay: Overlay, page_from_world: Floats) -> Overlay:
-    """All of the stacks of an overlay, cut."""
+def _cut_apart(base: Fills, stack: Ints, layers: _Layers, fills: Fills) -> _Layers:
+    """The layers of stacks, cut: fills have their colours. stack (m,) of the polygons of base."""
     import shapely
 
-    fills, stack = overlay.fills, overlay.after
-    region = insides_of(polygons_of(fills.points.T, fills.offsets))
-    count = len(fills)
-    layers = _Layers(region, stack, np.arange(count), np.ones(count), np.zeros((count, 3)), fills.opacity, fills.kind)
     layers = _united(_mixed(layers, fills), fills)
     numbers, of = np.unique(layers.stack, return_inverse=True)
-    ground = base.some(numbers)
-    inside = shapely.buffer(insides_of(polygons_of(ground.points.T, ground.offsets)), -MARGIN_MM, join_style="mitre")
+    below = np.flatnonzero(np.isin(stack, numbers))
+    some = base.some(below)
+    parts = insides_of(polygons_of(some.points.T, some.offsets))
+    ground = unions(parts, np.searchsorted(numbers, stack[below]), None)
+    inside = shapely.buffer(insides_of(ground), -MARGIN_MM, join_style="mitre")
     above = _above(layers)
     hidden = shapely.covers(above, layers.region)
     cover = shapely.difference(above, inside[of])
     covered = np.flatnonzero(~shapely.is_empty(cover))
     region = layers.region.copy()
     region[covered] = insides_of(shapely.difference(region[covered], insides_of(cover[covered])))
-    return _listed(replace(layers, region=region).some(np.flatnonzero(~hidden)), fills, page_from_world)
+    return replace(layers, region=region).some(np.flatnonzero(~hidden))
 
 
 def _above(layers: _Layers) -> NDArray[np.object_]:
@@ -222,17 +290,25 @@ def _shaded(fills: Fills) -> Bools:
     return np.asarray(np.logical_or.reduceat((fills.colours != first).any(axis=1), fills.offsets[:-1]))
 
 
-def _united(layers: _Layers, fills: Fills) -> _Layers:
-    """The same with neighbours in a stack that have one colour as one region."""
+def _united(layers: _Layers, fills: Fills, depth: Ints | None = None) -> _Layers:
+    """The same with neighbours in a stack that have one colour as one region; what one can see through only where
+    neighbours have one depth (n,), so that they do not overlap."""
     colour = np.rint(layers.kept[:, None] * _means(fills)[layers.source] + layers.added)
-    columns = np.column_stack([layers.stack, fills.item[layers.source], layers.kind, colour])
+    columns = np.column_stack([layers.stack, fills.item[layers.source], layers.kind, layers.opacity, colour])
     alone = _shaded(fills)[layers.source]
+    clear = layers.opacity < 1.0
     new = np.ones(len(alone), dtype=np.bool_)
     new[1:] = (columns[1:] != columns[:-1]).any(axis=1) | alone[1:] | alone[:-1]
+    new[1:] |= clear[1:] & (True if depth is None else depth[1:] != depth[:-1])
     if new.all():
         return layers
     leaders = layers.some(np.flatnonzero(new))
-    return replace(leaders, region=unions(layers.region, np.cumsum(new) - 1, None))
+    several = np.flatnonzero(np.diff(np.append(np.flatnonzero(new), len(new))) > 1)
+    run = np.cumsum(new) - 1
+    region = leaders.region.copy()
+    mine = np.flatnonzero(np.isin(run, several))
+    region[several] = unions(layers.region[mine], np.searchsorted(several, run[mine]), None)
+    return replace(leaders, region=region)
 
 
 def _listed(layers: _Layers, fills: Fills, page_from_world: Floats) -> Overlay:
@@ -249,7 +325,7 @@ def _listed(layers: _Layers, fills: Fills, page_from_world: Floats) -> Overlay:
         np.ascontiguousarray(flat.T),
         offsets,
         np.clip(colours, 0.0, 255.0).astype(np.uint8),
-        np.ones(len(of)),
+        layers.opacity[of],
         fills.item[source],
         in_space(fills, flat.T, layers.source[owner], page_from_world),
         layers.kind[of],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -18,10 +19,12 @@ from vectorplot.effects.windows import (
     one_after_another,
     sorted_by_window,
 )
+from vectorplot.geometry import regions
 from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.plane_cuts import cut_by_planes
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
+from vectorplot.shading.painted_colours import opacities
 from vectorplot.visibility.occluders import solid_items
 from vectorplot.visibility.painter.candidates import boxes_over
 from vectorplot.visibility.painter.image_faces import (
@@ -87,15 +90,50 @@ def seen_in_glass(
             panes = Panes(painted.some(window), way, window)
             number = np.searchsorted(solid.face, front)
             glass = _glass(view, solid, number, panes, tolerance, no_decals() if decals is None else decals)
-            parts += [*_seen_behind(glass), *_bounced(glass), _seen_inside(glass)]
+            inside = _seen_inside(glass)
+            glass = replace(glass, cover=_cover(glass, inside, scene))
+            parts += [*_seen_behind(glass), *_bounced(glass), inside]
     return joined_seen(parts)
+
+
+@dataclass(frozen=True, eq=False)
+class _Cover:
+    """What hides things behind a solid, in it: windows (w,), ascending, and the region of each that is covered."""
+
+    window: Ints
+    region: Any
+
+    def hides(self, faces: ImageFaces, window: Ints) -> Bools:
+        """(n,) which polygons of the image are wholly covered, seen in windows (n,)."""
+        import shapely
+
+        result = np.zeros(len(window), dtype=np.bool_)
+        if len(self.window):
+            at = np.minimum(np.searchsorted(self.window, window), len(self.window) - 1)
+            here = np.flatnonzero(self.window[at] == window)
+            some = faces.some(here)
+            shapely.prepare(self.region)
+            result[here] = shapely.covers(self.region[at[here]], regions.polygons_of(some.points, some.offsets))
+        return result
+
+
+def _cover(glass: _Glass, inside: SeenThrough, scene: Scene) -> _Cover:
+    """What opaque things in a solid hide, to the tolerance of bent sides."""
+    import shapely
+
+    hides = opacities(scene.items)[glass.view.face_item[inside.source]] >= 1.0
+    some = inside.some(np.flatnonzero(hides & (inside.decal < 0)))
+    window, of = np.unique(some.window, return_inverse=True)
+    polygons = regions.polygons_of(some.points, some.offsets)
+    joined = regions.unions(polygons, of, glass.view.tolerance)
+    return _Cover(window, shapely.buffer(joined, max(glass.tolerance, glass.view.tolerance), join_style="mitre"))
 
 
 @dataclass(frozen=True, eq=False)
 class _Glass:
     """A solid in a view: front (w,) those of its faces that one looks through, by panes whose ways are the numbers of
     these faces; tolerance and decals as of seen_in_glass; rest: all things but the solid, and inside what of them is in
-    it, and lying what of decals is."""
+    it, and lying what of decals is; cover: what of the panes is hidden by opaque things in it."""
 
     view: View
     solid: Solid
@@ -106,6 +144,7 @@ class _Glass:
     rest: Soup
     inside: Soup
     lying: Soup
+    cover: _Cover
 
     @property
     def boxes(self) -> Floats:
@@ -123,7 +162,8 @@ def _glass(view: View, solid: Solid, front: Ints, panes: Panes, tolerance: float
     walls = -solid.planes
     walls[3] -= TOUCHING * view.tolerance
     inside, lying = (soup_above(some, walls, view.tolerance) for some in (rest, _as_soup(decals)))
-    return _Glass(view, solid, front, panes, tolerance, decals, rest, inside, lying)
+    none = _Cover(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=object))
+    return _Glass(view, solid, front, panes, tolerance, decals, rest, inside, lying, none)
 
 
 def _seen_behind(glass: _Glass) -> list[SeenThrough]:
@@ -181,7 +221,13 @@ def _panes_of(glass: _Glass, front: Ints, back: int) -> Panes:
     faces = polygons_of(mapped(view, backs.points), backs.offsets, np.arange(len(backs)), view.tolerance)
     points, ends, face, pane = _in_panes(view, faces, backs.way, glass.panes)
     parts = ImageFaces(points, ends, faces.planes[:, face], glass.panes.faces.source[pane], faces.rank[face])
-    return Panes(parts, backs.source[faces.source[face]], glass.panes.window[pane])
+    return _open(glass, Panes(parts, backs.source[faces.source[face]], glass.panes.window[pane]))
+
+
+def _open(glass: _Glass, panes: Panes) -> Panes:
+    """Those of some panes behind which things are seen."""
+    left = np.flatnonzero(~glass.cover.hides(panes.faces, panes.window))
+    return Panes(panes.faces.some(left), panes.way[left], panes.window[left])
 
 
 def _bent_inside(glass: _Glass, soup: Soup) -> Soup:
@@ -210,7 +256,7 @@ def _behind(glass: _Glass, beams: Beams, soup: Soup) -> SeenThrough:
     points, ends, face, pane = _in_panes(view, faces, backs.way, glass.panes)
     source = glass.panes.faces.source[pane]
     parts = ImageFaces(points, ends, faces.planes[:, face], source, faces.rank[face])
-    panes = Panes(parts, backs.source[faces.source[face]], glass.panes.window[pane])
+    panes = _open(glass, Panes(parts, backs.source[faces.source[face]], glass.panes.window[pane]))
     return _shown(glass, found, lying, panes)
 
 

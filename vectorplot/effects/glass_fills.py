@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted import Overlay, Placed
+from vectorplot.drawing.united import united
 from vectorplot.effects.decal_fills import laid_fills, shown_decals
 from vectorplot.effects.decals import Decals, joined_decals
 from vectorplot.effects.glass import seen_in_glass
@@ -48,7 +49,7 @@ def glass_fills(
     laid = laid_fills(view, lighting, lying, Laid(marks.points, marks.offsets, marks.decal, marks.window), placed)
     laid = replace(laid, kind=np.full(len(laid), int(FillKind.GLASS)))
     order = np.argsort(np.concatenate([bare, marked]))
-    return Overlay(Fills.joined(base, laid).some(order), seen.window)
+    return united(Overlay(Fills.joined(base, laid).some(order), seen.window), seen.decal)
 
 
 def tinted(

@@ -71,7 +71,13 @@ def insides_of(regions: Any) -> Any:
     """(n,) valid regions with the insides of others, which may touch or cross themselves."""
     import shapely
 
-    found = areas_of(shapely.make_valid(regions, method="structure", keep_collapsed=False))
+    found = regions
+    # Most are valid, which is told in a tenth of the time that mending takes.
+    broken = np.flatnonzero(~shapely.is_valid(found))
+    if len(broken):
+        found = found.copy()
+        found[broken] = shapely.make_valid(found[broken], method="structure", keep_collapsed=False)
+    found = areas_of(found)
     # Where sides touch within the last digits the result may cross itself.
     crossed = np.flatnonzero(~shapely.is_valid(found))
     if len(crossed):

@@ -17,7 +17,18 @@ SHORTEST_MM = 1.0
 """Sides of shaded polygons on the page that are no longer are not cut any more."""
 
 DEEPEST = 8
-"""So many times triangles are cut in four at most."""
+"""So many times sides are halved at most."""
+
+BETWEEN = np.array([0.25, 0.5, 0.75]).reshape(-1, 1, 1)
+"""Where on their sides shades of triangles are compared."""
+
+PARTS = {
+    1: ((0, 3, 2), (3, 1, 2)),
+    2: ((3, 1, 4), (0, 3, 4), (0, 4, 2)),
+    3: ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)),
+}
+"""The corners of the parts of a triangle with 1, 2 or 3 halved sides, the first ones: of its own and of the middles of
+its sides."""
 
 
 def refined(
@@ -35,21 +46,21 @@ def refined(
     triangles, parent = points[:, corners].transpose(1, 2, 0), smooth[of]
     bad = _badly_shaded(view, lighting, triangles, source[parent], shortest)
     cut = np.zeros(len(source), dtype=np.bool_)
-    cut[parent[bad]] = True
-    if not bad.any():
+    cut[parent[bad.any(axis=1)]] = True
+    if not cut.any():
         return points, offsets, np.arange(len(source))
     inside = cut[parent]
     triangles, parent, bad = triangles[inside], parent[inside], bad[inside]
-    done, done_parent = [triangles[~bad]], [parent[~bad]]
-    for _ in range(DEEPEST):
-        triangles, parent = _quartered(triangles[bad]), np.repeat(parent[bad], 4)
-        bad = _badly_shaded(view, lighting, triangles, source[parent], shortest)
-        done.append(triangles[~bad])
-        done_parent.append(parent[~bad])
-        if not bad.any():
+    done, done_parent = [], []
+    for turn in range(DEEPEST + 1):
+        going = bad.any(axis=1) & (turn < DEEPEST)
+        done.append(triangles[~going])
+        done_parent.append(parent[~going])
+        if not going.any():
             break
-    done.append(triangles[bad])
-    done_parent.append(parent[bad])
+        triangles, whole = _halved(triangles[going], bad[going])
+        parent = parent[going][whole]
+        bad = _badly_shaded(view, lighting, triangles, source[parent], shortest)
     made, of_made = np.concatenate(done), np.concatenate(done_parent)
     kept = np.flatnonzero(~cut)
     position, ends = corner_positions(offsets, kept)
@@ -62,24 +73,35 @@ def refined(
 
 
 def _badly_shaded(view: View, lighting: Lighting, triangles: Floats, source: Ints, shortest: float) -> Bools:
-    """(t,) which of triangles (t,3,3) of the image have a side that is long enough, and in the middle of which the
-    shade is not that between its ends."""
+    """(t,3) the sides of triangles (t,3,3) of the image, by the corners at which they begin, that are long enough, and
+    on which the shade is not that between their ends."""
     if not len(triangles):
-        return np.zeros(0, dtype=np.bool_)
+        return np.zeros((0, 3), dtype=np.bool_)
     after = triangles[:, [1, 2, 0]]
-    both = np.concatenate([triangles, (triangles + after) / 2.0], axis=1)
-    flat = unmapped(view, np.ascontiguousarray(both.reshape(-1, 3).T))
-    total = corner_shades_of(view, lighting, flat, np.arange(0, 6 * len(triangles) + 1, 6), source).total
-    shade = np.atleast_2d(total).reshape(-1, len(triangles), 6)
-    ends, middles = shade[..., :3], shade[..., 3:]
-    off = np.abs(middles - (ends + ends[..., [1, 2, 0]]) / 2.0).max(axis=0)
+    within = (triangles[:, None] * (1.0 - BETWEEN) + after[:, None] * BETWEEN).reshape(len(triangles), -1, 3)
+    both = np.concatenate([triangles, within], axis=1)
+    flat, count = unmapped(view, np.ascontiguousarray(both.reshape(-1, 3).T)), both.shape[1]
+    offsets = np.arange(0, count * len(triangles) + 1, count)
+    shade = np.atleast_2d(corner_shades_of(view, lighting, flat, offsets, source).total)
+    shade = shade.reshape(-1, len(triangles), 1 + len(BETWEEN), 3)
+    ends, share = shade[:, :, :1], BETWEEN[..., 0]
+    off = np.abs(shade[:, :, 1:] - (1.0 - share) * ends - share * ends[..., [1, 2, 0]]).max(axis=(0, 2))
     length = np.hypot(*(after - triangles)[..., :2].transpose(2, 0, 1))
-    return np.asarray(((off > SHADE_ERROR) & (length > shortest)).any(axis=1))
+    return np.asarray((off > SHADE_ERROR) & (length > shortest))
 
 
-def _quartered(triangles: Floats) -> Floats:
-    """(4 t,3,3) the quarters of triangles (t,3,3)."""
-    a, b, c = (triangles[:, k] for k in range(3))
-    ab, bc, ca = (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0
-    parts = [np.stack(part, axis=1) for part in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
-    return np.stack(parts, axis=1).reshape(-1, 3, 3)
+def _halved(triangles: Floats, sides: Bools) -> tuple[Floats, Ints]:
+    """What triangles (t,3,3) are cut into where some of their sides (t,3) are halved, one or more of each, and which
+    one each part is of: neighbours, which halve a common side both, still meet along all of their sides."""
+    count = sides.sum(axis=1)
+    # Turned so that one halved side comes first, and of two the second one second.
+    turn = np.where(count == 2, (sides.argmin(axis=1) + 1) % 3, sides.argmax(axis=1))
+    order = (turn[:, None] + np.arange(3)) % 3
+    corners = np.take_along_axis(triangles, order[..., None], axis=1)
+    nodes = np.concatenate([corners, (corners + corners[:, [1, 2, 0]]) / 2.0], axis=1)
+    found, owner = [], []
+    for number, parts in PARTS.items():
+        own = np.flatnonzero(count == number)
+        found.append(nodes[own][:, np.array(parts)].reshape(-1, 3, 3))
+        owner.append(np.repeat(own, len(parts)))
+    return np.concatenate(found), np.concatenate(owner)

@@ -11,7 +11,7 @@ from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Material, Scene
 from vectorplot.surfaces.ellipsoid import Sphere
 from vectorplot.surfaces.torus import Torus
-from vectorplot.visibility.painter.gathering import gathered
+from vectorplot.visibility.painter.gathering import gathered, side_by_side
 from vectorplot.visibility.painter.image_faces import ImageFaces, polygons_of
 
 GLASS = Material("transparent", opacity=0.5)
@@ -93,3 +93,27 @@ def test_transparent_smooth_items_come_in_few_sheets(kind, eye, parallel):
     (fills,) = drawing.layers[0].fills
     clear = np.where(fills.kind == FillKind.GLASS, fills.item, -1)
     assert runs(clear) <= 8
+
+
+def test_planes_side_by_side_keep_the_order_of_what_overlaps():
+    for seed in range(40):
+        random = np.random.default_rng(seed)
+        places = random.uniform(0.0, 12.0, (60, 2))
+        faces = squares(places)
+        plane = random.integers(-1, 12, 60)
+        order = side_by_side(faces, plane, 1e-9)
+        assert sorted(order) == list(range(60))
+        place = np.argsort(order)
+        over = (np.abs(places[:, None] - places) < 2.0 - 1e-9).all(axis=2)
+        first, second = np.nonzero(np.triu(over, 1))
+        assert (place[first] < place[second]).all(), seed
+        assert runs(plane[order]) <= runs(plane)
+
+
+@pytest.mark.hard(74)
+def test_planes_whose_polygons_do_not_overlap_stand_together_whatever_lies_on_them():
+    # Three sheets, one above the other, each of a row of squares that come in turn.
+    row = [(2.0 * k, 0.0) for k in range(10)]
+    faces = squares([place for place in row for _ in range(3)])
+    plane = np.tile(np.arange(3), 10)
+    assert runs(plane[side_by_side(faces, plane, 1e-9)]) == 3

@@ -1,0 +1,56 @@
+"""Sizes of painted surfaces as files, for docs/paint.md: run with ``pytest tests/bench/bench_sizes.py -m bench -s``.
+
+Each surface alone, at the default tolerance on A4, in the default view, without lights of its own.
+"""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+import vectorplot as vp
+from vectorplot.save import write
+
+pytestmark = pytest.mark.bench
+
+FORMATS = ("svg", "pdf", "ps")
+SURFACES = {
+    "sphere": "sphere 1",
+    "torus": "torus 3 1",
+    "Dupin's cyclide": "cyclide 3 1 centre 6.5 0 0 radius 5",
+    "x^4 + y^4 + z^4 = 4": 'implicit "x^4+y^4+z^4-4" box -2 2 -2 2 -2 2',
+    "sin(3x) cos(2y)": 'graph "sin(3*x)*cos(2*y)" x -2 2 y -2 2',
+    "a spring of three turns": "helical 0.4 circle 0.5 centre 3 0 0 axis 0 1 0 angle 0 1080",
+}
+
+
+def sizes(surface: str, folder: str) -> list[float]:
+    """The sizes of a picture of a surface in kB, one a format, and the seconds that it takes without writing."""
+    with open(f"{folder}/a.scene", "w", encoding="utf-8") as file:
+        file.write(f"S gray surface {surface}\n")
+    start = time.process_time()
+    drawing = vp.paint(vp.read(f"{folder}/a.scene"))
+    seconds = time.process_time() - start
+    return [*(len(write(drawing, form)) / 1000.0 for form in FORMATS), seconds]
+
+
+def report(folder: str) -> str:
+    """The sizes as a table of Markdown."""
+    rows = [f"| | {' | '.join(form.upper() for form in FORMATS)} | seconds |", "| --- " * 5 + "|"]
+    for name, surface in SURFACES.items():
+        *found, seconds = sizes(surface, folder)
+        rows.append(f"| {name} | {' | '.join(f'{size:.0f}' for size in found)} | {seconds:.1f} |")
+    return "\n".join(rows)
+
+
+def test_sizes_of_surfaces(tmp_path):
+    found = report(str(tmp_path))
+    print("\n" + found)
+
+
+if __name__ == "__main__":
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as place:
+        print(report(place))
