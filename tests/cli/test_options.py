@@ -59,3 +59,8 @@ def test_the_format_is_given_or_the_suffix(path, given, word):
 def test_without_a_format_it_is_bad_usage(path):
     with pytest.raises(click.UsageError):
         options.format_of(path, None, ("svg", "eps"))
+
+
+def test_one_format_alone_is_no_choice():
+    with pytest.raises(click.UsageError, match=r"^a\.jpg: the name must end in \.png$"):
+        options.format_of("a.jpg", None, ("png",))

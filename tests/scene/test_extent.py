@@ -11,7 +11,8 @@ from vectorplot.surfaces.cylinder import Cone
 from vectorplot.surfaces.ellipsoid import Ellipsoid
 from vectorplot.surfaces.function import surface_of_function
 from vectorplot.surfaces.graph import graph
-from vectorplot.surfaces.placed import PlacedSurface
+from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.quadric import implicit_sphere
 from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.torus import ImplicitTorus, Torus
 from vectorplot.testing.shapes import box
@@ -95,3 +96,14 @@ def test_a_curve_that_runs_off_to_infinity_is_refused_one_with_a_hole_is_not(siz
     )
     with pytest.raises(InputError, match="the curve has no finite point"):
         smooth_bounds(curve_of_function(lambda t: (t, np.log(-1 - t * t), t), -1.0, 1.0))
+
+
+@pytest.mark.parametrize("axis", range(3))
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_an_implicit_surface_whose_place_has_no_digits_for_it_is_refused(axis, scale):
+    far = np.zeros(3)
+    far[axis] = 1e17 * scale
+    ball = implicit_sphere(scale)
+    assert np.ptp(smooth_bounds(ball), axis=0).min() > 0.0
+    with pytest.raises(InputError, match="no digits left"):
+        smooth_bounds(PlacedImplicit(ball, np.eye(3), far))

@@ -133,5 +133,6 @@ def format_of(path: str, given: str | None, known: Sequence[str]) -> str:
     suffix = path.rpartition("/")[2].rpartition(".")
     word = suffix[2].lower() if suffix[1] and suffix[0] else ""
     if word not in known:
-        raise click.UsageError(f"{path}: the name must end in one of {', '.join('.' + name for name in known)}")
+        choice = "" if len(known) == 1 else "one of "
+        raise click.UsageError(f"{path}: the name must end in {choice}{', '.join('.' + name for name in known)}")
     return word

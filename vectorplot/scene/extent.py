@@ -38,8 +38,8 @@ def smooth_bounds(shape: Surface | ImplicitSurface | Curve) -> Floats:
     """(2,3) smallest and largest coordinates of a smooth surface or a curve; of an implicit surface those of its box.
 
     Error: less than a thousandth of the extent, as long as bumps are wider than a GRIDth of the domain.
-    Errors: InputError for a surface without a finite point, for one that passes infinity on the grid, and for what is
-    no surface.
+    Errors: InputError for a surface without a finite point, for one that passes infinity on the grid, for an implicit
+    one whose box has no extent along an axis, be it by rounding, and for what is no surface.
     Degenerate: where a surface runs off to infinity between the points of the first grid, it ends with them.
     """
     if is_parametrised(shape):
@@ -49,6 +49,8 @@ def smooth_bounds(shape: Surface | ImplicitSurface | Curve) -> Floats:
         if not np.isfinite(box).all():
             raise InputError("the surface has no finite box")
         check_range(box)
+        if not (box[0] < box[1]).all():
+            raise InputError("the box of the surface has no room, or no digits left so far from the origin")
         return box
     if is_curve(shape):
         return _curve_bounds(shape)
