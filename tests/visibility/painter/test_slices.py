@@ -118,7 +118,7 @@ def test_cut_into_slices():
     assert len(cut_into_slices(flat[:0], np.array([0]), 2, [0.0])[1]) == 0
 
 
-@pytest.mark.capability("G5.3-sliced", "G5.4-graph-horizontal")
+@pytest.mark.capability("G5.4-graph-horizontal")
 @pytest.mark.parametrize("seed", range(6))
 def test_surfaces_in_horizontal_slices(seed):
     random = np.random.default_rng(seed)
