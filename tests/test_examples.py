@@ -96,7 +96,7 @@ def test_the_stored_pictures_are_the_ones_that_are_drawn_now(path, made):
 
 @pytest.mark.parametrize("path", sorted(GALLERY.GALLERY.iterdir()), ids=lambda path: path.name)
 def test_stored_pictures_are_small(path):
-    assert path.stat().st_size < 1_000_000
+    assert path.stat().st_size < 600_000
 
 
 def paint_by_layer(path: Path) -> dict[str, np.ndarray]:

@@ -18,7 +18,7 @@ def united(overlay: Overlay, sheet: Ints) -> Overlay:
     Shaded polygons stay as they are, and so do those that one can see through and that are of no sheet: they may
     overlap. Corners in space are
     those of the polygons, or what is between the two next ones.
-    Error: corners move by GRID_MM at most, parts narrower than a few of these are left out.
+    Error: new corners, where sides cross, are off by GRID_MM at most; parts narrower than a few of these are left out.
     """
     import shapely
 
@@ -36,15 +36,16 @@ def united(overlay: Overlay, sheet: Ints) -> Overlay:
     parts, which = without_splinters(region, GRID_MM)
     parts, which = without_holes(shapely.simplify(parts, GRID_MM), which)
     flat, offsets = corners_of(parts)
+    points, in_space = _as_they_were(some, flat.T)
     source = leader[which]
     corner = np.repeat(source, np.diff(offsets))
     made = Fills(
-        np.ascontiguousarray(flat.T),
+        points,
         offsets,
         fills.colours[fills.offsets[corner]],
         fills.opacity[source],
         fills.item[source],
-        _in_space(some, flat.T),
+        in_space,
         fills.kind[source],
     )
     order = np.argsort(np.concatenate([kept, source]), kind="stable")
@@ -70,11 +71,15 @@ def _shaded(fills: Fills) -> Bools:
     return np.asarray(differs[1:] > differs[:-1])
 
 
-def _in_space(fills: Fills, points: Floats) -> Floats:
-    """(c,3) where points (c,2) of the page, near corners of polygons, are in space: by the two nearest corners."""
+def _as_they_were(fills: Fills, points: Floats) -> tuple[Floats, Floats]:
+    """(c,2) points of the page near corners of polygons, moved to these where the grid has moved them off, and (c,3)
+    where they are in space: by the two nearest corners."""
     from scipy.spatial import cKDTree
 
     distance, near = cKDTree(fills.points).query(points, k=2)
     weight = 1.0 / np.maximum(distance, GRID_MM * GRID_MM)
     weight /= weight.sum(axis=1, keepdims=True)
-    return np.asarray(np.einsum("ck,ckd->cd", weight, fills.points3d[near]))
+    space = np.einsum("ck,ckd->cd", weight, fills.points3d[near])
+    same = distance[:, 0] <= 2.0 * GRID_MM
+    space[same] = fills.points3d[near[same, 0]]
+    return np.where(same[:, None], fills.points[near[:, 0]], points), space
