@@ -47,15 +47,15 @@ def stroke_points(drawing: Drawing, scene: Scene, camera: Camera, samples: int, 
     """Random points on the strokes, half of them by length, half with one chance for each segment.
 
     Of straight strokes they lie anywhere. Of smooth strokes, whose chords are beside the curve, they are inner vertices
-    (at the ends visibility changes, and so it may where other strokes end), or points of chords moved to the surface,
-    those of a contour to the contour.
+    (at the ends visibility changes, and so it may where strokes meet), or points of chords moved to the surface, those
+    of a contour to the contour.
     """
     parts = [_segments(paths) for layer in drawing.layers for paths in layer.strokes if len(paths)]
     if not parts:
         return _none()
     lines, owner, smooth, sag, at_end = (np.concatenate(columns) for columns in zip(*parts, strict=True))
     random = np.random.default_rng(seed)
-    at_end |= _where_others_end(lines, at_end)
+    at_end |= _where_strokes_meet(lines)
     index, share = some_of(lines, samples, random)
     if not len(index):
         return _none()
@@ -73,15 +73,15 @@ def stroke_points(drawing: Drawing, scene: Scene, camera: Camera, samples: int, 
     return _moved(found, moving, useful, lines[index, 1] - lines[index, 0], scene, camera)
 
 
-def _where_others_end(lines: Floats, at_end: Bools) -> Bools:
-    """(n,2) whether an end of a segment (n,2,3) is where some stroke begins or ends."""
+def _where_strokes_meet(lines: Floats) -> Bools:
+    """(n,2) whether more than two ends of segments (n,2,3) are where an end of one is."""
     from scipy.spatial import cKDTree
 
-    ends = lines[at_end]
-    if not len(ends):
-        return at_end
-    distance, _ = cKDTree(ends).query(lines.reshape(-1, 3))
-    return np.asarray(distance.reshape(-1, 2) <= ONE_POINT * float(np.ptp(lines, axis=(0, 1)).max()))
+    if not len(lines):
+        return np.zeros((0, 2), dtype=np.bool_)
+    ends = lines.reshape(-1, 3)
+    near = ONE_POINT * float(np.ptp(ends, axis=0).max())
+    return np.asarray(cKDTree(ends).query_ball_point(ends, near, return_length=True).reshape(-1, 2) > 2)
 
 
 def some_of(lines: Floats, samples: int, random: np.random.Generator) -> tuple[Ints, Floats]:
