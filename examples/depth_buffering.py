@@ -10,10 +10,11 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
+from vectorplot.geometry import ragged
 from vectorplot.geometry.solids import box
 from vectorplot.shading.depth_buffer import depth_buffer
 from vectorplot.shading.depth_code import DepthCode
-from vectorplot.shading.screen import fans, raster_system, screen_triangles
+from vectorplot.shading.screen import raster_system, screen_triangles
 from vectorplot.surfaces.torus import Torus
 
 SIZE = (360, 300)
@@ -53,7 +54,7 @@ def main(folder: Path) -> None:
     system = raster_system(camera, *SIZE)
     meshes = [item.mesh for item in scene([0, 1, 2, 3]).items]
     first = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
-    corners = [fans(mesh.corners, mesh.offsets)[0] + k for mesh, k in zip(meshes, first[:-1], strict=True)]
+    corners = [mesh.corners[ragged.fans(mesh.offsets)[0]] + k for mesh, k in zip(meshes, first[:-1], strict=True)]
     points = system.homogeneous(np.concatenate([mesh.vertices for mesh in meshes]))
     flat = screen_triangles(points, np.concatenate(corners))
     depths = flat.points[:, 2]

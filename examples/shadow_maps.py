@@ -10,8 +10,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
+from vectorplot.geometry import ragged
 from vectorplot.geometry.solids import box
-from vectorplot.shading.screen import fans, raster_system
+from vectorplot.shading.screen import raster_system
 from vectorplot.shading.seen_region import region_in_picture
 from vectorplot.shading.shadow_buffer import shadow_buffer
 from vectorplot.shading.shadow_map import texels_per_unit
@@ -45,7 +46,7 @@ def main(folder: Path) -> None:
 
     first = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     points = np.concatenate([mesh.vertices for mesh in meshes])
-    corners = np.concatenate([fans(m.corners, m.offsets)[0] + k for m, k in zip(meshes, first[:-1], strict=True)])
+    corners = np.concatenate([m.corners[ragged.fans(m.offsets)[0]] + k for m, k in zip(meshes, first, strict=False)])
     region = region_in_picture(raster_system(CAMERA, *SIZE), *SIZE, points, corners)
     maps = {
         frame: shadow_buffer(LIGHT, points, corners, size=MAP, rows=MAP, frame=frame, region=region).maps[0]

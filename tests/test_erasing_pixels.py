@@ -12,12 +12,12 @@ from PIL import Image
 from scipy.ndimage import grey_dilation
 
 import vectorplot as vp
+from vectorplot.arrays import Floats
 from vectorplot.backends.cairo import png_bytes
 from vectorplot.draw import default_camera
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import FillKind
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Floats
 from vectorplot.scene.scene import Scene
 from vectorplot.words import LINE_WORDS
 

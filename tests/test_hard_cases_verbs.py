@@ -13,7 +13,8 @@ from pixel_rays import first_triangles, pixel_rays
 from shaded_scenes import triangles_of
 
 import vectorplot as vp
-from vectorplot.geometry.mesh import Floats, Mesh
+from vectorplot.arrays import Floats
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.testing import assert_drawing_is_right
 from vectorplot.testing.shapes import (
     box,

@@ -14,7 +14,8 @@ import vectorplot
 PACKAGE = Path(vectorplot.__file__).parent
 
 ORDER = [
-    *("errors", "words", "exact", "geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
+    *("errors", "words", "arrays"),
+    *("exact", "geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
     *("drawing", "effects", "animation", "backends"),
     *("verbs", "testing", "cli"),
 ]

@@ -9,11 +9,12 @@ import pytest
 from strewn import STREWN
 from top_fills import assert_same_picture, blended, colours_at, covering, fills_of, top_at
 
+from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Floats, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
 from vectorplot.shading.palettes import palette

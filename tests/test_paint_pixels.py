@@ -12,9 +12,9 @@ from scene_rays import clear_of_edges, faces_of, page_rays
 from strewn import STREWN, placed
 from top_fills import covering, fills_of, pixel_places
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.fills import Fills
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Light, Material, Scene
 from vectorplot.testing.shapes import box, random_convex_solids, rotated_boxes

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.drawing.drawing import Drawing, Layer, Paths
 from vectorplot.drawing.ink import inked
 from vectorplot.drawing.layers import layers_by_colour, layers_by_kind, layers_by_object
@@ -18,7 +19,6 @@ from vectorplot.drawing.shared_kinds import with_shared_kinds
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.budget import Budget, budget_of
 from vectorplot.geometry.camera import Camera, Point
-from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.vectors import cross, normalize
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_draw
 from vectorplot.scene.scene import Page, Scene

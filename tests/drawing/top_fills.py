@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import Fills
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 
 def fills_of(drawing: Drawing) -> Fills:

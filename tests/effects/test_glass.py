@@ -6,13 +6,13 @@ from seen_rays import first_hits, sight_rays, topmost, triangles
 from vectorplot.effects.decals import Decals
 from vectorplot.effects.glass import refracting_items, seen_in_glass
 from vectorplot.effects.refraction import refracted
+from vectorplot.geometry import ragged
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.convex_hulls import hull_mesh
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Material, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box
-from vectorplot.visibility.painter.image_faces import corner_positions
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.projected_faces import newell, project_faces
 
@@ -68,7 +68,7 @@ class Picture:
         behind = np.where((face >= 0) & self.own[face], -1, -2)
         for window in np.unique(self.seen.window):
             shown = np.flatnonzero(self.seen.window == window)
-            position, offsets = corner_positions(self.seen.offsets, shown)
+            position, offsets = ragged.take(self.seen.offsets, shown)
             here = np.flatnonzero(top == window)
             at = topmost(self.seen.points[:, position], offsets, samples[:, here])
             behind[here] = np.where(at >= 0, self.seen.source[shown][at], -1)
@@ -225,7 +225,7 @@ def test_the_floor_of_a_pool_appears_raised(parallel: bool) -> None:
     corners = view.image_of(view.points_of(np.array(POOL[:4])))
     surface = int(np.argmax(np.where(picture.own, view.axes[:, 2] @ picture.normal.T, -1.0)))
     floor = np.flatnonzero((picture.seen.source == 0) & (picture.seen.pane == surface))
-    position, _ = corner_positions(picture.seen.offsets, floor)
+    position, _ = ragged.take(picture.seen.offsets, floor)
     lowest = picture.seen.points[1, position].min()
     assert lowest > corners[1].min() + 0.01
     back = picture.seen.points[1, position].max()

@@ -6,13 +6,14 @@ from seen_rays import first_hits, sight_rays, topmost, triangles
 
 from vectorplot.effects.reflections import Mirrors, mirrored_view, mirrors, originals, reflections
 from vectorplot.effects.windows import SeenThrough
+from vectorplot.geometry import ragged
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.revolution import revolution
 from vectorplot.scene.scene import Item, Material, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box
-from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, mapped, unmapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, mapped, unmapped
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.projected_faces import project_faces
 
@@ -68,7 +69,7 @@ class Picture:
         double = np.where((face >= 0) & self.is_mirror[face], -1, -2)
         for window in np.unique(self.seen.window):
             shown = np.flatnonzero(self.seen.window == window)
-            position, offsets = corner_positions(self.seen.offsets, shown)
+            position, offsets = ragged.take(self.seen.offsets, shown)
             here = np.flatnonzero(top == window)
             at = topmost(self.seen.points[:, position], offsets, samples[:, here])
             double[here] = np.where(at >= 0, self.seen.source[shown][at], -1)

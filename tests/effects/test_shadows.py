@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 from blocked_lights import blocked, face_points, scene_triangles, wrong_points
 
+from vectorplot.arrays import Floats
 from vectorplot.effects.light_system import FacePlanes, light_system
 from vectorplot.effects.shadow_casters import shadow_casters
 from vectorplot.effects.shadows import Receivers, candidates, cast_shadows, shadow_crossings, shadow_decals
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Floats, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.plane_cuts import parts_of, polygon_areas
 from vectorplot.geometry.revolution import revolution
 from vectorplot.scene.scene import Item, Light, Scene

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.geometry.mesh import Floats
+from vectorplot.arrays import Floats
 from vectorplot.geometry.plane_cuts import PlaneBundles, crossings_of, cut_by_planes, planes_of, polygon_areas
 
 SQUARE = np.array([[0.0, 1.0, 1.0, 0.0], [0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 0.0, 0.0]])

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from pixel_rays import intersector
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.scene import Page, Scene
 
 ABOVE = 2e-5

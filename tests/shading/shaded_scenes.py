@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.geometry import ragged
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.shading.barycentrics import visible_points
 from vectorplot.shading.depth_buffer import depth_buffer
-from vectorplot.shading.screen import fans, raster_system, screen_triangles
+from vectorplot.shading.screen import raster_system, screen_triangles
 from vectorplot.testing.shapes import box, rotated_boxes
 from vectorplot.testing.surfaces import bumpy_icosphere, grid_graph, torus_mesh
 
@@ -28,7 +29,7 @@ def triangles_of(*meshes: Mesh):
     points, corners, first = [], [], 0
     for mesh in meshes:
         points.append(mesh.vertices)
-        corners.append(fans(mesh.corners, mesh.offsets)[0] + first)
+        corners.append(mesh.corners[ragged.fans(mesh.offsets)[0]] + first)
         first += len(mesh.vertices)
     return np.concatenate(points), np.concatenate(corners)
 

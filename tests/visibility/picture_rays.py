@@ -8,10 +8,10 @@ import numpy as np
 from scene_rays import ABOVE, GRAZING, Faces, clear_of_edges, faces_of, lacking, page_rays
 from top_fills import colours_at, covering, fills_of, last_at, pixel_places
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import FillKind
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Light, Page, Scene
 

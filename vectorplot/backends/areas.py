@@ -7,13 +7,13 @@ from functools import cached_property
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.backends.transparency_groups import groups_of, outline
 from vectorplot.drawing.clip import clipped_parts
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import SEAM_MM, Colours, FillKind, Fills
-from vectorplot.drawing.pieces import offsets_of, ranges
+from vectorplot.geometry import ragged
 from vectorplot.geometry.convex_clipping import clipped
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 RUN_LENGTH = 1000
 """So many polygons are painted at once; one huge path makes the rasterisers of all readers slow."""
@@ -146,8 +146,8 @@ class Polygons:
     def some(self, which: Ints) -> Polygons:
         """The polygons with these numbers, in this order."""
         sizes = np.diff(self.offsets)[which]
-        corner = ranges(self.offsets[which], sizes)
-        return Polygons(self.points[corner], offsets_of(sizes), self.colours[corner], self.source[which])
+        corner = ragged.ranges(self.offsets[which], sizes)
+        return Polygons(self.points[corner], ragged.offsets(sizes), self.colours[corner], self.source[which])
 
 
 def _in_order(parts: tuple[Polygons, ...], place: tuple[Ints, ...]) -> Polygons:
@@ -155,7 +155,7 @@ def _in_order(parts: tuple[Polygons, ...], place: tuple[Ints, ...]) -> Polygons:
     sizes = np.concatenate([np.diff(part.offsets) for part in parts])
     together = Polygons(
         np.concatenate([part.points for part in parts]),
-        offsets_of(sizes),
+        ragged.offsets(sizes),
         np.concatenate([part.colours for part in parts]),
         np.concatenate([part.source for part in parts]),
     )
@@ -166,7 +166,7 @@ def _differ(colours: Colours, offsets: Ints) -> Bools:
     """(m,) whether the colours of a polygon's corners differ. Degenerate: those of none do not."""
     sizes = np.diff(offsets)
     other = (colours != colours[np.repeat(np.minimum(offsets[:-1], max(len(colours) - 1, 0)), sizes)]).any(axis=1)
-    count = np.concatenate(([0], np.cumsum(other)))[offsets]
+    count = ragged.offsets(other)[offsets]
     return np.asarray(count[1:] > count[:-1])
 
 
@@ -188,12 +188,9 @@ def _fanned(polygons: Polygons) -> Polygons:
     split = (sizes > 3) & _differ(polygons.colours, polygons.offsets)
     if not split.any():
         return polygons
-    which, others = np.flatnonzero(split), np.flatnonzero(~split)
-    count = sizes[which] - 2
-    apex = np.repeat(polygons.offsets[which], count)
-    second = ranges(polygons.offsets[which] + 1, count)
-    corner = np.stack((apex, second, second + 1), axis=1).ravel()
-    owner = np.repeat(which, count)
+    others = np.flatnonzero(~split)
+    triangles, owner = ragged.fans(polygons.offsets)
+    corner, owner = triangles[split[owner]].ravel(), owner[split[owner]]
     fans = Polygons(
         polygons.points[corner],
         np.arange(0, len(corner) + 1, 3),
@@ -205,10 +202,10 @@ def _fanned(polygons: Polygons) -> Polygons:
 
 def _clipped(polygons: Polygons, width_mm: float, height_mm: float) -> Polygons:
     low, high = np.full(2, -SEAM_MM), np.array((width_mm, height_mm)) + SEAM_MM
-    beyond = ((polygons.points < low) | (polygons.points > high)).any(axis=1)
+    beyond = np.any((polygons.points < low) | (polygons.points > high), axis=1)
     if not beyond.any():
         return polygons
-    count = np.concatenate(([0], np.cumsum(beyond)))[polygons.offsets]
+    count = ragged.offsets(beyond)[polygons.offsets]
     out, line = count[1:] > count[:-1], np.diff(polygons.offsets) == 2
     inside, cut, crossing = (np.flatnonzero(which) for which in (~out, out & ~line, out & line))
     some, owner = _cut(polygons.some(cut), low, high)
@@ -242,7 +239,7 @@ def rounded(polygons: Polygons) -> tuple[Ints, Ints, Colours, Ints]:
     microns = np.rint(polygons.points * 1000.0).astype(np.int64)
     sizes = np.diff(polygons.offsets)
     new = (microns != microns[_before(polygons.offsets)]).any(axis=1)
-    kept_before = np.concatenate(([0], np.cumsum(new)))
+    kept_before = ragged.offsets(new)
     left = np.diff(kept_before[polygons.offsets])
     kept = np.flatnonzero((left >= 3) | ((left == 2) & (sizes == 2)))
     offsets, corner = polygons.offsets, np.arange(len(microns))
@@ -251,10 +248,10 @@ def rounded(polygons: Polygons) -> tuple[Ints, Ints, Colours, Ints]:
     area = _areas(microns[corner], offsets)
     kept = kept[(area[kept] != 0) | (sizes[kept] == 2)]
     count = np.diff(offsets)[kept]
-    first = ranges(offsets[kept], count)
+    first = ragged.ranges(offsets[kept], count)
     back = np.repeat((2 * offsets[kept] + count - 1), count) - first
     corner = corner[np.where(np.repeat(area[kept] < 0, count), back, first)]
-    return microns[corner], offsets_of(count), polygons.colours[corner], kept
+    return microns[corner], ragged.offsets(count), polygons.colours[corner], kept
 
 
 def _before(offsets: Ints) -> Ints:

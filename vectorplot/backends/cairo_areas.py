@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.backends.areas import Areas
 from vectorplot.backends.mesh_borders import border_sides, last_of_sides, rings, skirts
 from vectorplot.backends.underlaps import Underlaps, grown, underlaps
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry import ragged
 
 if TYPE_CHECKING:
     import cairo
@@ -134,7 +135,7 @@ def _ground(context: cairo.Context[Any], place: _Place, corners: Ints, colours: 
         some = triangles[order[start:end]].reshape(-1, 2)
         path = [some[ring] for ring in rings(some, border_sides(some))]
         if path:
-            _outline(context, place.of(np.concatenate(path)), np.cumsum([0, *map(len, path)]).tolist())
+            _outline(context, place.of(np.concatenate(path)), ragged.offsets([*map(len, path)]).tolist())
         context.set_source_rgb(red, green, blue)
         context.fill()
         start = end

@@ -14,7 +14,7 @@ import zlib
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Ints
+from vectorplot.arrays import Ints
 
 _HEAD = rb"<< /ShadingType 7\s+/ColorSpace /Device(RGB|Gray)\s+"
 _BITS = rb"/BitsPerCoordinate 32\s+/BitsPerComponent 16\s+/BitsPerFlag 8\s+/Decode \[([^\]]*)\]\s+"

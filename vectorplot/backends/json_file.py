@@ -10,14 +10,15 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.arrays import Ints
 from vectorplot.backends.json_fills import fills_of, fills_text
 from vectorplot.backends.json_numbers import numbers_of, plain
 from vectorplot.backends.sheet import check
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
-from vectorplot.drawing.pieces import chosen, concatenated, offsets_of, ranges
+from vectorplot.drawing.pieces import chosen, concatenated
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Ints
+from vectorplot.geometry import ragged
 from vectorplot.words import LineKind
 
 FORMAT = "vectorplot-drawing"
@@ -78,8 +79,8 @@ def _strokes(paths: Paths, items: tuple[str, ...]) -> str:
     template = ",".join(map(templates.__getitem__, sort.ravel().tolist()))
     numbers = np.empty(5 * len(paths.points))
     starts = 5 * paths.offsets[:-1]
-    numbers[ranges(starts, 2 * counts)] = paths.points.ravel()
-    numbers[ranges(starts + 2 * counts, 3 * counts)] = paths.points3d.ravel()
+    numbers[ragged.ranges(starts, 2 * counts)] = paths.points.ravel()
+    numbers[ragged.ranges(starts + 2 * counts, 3 * counts)] = paths.points3d.ravel()
     return template % tuple(plain(numbers))
 
 
@@ -125,7 +126,7 @@ def _paths(strokes: Any) -> tuple[Paths, tuple[str, ...]]:
     place = {name: i for i, name in enumerate(names)}
     paths = Paths(
         numbers_of(list(chain.from_iterable(columns["points"])), (-1, 2), "points"),
-        offsets_of(np.array(counts, dtype=np.intp)),
+        ragged.offsets(np.array(counts, dtype=np.intp)),
         np.array(columns["closed"], dtype=np.bool_),
         _kinds(columns["kind"]),
         np.array([place[name] for name in columns["item"]], dtype=np.intp),

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.arrays import Ints
 from vectorplot.backends.json_numbers import numbers_of, plain
 from vectorplot.drawing.fills import Colours, FillKind, Fills
-from vectorplot.drawing.pieces import offsets_of, ranges
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Ints
+from vectorplot.geometry import ragged
 
 _COLOUR = re.compile(r"#[0-9a-f]{6}")
 
@@ -30,8 +30,8 @@ def fills_text(fills: Fills, items: tuple[str, ...]) -> str:
     fields = np.empty(2 * len(fills) + 5 * len(fills.points), dtype=object)
     starts = 2 * np.arange(len(fills)) + 5 * fills.offsets[:-1]
     fields[starts], fields[starts + 1] = _colour_texts(packed, fills.offsets), plain(fills.opacity)
-    fields[ranges(starts + 2, 2 * counts)] = plain(fills.points.ravel())
-    fields[ranges(starts + 2 + 2 * counts, 3 * counts)] = plain(fills.points3d.ravel())
+    fields[ragged.ranges(starts + 2, 2 * counts)] = plain(fills.points.ravel())
+    fields[ragged.ranges(starts + 2 + 2 * counts, 3 * counts)] = plain(fills.points3d.ravel())
     return template % tuple(fields.tolist())
 
 
@@ -55,7 +55,7 @@ def fills_of(value: Any, items: tuple[str, ...]) -> tuple[Fills, tuple[str, ...]
     place = {"": -1, **{name: i for i, name in enumerate(names) if name}}
     fills = Fills(
         numbers_of(list(chain.from_iterable(fill["points"] for fill in value)), (-1, 2), "points"),
-        offsets_of(np.array(counts, dtype=np.intp)),
+        ragged.offsets(np.array(counts, dtype=np.intp)),
         _colours_of(value, counts),
         numbers_of([fill.get("opacity") for fill in value], (-1,), "opacity"),
         np.array([place[fill["item"]] for fill in value], dtype=np.intp),

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
 
 
 def plain(numbers: Floats) -> Any:

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.backends.mesh_borders import places_of
-from vectorplot.drawing.pieces import offsets_of, ranges
-from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import next_positions
 
 ROUNDS = 5
 """Neighbours are taken together two and two, so many times."""
@@ -62,7 +63,7 @@ def slopes(found: Merged) -> tuple[Floats, Floats, Floats]:
 def _round(found: Merged, follows: Bools, allowed: Floats) -> Merged:
     """The same with polygons and the ones after them as one, where that does."""
     start, end = _common_sides(found)
-    owner = np.repeat(np.arange(len(found)), np.diff(found.offsets))
+    owner = ragged.owner(np.diff(found.offsets))
     one = owner[start]
     near = follows[found.first[one + 1]]
     # The corners of the first from the end of the side on, then those of the second that are not on it.
@@ -70,7 +71,7 @@ def _round(found: Merged, follows: Bools, allowed: Floats) -> Merged:
     pairs = _joined(found, start, end, one)
     middle, value, slope = slopes(pairs) if len(pairs) else (np.zeros((0, 2)), np.zeros(0), np.zeros((0, 2)))
     size = np.diff(pairs.offsets)
-    of = np.repeat(np.arange(len(pairs)), size)
+    of = ragged.owner(size)
     linear = value[of] + ((pairs.microns - middle[of]) * slope[of]).sum(axis=1)
     good = np.ones(len(pairs), dtype=np.bool_)
     good[of[np.abs(linear - pairs.values) > allowed[pairs.first[of]]]] = False
@@ -90,7 +91,7 @@ def _round(found: Merged, follows: Bools, allowed: Floats) -> Merged:
 def _common_sides(found: Merged) -> tuple[Ints, Ints]:
     """The corners at which the only common side of a polygon and the next one begins, in the one and in the other."""
     place = places_of(found.microns)
-    owner = np.repeat(np.arange(len(found)), np.diff(found.offsets))
+    owner = ragged.owner(np.diff(found.offsets))
     after = next_positions(found.offsets, np.arange(len(place)))
     count = len(place)
     # The key of a side in the polygon with this number, and of the same side, turned, in the one before.
@@ -115,8 +116,8 @@ def _joined(found: Merged, start: Ints, end: Ints, one: Ints) -> Merged:
     size = np.diff(found.offsets)
     own, other = size[one], size[one + 1] - 2
     total = own + other
-    step = ranges(np.zeros(len(one), dtype=np.intp), total)
-    of = np.repeat(np.arange(len(one)), total)
+    step = ragged.place(total)
+    of = ragged.owner(total)
     of_first = step < own[of]
     first, second = found.offsets[one][of], found.offsets[one + 1][of]
     corner = np.where(
@@ -124,7 +125,9 @@ def _joined(found: Merged, start: Ints, end: Ints, one: Ints) -> Merged:
         first + (start[of] - first + 1 + step) % size[one][of],
         second + (end[of] - second + 2 + step - own[of]) % size[one + 1][of],
     )
-    return Merged(found.microns[corner], offsets_of(total), found.values[corner], found.first[one], found.last[one + 1])
+    return Merged(
+        found.microns[corner], ragged.offsets(total), found.values[corner], found.first[one], found.last[one + 1]
+    )
 
 
 def _turns(found: Merged) -> Ints:
@@ -143,9 +146,9 @@ def _in_order(*parts: tuple[Merged, Ints, Ints]) -> Merged:
     place = np.concatenate([part[2] for part in parts])
     order = np.argsort(place, kind="stable")
     sizes = np.concatenate([np.diff(found.offsets)[which] for found, which, _ in parts])
-    corner = [ranges(found.offsets[which], np.diff(found.offsets)[which]) for found, which, _ in parts]
-    moved = ranges(offsets_of(sizes)[order], sizes[order])
+    corner = [ragged.ranges(found.offsets[which], np.diff(found.offsets)[which]) for found, which, _ in parts]
+    moved = ragged.ranges(ragged.offsets(sizes)[order], sizes[order])
     microns = np.concatenate([part[0].microns[k] for part, k in zip(parts, corner, strict=True)])
     values = np.concatenate([part[0].values[k] for part, k in zip(parts, corner, strict=True)])
     first, last = (np.concatenate([getattr(part[0], row)[part[1]] for part in parts]) for row in ("first", "last"))
-    return Merged(microns[moved], offsets_of(sizes[order]), values[moved], first[order], last[order])
+    return Merged(microns[moved], ragged.offsets(sizes[order]), values[moved], first[order], last[order])

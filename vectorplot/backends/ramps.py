@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.arrays import Floats, Ints
 
 ERROR = 1.5
 """By how many steps of 255 colours may be off their ramp: three times what rounding makes of them."""

@@ -9,12 +9,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.backends.sheet import LARGEST_PAGE_MM
 from vectorplot.drawing.drawing import Curves, Drawing, Paths
 from vectorplot.drawing.fills import Fills
 from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons
-from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.shading.coverage import GUARD_BAND
 from vectorplot.shading.lines import line_pixels
 from vectorplot.shading.png import DPI, Bytes
@@ -112,7 +113,7 @@ def _segments(paths: Paths) -> tuple[Ints, Ints]:
 def _fill(flat: Bytes, fills: Fills, points: Floats, columns: int, rows: int) -> None:
     """Paint polygons, one over the other: changes the picture."""
     sizes = np.diff(fills.offsets)
-    polygon = np.repeat(np.arange(len(fills)), sizes)
+    polygon = ragged.owner(sizes)
     same = (fills.colours == fills.colours[fills.offsets[:-1][polygon]]).all(axis=1)
     even = np.ones(len(fills), dtype=np.bool_)
     even[polygon[~same]] = False
@@ -132,9 +133,5 @@ def _fill(flat: Bytes, fills: Fills, points: Floats, columns: int, rows: int) ->
 
 def _fan_triangles(polygons: Polygons) -> Polygons:
     """The triangles around the first corner of each polygon."""
-    count = np.maximum(np.diff(polygons.offsets) - 2, 0)
-    owner = np.repeat(np.arange(len(polygons)), count)
-    step = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
-    first = polygons.offsets[:-1][owner]
-    corner = np.stack([first, first + step + 1, first + step + 2], axis=1).ravel()
+    corner = ragged.fans(polygons.offsets)[0].ravel()
     return Polygons(polygons.points[corner], np.arange(0, len(corner) + 1, 3))

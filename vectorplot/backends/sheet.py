@@ -13,6 +13,7 @@ from itertools import groupby
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.backends.areas import Areas, areas
 from vectorplot.curves.bezier import BezierPaths
 from vectorplot.curves.bezier_clip import clipped_paths
@@ -21,9 +22,9 @@ from vectorplot.drawing.clip import Rectangle, clipped_parts
 from vectorplot.drawing.curves import one_mark
 from vectorplot.drawing.drawing import Curves, Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
-from vectorplot.drawing.pieces import chosen, offsets_of, ranges
+from vectorplot.drawing.pieces import chosen
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 LARGEST_PAGE_MM = 1_000_000.0
 """A kilometre: cairo's coordinates wrap round at about three (2^23 points)."""
@@ -143,8 +144,8 @@ def _lines(drawing: Drawing, mark: Curves) -> Lines:
     count = np.concatenate((np.diff(straight.offsets), np.diff(curved.offsets)))[order]
     first = np.concatenate((straight.offsets[:-1], curved.offsets[:-1] + len(straight.microns)))[order]
     return Lines(
-        np.concatenate((straight.microns, curved.microns))[ranges(first, count)],
-        offsets_of(count),
+        np.concatenate((straight.microns, curved.microns))[ragged.ranges(first, count)],
+        ragged.offsets(count),
         np.concatenate((straight.closed, curved.closed))[order],
         order >= len(straight.closed),
         _whole_arcs(mark, page, source[order]),
@@ -183,7 +184,7 @@ def _without_repeats(paths: Paths) -> tuple[_Rounded, Bools]:
     points = microns[new][np.repeat(long, counts)]
     remains = np.zeros(len(paths), dtype=np.bool_)
     remains[filled[long]] = True
-    return _Rounded(points, offsets_of(counts[long]), (paths.closed[filled] & (counts > 2))[long]), remains
+    return _Rounded(points, ragged.offsets(counts[long]), (paths.closed[filled] & (counts > 2))[long]), remains
 
 
 def _control_polygons(paths: BezierPaths) -> tuple[_Rounded, Bools]:
@@ -196,8 +197,8 @@ def _control_polygons(paths: BezierPaths) -> tuple[_Rounded, Bools]:
     moves = (control != control[np.repeat(paths.offsets[:-1], size), :1]).any(axis=(1, 2))
     remains = np.logical_or.reduceat(moves, paths.offsets[:-1])
     control = control[np.repeat(remains, size)]
-    offsets = offsets_of(3 * size[remains] + 1)
-    heads = offsets_of(size[remains])[:-1]
+    offsets = ragged.offsets(3 * size[remains] + 1)
+    heads = ragged.offsets(size[remains])[:-1]
     microns = np.insert(control[:, 1:].reshape(-1, 2), 3 * heads, control[heads, 0], axis=0)
     return _Rounded(microns, offsets, paths.closed[remains]), remains
 
@@ -207,7 +208,7 @@ def _whole_arcs(mark: Curves, page: Rectangle, source: Ints) -> EllipseArcs:
     ascending."""
     control = mark.beziers.control
     out = ((control < page[:2]) | (control > page[2:])).any(axis=(1, 2))
-    owner = np.repeat(np.arange(len(mark)), np.diff(mark.beziers.offsets))
+    owner = ragged.owner(np.diff(mark.beziers.offsets))
     cut = np.bincount(owner[out], minlength=len(mark))[mark.arcs.stroke] > 0
     arcs = mark.arcs.some(~cut & np.isin(mark.arcs.stroke, source))
     return replace(arcs, stroke=np.searchsorted(source, arcs.stroke))

@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.backends.areas import Areas, Polygons, rounded
-from vectorplot.drawing.pieces import offsets_of, ranges
+from vectorplot.geometry import ragged
 from vectorplot.geometry.convex_clipping import clipped
-from vectorplot.geometry.mesh import Floats, Ints
 
 SHADE_ERROR = 2.0
 """By how many steps of 255 a shaded piece that is painted in one colour may differ from what it should be."""
@@ -40,9 +40,9 @@ class Strips:
     def some(self, which: Ints) -> Strips:
         """Some of the strips, in the order asked for."""
         sizes = np.diff(self.offsets)[which]
-        corner = ranges(self.offsets[which], sizes)
+        corner = ragged.ranges(self.offsets[which], sizes)
         return Strips(
-            self.microns[corner], offsets_of(sizes), self.triangle[which], self.ends[which], self.colours[which]
+            self.microns[corner], ragged.offsets(sizes), self.triangle[which], self.ends[which], self.colours[which]
         )
 
 
@@ -51,7 +51,7 @@ def joined_strips(one: Strips, other: Strips) -> Strips:
     triangle = np.concatenate([one.triangle, other.triangle])
     both = Strips(
         np.concatenate([one.microns, other.microns]),
-        offsets_of(np.concatenate([np.diff(one.offsets), np.diff(other.offsets)])),
+        ragged.offsets(np.concatenate([np.diff(one.offsets), np.diff(other.offsets)])),
         triangle,
         np.concatenate([one.ends, other.ends]),
         np.concatenate([one.colours, other.colours]),
@@ -89,8 +89,8 @@ def strips_of(corners: Floats, colours: Floats) -> Strips:
     low, high = local.min(axis=1), local.max(axis=1)
     number = np.ceil((high[:, 1] - low[:, 1]) * sizes[:, 1] / (2.0 * SHADE_ERROR))
     number = np.maximum(number, 1.0).astype(np.intp)
-    owner = np.repeat(np.arange(len(corners)), number)
-    step = ranges(np.zeros(len(corners), dtype=np.intp), number)
+    owner = ragged.owner(number)
+    step = ragged.place(number)
     width = ((high - low)[:, 1] / number)[owner]
     middle = low[owner, 1] + (step + 0.5) * width
     # Strips at the ends are wider, so that rounding cannot cut anything off.

@@ -14,12 +14,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vectorplot.arrays import Ints
 from vectorplot.backends.areas import Areas
 from vectorplot.backends.sheet import Ink, Lines, Sheet, sheet
 from vectorplot.backends.svg_areas import ID_PREFIX, area_elements
 from vectorplot.backends.svg_numbers import formatted
 from vectorplot.drawing.drawing import Drawing
-from vectorplot.geometry.mesh import Ints
+from vectorplot.geometry import ragged
 
 _PLACE = "\0"  # cannot occur in the document: names and titles hold no control characters
 _OPEN, _LOOP, _CURVE, _END, _RING, _ARC = b"\1", b"\2", b"\3", b"\4", b"\5", b"\6"
@@ -128,7 +129,7 @@ def _arc_data(lines: Lines, height: int) -> list[bytes]:
     handed = arcs.first[:, 0] * arcs.second[:, 1] > arcs.first[:, 1] * arcs.second[:, 0]
     clockwise = handed != (arcs.end > arcs.start)
     count = np.maximum(np.ceil(np.abs(arcs.end - arcs.start) / _WIDEST_ARC - 1e-9), 1.0).astype(np.intp)
-    owner = np.repeat(np.arange(len(arcs)), count)
+    owner = ragged.owner(count)
     last = np.cumsum(count) - 1
     number = np.arange(len(owner)) - np.repeat(last + 1 - count, count) + 1
     end = arcs.some(owner).points(arcs.start[owner] + (arcs.end - arcs.start)[owner] * (number / count[owner]))

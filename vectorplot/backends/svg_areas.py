@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.backends.areas import Areas
 from vectorplot.backends.merged_triangles import merged, slopes
 from vectorplot.backends.ramps import NONE, Ramps, item_ramps
@@ -13,8 +14,7 @@ from vectorplot.backends.strips import SHADE_ERROR, Strips, joined_strips, nearl
 from vectorplot.backends.svg_numbers import path_data
 from vectorplot.backends.underlaps import grown, underlaps
 from vectorplot.drawing.fills import SEAM_MM
-from vectorplot.drawing.pieces import offsets_of, ranges
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 ID_PREFIX = b"\7"
 """Stands for the beginning of all ids, a hash of the content, which is not known before the content."""
@@ -171,7 +171,7 @@ def _gradients(areas: Areas, shaded: Ints, ramps: Ramps, ramp: Ints, colours: Fl
     found = merged(corners[on], values, follows & (rows[:, 2] == 1.0), SHADE_ERROR / span)
     middle, value, slope = slopes(found)
     direction = slope / np.maximum(np.hypot(*slope.T), np.finfo(float).tiny)[:, None]
-    of = np.repeat(np.arange(len(found)), np.diff(found.offsets))
+    of = ragged.owner(np.diff(found.offsets))
     along = ((found.microns - middle[of]) * direction[of]).sum(axis=1)
     reach = np.stack([f.reduceat(along, found.offsets[:-1]) for f in (np.minimum, np.maximum)], axis=1)
     ends = middle[:, None] + reach[..., None] * direction[:, None]
@@ -202,11 +202,14 @@ def _with_strips(areas: Areas) -> tuple[Areas, Strips, Ints, Ramps]:
     source = np.concatenate((others, owner))
     order = np.argsort(source, kind="stable")
     sizes = np.concatenate((areas.sizes[others], np.diff(strips.offsets)))
-    corner, moved = ranges(areas.offsets[others], areas.sizes[others]), ranges(offsets_of(sizes)[order], sizes[order])
+    corner, moved = (
+        ragged.ranges(areas.offsets[others], areas.sizes[others]),
+        ragged.ranges(ragged.offsets(sizes)[order], sizes[order]),
+    )
     one_colour = np.repeat(np.rint((low + high) / 2.0).astype(np.uint8), np.diff(strips.offsets), axis=0)
     pieces = Areas(
         np.concatenate((areas.microns[corner], strips.microns))[moved],
-        offsets_of(sizes[order]),
+        ragged.offsets(sizes[order]),
         np.concatenate((areas.colours[corner], one_colour))[moved],
         areas.opacity[source[order]],
         areas.bare[source[order]],

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vectorplot.geometry.mesh import Ints
+from vectorplot.arrays import Ints
 
 
 def formatted(first: NDArray[np.uint8], x: Ints, y: Ints, last: NDArray[np.uint8]) -> bytes:

@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vectorplot.drawing.pieces import offsets_of, ranges
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 ROUNDING_MICRONS = 2.0
 """Polygons that overlap by no more than a strip of about this width lie side by side: their corners are rounded to
@@ -42,8 +42,8 @@ def groups_of(microns: Ints, offsets: Ints, run: Ints) -> Ints:
     import shapely
 
     sizes = np.diff(offsets)[which]
-    corner = ranges(offsets[which], sizes)
-    rings = shapely.linearrings(microns[corner], indices=np.repeat(np.arange(len(which)), sizes))
+    corner = ragged.ranges(offsets[which], sizes)
+    rings = shapely.linearrings(microns[corner], indices=ragged.owner(sizes))
     raw = shapely.polygons(rings)
     shapes = shapely.make_valid(raw)
     simple = np.abs(shapely.area(shapes) - shapely.area(raw)) <= 0.5
@@ -98,10 +98,10 @@ def outline(microns: Ints, offsets: Ints) -> tuple[Floats, Ints]:
     microns, the first of each ring not repeated, and offsets (r+1,)."""
     import shapely
 
-    rings = shapely.linearrings(microns, indices=np.repeat(np.arange(len(offsets) - 1), np.diff(offsets)))
+    rings = shapely.linearrings(microns, indices=ragged.owner(np.diff(offsets)))
     united = shapely.union_all(shapely.make_valid(shapely.polygons(rings)))
     parts = shapely.get_parts(united)
     borders = shapely.get_rings(parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON])
     corners, ring = shapely.get_coordinates(borders, return_index=True)
     first = np.append(True, ring[1:] != ring[:-1])[: len(ring)]
-    return np.rint(corners[~first]), offsets_of(np.bincount(ring[~first], minlength=len(borders)))
+    return np.rint(corners[~first]), ragged.offsets(np.bincount(ring[~first], minlength=len(borders)))

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.backends.mesh_borders import places_of
-from vectorplot.drawing.pieces import offsets_of
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 REACH_MICRONS = 320.0
 """So far polygons reach under others: more than a pixel of a screen of 96 dots per inch, slantwise as well."""
@@ -55,7 +55,7 @@ def underlaps(microns: Ints, offsets: Ints, covers: Bools, group: Ints) -> Under
     Degenerate: under polygons that are not convex nothing is added.
     """
     count, sizes = len(offsets) - 1, np.diff(offsets)
-    owner = np.repeat(np.arange(count), sizes)
+    owner = ragged.owner(sizes)
     after = np.arange(1, len(microns) + 1)
     after[offsets[1:][sizes > 0] - 1] = offsets[:-1][sizes > 0]
     before = np.empty_like(after)
@@ -133,11 +133,11 @@ def grown(microns: Ints, offsets: Ints, found: Underlaps) -> tuple[Ints, Ints, I
     turns = np.array(((-1, -1), (1, -1), (1, 1), (-1, 1)))
     squares = found.middle[:, None] + np.rint(found.half).astype(np.int64)[:, None, None] * turns
     corners = np.concatenate((outlines, squares.reshape(-1, 2)))
-    place = np.concatenate((np.repeat(np.arange(count), np.diff(ends)), np.repeat(found.square, 4)))
+    place = np.concatenate((ragged.owner(np.diff(ends)), np.repeat(found.square, 4)))
     sizes = np.concatenate((np.diff(ends), np.full(len(found.square), 4)))
     part = np.argsort(np.concatenate((np.arange(count), found.square)), kind="stable")
     first = np.searchsorted(np.sort(np.concatenate((np.arange(count), found.square))), np.arange(count + 1))
-    return corners[np.argsort(place, kind="stable")], offsets_of(sizes[part]), first
+    return corners[np.argsort(place, kind="stable")], ragged.offsets(sizes[part]), first
 
 
 def _with_laps(microns: Ints, offsets: Ints, found: Underlaps) -> tuple[Ints, Ints]:
@@ -145,15 +145,13 @@ def _with_laps(microns: Ints, offsets: Ints, found: Underlaps) -> tuple[Ints, In
     added = np.rint(np.stack((found.near, found.far), axis=1)).astype(np.int64).reshape(-1, 2)
     place = np.concatenate((np.arange(len(microns)), np.repeat(found.side, 2)))
     order = np.argsort(place, kind="stable")
-    sizes = np.diff(offsets) + 2 * np.bincount(
-        np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))[found.side], minlength=len(offsets) - 1
-    )
-    return np.concatenate((microns, added))[order], offsets_of(sizes)
+    sizes = np.diff(offsets) + 2 * np.bincount(ragged.owner(np.diff(offsets))[found.side], minlength=len(offsets) - 1)
+    return np.concatenate((microns, added))[order], ragged.offsets(sizes)
 
 
 def _convex(microns: Ints, offsets: Ints, after: Ints, before: Ints) -> Bools:
     """(m,) which polygons turn to the left at all corners."""
     one, two = microns - microns[before], microns[after] - microns
     right = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0] < 0
-    count = np.concatenate(([0], np.cumsum(right)))[offsets]
+    count = ragged.offsets(right)[offsets]
     return np.asarray(count[1:] == count[:-1])

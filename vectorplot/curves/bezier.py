@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 MAX_FLAT_POINTS = 10_000_000
 """Flattening refuses to make more points than this."""
@@ -144,14 +145,14 @@ def flattened(control: Floats, offsets: Ints, tolerance: float) -> tuple[Floats,
         raise InputError(f"a tolerance of {tolerance:g} takes more than {MAX_FLAT_POINTS} points")
     count = chords.astype(np.intp)
     ends = np.cumsum(count)
-    owner = np.repeat(np.arange(len(control)), count)
+    owner = ragged.owner(count)
     t = (np.arange(len(owner)) - (ends - count)[owner] + 1.0) / count[owner]
     points = bezier_points(control[owner], t)
     filled = np.flatnonzero(np.diff(offsets) > 0)
     heads = np.concatenate(([0], ends))[offsets[:-1]]
     points = np.insert(points, heads[filled], control[offsets[filled], 0], axis=0)
     sizes = np.diff(np.concatenate(([0], ends))[offsets]) + (np.diff(offsets) > 0)
-    return points, np.concatenate(([0], np.cumsum(sizes))).astype(np.intp)
+    return points, ragged.offsets(sizes)
 
 
 def lengths(control: Floats) -> Floats:

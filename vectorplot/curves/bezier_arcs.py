@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.bezier import BezierPath
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
 
 _MOST_SEGMENTS = 1 << 16
 

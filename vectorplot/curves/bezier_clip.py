@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier import BezierPaths, bezier_points, split
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 _HALVINGS = 55
 """From 1 down to the rounding of a double."""
@@ -21,7 +22,7 @@ def clipped_paths(paths: BezierPaths, low: Floats, high: Floats) -> tuple[Bezier
     Source: de Casteljau's scheme at the roots of the coordinates' polynomials.
     """
     size = np.diff(paths.offsets)
-    owner = np.repeat(np.arange(len(paths)), size)
+    owner = ragged.owner(size)
     out = _any_outside(paths.control, low, high)
     leaves = np.bincount(owner[out], minlength=len(paths)) > 0
     if not leaves.any():
@@ -31,7 +32,7 @@ def clipped_paths(paths: BezierPaths, low: Floats, high: Floats) -> tuple[Bezier
     parts, source = _inside(paths, owner, out, np.flatnonzero(leaves[owner]), (low, high))
     both = BezierPaths(
         np.concatenate((_chosen(paths, whole).control, parts.control)),
-        np.concatenate(([0], np.cumsum(np.concatenate((size[whole], np.diff(parts.offsets)))))).astype(np.intp),
+        ragged.offsets(np.concatenate((size[whole], np.diff(parts.offsets)))),
         np.concatenate((paths.closed[whole], parts.closed)),
         np.concatenate((paths.error[whole], parts.error)),
     )
@@ -47,8 +48,8 @@ def _any_outside(points: Floats, low: Floats, high: Floats) -> Bools:
 
 def _chosen(paths: BezierPaths, which: Ints) -> BezierPaths:
     size = np.diff(paths.offsets)[which]
-    offsets = np.concatenate(([0], np.cumsum(size))).astype(np.intp)
-    index = np.arange(offsets[-1]) + np.repeat(paths.offsets[which] - offsets[:-1], size)
+    offsets = ragged.offsets(size)
+    index = ragged.ranges(paths.offsets[which], size)
     return BezierPaths(paths.control[index], offsets, paths.closed[which], paths.error[which])
 
 

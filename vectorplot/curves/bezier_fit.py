@@ -6,12 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier import BezierPath, BezierPaths
 from vectorplot.curves.bezier_spans import Spans, fitted_spans, measured_spans
 from vectorplot.curves.bezier_tangents import Directions, Lines, directions
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 CORNER_ANGLE = np.radians(30.0)
 """A polyline that turns by more at one point has a corner there."""
@@ -80,7 +81,7 @@ def fitted_paths(
     owner = lines.line[spans.first]
     count[kept] = np.bincount(owner, minlength=len(kept))
     error[kept] = np.maximum.reduceat(spans.error, np.searchsorted(owner, np.arange(len(kept))))
-    return BezierPaths(fit.control(spans), np.concatenate(([0], np.cumsum(count))), closed.copy(), error)
+    return BezierPaths(fit.control(spans), ragged.offsets(count), closed.copy(), error)
 
 
 def fitted_curve(curve: Curve, *, tolerance: float) -> BezierPath:
@@ -158,8 +159,8 @@ class _Fit:
         parts = np.clip(np.ceil(ratio ** (1.0 / 6.0) * 1.05), 2, _MOST_PARTS).astype(np.intp)
         parts = np.minimum(parts, spans.last - spans.first)
         knots = np.zeros(len(self.lines.line), dtype=np.bool_)
-        owner = np.repeat(np.arange(len(parts)), parts - 1)
-        number = np.arange(len(owner)) - np.repeat(np.cumsum(parts - 1) - (parts - 1), parts - 1) + 1
+        owner = ragged.owner(parts - 1)
+        number = ragged.place(parts - 1) + 1
         length = self.lines.length
         start, end = length[spans.first[owner]], length[spans.last[owner]]
         # A little less than the part: where a point lies on it, rounding does not choose.
@@ -251,10 +252,10 @@ def _lines(points: Floats, offsets: Ints, closed: Bools, tangents: Floats | None
     # Open lines may end with a point that repeats; a loop gets its first point again, and a single point too.
     again = closed[kept] | (counts == 1)
     sizes = counts + again
-    starts = np.cumsum(sizes) - sizes
+    starts = ragged.starts(sizes)
     place = np.arange(sizes.sum()) - np.repeat(starts, sizes)
     index = np.repeat(first, sizes) + np.where(place == np.repeat(counts, sizes), 0, place)
-    line = np.repeat(np.arange(len(kept)), sizes)
+    line = ragged.owner(sizes)
     spread = points[index]
     extent = (np.maximum.reduceat(spread, starts) - np.minimum.reduceat(spread, starts)).max(axis=1)
     step = np.linalg.norm(np.diff(spread, axis=0), axis=1)

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.bezier_tangents import Directions, Lines
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry import ragged
 
 _STEPS = 3
 _RIDGE = 1e-5
@@ -69,7 +70,7 @@ class _Problem:
     def __init__(self, lines: Lines, tangent: Directions, first: Ints, last: Ints) -> None:
         self.first, self.last = first, last
         self.counts = last - first + 1
-        self.starts = np.cumsum(self.counts) - self.counts
+        self.starts = ragged.starts(self.counts)
         self.index = np.arange(self.counts.sum()) + np.repeat(first - self.starts, self.counts)
         self.points = lines.points[:, self.index] - self._spread(lines.points[:, first])
         self.leaving, self.arriving = tangent.leaving[:, first], tangent.arriving[:, last]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol, TypeGuard
 
-from vectorplot.geometry.mesh import Floats
+from vectorplot.arrays import Floats
 
 
 class Curve(Protocol):

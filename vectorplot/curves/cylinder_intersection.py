@@ -10,10 +10,10 @@ from typing import ClassVar
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import number, positive
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.tolerance import ROUNDING
 
 # A function of the parameter with its first and second derivative.

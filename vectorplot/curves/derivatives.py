@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.unbounded import LOOKS, Limits, limits_of
 from vectorplot.curves.user_function import Numbers, UserFunction, user_function
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats
 
 # Derivatives at s of the five Lagrange polynomials through -2, ..., 2, as coefficients of s^3, s^2, s, 1.
 _SLOPES = np.array([[2, -3, -1, 1], [-8, 6, 16, -8], [12, 0, -30, 0], [-8, -6, 16, 8], [2, 3, -1, -1]]) / 12.0

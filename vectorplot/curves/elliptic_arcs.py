@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier import BezierPaths
 from vectorplot.curves.bezier_arcs import arc_error
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 FEWEST_POINTS = 8
 """Five points are on some conic in any case; the others must agree."""
@@ -97,8 +98,8 @@ def recognised_arcs(points: Floats, offsets: Ints, closed: Bools, *, tolerance: 
     if not len(stroke):
         return EllipseArcs.none()
     loop, count = closed[stroke], np.diff(offsets)[stroke]
-    starts = np.cumsum(count) - count
-    arm = points[np.arange(count.sum()) + np.repeat(offsets[stroke] - starts, count)] - np.repeat(centre, count, axis=0)
+    starts = ragged.starts(count)
+    arm = points[ragged.ranges(offsets[stroke], count)] - np.repeat(centre, count, axis=0)
     angle, off = _polar(arm, np.repeat(axes, count, axis=0))
     step = _turned(np.diff(angle, append=angle[:1]))
     last = starts + count - 1
@@ -132,8 +133,8 @@ def arc_segments(arcs: EllipseArcs, closed: Bools, *, tolerance: float) -> Bezie
         count = np.where(coarse, count + 1 + count // 64, count)
         if count.max() > _MOST_SEGMENTS:
             raise InputError(f"a tolerance of {tolerance:g} takes more than {_MOST_SEGMENTS} segments")
-    offsets = np.concatenate(([0], np.cumsum(count))).astype(np.intp)
-    owner = np.repeat(np.arange(len(arcs)), count)
+    offsets = ragged.offsets(count)
+    owner = ragged.owner(count)
     place = np.arange(offsets[-1]) - offsets[:-1][owner]
     width = (arcs.end - arcs.start) / count
     t = arcs.start[owner, None] + width[owner, None] * np.stack((place, place + 1), axis=1)

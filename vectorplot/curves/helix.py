@@ -9,9 +9,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.circle import Circle
 from vectorplot.curves.parameters import number
-from vectorplot.geometry.mesh import Floats
 
 
 @dataclass(frozen=True, eq=False)

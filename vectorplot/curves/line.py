@@ -8,9 +8,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import parameter_range, vector
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,9 +7,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import number, parameter_range, positive
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import invertible, vector
 from vectorplot.curves.second_derivatives import second_derivatives
-from vectorplot.geometry.mesh import Floats
 
 
 @dataclass(frozen=True, eq=False)

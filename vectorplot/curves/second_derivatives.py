@@ -6,9 +6,9 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.derivatives import Range, numeric_function
-from vectorplot.geometry.mesh import Floats
 
 
 @runtime_checkable

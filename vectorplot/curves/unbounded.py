@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats
+from vectorplot.arrays import Floats
 
 LOOKS = 61
 """Places along each side at which a function is looked at first: an odd number, but none in the very middle."""

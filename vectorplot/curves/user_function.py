@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.mesh import Floats
 
 # Real or complex.
 Numbers = NDArray[Any]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Ints
+from vectorplot.arrays import Bools, Ints
 
 NO_END = -1
 

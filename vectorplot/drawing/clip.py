@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.pieces import chosen, concatenated, sections, unrolled
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 Rectangle = tuple[float, float, float, float]
 """Left, bottom, right, top in mm."""
@@ -46,7 +47,7 @@ def clipped_parts(paths: Paths, rectangle: Rectangle, page_from_world: Floats | 
 
 
 def _any_in_each(flags: Bools, offsets: Ints) -> Bools:
-    before = np.concatenate(([0], np.cumsum(flags)))[offsets]
+    before = ragged.offsets(flags)[offsets]
     return before[1:] > before[:-1]
 
 
@@ -59,7 +60,7 @@ def _first_in_each(flags: Bools, offsets: Ints, index: Ints) -> Ints:
 def _inside(paths: Paths, low: Floats, high: Floats, page_from_world: Floats) -> tuple[Paths, Ints]:
     """The parts of open strokes inside the box, and the stroke each one comes from."""
     counts = np.diff(paths.offsets)
-    owner = np.repeat(np.arange(len(paths)), np.maximum(counts - 1, 0))
+    owner = ragged.owner(np.maximum(counts - 1, 0))
     starts = np.delete(np.arange(len(paths.points)), paths.offsets[1:][counts > 0] - 1)
     a, b = paths.points[starts], paths.points[starts + 1]
     t0, axis0 = _entered(a, b, low, high)

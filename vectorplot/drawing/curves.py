@@ -6,13 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Ints
 from vectorplot.curves.bezier import BezierPaths
 from vectorplot.curves.bezier_fit import fitted_paths
 from vectorplot.curves.elliptic_arcs import EllipseArcs, arc_segments, recognised_arcs
 from vectorplot.drawing.drawing import Curves, Paths
-from vectorplot.drawing.pieces import chosen, concatenated, offsets_of, ranges
+from vectorplot.drawing.pieces import chosen, concatenated
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Ints
+from vectorplot.geometry import ragged
 
 CHORD_SHARE = 0.5
 """The part of the tolerance that chords may be off their curves."""
@@ -63,14 +64,14 @@ def with_curves(paths: Paths, tolerance_mm: float) -> Paths | Curves:
 def one_mark(marks: tuple[Paths | Curves, ...]) -> Curves:
     """All marks of a layer as one, one after the other; what was Paths stays polylines."""
     some = [mark if isinstance(mark, Curves) else _polylines(mark) for mark in marks]
-    first = offsets_of(np.array([len(mark) for mark in some], dtype=np.intp))
+    first = ragged.offsets(np.array([len(mark) for mark in some], dtype=np.intp))
     arcs = [mark.arcs for mark in some]
     beziers = [mark.beziers for mark in some]
     return Curves(
         concatenated(tuple(mark.paths for mark in some)),
         BezierPaths(
             np.concatenate([np.zeros((0, 4, 2)), *(part.control for part in beziers)]),
-            offsets_of(np.concatenate([np.zeros(0, dtype=np.intp), *(np.diff(part.offsets) for part in beziers)])),
+            ragged.offsets(np.concatenate([np.zeros(0, dtype=np.intp), *(np.diff(part.offsets) for part in beziers)])),
             np.concatenate([np.zeros(0, dtype=np.bool_), *(part.closed for part in beziers)]),
             np.concatenate([np.zeros(0), *(part.error for part in beziers)]),
         ),
@@ -90,10 +91,10 @@ def _in_places(parts: tuple[BezierPaths, ...], strokes: tuple[Ints, ...], paths:
     count, error = np.zeros(len(paths), dtype=np.intp), np.zeros(len(paths))
     for part, stroke in zip(parts, strokes, strict=True):
         count[stroke], error[stroke] = np.diff(part.offsets), part.error
-    offsets = offsets_of(count)
+    offsets = ragged.offsets(count)
     control = np.zeros((offsets[-1], 4, 2))
     for part, stroke in zip(parts, strokes, strict=True):
-        control[ranges(offsets[stroke], count[stroke])] = part.control
+        control[ragged.ranges(offsets[stroke], count[stroke])] = part.control
     drawn = np.flatnonzero(count)
     control[offsets[drawn], 0] = paths.points[paths.offsets[drawn]]
     last = np.where(paths.closed[drawn], paths.offsets[drawn], paths.offsets[drawn + 1] - 1)

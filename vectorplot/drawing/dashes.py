@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.pieces import chosen, concatenated, ranges, sections, unrolled
+from vectorplot.drawing.pieces import chosen, concatenated, sections, unrolled
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 
 def dashed(paths: Paths, dash_mm: float, gap_mm: float, page_from_world: Floats | None = None) -> Paths:
@@ -65,8 +66,8 @@ def _number_of_dashes(paths: Paths, length: Floats, dash_mm: float, gap_mm: floa
 
 def _dash_ends(many: Ints, length: Floats, closed: Bools, dash_mm: float, gap_mm: float) -> tuple[Floats, Floats, Ints]:
     """Where the dashes begin and end along their strokes, and whose they are."""
-    stroke = np.repeat(np.arange(len(many)), many)
-    number = ranges(np.zeros_like(many), many)
+    stroke = ragged.owner(many)
+    number = ragged.place(many)
     gaps = np.where(closed, many, many - 1)
     scale = length / (many * dash_mm + gaps * gap_mm)
     # On a loop the pattern starts half a dash later and its last dash lies over the seam, half on the second lap.

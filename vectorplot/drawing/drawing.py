@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier import BezierPaths
 from vectorplot.curves.elliptic_arcs import EllipseArcs
 from vectorplot.drawing.fills import Fills
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 
 @dataclass(frozen=True)

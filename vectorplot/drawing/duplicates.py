@@ -7,11 +7,12 @@ from itertools import pairwise
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.near import Keys, companions, overlapping_cells
-from vectorplot.drawing.pieces import chosen, ranges, sections
+from vectorplot.drawing.pieces import chosen, sections
 from vectorplot.exact import intervals
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 CLOSE_OF_LENGTH = 1e-3
 """A stroke is collinear with another only within this part of its length too: a short one has no direction else."""
@@ -136,8 +137,8 @@ def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> tup
         slope = (end[which, 1 - axis] - start[which, 1 - axis]) / run
         strip = np.floor(np.minimum(main, main + run) / width)
         count = (np.floor(np.maximum(main, main + run) / width) - strip).astype(np.intp) + 1
-        piece = np.repeat(np.arange(len(which)), count)
-        number = strip[piece].astype(np.intp) + ranges(np.zeros_like(count), count)
+        piece = ragged.owner(count)
+        number = strip[piece].astype(np.intp) + ragged.place(count)
         height = cross[piece] + slope[piece] * ((number + 0.5) * width - main[piece])
         key, entry = overlapping_cells(slope[piece], height, 2 * number + axis, (turn, shift))
         keys.append(key)
@@ -148,7 +149,7 @@ def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> tup
 def _overlapping(start: Floats, end: Floats, owner: Ints, starts: Ints, tolerance: float) -> tuple[Ints, Ints]:
     """The crowds in which some strokes may overlap."""
     size = np.diff(starts)
-    run = np.repeat(np.arange(len(size)), size)
+    run = ragged.owner(size)
     low = np.minimum(start, end)[owner].T.copy()
     high = np.maximum(start, end)[owner].T.copy()
     calls = size > _SMALL
@@ -157,7 +158,7 @@ def _overlapping(start: Floats, end: Floats, owner: Ints, starts: Ints, toleranc
         touch = np.maximum(common[0], common[1]) > 0.5 * tolerance
         touch &= np.minimum(common[0], common[1]) >= -2.0 * tolerance
         calls[run[lag:][touch & (run[lag:] == run[:-lag])]] = True
-    return owner[calls[run]], np.concatenate(([0], np.cumsum(size[calls]))).astype(np.intp)
+    return owner[calls[run]], ragged.offsets(size[calls])
 
 
 def _covered(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints, Floats, Floats]:
@@ -165,7 +166,7 @@ def _covered(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints
 
     owner: the strokes of the crowds, by importance.
     """
-    run = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    run = ragged.owner(np.diff(starts))
     order = np.lexsort((owner, run))
     owner = owner[order]
     dropped = np.zeros(len(segments.length), dtype=np.bool_)
@@ -199,6 +200,6 @@ def pairs_in_crowds(owner: Ints, run: Ints) -> Iterator[tuple[Ints, Ints]]:
     edges = np.unique(np.concatenate(([0], cuts, [len(run)]))).tolist()
     for low, high in pairwise(edges):
         winner = np.repeat(np.arange(low, high), following[low:high])
-        loser = ranges(np.arange(low + 1, high + 1), following[low:high])
+        loser = ragged.ranges(np.arange(low + 1, high + 1), following[low:high])
         different = owner[winner] != owner[loser]
         yield owner[winner[different]], owner[loser[different]]

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.painted import Overlay, interleaved
-from vectorplot.geometry.mesh import Ints
+from vectorplot.geometry import ragged
 
 
 def erased_fills(blank: Fills, lines: Fills, width_mm: float) -> Fills:
@@ -25,7 +26,7 @@ def erased_fills(blank: Fills, lines: Fills, width_mm: float) -> Fills:
 def line_fills(strokes: Paths, ink: Colours) -> Fills:
     """Every straight part of strokes as a line of two corners in the ink (m,3) of its stroke."""
     sizes = np.diff(strokes.offsets)
-    owner = np.repeat(np.arange(len(strokes)), sizes)
+    owner = ragged.owner(sizes)
     start = np.arange(len(strokes.points))
     end = start + 1
     last = strokes.offsets[1:][sizes > 0] - 1
@@ -52,7 +53,7 @@ def _last_touching(polygons: Fills, lines: Fills, distance: float) -> Ints:
     sizes = np.diff(polygons.offsets)
     full = np.flatnonzero(sizes >= 3)
     corner = np.repeat(sizes >= 3, sizes)
-    rings = shapely.linearrings(polygons.points[corner], indices=np.repeat(np.arange(len(full)), sizes[full]))
+    rings = shapely.linearrings(polygons.points[corner], indices=ragged.owner(sizes[full]))
     tree = shapely.STRtree(shapely.polygons(rings))
     segments = shapely.linestrings(lines.points.reshape(-1, 2, 2))
     line, polygon = tree.query(segments, predicate="dwithin", distance=distance)

@@ -8,8 +8,9 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry import ragged
 
 Colours = NDArray[np.uint8]
 
@@ -135,7 +136,7 @@ class Fills:
         sizes = np.concatenate([np.diff(part.offsets) for part in some])
         return cls(
             np.concatenate([part.points for part in some]),
-            np.concatenate([[0], np.cumsum(sizes)]).astype(np.intp),
+            ragged.offsets(sizes),
             np.concatenate([part.colours for part in some]),
             np.concatenate([part.opacity for part in some]),
             np.concatenate([part.item for part in some]),
@@ -146,8 +147,8 @@ class Fills:
     def some(self, which: Ints) -> Fills:
         """The polygons with these numbers, in this order."""
         sizes = np.diff(self.offsets)[which]
-        ends = np.concatenate([[0], np.cumsum(sizes)]).astype(np.intp)
-        corner = np.repeat(self.offsets[which] - ends[:-1], sizes) + np.arange(ends[-1])
+        ends = ragged.offsets(sizes)
+        corner = ragged.ranges(self.offsets[which], sizes)
         return Fills(
             self.points[corner],
             ends,

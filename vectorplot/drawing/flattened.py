@@ -16,10 +16,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted import Overlay, stacked
 from vectorplot.drawing.visible_fills import GRID_MM, in_space
-from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.regions import (
     corners_of,
     insides_of,
@@ -119,7 +121,7 @@ def _depths(region: NDArray[np.object_], piece: Ints, ground: Bools) -> Ints:
     start = np.maximum.accumulate(np.where(new, number, 0))
     count = number - start
     above = np.repeat(number, count)
-    below = np.arange(len(above)) - np.repeat(np.cumsum(count) - count - start, count)
+    below = np.arange(len(above)) - np.repeat(ragged.starts(count) - start, count)
     common = shapely.intersects(region[below], region[above])
     above, below = above[common], below[common]
     both = shapely.area(insides_of(shapely.intersection(region[below], region[above])))

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.drawing.curves import with_curves
 from vectorplot.drawing.dashes import dashed
 from vectorplot.drawing.drawing import Layer, Paths
@@ -15,7 +16,6 @@ from vectorplot.drawing.page import COINCIDENT_MM
 from vectorplot.drawing.pen_order import pen_ordered
 from vectorplot.drawing.pieces import chosen, concatenated
 from vectorplot.drawing.simplify import without_collinear_points
-from vectorplot.geometry.mesh import Floats
 from vectorplot.words import LineKind
 
 COLLINEAR_MM = 1e-4

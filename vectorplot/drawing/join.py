@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.chains import NO_END, Chains, chains
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.near import clusters
-from vectorplot.drawing.pieces import chosen, offsets_of, ranges, world_per_mm
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.drawing.pieces import chosen, world_per_mm
+from vectorplot.geometry import ragged
 from vectorplot.geometry.weld import close_points
 
 SAME_PLACE = 100.0
@@ -164,14 +165,14 @@ def _assembled(paths: Paths, open_: Ints, order: Chains) -> Paths:
     loops = np.flatnonzero(paths.closed)
     loop_counts = np.diff(paths.offsets)[loops]
     index = _stepped(begin, kept, backwards)
-    index = np.concatenate((index, ranges(paths.offsets[loops], loop_counts)))
+    index = np.concatenate((index, ragged.ranges(paths.offsets[loops], loop_counts)))
     counts = np.concatenate((np.add.reduceat(kept, order.offsets[:-1]), loop_counts))
     source = np.concatenate((stroke[order.offsets[:-1]], loops))
     closed = np.concatenate((order.cyclic, np.ones(len(loops), dtype=np.bool_)))
     closed[: len(order.cyclic)] &= counts[: len(order.cyclic)] > 2
     return Paths(
         paths.points[index],
-        offsets_of(counts),
+        ragged.offsets(counts),
         closed,
         paths.kind[source],
         paths.item[source],
@@ -183,6 +184,6 @@ def _assembled(paths: Paths, open_: Ints, order: Chains) -> Paths:
 
 def _stepped(begin: Ints, counts: Ints, backwards: Bools) -> Ints:
     """The indices begin[i], begin[i] + 1, ..., or begin[i] - 1, ... (counts[i] of them), range after range."""
-    local = ranges(np.zeros_like(counts), counts)
+    local = ragged.place(counts)
     index: Ints = np.repeat(begin, counts) + np.where(np.repeat(backwards, counts), -local, local)
     return index

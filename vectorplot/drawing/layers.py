@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from vectorplot.arrays import Ints
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.pieces import chosen
-from vectorplot.geometry.mesh import Ints
 from vectorplot.words import LineKind
 
 BLACK = "#000000"

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
 
 Keys = NDArray[np.uint64]
 
@@ -73,7 +74,7 @@ def clusters(x: Floats, y: Floats, label: Ints, reach: float) -> Ints:
     every step is found, but equal points always get equal clusters.
     """
     owner, starts = companions(*overlapping_cells(x, y, label, (reach, reach)))
-    run = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    run = ragged.owner(np.diff(starts))
     links = []
     while len(owner):
         # Every run's first point takes all that are close to it; the rest tries again among itself.

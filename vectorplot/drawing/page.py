@@ -6,12 +6,12 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.duplicates import without_duplicates
 from vectorplot.drawing.pieces import chosen, concatenated
 from vectorplot.drawing.smooth_duplicates import without_smooth_duplicates
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Floats
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.visibility.framing import reaches_too_far

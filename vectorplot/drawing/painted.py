@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.fills import Colours, Fills
 from vectorplot.drawing.page import centred, fitted
-from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.scene.scene import Page
 from vectorplot.scene.view import View
 from vectorplot.visibility.framing import reaches_too_far

@@ -6,12 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.pieces import chosen, ranges
+from vectorplot.drawing.pieces import chosen
 from vectorplot.drawing.tour import greedy_tour
 from vectorplot.drawing.tour_ends import Places
 from vectorplot.drawing.tour_moves import shortened
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 
 def pen_ordered(paths: Paths) -> Paths:
@@ -65,15 +66,15 @@ def _canonical_starts(paths: Paths, spots: Places) -> Ints:
     loops = np.flatnonzero(paths.closed & (np.diff(paths.offsets) > 1))
     if len(loops):
         first, counts = paths.offsets[:-1][loops], np.diff(paths.offsets)[loops]
-        index = ranges(first, counts)
+        index = ragged.ranges(first, counts)
         start[loops] = _least(spots[index].real, spots[index].imag, counts)
     return start
 
 
 def _least(value: Floats, tie: Floats, counts: Ints) -> Ints:
     """The place in each run of the least value, the least tie among equal values."""
-    begin = np.cumsum(counts) - counts
-    run = np.repeat(np.arange(len(counts)), counts)
+    begin = ragged.starts(counts)
+    run = ragged.owner(counts)
     at = np.flatnonzero(value == np.minimum.reduceat(value, begin)[run])
     at = at[np.lexsort((tie[at], run[at]))]
     place: Ints = at[np.searchsorted(run[at], np.arange(len(counts)))] - begin
@@ -112,7 +113,7 @@ def _drawn(paths: Paths, start: Ints, order: Ints, against: Bools) -> Paths:
     counts = np.diff(paths.offsets)[order]
     begin = np.where(against, counts - 1, start[order])
     step = np.where(against, -1, 1)
-    local = ranges(np.zeros(len(order), dtype=np.intp), counts) * np.repeat(step, counts) + np.repeat(begin, counts)
+    local = ragged.place(counts) * np.repeat(step, counts) + np.repeat(begin, counts)
     size = np.repeat(counts, counts)
     local -= np.where(local >= size, size, 0)
     index = np.repeat(paths.offsets[:-1][order], counts) + local
@@ -141,7 +142,7 @@ def _entered(paths: Paths, spots: Places, start: Ints, rank: Ints, ends: Places,
         after = ends[tour[np.minimum(at + 1, len(tour) - 1)]]
         before, after = np.where(at == 0, after, before), np.where(at == len(tour) - 1, before, after)
         many = counts[stroke]
-        spot = spots[ranges(paths.offsets[:-1][stroke], many)]
+        spot = spots[ragged.ranges(paths.offsets[:-1][stroke], many)]
         way = np.abs(spot - np.repeat(before, many)) + np.abs(spot - np.repeat(after, many))
         start[stroke] = _least(way, spot.real, many)
         entry = spots[paths.offsets[:-1][stroke] + start[stroke]]

@@ -6,20 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
-from vectorplot.geometry.mesh import Bools, Floats, Ints
-
-
-def ranges(starts: Ints, counts: Ints) -> Ints:
-    """The indices starts[i], starts[i] + 1, ... (counts[i] of them), range after range."""
-    first = np.cumsum(counts) - counts
-    indices: Ints = np.arange(counts.sum(), dtype=np.intp) + np.repeat(starts - first, counts)
-    return indices
-
-
-def offsets_of(counts: Ints) -> Ints:
-    """Where each of consecutive runs of the given lengths begins, and where the last one ends."""
-    return np.concatenate(([0], np.cumsum(counts))).astype(np.intp)
+from vectorplot.geometry import ragged
 
 
 def world_per_mm(paths: Paths) -> float:
@@ -34,10 +23,10 @@ def chosen(paths: Paths, which: Ints | Bools) -> Paths:
     """The strokes with these indices, in this order; or those where a mask is true."""
     index = np.flatnonzero(which) if which.dtype == np.bool_ else which
     counts = np.diff(paths.offsets)[index]
-    points = ranges(paths.offsets[index], counts)
+    points = ragged.ranges(paths.offsets[index], counts)
     return Paths(
         paths.points[points],
-        offsets_of(counts),
+        ragged.offsets(counts),
         paths.closed[index],
         paths.kind[index],
         paths.item[index],
@@ -55,7 +44,7 @@ def concatenated(parts: tuple[Paths, ...]) -> Paths:
         return Paths.empty()
     return Paths(
         np.concatenate([part.points for part in parts]),
-        offsets_of(np.concatenate([np.diff(part.offsets) for part in parts])),
+        ragged.offsets(np.concatenate([np.diff(part.offsets) for part in parts])),
         np.concatenate([part.closed for part in parts]),
         np.concatenate([part.kind for part in parts]),
         np.concatenate([part.item for part in parts]),
@@ -73,11 +62,11 @@ def unrolled(paths: Paths, start: Ints, extra: Ints) -> Paths:
     """
     counts = np.diff(paths.offsets)
     longer = counts + extra
-    local = ranges(start, longer)
+    local = ragged.ranges(start, longer)
     index = np.repeat(paths.offsets[:-1], longer) + local % np.maximum(np.repeat(counts, longer), 1)
     open_ = np.zeros(len(paths), dtype=np.bool_)
     return replace(
-        paths, points=paths.points[index], offsets=offsets_of(longer), closed=open_, points3d=paths.points3d[index]
+        paths, points=paths.points[index], offsets=ragged.offsets(longer), closed=open_, points3d=paths.points3d[index]
     )
 
 
@@ -92,11 +81,11 @@ def sections(
     """
     inner = last - first
     counts = inner + 2
-    offsets = offsets_of(counts)
+    offsets = ragged.offsets(counts)
     points = np.empty((offsets[-1], 2))
     points3d = np.empty((offsets[-1], 3))
-    between = ranges(first + 1, inner)
-    places = ranges(offsets[:-1] + 1, inner)
+    between = ragged.ranges(first + 1, inner)
+    places = ragged.ranges(offsets[:-1] + 1, inner)
     points[places], points3d[places] = paths.points[between], paths.points3d[between]
     for places, segment, t in ((offsets[:-1], first, t_first), (offsets[1:] - 1, last, t_last)):
         points[places], points3d[places] = _divided(paths, segment, t, page_from_world)

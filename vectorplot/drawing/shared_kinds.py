@@ -10,9 +10,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.duplicates import nearly_collinear, pairs_in_crowds
 from vectorplot.exact import intervals
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
 from vectorplot.visibility.lines import Lines, joined_lines
 from vectorplot.words import LineKind
@@ -41,7 +42,7 @@ def with_shared_kinds(view: View, lines: Lines) -> Lines:
     if contour.all() or not contour.any():
         return lines
     owner, starts = nearly_collinear(start, end, ONE_PLACE)
-    run = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    run = ragged.owner(np.diff(starts))
     mixed = np.zeros((2, len(starts)), dtype=np.bool_)
     mixed[contour[owner].astype(np.intp), run] = True
     kept = (mixed[0] & mixed[1])[run]

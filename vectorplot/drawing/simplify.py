@@ -6,9 +6,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.pieces import offsets_of, ranges, world_per_mm
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.drawing.pieces import world_per_mm
+from vectorplot.geometry import ragged
 
 _ROUNDS = 6
 _CROWD = 32
@@ -56,7 +57,7 @@ def without_collinear_points(paths: Paths, tolerance_mm: float) -> Paths:
         paths,
         points=paths.points[stays],
         points3d=paths.points3d[stays],
-        offsets=offsets_of(left),
+        offsets=ragged.offsets(left),
         closed=paths.closed & ((left > 2) | (left == counts)),
     )
 
@@ -113,10 +114,10 @@ def _laid_out(paths: Paths, some: Ints, straight: Bools) -> tuple[Ints, _Line]:
     stays = np.append(np.flatnonzero(~straight), len(straight))
     begin = stays[np.searchsorted(stays, first)]
     begin = np.where(ring & (begin < first + counts), begin, first)
-    offsets = offsets_of(counts + ring)
-    source = ranges(begin, counts + ring)
+    offsets = ragged.offsets(counts + ring)
+    source = ragged.ranges(begin, counts + ring)
     over = np.flatnonzero(begin + counts + ring > first + counts)
-    again = ranges(offsets[over] + (first + counts - begin)[over], (begin - first + ring)[over])
+    again = ragged.ranges(offsets[over] + (first + counts - begin)[over], (begin - first + ring)[over])
     source[again] -= np.repeat(counts[over], (begin - first + ring)[over])
     page, world = (
         tuple(np.ascontiguousarray(axis[source]) for axis in points.T) for points in (paths.points, paths.points3d)
@@ -152,7 +153,7 @@ class _Chords:
         """Some of the chords."""
         size = self.size[which]
         left_out = self.left_out[np.repeat(which, self.size)]
-        return _Chords(left_out, np.cumsum(size) - size, size, self.before[which], self.after[which])
+        return _Chords(left_out, ragged.starts(size), size, self.before[which], self.after[which])
 
 
 def _chords(kept: Bools, left_out: Ints) -> _Chords:
@@ -210,7 +211,7 @@ def _farthest(at: _Chords, away: Floats, split: Bools) -> Ints:
     parts = at.only(split)
     if not len(parts.size):
         return parts.left_out
-    chord = np.repeat(np.arange(len(parts.size)), parts.size)
+    chord = ragged.owner(parts.size)
     most = np.flatnonzero(away == np.maximum.reduceat(away, parts.begin)[chord])
     chord = chord[most]
     return parts.left_out[most[np.concatenate(([True], chord[1:] != chord[:-1]))]]

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.chains import NO_END, chains
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.join import linked_ends
 from vectorplot.drawing.pieces import chosen
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 HEIGHT_SHARE = 0.05
 """Between two points a curve is known but for less than this part of its height above the chord."""

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.pieces import chosen, concatenated, ranges, sections, unrolled
+from vectorplot.drawing.pieces import chosen, concatenated, sections, unrolled
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry import ragged
 
 
 def split_long(paths: Paths, max_mm: float, page_from_world: Floats | None = None) -> Paths:
@@ -30,7 +31,7 @@ def split_long(paths: Paths, max_mm: float, page_from_world: Floats | None = Non
         return paths
     count = parts[cut].astype(np.intp)
     stroke = np.repeat(np.flatnonzero(cut), count)
-    number, count = ranges(np.zeros_like(count), count), np.repeat(count, count)
+    number, count = ragged.place(count), np.repeat(count, count)
     first, last = line.offsets[:-1][stroke], line.offsets[1:][stroke] - 1
     begin = along[first] + number * (length[stroke] / count)
     end = along[first] + (number + 1) * (length[stroke] / count)

@@ -13,8 +13,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Ints
 from vectorplot.drawing.tour_ends import Places, extent, mutual_nearest, neighbours
-from vectorplot.geometry.mesh import Ints
+from vectorplot.geometry import ragged
 
 # Ends closer than this part of the extent are one node.
 _ZERO = 1e-9
@@ -56,7 +57,7 @@ def _nodes(ends: Places) -> tuple[Ints, Ints]:
 def _link_pairs(link: Ints, order: Ints, node: Ints) -> None:
     """The first end of each node with the second, the third with the fourth and so on."""
     sizes = np.bincount(node)
-    rank = np.arange(len(order)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+    rank = ragged.place(sizes)
     first = np.flatnonzero((rank % 2 == 0) & (rank + 1 < np.repeat(sizes, sizes)))
     _join(link, order[first], order[first + 1])
 

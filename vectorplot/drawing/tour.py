@@ -12,9 +12,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.touching import trails
 from vectorplot.drawing.tour_ends import Places, extent, mutual_nearest
-from vectorplot.geometry.mesh import Floats, Ints
 
 
 def greedy_tour(ends: Places) -> Ints:

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.drawing.pieces import ranges
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.tour_ends import Places, extent, neighbours
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 # So many of the ends near an end are tried as its neighbours.
 _NEAREST = 10
@@ -120,7 +120,7 @@ def _stretches_turned(at: _Row, zero: float) -> tuple[Ints, Ints]:
     low, high = np.minimum(s, t) >> 1, np.maximum(s, t) >> 1
     kept = _undisputed(low, high, gain, len(at.gap))
     low, high = low[kept], high[kept]
-    position = ranges(low, high - low)
+    position = ragged.ranges(low, high - low)
     tour = at.tour.copy()
     tour[position] = tour[np.repeat(low + high - 1, high - low) - position] ^ 1
     return tour, at.row[s]
@@ -138,10 +138,10 @@ def _undisputed(low: Ints, high: Ints, gain: Floats, size: int) -> Ints:
     if not len(by_gain):
         return best
     owner = np.zeros(size, dtype=np.intp)
-    claimed = ranges(low[by_gain], counts)
-    move = np.repeat(np.arange(len(by_gain)), counts)
+    claimed = ragged.ranges(low[by_gain], counts)
+    move = ragged.owner(counts)
     owner[claimed] = move  # the last one stays
-    return by_gain[np.minimum.reduceat(owner[claimed] == move, np.cumsum(counts) - counts)]
+    return by_gain[np.minimum.reduceat(owner[claimed] == move, ragged.starts(counts))]
 
 
 def _runs_moved(at: _Row, zero: float) -> tuple[Ints, Ints]:
@@ -163,7 +163,7 @@ def _runs_moved(at: _Row, zero: float) -> tuple[Ints, Ints]:
 
 
 def _with_runs_moved(tour: Ints, first: Ints, length: Ints, into: Ints, backwards: Bools) -> Ints:
-    position, rank = ranges(first, length), ranges(np.zeros(len(first), dtype=np.intp), length)
+    position, rank = ragged.ranges(first, length), ragged.place(length)
     turned = np.repeat(backwards, length)
     size = _LONGEST_RUN + 1
     key = np.arange(1, len(tour) + 1) * size

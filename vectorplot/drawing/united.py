@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.painted import Overlay
 from vectorplot.drawing.visible_fills import GRID_MM
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.regions import corners_of, insides_of, polygons_of, unions, without_holes, without_splinters
 
 
@@ -67,7 +68,7 @@ def _runs(overlay: Overlay, sheet: Ints) -> Ints:
 def _shaded(fills: Fills) -> Bools:
     """(m,) whether the corners of polygons differ in colour."""
     first = np.repeat(fills.colours[fills.offsets[:-1]], np.diff(fills.offsets), axis=0)
-    differs = np.concatenate([[0], np.cumsum((fills.colours != first).any(axis=1))])[fills.offsets]
+    differs = ragged.offsets((fills.colours != first).any(axis=1))[fills.offsets]
     return np.asarray(differs[1:] > differs[:-1])
 
 

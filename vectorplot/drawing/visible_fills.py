@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import Fills
-from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.regions import corners_of, polygons_of, unions, without_holes, without_splinters
 
 GRID_MM = 1e-4

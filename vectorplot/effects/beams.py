@@ -6,12 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.bending import Soup, joined_soups
 from vectorplot.effects.passages import Passages, Rays, traced, virtual_points
-from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.plane_cuts import PlaneBundles, cut_by_planes, planes_of
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import corner_positions
 from vectorplot.visibility.projected_faces import newell
 
 TOUCHING = 1.25
@@ -60,7 +61,7 @@ class Solid:
         face = np.flatnonzero(view.face_item == item)
         normal, _, first = newell(view, face)
         planes = planes_of(normal, view.points[:, first])
-        corner, offsets = corner_positions(view.offsets, face)
+        corner, offsets = ragged.take(view.offsets, face)
         middle = view.points[:, view.item_vertices[item] : view.item_vertices[item + 1]].mean(axis=1)
         planes[:, middle @ planes[:3] > planes[3]] *= -1.0
         exits = np.ones(len(face), dtype=np.bool_)
@@ -100,7 +101,7 @@ class Solid:
 
     def outlines(self, face: Ints) -> Soup:
         """Some of the faces, each on a way of its own."""
-        corner, offsets = corner_positions(self.offsets, face)
+        corner, offsets = ragged.take(self.offsets, face)
         every = np.arange(len(face))
         return Soup(self.points[:, corner], offsets, every, every)
 
@@ -176,7 +177,7 @@ def _meeting(view: View, solid: Solid, front: Ints) -> tuple[Ints, Ints]:
     """Pairs of faces of which some ray may enter by one, a number in front (n,), and leave by the other: the ball about
     this one meets the cone of rays about the ball about that one."""
     sizes = np.diff(solid.offsets)
-    owner = np.repeat(np.arange(len(sizes)), sizes)
+    owner = ragged.owner(sizes)
     middle = np.add.reduceat(solid.points, solid.offsets[:-1], axis=1) / sizes
     arm = solid.points - middle[:, owner]
     radius = np.sqrt(np.maximum.reduceat((arm * arm).sum(axis=0), solid.offsets[:-1]))
@@ -222,7 +223,7 @@ def _beams(view: View, solid: Solid, front: Ints, windows: Floats, first: Ints, 
     image, rays, good, offsets = grid.image, grid.rays, grid.good, grid.offsets
     common, full = grid.seen_in(windows[:, first])
     kept = np.flatnonzero(np.logical_or.reduceat(good, offsets[:-1]) & full)
-    position, offsets = corner_positions(offsets, kept)
+    position, offsets = ragged.take(offsets, kept)
     first, back = first[kept], back[kept]
     direction, good = rays.direction[:, position], good[position]
     leaves = replace(solid.passages(front[first], back), guides=_guides(image[:, position], good, offsets))
@@ -244,7 +245,7 @@ class _Grid:
     def of(cls, view: View, solid: Solid, front: Ints, first: Ints, back: Ints) -> _Grid:
         """Those of pairs of faces, the first a number in front."""
         points, offsets = _grids(solid.outlines(back))
-        owner = np.repeat(np.arange(len(back)), np.diff(offsets))
+        owner = ragged.owner(np.diff(offsets))
         virtual, seen = virtual_points(view, solid.passages(front), points, first[owner])
         image = view.image_of(virtual)
         rays = traced(view, solid.passages(front[first], back).of(owner), image)
@@ -310,8 +311,8 @@ def _bundles(view: View, solid: Solid, back: Ints, direction: Floats, good: Bool
     outwards = np.cross(along, normal, axis=0)
     outwards *= np.sign((outwards * (corner - _centres(outlines)[:, owner])).sum(axis=0))
     outwards /= np.sqrt((outwards * outwards).sum(axis=0))
-    ray, starts = corner_positions(offsets, owner)
-    side = np.repeat(np.arange(len(owner)), np.diff(starts))
+    ray, starts = ragged.take(offsets, owner)
+    side = ragged.owner(np.diff(starts))
     passing = np.flatnonzero(good[ray])
     slope = np.full(len(ray), -np.inf)
     way, side = direction[:, ray[passing]], side[passing]

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.passages import Passages, virtual_points
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import corner_positions, over_corners
+from vectorplot.visibility.painter.image_faces import over_corners
 
 BLIND_ROUNDS = 2
 """Polygons of which no corner is seen are halved that often: there may be something in their midst."""
@@ -40,12 +41,12 @@ class Soup:
 
     def some(self, which: Ints) -> Soup:
         """Some of the polygons."""
-        position, offsets = corner_positions(self.offsets, which)
+        position, offsets = ragged.take(self.offsets, which)
         return Soup(self.points[:, position], offsets, self.source[which], self.way[which])
 
     def on_ways(self, polygon: Ints, way: Ints) -> Soup:
         """Polygons (n,), each on a way (n,) of its own."""
-        position, offsets = corner_positions(self.offsets, polygon)
+        position, offsets = ragged.take(self.offsets, polygon)
         return Soup(self.points[:, position], offsets, self.source[polygon], way)
 
 
@@ -55,7 +56,7 @@ def joined_soups(parts: list[Soup]) -> Soup:
     none = np.zeros(0, dtype=np.intp)
     return Soup(
         np.concatenate([np.zeros((3, 0)), *(part.points for part in parts)], axis=1),
-        np.concatenate([[0], np.cumsum(np.concatenate(sizes))]),
+        ragged.offsets(np.concatenate(sizes)),
         np.concatenate([none, *(part.source for part in parts)]),
         np.concatenate([none, *(part.way for part in parts)]),
     )
@@ -148,13 +149,11 @@ sides; and of which of its sides their sides are parts: 3 stands for none."""
 
 def _fans(soup: Soup) -> _Triangles:
     """Triangles from the first corners of polygons."""
-    counts = np.diff(soup.offsets) - 2
-    owner = np.repeat(np.arange(len(soup)), counts)
-    first = soup.offsets[:-1][owner]
-    step = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
-    corner = np.stack([first, first + step + 1, first + step + 2])
-    outer = np.stack([step == 0, np.ones(len(owner), dtype=np.bool_), step == counts[owner] - 1])
-    return _Triangles(soup.points[:, corner], outer, soup.source[owner], soup.way[owner])
+    corner, owner = ragged.fans(soup.offsets)
+    inner = np.zeros(len(owner), dtype=np.bool_)
+    same = owner[1:] == owner[:-1]
+    outer = np.stack([~np.append(inner[:1], same), ~inner, ~np.append(same, inner[:1])])
+    return _Triangles(soup.points[:, corner.T], outer, soup.source[owner], soup.way[owner])
 
 
 def _as_soup(corners: Floats, source: Ints, way: Ints) -> Soup:

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry.plane_cuts import polygon_areas
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.candidates import box_pairs

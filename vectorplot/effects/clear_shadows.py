@@ -9,13 +9,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Ints
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals import Decals, joined_decals, no_decals
 from vectorplot.effects.face_frames import FaceFrames
 from vectorplot.effects.shadow_grades import Shadows
 from vectorplot.effects.shadows import cast_shadows
 from vectorplot.effects.united_decals import disjoint_decals
-from vectorplot.geometry.mesh import Bools, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.regions import corners_of, polygons_of, unions, without_holes, without_splinters
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.view import View
@@ -79,7 +80,7 @@ def _dimmed(view: View, cast: Shadows, dark: Decals, colour: str, opacity: float
     face, light = cast.face[leader], cast.lacking[leader]
     others = polygons_of(FaceFrames.of(view, dark.face).flat(dark.points, _owner(dark.offsets)), dark.offsets)
     first, last = (np.searchsorted(dark.face, face, side=side) for side in ("left", "right"))
-    mine = np.repeat(np.arange(len(region)), last - first)
+    mine = ragged.owner(last - first)
     other = np.arange(len(mine)) - np.repeat(np.cumsum(last - first) - last, last - first)
     bright = region.copy()
     covered = np.flatnonzero(last > first)
@@ -113,4 +114,4 @@ def _dimmed(view: View, cast: Shadows, dark: Decals, colour: str, opacity: float
 
 
 def _owner(offsets: Ints) -> Ints:
-    return np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    return ragged.owner(np.diff(offsets))

@@ -6,9 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.decals import Decals, joined_decals
 from vectorplot.effects.face_frames import FaceFrames
-from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.regions import corners_of, polygons_of, triangles_of
 from vectorplot.scene.view import View
 
@@ -20,7 +22,7 @@ def convex_decals(view: View, decals: Decals, chosen: Bools) -> Decals:
         return decals
     some = decals.of(which)
     frames = FaceFrames.of(view, some.face)
-    owner = np.repeat(np.arange(len(some)), np.diff(some.offsets))
+    owner = ragged.owner(np.diff(some.offsets))
     flat = frames.flat(some.points, owner)
     bent = np.flatnonzero(_bent(flat, some.offsets, view.tolerance))
     if not len(bent):

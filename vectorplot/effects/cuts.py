@@ -7,10 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputWarning
+from vectorplot.geometry import ragged
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.convex_faces import convex_faces
-from vectorplot.geometry.mesh import Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Item, Scene
@@ -85,14 +87,12 @@ def _some(mesh: Mesh, which: Ints) -> tuple[Ints, Ints]:
     """Corners and offsets of some faces."""
     kept = np.zeros(mesh.face_count, dtype=np.bool_)
     kept[which] = True
-    return mesh.corners[kept[mesh.corner_face]], np.concatenate([[0], np.cumsum(mesh.face_sizes[which])])
+    return mesh.corners[kept[mesh.corner_face]], ragged.offsets(mesh.face_sizes[which])
 
 
 def _parts(corners: Ints, offsets: Ints, inside: Floats, vertices: Floats) -> tuple[Ints, Ints, Floats]:
     """Corners and offsets of the parts of convex faces where inside (v,) is not negative, and the new vertices."""
-    following = np.arange(1, len(corners) + 1)
-    following[offsets[1:] - 1] = offsets[:-1]
-    here, there = corners, corners[following]
+    here, there = corners, corners[ragged.following(offsets)]
     crossing = inside[here] * inside[there] < 0.0
     pairs = np.sort(np.stack([here[crossing], there[crossing]], axis=1), axis=1)
     ends, which = np.unique(pairs, axis=0, return_inverse=True)
@@ -103,8 +103,8 @@ def _parts(corners: Ints, offsets: Ints, inside: Floats, vertices: Floats) -> tu
     slots[crossing, 1] = len(vertices) + which.reshape(-1)
     kept = np.stack([inside[here] >= 0.0, crossing], axis=1)
     # Of a face that only touches the plane an edge or a corner would be left.
-    face = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    face = ragged.owner(np.diff(offsets))
     area = np.bincount(face, inside[here] > 0.0, len(offsets) - 1) > 0
     kept &= area[face][:, None]
     sizes = np.bincount(face, kept.sum(axis=1), len(offsets) - 1).astype(np.intp)
-    return slots[kept], np.concatenate([[0], np.cumsum(sizes[sizes > 0])]), made
+    return slots[kept], ragged.offsets(sizes[sizes > 0]), made

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted import Overlay, Placed, fills_on_page
 from vectorplot.effects.convex_decals import convex_decals
@@ -13,12 +14,12 @@ from vectorplot.effects.decals import Decals
 from vectorplot.effects.laying import Laid, laid
 from vectorplot.effects.shadow_shades import LEVELS, shadow_shades
 from vectorplot.effects.windows import SeenThrough
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
 from vectorplot.shading.face_shades import Shades
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities, smooth_faces
 from vectorplot.shading.palettes import COLOUR_MAP, Colours, shaded_colours
-from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, unmapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
 
 
 def decal_fills(
@@ -86,7 +87,7 @@ def _with_double(
     """The corners (n,) where the double of a light in a mirror shines too, and their shades (n,) or (3,n)."""
     kind, of = decals.kind[parts.decal], decals.light[parts.decal]
     lit = np.flatnonzero((kind == FillKind.LIGHT) & (of == number))
-    corner, offsets = corner_positions(parts.offsets, lit)
+    corner, offsets = ragged.take(parts.offsets, lit)
     only = replace(lighting, lights=(lighting.doubles[number],))
     own = corner_shades_of(view, only, points[:, corner], offsets, decals.face[parts.decal[lit]])
     lacking = np.repeat(decals.lights_lacking[parts.decal[lit]], np.diff(offsets))

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,8 +44,8 @@ class Decals:
     def of(self, decals: Ints) -> Decals:
         """Some of the decals, given by their numbers, in that order."""
         sizes = np.diff(self.offsets)[decals]
-        offsets = np.concatenate([[0], np.cumsum(sizes)])
-        corners = np.arange(offsets[-1]) + np.repeat(self.offsets[:-1][decals] - offsets[:-1], sizes)
+        offsets = ragged.offsets(sizes)
+        corners = ragged.ranges(self.offsets[:-1][decals], sizes)
         return Decals(
             self.points[:, corners],
             offsets,
@@ -91,7 +92,7 @@ def joined_decals(*decals: Decals) -> Decals:
     number = {name: k for k, name in enumerate(colours)}
     renamed = [np.array([*(number[name] for name in d.colours), -1], dtype=np.intp)[d.colour] for d in decals]
     counts = [d.offsets[-1] for d in decals]
-    starts = np.cumsum([0, *counts[:-1]])
+    starts = ragged.starts(counts)
     offsets = [np.zeros(1, dtype=np.intp), *(d.offsets[1:] + s for d, s in zip(decals, starts, strict=True))]
     return Decals(
         np.concatenate([d.points for d in decals], axis=1),

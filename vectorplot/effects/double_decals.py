@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.effects.decals import Decals, joined_decals
 from vectorplot.effects.reflections import Mirrors, doubled
-from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.scene.scene import Light, Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.painted_colours import Lighting

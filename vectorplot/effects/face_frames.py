@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import newell
 

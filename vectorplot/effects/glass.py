@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.beams import TOUCHING, Beams, Solid, soup_above, soup_in_beams, totally_reflecting
 from vectorplot.effects.bending import Soup, bent
 from vectorplot.effects.bent_order import bent_order
@@ -19,20 +20,14 @@ from vectorplot.effects.windows import (
     one_after_another,
     sorted_by_window,
 )
-from vectorplot.geometry import regions
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged, regions
 from vectorplot.geometry.plane_cuts import cut_by_planes
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.painted_colours import opacities
 from vectorplot.visibility.occluders import solid_items
 from vectorplot.visibility.painter.candidates import boxes_over
-from vectorplot.visibility.painter.image_faces import (
-    ImageFaces,
-    corner_positions,
-    mapped,
-    polygons_of,
-)
+from vectorplot.visibility.painter.image_faces import ImageFaces, mapped, polygons_of
 from vectorplot.visibility.projected_faces import ProjectedFaces
 
 MOST_FACES = 32
@@ -157,7 +152,7 @@ class _Glass:
 
 def _glass(view: View, solid: Solid, front: Ints, panes: Panes, tolerance: float, decals: Decals) -> _Glass:
     others = np.flatnonzero(view.face_item != view.face_item[solid.face[0]])
-    position, offsets = corner_positions(view.offsets, others)
+    position, offsets = ragged.take(view.offsets, others)
     rest = Soup(view.points[:, view.corners[position]], offsets, others, np.zeros_like(others))
     walls = -solid.planes
     walls[3] -= TOUCHING * view.tolerance
@@ -267,7 +262,7 @@ def _decals_in(glass: _Glass, beams: Beams, soup: Soup) -> Soup:
     order = np.argsort(decals.face, kind="stable")
     first, last = (np.searchsorted(decals.face[order], face, side=side) for side in ("left", "right"))
     counts = last - first
-    step = np.arange(int(counts.sum())) - np.repeat(np.cumsum(counts) - counts, counts)
+    step = ragged.place(counts)
     decal, beam = order[np.repeat(first, counts) + step], np.repeat(way, counts)
     parts = cut_by_planes(decals.points, decals.offsets, beams.bundles, decal, beam, glass.view.tolerance)
     return Soup(parts.points, parts.offsets, decal[parts.pair], beam[parts.pair])

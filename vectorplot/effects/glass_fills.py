@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted import Overlay, Placed
 from vectorplot.drawing.united import united
@@ -15,7 +16,6 @@ from vectorplot.effects.decals import Decals, joined_decals
 from vectorplot.effects.glass import seen_in_glass
 from vectorplot.effects.laying import Laid
 from vectorplot.effects.seen_fills import mixed, seen_fills
-from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.painted_colours import Lighting

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.exact import intervals
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
 from vectorplot.visibility import grid as grids
 from vectorplot.visibility.hidden_lines import Visibility
@@ -98,8 +99,8 @@ def _close_pairs(p0: Floats, p1: Floats, q0: Floats, q1: Floats, width: float) -
     pairs = []
     for level in entries.levels():
         begin, count = entries.of(grid.numbers(pieces.column >> level, pieces.row >> level, level))
-        piece = np.repeat(np.arange(len(pieces)), count)
-        step = np.arange(len(piece)) - np.repeat(np.cumsum(count) - count, count)
+        piece = ragged.owner(count)
+        step = ragged.place(count)
         pairs.append((pieces.segment[piece], entries.thing[begin[piece] + step]))
     return pairs
 

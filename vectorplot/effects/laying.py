@@ -6,12 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.effects.decals import Decals
+from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.convex_clipping import clipped
-from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import corner_positions, mapped
+from vectorplot.visibility.painter.image_faces import mapped
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,17 +38,17 @@ def laid(view: View, decals: Decals, points: Floats, offsets: Ints, source: Ints
     shape, offset, which = _in_front(view, decals)
     order = np.argsort(source, kind="stable")
     first, last = (np.searchsorted(source[order], decals.face[which], side=side) for side in ("left", "right"))
-    pair = np.repeat(np.arange(len(which)), last - first)
-    step = np.arange(len(pair)) - np.repeat(np.cumsum(last - first) - (last - first), last - first)
+    pair = ragged.owner(last - first)
+    step = ragged.place(last - first)
     piece = order[first[pair] + step]
-    corner, starts = corner_positions(offset, pair)
-    border, borders = corner_positions(offsets, piece)
+    corner, starts = ragged.take(offset, pair)
+    border, borders = ragged.take(offsets, piece)
     cut, ends, kept = clipped(
         mapped(view, shape[:, corner]), starts, points[:2, border], borders, tolerance=view.tolerance
     )
     decal, piece = which[pair[kept]], piece[kept]
     order = np.lexsort((decal, decals.level[decal], piece))
-    position, ends = corner_positions(ends, order)
+    position, ends = ragged.take(ends, order)
     return Laid(cut[:, position], ends, decal[order], piece[order])
 
 

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
-from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.geometry.plane_cuts import planes_of
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import corner_positions
 from vectorplot.visibility.projected_faces import newell
 
 FAR = 1e12
@@ -145,7 +145,7 @@ class LightBoxes:
 
 def light_boxes(view: View, system: LightSystem, faces: Ints) -> list[LightBoxes]:
     """The boxes of some faces in each image of the light; which numbers them as they come."""
-    position, offsets = corner_positions(view.offsets, faces)
+    position, offsets = ragged.take(view.offsets, faces)
     points = view.points[:, view.corners[position]]
     if not system.parallel:
         points = points - system.position[:, None]
@@ -170,7 +170,7 @@ def _in_window(points: Floats, offsets: Ints, tolerance: float) -> tuple[Floats,
     depth = points[2]
     possible = np.logical_or.reduceat(depth > 0.0, offsets[:-1]) if len(offsets) > 1 else np.zeros(0, dtype=np.bool_)
     which = np.flatnonzero(possible)
-    position, ends = corner_positions(offsets, which)
+    position, ends = ragged.take(offsets, which)
     polygons = Polygons(np.ascontiguousarray(points[:, position].T), ends)
     polygons, _ = cut_polygons(polygons, polygons.points[:, 2] - 0.25 * tolerance)
     for axis, sign in ((0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)):

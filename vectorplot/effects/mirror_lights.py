@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.convex_decals import convex_decals
 from vectorplot.effects.decals import Decals, joined_decals, no_decals
@@ -14,11 +15,11 @@ from vectorplot.effects.light_system import FacePlanes, LightSystem, light_syste
 from vectorplot.effects.patterns import in_shadows
 from vectorplot.effects.reflections import Mirrors, doubled, half_of_view
 from vectorplot.effects.shadows import shadow_decals
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.plane_cuts import PlaneBundles, cut_by_planes, planes_of
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import corner_positions, drawn_faces
+from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 
 MIRRORED_SHARE = 0.5
@@ -90,7 +91,7 @@ def _through_windows(
     seen = drawn_faces(view, projected)
     face = seen[facing[seen] * projected.facing[seen] > 0]
     window = mirrors.face[mirrors.plane == double.plane]
-    corner, offsets = corner_positions(view.offsets, face)
+    corner, offsets = ragged.take(view.offsets, face)
     polygon, bundle = (grid.ravel() for grid in np.meshgrid(np.arange(len(face)), np.arange(len(window))))
     volumes = _window_volumes(view, mirrors, double.plane, window, system)
     parts = cut_by_planes(view.points[:, view.corners[corner]], offsets, volumes, polygon, bundle, view.tolerance)
@@ -113,7 +114,7 @@ def _through_windows(
 
 def _window_volumes(view: View, mirrors: Mirrors, plane: int, window: Ints, system: LightSystem) -> PlaneBundles:
     """What light from behind a mirror's plane reaches through faces in it: the cones of rays, before the mirror."""
-    corner, offsets = corner_positions(view.offsets, window)
+    corner, offsets = ragged.take(view.offsets, window)
     start, end = view.points[:, view.corners[corner]], view.points[:, view.corners[view.after(corner)]]
     inwards = np.cross(mirrors.normal[:, plane, None], end - start, axis=0)
     normal = np.cross(end - start, system.towards(start), axis=0)

@@ -6,8 +6,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.refraction import seen_in_surface
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry.columns import dot
 from vectorplot.scene.view import View
 
 MOST_STEPS = 40
@@ -100,9 +101,9 @@ def traced(view: View, passages: Passages, image: Floats) -> Rays:
     entry = place
     for number, constant in enumerate(passages.constant.tolist()):
         normal, point = passages.normal[:, number], passages.point[:, number]
-        slope = _dot(normal, direction)
+        slope = dot(normal, direction)
         onwards = slope > 0.0
-        step = np.where(onwards, _dot(normal, point - place) / np.where(onwards, slope, 1.0), 0.0)
+        step = np.where(onwards, dot(normal, point - place) / np.where(onwards, slope, 1.0), 0.0)
         # Parallel rays have no beginning; behind the first surface, too, the others are thought without borders.
         passes &= onwards & ((step > 0.0) | (view.eye is None) | (number > 0))
         place = place + step * direction
@@ -120,7 +121,7 @@ def _refracted(direction: Floats, normal: Floats, slope: Floats, constant: float
     """What refraction.refracted does, for unit directions (3,n) towards the side of unit normals (3,n), or one for all,
     many times as fast; directions of totally reflected rays mean nothing."""
     along = (direction - slope * normal) / constant
-    square = 1.0 - _dot(along, along)
+    square = 1.0 - dot(along, along)
     return along + np.sqrt(np.maximum(square, 0.0)) * normal, square < 0.0
 
 
@@ -143,7 +144,7 @@ def virtual_points(view: View, passages: Passages, points: Floats, way: Ints | N
         frame = np.broadcast_to(_frames(own.normal[:, -1]), (2, 3, there.shape[1]))
         image = _met(view, own, frame, there, _guesses(view, own, there, guided, way[some]))
         miss, rays, left = _missed(view, own, frame, there, image)
-        behind = left * _dot(own.normal[:, -1], rays.direction) >= -TOUCHING * view.tolerance
+        behind = left * dot(own.normal[:, -1], rays.direction) >= -TOUCHING * view.tolerance
         seen[some] = rays.passes & (np.abs(miss).max(axis=0) <= MET) & behind
         sight = sight_rays(view, image)[1]
         found[:, some] = rays.entry + (rays.path + left / float(np.prod(passages.constant))) * sight
@@ -198,17 +199,17 @@ class _Guides:
         rays = traced(view, own, passages.guides.reshape(2, -1))
         normal = own.normal[:, -1]
         frame = _frames(normal)
-        direction = rays.direction / _dot(normal, rays.direction)
-        start, rate = (np.stack([_dot(axis, some) for axis in frame]) for some in (rays.place, direction))
+        direction = rays.direction / dot(normal, rays.direction)
+        start, rate = (np.stack([dot(axis, some) for axis in frame]) for some in (rays.place, direction))
         shape = (2, ways, count)
-        height = _dot(normal, rays.place).reshape(ways, count)
+        height = dot(normal, rays.place).reshape(ways, count)
         return cls(passages.guides, start.reshape(shape), rate.reshape(shape), height)
 
     def nearest(self, passages: Passages, points: Floats, way: Ints) -> Floats:
         """(2,n) the images of those that come nearest to points (3,n) on their ways; NaN where a way has none."""
         normal = passages.normal[:, -1]
-        high = _dot(normal, points)
-        place = np.stack([_dot(axis, points) for axis in _frames(normal)])
+        high = dot(normal, points)
+        place = np.stack([dot(axis, points) for axis in _frames(normal)])
         found = np.empty((2, points.shape[1]))
         step = PAIRS_AT_ONCE // self.image.shape[2] + 1
         for low in range(0, points.shape[1], step):
@@ -227,7 +228,7 @@ def _guesses(view: View, passages: Passages, points: Floats, guides: _Guides | N
     the nearest guides, and of the straight line where there are none."""
     if view.eye is not None and len(passages.constant) == 1:
         normal, corner = passages.normal[:, 0], passages.point[:, 0]
-        below = points - np.minimum(_dot(normal, points - corner), 0.0) * normal
+        below = points - np.minimum(dot(normal, points - corner), 0.0) * normal
         constant = float(passages.constant[0])
         return view.image_of(seen_in_surface(view.eye, below.T, -normal.T, corner.T, constant).T)
     straight = view.image_of(points)
@@ -244,23 +245,18 @@ def _missed(
     are, along the rays."""
     rays = traced(view, passages, image)
     normal = passages.normal[:, -1]
-    slope = _dot(normal, rays.direction)
-    left = _dot(normal, points - rays.place) / np.where(slope > 0.0, slope, 1.0)
+    slope = dot(normal, rays.direction)
+    left = dot(normal, points - rays.place) / np.where(slope > 0.0, slope, 1.0)
     off = rays.place + left * rays.direction - points
-    return np.stack([_dot(frame[0], off), _dot(frame[1], off)]), rays, left
+    return np.stack([dot(frame[0], off), dot(frame[1], off)]), rays, left
 
 
 def _frames(normal: Floats) -> Floats:
     """(2,3,n) two unit vectors normal to each other and to unit normals (3,n)."""
     axis = np.eye(3)[:, np.abs(normal).argmin(axis=0)]
     first = np.cross(axis, normal, axis=0)
-    first /= np.sqrt(_dot(first, first))
+    first /= np.sqrt(dot(first, first))
     return np.stack([first, np.cross(normal, first, axis=0)])
-
-
-def _dot(a: Floats, b: Floats) -> Floats:
-    """(n,) inner products of vectors (3,n), or of one with all."""
-    return np.asarray(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
 
 
 def _solved(first: Floats, second: Floats, right: Floats) -> Floats:

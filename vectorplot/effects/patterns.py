@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals import Decals, joined_decals, no_decals
 from vectorplot.features.patterns import face_frames
+from vectorplot.geometry import ragged
 from vectorplot.geometry.convex_clipping import clipped
 from vectorplot.geometry.convex_faces import convex_faces
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import corner_positions
 from vectorplot.visibility.projected_faces import newell
 
 
@@ -32,7 +32,7 @@ def pattern_decals(scene: Scene, view: View) -> Decals:
 def _item_patterns(view: View, number: int, item: Item) -> Decals:
     mesh, patterns = item.mesh, item.patterns
     owner = np.array([pattern.face for pattern in patterns], dtype=np.intp)
-    offsets = np.cumsum([0, *(len(pattern.points) for pattern in patterns)], dtype=np.intp)
+    offsets = ragged.offsets([len(pattern.points) for pattern in patterns])
     flat = np.concatenate([pattern.points for pattern in patterns]).T / view.scale
     flat, offsets, source = _convex_parts(flat, offsets, view.tolerance)
     origin, along, left = face_frames(mesh, owner)
@@ -41,8 +41,8 @@ def _item_patterns(view: View, number: int, item: Item) -> Decals:
     # Every part against every face of the view that is its face, or a piece of it.
     order = np.argsort(face_source, kind="stable")
     first, last = (np.searchsorted(face_source[order], owner[source], side=side) for side in ("left", "right"))
-    part = np.repeat(np.arange(len(source)), last - first)
-    step = np.arange(len(part)) - np.repeat(np.cumsum(last - first) - (last - first), last - first)
+    part = ragged.owner(last - first)
+    step = ragged.place(last - first)
     face = faces[order[first[part] + step]]
     points, ends, which = _clipped_in_frame(view, flat, offsets, part, face, frame[:, :, source])
     chosen = source[part[which]]
@@ -56,32 +56,26 @@ def _convex_parts(flat: Floats, offsets: Ints, tolerance: float) -> tuple[Floats
     """Polygons (2,c) cut into convex ones, all turned counter-clockwise: points, offsets, and the polygon of each."""
     sizes = np.diff(offsets)
     some = np.flatnonzero(sizes >= 3)
-    position, starts = corner_positions(offsets, some)
+    position, starts = ragged.take(offsets, some)
     raised = np.concatenate([flat[:, position], np.zeros((1, len(position)))])
     cut = convex_faces(raised, np.arange(len(position)), starts, tolerance)
     points = raised[:2, cut.corners]
-    after = points[:, _following(cut.offsets)]
+    after = points[:, ragged.following(cut.offsets)]
     first = np.repeat(cut.offsets[:-1], np.diff(cut.offsets))
     arm, beyond = points - points[:, first], after - points[:, first]
     area = np.add.reduceat(arm[0] * beyond[1] - arm[1] * beyond[0], cut.offsets[:-1]) if len(first) else np.zeros(0)
     full = np.flatnonzero(area)
-    position, ends = corner_positions(cut.offsets, full)
+    position, ends = ragged.take(cut.offsets, full)
     turned = np.repeat(area[full] < 0.0, np.diff(ends))
     backwards = np.repeat(cut.offsets[full] + cut.offsets[full + 1] - 1, np.diff(ends)) - position
     return points[:, np.where(turned, backwards, position)], ends, some[cut.source[full]]
-
-
-def _following(offsets: Ints) -> Ints:
-    following = np.arange(1, int(offsets[-1]) + 1)
-    following[offsets[1:] - 1] = offsets[:-1]
-    return following
 
 
 def _faces_of(view: View, number: int, item: Item) -> tuple[Ints, Ints]:
     """The faces of the view that an item has, and the face of its mesh that each one is (a piece of)."""
     mesh = item.mesh
     here = np.arange(mesh.face_count) if mesh.present is None else np.flatnonzero(mesh.present)
-    position, offsets = corner_positions(mesh.offsets, here)
+    position, offsets = ragged.take(mesh.offsets, here)
     low, high = view.item_vertices[number : number + 2]
     pieces = convex_faces(view.points[:, low:high], mesh.corners[position], offsets, view.tolerance)
     return np.flatnonzero(view.face_item == number), here[pieces.source]
@@ -92,8 +86,8 @@ def _clipped_in_frame(
 ) -> tuple[Floats, Ints, Ints]:
     """Parts (2,c) in the frames (3,3,n), axes first, of their faces, clipped by faces of the view: points (3,c') of the
     view, offsets, and which pair of part and face each polygon comes from."""
-    position, starts = corner_positions(offsets, part)
-    corner, borders = corner_positions(view.offsets, face)
+    position, starts = ragged.take(offsets, part)
+    corner, borders = ragged.take(view.offsets, face)
     origin, along, left = (np.repeat(row, np.diff(borders), axis=1) for row in frame[:, :, part])
     arm = view.points[:, view.corners[corner]] - origin
     border = np.stack([(arm * along).sum(axis=0), (arm * left).sum(axis=0)])
@@ -136,14 +130,14 @@ def in_shadows(view: View, patterns: Decals, shadows: Decals) -> Decals:
     shadow = shadow[np.argsort(shadows.face[shadow], kind="stable")]
     faces = shadows.face[shadow]
     first, last = (np.searchsorted(faces, patterns.face, side=side) for side in ("left", "right"))
-    pattern = np.repeat(np.arange(len(patterns)), last - first)
+    pattern = ragged.owner(last - first)
     if not len(pattern):
         return no_decals()
-    step = np.arange(len(pattern)) - np.repeat(np.cumsum(last - first) - (last - first), last - first)
+    step = ragged.place(last - first)
     shade = shadow[first[pattern] + step]
-    flat = _flattened(view, patterns)[:, corner_positions(patterns.offsets, pattern)[0]]
-    borders = np.concatenate([[0], np.cumsum(np.diff(patterns.offsets)[pattern])])
-    position, starts = corner_positions(shadows.offsets, shade)
+    flat = _flattened(view, patterns)[:, ragged.take(patterns.offsets, pattern)[0]]
+    borders = ragged.offsets(np.diff(patterns.offsets)[pattern])
+    position, starts = ragged.take(shadows.offsets, shade)
     laid = np.concatenate([_flattened(view, shadows), shadows.points])[:, position]
     cut, ends, which = clipped(laid, starts, flat, borders, tolerance=view.tolerance)
     pattern, shade = pattern[which], shade[which]

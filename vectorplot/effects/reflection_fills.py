@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.flattened import flattened
 from vectorplot.drawing.page import page_from_world
@@ -16,7 +17,6 @@ from vectorplot.effects.decals import Decals
 from vectorplot.effects.reflections import DIMMED, Mirrors, backwards, doubled, reflections
 from vectorplot.effects.seen_fills import mixed, seen_fills
 from vectorplot.effects.windows import SeenThrough
-from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
 from vectorplot.shading.painted_colours import Lighting

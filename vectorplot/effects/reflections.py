@@ -6,13 +6,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.windows import SeenThrough, joined_seen, near_windows, nothing_seen, seen_through
+from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.occluders import solid_items
-from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, drawn_faces, unmapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, unmapped
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.projected_faces import ProjectedFaces, newell, project_faces
 
@@ -77,7 +78,7 @@ def mirrors_of(view: View, face: Ints) -> Mirrors:
 
 def _in_plane(view: View, face: Ints, normal: Floats, point: Floats) -> Bools:
     """(n,) which faces have all corners in a plane."""
-    corner, ends = corner_positions(view.offsets, face)
+    corner, ends = ragged.take(view.offsets, face)
     height = np.abs(normal @ (view.points[:, view.corners[corner]] - point[:, None]))
     return np.maximum.reduceat(height, ends[:-1]) <= view.tolerance
 
@@ -187,13 +188,13 @@ def _item_lows(view: View, height: Floats) -> Floats:
 
 def _with_cut_faces(view: View, whole: Ints, cut: Ints, height: Floats) -> tuple[View, Ints]:
     """Some faces of a view whole, and others as far as the heights of their corners are not negative."""
-    corner, offsets = corner_positions(view.offsets, cut)
+    corner, offsets = ragged.take(view.offsets, cut)
     distance = np.where(np.abs(height) <= view.tolerance, 0.0, height)[view.corners[corner]]
     parts = Polygons(view.points[:, view.corners[corner]].T, offsets)
     if len(cut):
         parts, _ = cut_polygons(parts, distance)
     full = np.flatnonzero(np.diff(parts.offsets))
-    position, ends = corner_positions(view.offsets, whole)
+    position, ends = ragged.take(view.offsets, whole)
     count, items = view.points.shape[1], len(view.item_vertices) - 1
     sizes = np.diff(parts.offsets)[full]
     source = np.concatenate([whole, cut[full]])

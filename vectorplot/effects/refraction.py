@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.tolerance import ROUNDING
 from vectorplot.geometry.vectors import normalize
 

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from vectorplot.arrays import Bools
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals import Decals, joined_decals
-from vectorplot.geometry.mesh import Bools
 from vectorplot.scene.scene import Light, Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.face_shades import face_shades, view_lights

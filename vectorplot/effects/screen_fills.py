@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.visible_fills import in_space
 from vectorplot.effects.transparency import screen_door, sparseness
-from vectorplot.geometry.mesh import Floats
 
 
 def screened(fills: Fills, pitch_mm: float, page_from_world: Floats) -> Fills:

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.painted import Overlay, Placed, fills_on_page
 from vectorplot.effects.windows import SeenThrough
-from vectorplot.geometry.mesh import Floats
 from vectorplot.scene.view import View
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
 from vectorplot.visibility.painter.image_faces import unmapped

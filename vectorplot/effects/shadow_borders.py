@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals import Decals, joined_decals, no_decals
 from vectorplot.effects.shadow_grades import Shadows, joined_shadows
 from vectorplot.effects.shadow_shades import LEVELS
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats, Ints, next_positions
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.plane_cuts import PlaneBundles, cut_by_planes, planes_of
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import corner_positions
 
 STRAIGHT_SINE = 1e-3
 """A corner that turns by an angle with a smaller sine needs no bevel."""
@@ -74,7 +75,7 @@ def _step(view: View, single: Shadows, ground: Shadows, strip: Ints, on: Ints, w
 def _lit_somewhere(view: View, single: Shadows, cells: Shadows) -> Shadows:
     """The faces that shadows fall on, as polygons that lack no light, and the cells on them."""
     face = np.unique(single.face)
-    position, offsets = corner_positions(view.offsets, face)
+    position, offsets = ragged.take(view.offsets, face)
     bare = np.zeros(len(face), dtype=np.intp)
     faces = Shadows(view.points[:, view.corners[position]], offsets, face, bare, bare == 0)
     return joined_shadows([faces, cells.some(np.flatnonzero(np.isin(cells.face, face)))])
@@ -115,19 +116,19 @@ def _widened(view: View, shadows: Shadows, width: float) -> PlaneBundles:
     counts = np.add.reduceat(long, offsets[:-1]).astype(np.intp)
     long &= np.repeat(counts >= 3, np.diff(offsets))
     counts = np.where(counts >= 3, counts, 0)
-    ends = np.concatenate([[0], np.cumsum(counts)])
+    ends = ragged.offsets(counts)
     image, along = image[:, long], along[:, long]
     along /= np.sqrt((along * along).sum(axis=0))
     lines, owner = _outer_lines(image, along, ends, width)
     order = np.argsort(owner, kind="stable")
-    first = np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=len(shadows)))])
+    first = ragged.offsets(np.bincount(owner, minlength=len(shadows)))
     return PlaneBundles(_sight_planes(view, lines[:, order]), first)
 
 
 def _outer_lines(image: Floats, along: Floats, ends: Ints, width: float) -> tuple[Floats, Ints]:
     """(3,k) lines a x + b y <= c of the image around convex polygons, and whose each is."""
     sizes = np.diff(ends)
-    owner = np.repeat(np.arange(len(sizes)), sizes)
+    owner = ragged.owner(sizes)
     turn = np.zeros(len(sizes))
     filled = sizes > 0
     # Those without sides left have no corners either.

@@ -6,12 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.light_system import FacePlanes, LightSystem
-from vectorplot.features.edges import cross
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.columns import cross
 from vectorplot.geometry.plane_cuts import PlaneBundles, planes_of
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import closed_items, corner_positions
+from vectorplot.visibility.painter.image_faces import closed_items
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,8 +84,8 @@ def _volumes(
     """The planes of what casters keep dark: first those of their faces, then those of rays through their outlines."""
     face = np.concatenate([of_solid, alone])
     behind = planes.planes[:, face] * -facing[face]
-    position, offsets = corner_positions(view.offsets, face)
-    owner = np.repeat(np.arange(len(face)), np.diff(offsets))
+    position, offsets = ragged.take(view.offsets, face)
+    owner = ragged.owner(np.diff(offsets))
     sides = _single_sides(view, position[: offsets[len(of_solid)]])
     used = np.concatenate([sides, np.arange(int(offsets[len(of_solid)]), len(position))])
     start = view.points[:, view.corners[position[used]]]
@@ -98,7 +99,7 @@ def _volumes(
     of = np.concatenate([caster, caster[owner[used]][kept]])
     order = np.argsort(of, kind="stable")
     counts = np.bincount(of, minlength=int(caster[-1]) + 1 if len(caster) else 0)
-    return PlaneBundles(np.concatenate([behind, side], axis=1)[:, order], np.concatenate([[0], np.cumsum(counts)]))
+    return PlaneBundles(np.concatenate([behind, side], axis=1)[:, order], ragged.offsets(counts))
 
 
 def _single_sides(view: View, position: Ints) -> Ints:

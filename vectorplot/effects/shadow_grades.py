@@ -13,16 +13,16 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals import Decals
 from vectorplot.effects.face_frames import FaceFrames
 from vectorplot.effects.shadow_shades import LEVELS
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.plane_cuts import Parts
 from vectorplot.geometry.regions import cells_of, corners_of, polygons_of, unions, without_holes, without_splinters
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import corner_positions
 
 POLYGONS_AT_ONCE = 1 << 15
 """About so many shadows are cut into cells at once; those of one face always are."""
@@ -60,7 +60,7 @@ class Shadows:
 
     def some(self, which: Ints) -> Shadows:
         """Some of them, in the order asked for."""
-        position, offsets = corner_positions(self.offsets, which)
+        position, offsets = ragged.take(self.offsets, which)
         return Shadows(self.points[:, position], offsets, self.face[which], self.lacking[which], self.whole[which])
 
     def without_needless(self) -> Shadows:
@@ -82,7 +82,7 @@ def joined_shadows(shadows: Sequence[Shadows]) -> Shadows:
     sizes = np.concatenate([np.diff(s.offsets) for s in shadows])
     return Shadows(
         np.concatenate([s.points for s in shadows], axis=1),
-        np.concatenate([[0], np.cumsum(sizes)]),
+        ragged.offsets(sizes),
         np.concatenate([s.face for s in shadows]),
         np.concatenate([s.lacking for s in shadows]),
         np.concatenate([s.whole for s in shadows]),
@@ -145,7 +145,7 @@ def _lots(group: Ints) -> Iterator[Ints]:
 def _arranged(view: View, shadows: Shadows) -> Shadows:
     """The cells of shadows that are no whole faces, several on each of their faces."""
     frames = FaceFrames.of(view, shadows.face)
-    owner = np.repeat(np.arange(len(shadows)), np.diff(shadows.offsets))
+    owner = ragged.owner(np.diff(shadows.offsets))
     polygons = polygons_of(frames.flat(shadows.points, owner), shadows.offsets)
     faces, leader, number = np.unique(shadows.face, return_index=True, return_inverse=True)
     light, lacking = np.unique(shadows.lacking, return_inverse=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.geometry.mesh import Floats
+from vectorplot.arrays import Floats
 from vectorplot.shading.illumination import REDUCED, SHADOW_SHARE
 
 LEVELS = 9

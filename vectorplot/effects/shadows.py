@@ -7,18 +7,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals import Decals
 from vectorplot.effects.light_system import FacePlanes, LightBoxes, LightSystem, light_boxes, light_system
 from vectorplot.effects.shadow_casters import Casters, shadow_casters
 from vectorplot.effects.shadow_grades import Shadows, graded, joined_shadows, shadow_decals_of
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.plane_cuts import Crossings, crossings_of, parts_of
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
 from vectorplot.visibility.occluders import solid_items
-from vectorplot.visibility.painter.image_faces import corner_positions, drawn_faces
+from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 
 MOST_LIGHTS = 52
@@ -45,7 +46,7 @@ class Receivers:
     @classmethod
     def of(cls, view: View, face: Ints) -> Receivers:
         """Some faces of a view."""
-        position, offsets = corner_positions(view.offsets, face)
+        position, offsets = ragged.take(view.offsets, face)
         return cls(face, view.points[:, view.corners[position]], offsets)
 
 

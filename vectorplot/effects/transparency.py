@@ -7,8 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import next_positions
 from vectorplot.scene.scene import Scene
 
 FEWEST, MOST = 2, 4
@@ -64,7 +66,7 @@ def screen_door(points: Floats, offsets: Ints, pitch: float, every: ArrayLike, a
     turn = np.radians(angle_deg)
     along, across = np.array([np.cos(turn), np.sin(turn)]), np.array([-np.sin(turn), np.cos(turn)])
     u, v = along @ points[:2], across @ points[:2]
-    owner = np.repeat(np.arange(count), np.diff(offsets))
+    owner = ragged.owner(np.diff(offsets))
     after = next_positions(offsets, np.arange(len(u))) if count else owner
     drawn = step[owner] > 0
     distance = pitch * np.maximum(step[owner], 1)
@@ -75,8 +77,8 @@ def screen_door(points: Floats, offsets: Ints, pitch: float, every: ArrayLike, a
     if not crossed.sum() < MOST_STROKES:
         raise InputError(f"lines {pitch:g} apart are too fine: more than {MOST_STROKES} strokes")
     crossings = crossed.astype(np.intp)
-    side = np.repeat(np.arange(len(u)), crossings)
-    line = low[side] + np.arange(len(side)) - np.repeat(np.cumsum(crossings) - crossings, crossings)
+    side = ragged.owner(crossings)
+    line = low[side] + np.arange(len(side)) - np.repeat(ragged.starts(crossings), crossings)
     share = (line - here[side]) / (there - here)[side]
     place = u[side] + share * (u[after] - u)[side]
     order = np.lexsort((place, line, owner[side]))

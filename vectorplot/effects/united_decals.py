@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.arrays import Ints
 from vectorplot.effects.decals import Decals
 from vectorplot.effects.face_frames import FaceFrames
-from vectorplot.geometry.mesh import Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.regions import corners_of, unions, without_holes, without_splinters
 from vectorplot.scene.view import View
 
@@ -53,7 +54,7 @@ def _regions(decals: Decals, frames: FaceFrames, tolerance: float) -> tuple[Any,
     import shapely
 
     sizes = np.diff(decals.offsets)
-    owner = np.repeat(np.arange(len(sizes)), sizes)
+    owner = ragged.owner(sizes)
     rings = shapely.linearrings(frames.flat(decals.points, owner).T, indices=owner)
     columns = (decals.face, decals.kind, decals.level, decals.lights_lacking, decals.light, decals.colour)
     _, leader, group = np.unique(

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.convex_clipping import clipped, contained
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.plane_cuts import polygon_areas
-from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions
+from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.projected_faces import Floats32
 
 
@@ -35,7 +36,7 @@ class SeenThrough:
 
     def some(self, which: Ints) -> SeenThrough:
         """Some of the polygons, in the order asked for."""
-        position, offsets = corner_positions(self.offsets, which)
+        position, offsets = ragged.take(self.offsets, which)
         return SeenThrough(
             self.points[:, position],
             offsets,
@@ -80,7 +81,7 @@ def _wide(points: Floats, offsets: Ints, pair: Ints, tolerance: float) -> tuple[
         return points, offsets, pair
     normal, spread = polygon_areas(points * [[1.0], [1.0], [0.0]], offsets)
     kept = np.flatnonzero(np.abs(normal[2]) > tolerance * spread)
-    position, offsets = corner_positions(offsets, kept)
+    position, offsets = ragged.take(offsets, kept)
     return points[:, position], offsets, pair[kept]
 
 
@@ -98,7 +99,7 @@ def one_after_another(parts: list[SeenThrough]) -> SeenThrough:
     """The polygons of all parts as they come."""
     if not parts:
         return nothing_seen()
-    starts = np.cumsum([0, *(part.offsets[-1] for part in parts[:-1])])
+    starts = ragged.starts([part.offsets[-1] for part in parts])
     offsets = [np.zeros(1, dtype=np.intp), *(p.offsets[1:] + s for p, s in zip(parts, starts, strict=True))]
     return SeenThrough(
         np.concatenate([part.points for part in parts], axis=1),
@@ -123,23 +124,23 @@ def clipped_pairs(
 def _parts(
     faces: ImageFaces, painted: ImageFaces, face: Ints, window: Ints, tolerance: float
 ) -> tuple[Floats, Ints, Ints]:
-    corner, starts = corner_positions(faces.offsets, face)
-    border, borders = corner_positions(painted.offsets, window)
+    corner, starts = ragged.take(faces.offsets, face)
+    border, borders = ragged.take(painted.offsets, window)
     points, sides = faces.points[:, corner], painted.points[:2, border]
     whole = contained(points, starts, sides, borders, tolerance=tolerance)
     if whole.all():
         return points, starts, np.arange(len(face))
     partly = np.flatnonzero(~whole)
-    corner, some = corner_positions(starts, partly)
-    border, some_borders = corner_positions(borders, partly)
+    corner, some = ragged.take(starts, partly)
+    border, some_borders = ragged.take(borders, partly)
     cut, ends, kept = clipped(points[:, corner], some, sides[:, border], some_borders, tolerance=tolerance)
     kept_whole = np.flatnonzero(whole)
-    corner, whole_ends = corner_positions(starts, kept_whole)
+    corner, whole_ends = ragged.take(starts, kept_whole)
     pair = np.concatenate([kept_whole, partly[kept]])
     order = np.argsort(pair, kind="stable")
     every = np.concatenate([points[:, corner], cut], axis=1)
     offsets = np.concatenate([whole_ends, ends[1:] + whole_ends[-1]])
-    position, offsets = corner_positions(offsets, order)
+    position, offsets = ragged.take(offsets, order)
     return every[:, position], offsets, pair[order]
 
 

@@ -9,10 +9,10 @@ from typing import Literal
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.layers import PENS, layers_of
-from vectorplot.geometry.mesh import Floats
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.depth_cueing import MIDDLE, edge_shades

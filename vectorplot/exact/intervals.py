@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.intp]
+from vectorplot.arrays import Floats, Ints
 
 BITS = 40
 """Parameters are compared in steps of 2^-40 when deciding whether intervals touch."""

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 
-Floats = NDArray[np.float64]
 Signs = NDArray[np.int8]
 
 _HALF_ULP = 2.0**-53

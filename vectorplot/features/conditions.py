@@ -11,9 +11,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import number, vector
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.vectors import dot, normalize
 from vectorplot.surfaces.normals import normal_partials, unit_normals
 from vectorplot.surfaces.surface import ImplicitSurface, Surface

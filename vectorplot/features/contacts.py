@@ -6,9 +6,9 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.sheets import Sheet
 from vectorplot.features.triangle_pairs import overlapping_in_cells
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
 from vectorplot.geometry.weld import close_points
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.level_segments import split_at_middles
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 REACH = 2.0
 """How often further than a triangle is wide the curve may be for the triangle to be looked at."""

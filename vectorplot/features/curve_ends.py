@@ -7,9 +7,9 @@ from itertools import pairwise
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.features.double_curves import Course, followed
 from vectorplot.features.sheets import Sheet, SurfaceSheet
-from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.tolerance import ROUNDING
 from vectorplot.geometry.weld import close_points
 

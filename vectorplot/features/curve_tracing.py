@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.features.conditions import Condition
 from vectorplot.features.poles import through_poles
 from vectorplot.features.surface_curves import SurfaceCurves
 from vectorplot.features.zero_manifold import zero_manifold_of_f_uv
 from vectorplot.geometry.budget import USUAL, Budget
-from vectorplot.geometry.mesh import Floats
 from vectorplot.surfaces.surface import Domain, Surface
 
 Picture = Callable[[Floats], Floats]

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.conditions import Contour
 from vectorplot.features.curve_tracing import wrapped
 from vectorplot.features.surface_curves import SurfaceCurves, with_points
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.vectors import dot, normalize
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Domain

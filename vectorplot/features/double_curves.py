@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_tracing import Picture
 from vectorplot.features.meeting_points import in_planes, meetings
 from vectorplot.features.sheets import Sheet
 from vectorplot.features.zero_refinement import MISSED, PROBES
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 ROUNDS = 20
 """How often chords are cut at most."""

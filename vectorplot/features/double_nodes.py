@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.features.contacts import Contacts
 from vectorplot.features.double_curves import Course, followed
 from vectorplot.features.meeting_points import in_planes, meetings
 from vectorplot.features.sheets import Sheet
-from vectorplot.geometry.mesh import Bools, Floats
 
 RADIUS = 2.0
 """Cells around a node within which its branches are put together anew."""

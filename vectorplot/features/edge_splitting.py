@@ -13,8 +13,8 @@ from typing import Protocol
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.tessellation import edges_of
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.vectors import cross
 
 LOOKS = (0.25, 0.5, 0.75)

@@ -8,7 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.columns import cross
+from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.geometry.winding import unbalanced_vertices
 from vectorplot.words import LineKind
@@ -111,8 +114,8 @@ def _sharp_fans(faces: Faces, half: Ints, face: Ints, first: Ints, count: Ints, 
     in two directions only, opposite within the angle."""
     if not len(first):
         return np.zeros(0, dtype=np.bool_)
-    starts = np.cumsum(count) - count
-    use = np.repeat(first - starts, count) + np.arange(count.sum())
+    starts = ragged.starts(count)
+    use = ragged.ranges(first, count)
     along = faces.points[:, faces.corners[faces.after(half[use])]] - faces.points[:, faces.corners[half[use]]]
     inwards = cross(unit_normals(faces, face[use]), along)
     length = np.sqrt((inwards * inwards).sum(axis=0))
@@ -141,11 +144,6 @@ def unit_normals(faces: Faces, which: Ints) -> Floats:
         before = arm
     length = np.sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2])
     return np.asarray(normal / np.where(length > 0.0, length, 1.0), dtype=np.float64)
-
-
-def cross(a: Floats, b: Floats) -> Floats:
-    """(3,n) cross products of columns."""
-    return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
 
 
 def _candidates(faces: Faces, kinds: Collection[LineKind], angle_deg: float) -> Ints:

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, Vertices, refined
 from vectorplot.features.grid_triangulation import triangulate_surface
@@ -16,7 +17,7 @@ from vectorplot.features.polygonize import onto_surface, settled_mesh
 from vectorplot.features.singular_set import VANISHED, led_into_singular_set, usual_gradient
 from vectorplot.features.tessellation import grid_numbers
 from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
-from vectorplot.geometry.mesh import Floats, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.surfaces.jumps import jumps
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, is_implicit, is_parametrised

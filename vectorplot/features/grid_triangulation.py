@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross
 
 

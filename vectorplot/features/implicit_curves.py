@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
 from vectorplot.features.implicit_conditions import (
@@ -33,9 +34,9 @@ from vectorplot.features.implicit_tracing import (
     no_curves,
 )
 from vectorplot.features.zero_crossings import bracketed_zeros
+from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.geometry.outline import concat
 from vectorplot.geometry.vectors import normalize
 from vectorplot.geometry.winding import edge_uses
@@ -192,7 +193,7 @@ def implicit_parallel_contour_cusps(
 def with_points(curves: ImplicitCurves, points: Floats, after: Ints) -> ImplicitCurves:
     """The curves with points (k,3) put in, each after the point at position after (k,) in curves.points."""
     counts = np.bincount(np.searchsorted(curves.offsets, after, side="right") - 1, minlength=len(curves))
-    offsets = curves.offsets + np.concatenate([[0], np.cumsum(counts)])
+    offsets = curves.offsets + ragged.offsets(counts)
     return replace(curves, points=np.insert(curves.points, after + 1, points, axis=0), offsets=offsets.astype(np.intp))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 
 BACK = -0.7
 """Cosine between two chords below which the second runs back: that of a triangle around a tiny oval is -0.5."""

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.contacts import contacts
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.implicit_tracing import ImplicitCurves, ImplicitTracing, box_sides, mesh_of, no_curves
@@ -14,7 +15,7 @@ from vectorplot.features.sheets import MeshSheet
 from vectorplot.features.surface_intersection import doubts_about, joined, repeats_dropped
 from vectorplot.features.tessellation import FREE, Tessellation, edges_of
 from vectorplot.features.triangle_pairs import overlapping_triangles, piercings
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import dot
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface

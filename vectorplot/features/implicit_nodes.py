@@ -6,10 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_band import Band
 from vectorplot.features.implicit_refinement import CurveInSpace
 from vectorplot.features.polygonize import checked_values, onto_surface
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.weld import close_points, one_each
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface
@@ -163,7 +165,7 @@ def joined_at_nodes(points: Floats, last: Bools, closed: Bools, special: Special
     for place in special.isolated:
         node[(np.linalg.norm(points - place, axis=1) < special.near) & (node < 0)] = len(special.nodes)
     starts = np.concatenate([[0], np.flatnonzero(last) + 1])
-    line = np.repeat(np.arange(len(closed)), np.diff(starts))
+    line = ragged.owner(np.diff(starts))
     touched = np.bincount(line[node >= 0], minlength=len(closed)) > 0
     if not touched.any():
         return points, last, closed

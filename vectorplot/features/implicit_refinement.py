@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit_conditions import SpatialCondition
 from vectorplot.features.polygonize import checked_values, onto_surface
 from vectorplot.features.zero_crossings import bracketed_zeros
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.vectors import dot
 from vectorplot.surfaces.surface import ImplicitSurface
 

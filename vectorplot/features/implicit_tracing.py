@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.curve_band import Band, Nodes, curve_band
 from vectorplot.features.implicit_conditions import SpatialCondition
@@ -15,8 +16,9 @@ from vectorplot.features.implicit_nodes import joined_at_nodes, special_points
 from vectorplot.features.implicit_refinement import CurveInSpace, Picture, curve_in_space, refined_chords
 from vectorplot.features.level_segments import level_segments
 from vectorplot.features.polygonize import onto_surface, settled_mesh
+from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.outline import concat
 from vectorplot.surfaces.surface import ImplicitSurface
 
@@ -84,7 +86,7 @@ def all_curves(families: Sequence[ImplicitCurves]) -> ImplicitCurves:
     counts = np.concatenate([np.diff(c.offsets) for c in families])
     return ImplicitCurves(
         np.concatenate([c.points for c in families]),
-        np.concatenate([[0], np.cumsum(counts)]).astype(np.intp),
+        ragged.offsets(counts),
         np.concatenate([c.closed for c in families]),
         np.concatenate([c.levels for c in families]),
         np.concatenate([c.isolated for c in families]),
@@ -243,8 +245,8 @@ def _polylines(points: Floats, pairs: Ints, spans: Floats, dot: float) -> tuple[
     if not len(branches):
         return np.zeros((0, 3)), np.zeros(0, dtype=np.bool_), np.zeros(0, dtype=np.bool_), np.zeros((0, 3))
     sizes = np.diff(branches.offsets) + branches.closed
-    starts = np.concatenate([[0], np.cumsum(sizes)])
-    line = np.repeat(np.arange(len(sizes)), sizes)
+    starts = ragged.offsets(sizes)
+    line = ragged.owner(sizes)
     place = np.arange(starts[-1]) - starts[line]
     place[branches.closed[line] & (place == sizes[line] - 1)] = 0
     index = branches.points[branches.offsets[line] + place]
@@ -283,6 +285,6 @@ def curves_of_lines(
     """The curves of polylines: points (p,3), last (p,) of them, closed (m,): the first point is repeated at the end."""
     line = np.cumsum(np.concatenate([[0], last]))[:-1]
     kept = ~(last & closed[line])
-    offsets = np.concatenate([[0], np.cumsum(np.bincount(line[kept], minlength=len(closed)))]).astype(np.intp)
+    offsets = ragged.offsets(np.bincount(line[kept], minlength=len(closed)))
     none = np.zeros((0, 3))
     return ImplicitCurves(points[kept], offsets, closed, np.full(len(closed), level), none, none, doubts)

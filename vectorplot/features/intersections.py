@@ -8,8 +8,9 @@ from typing import Literal
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.edges import Faces, unit_normals
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 PAIRS_AT_ONCE = 1 << 18
 """Pairs of faces handled at once."""
@@ -103,8 +104,8 @@ def _within_pairs(
     sides = []
     for which in (a, b):
         size = first[which + 1] - first[which]
-        pair = np.repeat(np.arange(len(which)), size)
-        face = by_part[np.arange(len(pair)) - np.repeat(np.cumsum(size) - size - first[which], size)]
+        pair = ragged.owner(size)
+        face = by_part[np.arange(len(pair)) - np.repeat(ragged.starts(size) - first[which], size)]
         near = (low[:, face] <= common_high[:, pair]).all(axis=0) & (high[:, face] >= common_low[:, pair]).all(axis=0)
         sides.append((pair[near], face[near]))
     # Faces of different pairs are kept apart by a shift on one axis: so one sweep serves all pairs.
@@ -152,7 +153,7 @@ def _sweep(
     for first, last in pairwise(edges.tolist()):
         size = count[first:last]
         i = np.repeat(np.arange(first, last), size)
-        j = order[np.arange(len(i)) - np.repeat(np.cumsum(size) - size, size) + begin[i]]
+        j = order[ragged.place(size) + begin[i]]
         keep = np.ones(len(i), dtype=np.bool_)
         for k in rest:
             keep &= (low[k, i] <= other_high[k, j]) & (high[k, i] >= other_low[k, j])
@@ -184,8 +185,8 @@ def _corners_of(faces: Faces, which: Ints) -> tuple[Ints, Ints, Ints]:
     """Positions of all corners of some faces (repeats allowed), which of them each belongs to, and where each
     starts."""
     size = faces.offsets[which + 1] - faces.offsets[which]
-    starts = np.cumsum(size) - size
-    owner = np.repeat(np.arange(len(which)), size)
+    starts = ragged.starts(size)
+    owner = ragged.owner(size)
     return np.arange(len(owner)) - (starts - faces.offsets[which])[owner], owner, starts
 
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.sheets import Sheet
 from vectorplot.features.tessellation import FREE
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.tolerance import ROUNDING
 from vectorplot.geometry.vectors import cross
 

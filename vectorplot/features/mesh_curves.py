@@ -7,11 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier import BezierPaths
 from vectorplot.curves.bezier_fit import fitted_paths
 from vectorplot.features.level_segments import level_segments
+from vectorplot.geometry import ragged
 from vectorplot.geometry.convex_faces import convex_faces
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.outline import concat
 from vectorplot.geometry.strokes import Strokes
 from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
@@ -47,7 +49,7 @@ class MeshCurves:
     def strokes(self, kind: LineKind, item: int = 0) -> Strokes:
         """The curves as strokes, closed ones with their first point repeated."""
         parts = [self[k] for k in range(len(self))]
-        ends = np.cumsum([0, *(len(part) for part in parts)]).astype(np.intp)
+        ends = ragged.offsets([len(part) for part in parts])
         points = np.concatenate([np.zeros((0, 3)), *parts])
         return Strokes(points, ends, np.full(len(self), int(kind)), np.full(len(self), item))
 
@@ -64,7 +66,7 @@ def all_mesh_curves(families: Sequence[MeshCurves]) -> MeshCurves:
     counts = np.concatenate([np.diff(c.offsets) for c in families])
     return MeshCurves(
         np.concatenate([c.points for c in families]),
-        np.concatenate([[0], np.cumsum(counts)]).astype(np.intp),
+        ragged.offsets(counts),
         np.concatenate([c.closed for c in families]),
         np.concatenate([c.faces for c in families]),
         np.concatenate([c.levels for c in families]),
@@ -89,12 +91,8 @@ def face_triangles(mesh: Mesh) -> FaceTriangles:
     low, high = mesh.bounds
     extent = float((high - low).max())
     faces = convex_faces(mesh.vertices.T, mesh.corners, mesh.offsets, ZERO_OF_EXTENT * extent)
-    sizes = np.diff(faces.offsets) - 2
-    of = np.repeat(np.arange(len(sizes)), sizes)
-    step = np.arange(len(of)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
-    first = faces.offsets[of]
-    triangles = faces.corners[np.stack([first, first + step + 1, first + step + 2], axis=1)]
-    face = faces.source[of]
+    fans, of = ragged.fans(faces.offsets)
+    triangles, face = faces.corners[fans], faces.source[of]
     if mesh.present is not None:
         triangles, face = triangles[mesh.present[face]], face[mesh.present[face]]
     rounding = ROUNDING * float(np.abs(mesh.bounds).max())
@@ -122,7 +120,7 @@ def joined_segments(points: Floats, pairs: Ints, face: Ints, level: float) -> Me
     if not len(branches):
         return all_mesh_curves([])
     sizes = np.diff(branches.offsets)
-    line = np.repeat(np.arange(len(sizes)), sizes)
+    line = ragged.owner(sizes)
     last = branches.offsets[1:] - 1
     after = np.append(branches.points[1:], 0)
     after[last] = branches.points[branches.offsets[:-1]]
@@ -136,7 +134,7 @@ def joined_segments(points: Floats, pairs: Ints, face: Ints, level: float) -> Me
     counts = np.bincount(line[kept], minlength=len(sizes))
     real = counts > 1
     kept &= real[line]
-    offsets = np.concatenate([[0], np.cumsum(counts[real])]).astype(np.intp)
+    offsets = ragged.offsets(counts[real])
     return MeshCurves(own[kept], offsets, branches.closed[real], faces[kept], np.full(int(real.sum()), level))
 
 
@@ -146,9 +144,8 @@ def without_inner(curves: MeshCurves, extent: float) -> MeshCurves:
     if not len(curves):
         return curves
     sizes = np.diff(curves.offsets)
-    line = np.repeat(np.arange(len(sizes)), sizes)
-    before, after = np.arange(-1, len(line) - 1), np.arange(1, len(line) + 1)
-    before[curves.offsets[:-1]], after[curves.offsets[1:] - 1] = curves.offsets[1:] - 1, curves.offsets[:-1]
+    line = ragged.owner(sizes)
+    before, after = ragged.preceding(curves.offsets), ragged.following(curves.offsets)
     here, chord = curves.points, curves.points[after] - curves.points[before]
     on = np.einsum("ij,ij->i", here - curves.points[before], curves.points[after] - here) > 0.0
     length = np.maximum(np.linalg.norm(chord, axis=1), np.finfo(float).tiny)
@@ -158,7 +155,7 @@ def without_inner(curves: MeshCurves, extent: float) -> MeshCurves:
     counts = np.bincount(line[kept], minlength=len(sizes))
     real = counts > 1
     kept &= real[line]
-    offsets = np.concatenate([[0], np.cumsum(counts[real])]).astype(np.intp)
+    offsets = ragged.offsets(counts[real])
     return MeshCurves(here[kept], offsets, curves.closed[real], curves.faces[kept], curves.levels[real])
 
 

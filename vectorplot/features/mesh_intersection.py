@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_band import Nodes, curve_band
 from vectorplot.features.implicit_refinement import HALVINGS, MISSED, PROBES, Picture, deviation
 from vectorplot.features.level_segments import level_segments
 from vectorplot.features.mesh_curves import NO_FACE, FaceTriangles, MeshCurves, face_triangles, joined_segments
 from vectorplot.features.polygonize import checked_values
 from vectorplot.features.zero_crossings import bracketed_zeros
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.surfaces.surface import ImplicitSurface
 
 FALLS = 1e-3
@@ -103,9 +105,8 @@ def _refined(
 ) -> MeshCurves:
     """The curves with points put in, in the planes of their triangles, which become their faces."""
     points, owner = curves.points, curves.faces
-    line = np.repeat(np.arange(len(curves)), np.diff(curves.offsets))
-    after = np.arange(1, len(points) + 1)
-    after[curves.offsets[1:] - 1] = curves.offsets[:-1]
+    line = ragged.owner(np.diff(curves.offsets))
+    after = ragged.following(curves.offsets)
     end = points[after] if len(points) else points
     open_ = owner != NO_FACE
     for _ in range(HALVINGS):
@@ -125,7 +126,7 @@ def _refined(
         points, end = np.insert(points, at, new.reshape(-1, 3), axis=0), np.insert(end, at, ends.reshape(-1, 3), axis=0)
         owner, line = np.insert(owner, at, np.repeat(owner[split], 2)), np.insert(line, at, np.repeat(line[split], 2))
         open_ = np.insert(open_, at, True)
-    offsets = np.concatenate([[0], np.cumsum(np.bincount(line, minlength=len(curves)))]).astype(np.intp)
+    offsets = ragged.offsets(np.bincount(line, minlength=len(curves)))
     face = np.where(owner == NO_FACE, NO_FACE, faces.face[owner])
     return MeshCurves(points, offsets, curves.closed, face, curves.levels)
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
 from vectorplot.features.mesh_curves import (
@@ -19,7 +20,7 @@ from vectorplot.features.mesh_curves import (
     without_inner,
 )
 from vectorplot.geometry.adjacency import face_barycentres
-from vectorplot.geometry.mesh import Floats, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import normalize
 from vectorplot.geometry.winding import edge_uses
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.features.contacts import contacts
 from vectorplot.features.curve_ends import at_border
 from vectorplot.features.curve_tracing import Tracing
@@ -14,7 +15,7 @@ from vectorplot.features.surface_curves import SurfaceCurves, no_curves
 from vectorplot.features.surface_intersection import Joined, doubts_about, joined, repeats_dropped
 from vectorplot.features.tessellation import finer_grids
 from vectorplot.features.triangle_pairs import overlapping_triangles, piercings
-from vectorplot.geometry.mesh import Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.surfaces.surface import Surface
 
 DEFAULT = Tracing()

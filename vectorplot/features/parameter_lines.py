@@ -7,12 +7,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.curve_tracing import Tracing, extent, wrapped
 from vectorplot.features.poles import poles
 from vectorplot.features.surface_curves import SurfaceCurves, no_curves, together
+from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import unresolved
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.surfaces.surface import Domain, Surface
 
 DEFAULT = Tracing()
@@ -191,7 +192,7 @@ def _curves(surface: Surface, axis: int, bundle: _Bundle) -> SurfaceCurves:
     turns[:, 1 - axis] = closed
     fixed, running = bundle.fixed[kept], bundle.running[kept]
     u, v = (fixed, running) if axis == 0 else (running, fixed)
-    offsets = np.concatenate([[0], np.cumsum(last - first + 1 - closed)]).astype(np.intp)
+    offsets = ragged.offsets(last - first + 1 - closed)
     none = np.zeros((0, 2))
     points = surface.points(*wrapped(domain, u, v))
     return SurfaceCurves(u, v, points, offsets, closed, turns, bundle.fixed[first], none, none, none, ())
@@ -213,7 +214,7 @@ def _without_points(curves: SurfaceCurves, size: float) -> SurfaceCurves:
         curves.u[own],
         curves.v[own],
         curves.points[own],
-        np.concatenate([[0], np.cumsum(counts[real])]).astype(np.intp),
+        ragged.offsets(counts[real]),
         curves.closed[real],
         curves.turns[real],
         curves.levels[real],

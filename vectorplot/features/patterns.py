@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats, Ints, Mesh
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
 
 
 def face_frames(mesh: Mesh, faces: Ints) -> tuple[Floats, Floats, Floats]:
@@ -21,8 +23,8 @@ def face_frames(mesh: Mesh, faces: Ints) -> tuple[Floats, Floats, Floats]:
     if not len(faces):
         return np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3))
     sizes = mesh.face_sizes[faces]
-    starts = np.cumsum(sizes) - sizes
-    position = np.repeat(mesh.offsets[faces] - starts, sizes) + np.arange(int(sizes.sum()))
+    starts = ragged.starts(sizes)
+    position = ragged.ranges(mesh.offsets[faces], sizes)
     first = mesh.vertices[mesh.corners[mesh.offsets[faces]]]
     arms = mesh.vertices[mesh.corners[position]] - np.repeat(first, sizes, axis=0)
     origin = first + np.add.reduceat(arms, starts, axis=0) / sizes[:, None]

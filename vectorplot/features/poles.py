@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.scalar_field import POLE_STEP
 from vectorplot.features.zero_manifold import DOUBLE, ZeroManifold
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.surfaces.surface import Domain, Surface
 
 STRAIGHT = -0.9999
@@ -97,7 +98,7 @@ def through_poles(surface: Surface, found: ZeroManifold) -> Branches:
     sizes = [len(line) for line in lines]
     return Branches(
         np.concatenate([np.zeros((0, 2)), *lines]),
-        np.concatenate([[0], np.cumsum(sizes)]).astype(np.intp),
+        ragged.offsets(sizes),
         np.array(closed, dtype=np.bool_),
         np.array(turns, dtype=np.intp).reshape(-1, 2),
         isolated,

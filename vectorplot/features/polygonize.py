@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.zero_crossings import bracketed_zeros
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.weld import close_points
 from vectorplot.geometry.winding import components, edge_uses
 from vectorplot.surfaces.surface import ImplicitSurface

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.surfaces.surface import Domain
 
 Function = Callable[[Floats, Floats], Floats]

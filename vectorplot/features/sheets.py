@@ -8,10 +8,12 @@ from typing import Protocol
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_tracing import extent, wrapped
 from vectorplot.features.tessellation import FREE, Tessellation, edges_of, surface_tessellation
+from vectorplot.geometry import ragged
 from vectorplot.geometry.convex_faces import convex_faces
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.geometry.vectors import cross
 from vectorplot.surfaces.normals import unit_normals
@@ -273,8 +275,8 @@ class MeshSheet:
         mesh = self.mesh
         parts = convex_faces(mesh.vertices.T, mesh.corners, mesh.offsets, ZERO_OF_EXTENT * self.size[0])
         sizes = np.diff(parts.offsets) - 2
-        part = np.repeat(np.arange(len(sizes)), sizes)
-        step = np.arange(len(part)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+        part = ragged.owner(sizes)
+        step = ragged.place(sizes)
         first = parts.offsets[part]
         triangles = parts.corners[np.stack([first, first + step + 1, first + step + 2], axis=1)]
         face = parts.source[part]

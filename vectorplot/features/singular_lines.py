@@ -6,9 +6,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_tracing import Tracing, curves_where_zero, samples, wrapped
 from vectorplot.features.surface_curves import SurfaceCurves, no_curves
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.surfaces.surface import Domain, Surface, normals
 
@@ -171,7 +172,7 @@ def _singular_only(surface: Surface, found: SurfaceCurves, size: float) -> Surfa
         found.u[inside],
         found.v[inside],
         found.points[inside],
-        np.concatenate([[0], np.cumsum(sizes)]).astype(np.intp),
+        ragged.offsets(sizes),
         found.closed[kept],
         found.turns[kept],
         found.levels[kept],

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.polygonize import checked_values
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +54,7 @@ def together(families: Sequence[SurfaceCurves]) -> SurfaceCurves:
         np.concatenate([c.u for c in families]),
         np.concatenate([c.v for c in families]),
         np.concatenate([c.points for c in families]),
-        np.concatenate([[0], np.cumsum(counts)]).astype(np.intp),
+        ragged.offsets(counts),
         np.concatenate([c.closed for c in families]),
         np.concatenate([c.turns for c in families]),
         np.concatenate([c.levels for c in families]),
@@ -85,8 +86,8 @@ def with_points(curves: SurfaceCurves, after: Ints, u: Floats, v: Floats, points
         gone[old_to_new[neighbour[(apart <= 1e-9 * span).all(axis=1)]]] = True
     kept = ~gone
     sizes = np.diff(curves.offsets) + np.bincount(curve, minlength=len(curves))
-    bounds = np.concatenate([[0], np.cumsum(sizes)])
-    counts = np.concatenate([[0], np.cumsum(kept)])
+    bounds = ragged.offsets(sizes)
+    counts = ragged.offsets(kept)
 
     def merged(old: Floats, new: Floats) -> Floats:
         result = np.insert(old, place[order] + 1, np.asarray(new)[order], axis=0)

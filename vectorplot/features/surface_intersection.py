@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.contacts import Contacts, contacts, zero_height
 from vectorplot.features.curve_ends import into_pinch_points, stitched, without_copies
 from vectorplot.features.curve_tracing import Tracing
@@ -16,7 +17,7 @@ from vectorplot.features.sheets import MeshSheet, Sheet, SurfaceSheet
 from vectorplot.features.surface_pairs import Traced, traced, without_crowds, without_zigzags
 from vectorplot.features.tessellation import finer_grids
 from vectorplot.features.triangle_pairs import Piercings, overlapping_triangles, piercings
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.weld import close_points
 from vectorplot.surfaces.surface import Surface
 
@@ -176,4 +177,4 @@ def repeats_dropped(all_: Joined) -> tuple[Bools, Ints, Bools]:
     kept = np.ones(len(all_.points.last), dtype=np.bool_)
     kept[last[closed]] = False
     sizes = np.diff(last, prepend=-1) - closed
-    return kept, np.concatenate([[0], np.cumsum(sizes)]).astype(np.intp), closed
+    return kept, ragged.offsets(sizes), closed

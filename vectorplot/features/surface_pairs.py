@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.double_curves import Course
 from vectorplot.features.meeting_points import Bound, meetings, sines
 from vectorplot.features.sheets import Sheet
 from vectorplot.features.triangle_pairs import Piercings
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.outline import concat
 
 DRIFT = 3.0

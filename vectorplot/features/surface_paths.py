@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.features.curve_tracing import Tracing, extent, wrapped
 from vectorplot.features.parameter_lines import DEFAULT, MISSED, PROBES
 from vectorplot.features.surface_curves import SurfaceCurves, no_curves, together
-from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.surfaces.surface import Surface
 
 FIRST_POINTS = 65

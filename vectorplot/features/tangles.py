@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.features.zero_cells import Cells, Subdivision
 from vectorplot.features.zero_segments import Segments
-from vectorplot.geometry.mesh import Floats, Ints
 
 REACH = 3
 """A tangle has no square smaller than this many cells to each side of one: about a double point of a curve, or along a

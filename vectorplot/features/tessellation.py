@@ -7,11 +7,11 @@ from functools import cached_property
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.curve_tracing import TURN, wrapped
 from vectorplot.features.grid_triangulation import average_normals, cut_cells
 from vectorplot.features.poles import poles
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.surfaces.surface import Domain, Surface
 
 UNEVEN = 0.17

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.intersections import PAIRS_AT_ONCE, overlapping_boxes
 from vectorplot.features.tessellation import FREE, Tessellation
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 Pair = tuple[Ints, Ints]
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.scalar_field import ScalarField, next_to
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 ALIGNED = 0.25
 """Cosine down to which the gradients in a cell count as pointing the same way: then the curve is one arc there."""

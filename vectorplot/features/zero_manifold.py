@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.grid_triangulation import triangulate_surface
 from vectorplot.features.scalar_field import (
@@ -38,8 +39,8 @@ from vectorplot.features.zero_refinement import (
 )
 from vectorplot.features.zero_segments import NOISE, RESIDUAL, Segments, crossing_segments
 from vectorplot.features.zero_triangles import triangles_near
+from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.outline import concat
 from vectorplot.surfaces.surface import Domain
 
@@ -201,7 +202,7 @@ def _without_beads(field: ScalarField, lines: Polylines, cell: Floats) -> tuple[
     p = lines.points
     if len(first) <= MOST_ALONE:
         return lines, p[:0]
-    path = np.repeat(np.arange(len(first)), last - first + 1)
+    path = ragged.owner(last - first + 1)
     q = (p - p[first[path]]) / cell
     step = np.diff(q, axis=0)
     inner = ~lines.last[:-1]
@@ -274,8 +275,8 @@ def _polylines(field: ScalarField, points: Floats, segments: Ints) -> Polylines:
     """The segments joined to polylines whose parameters run on over seams; closed ones repeat their first point."""
     branches = concat(segments)
     size = np.diff(branches.offsets) + branches.closed
-    offsets = np.concatenate([[0], np.cumsum(size)])
-    path = np.repeat(np.arange(len(size)), size)
+    offsets = ragged.offsets(size)
+    path = ragged.owner(size)
     place = np.arange(offsets[-1]) - offsets[path]
     index = branches.offsets[path] + place
     index = np.where(branches.closed[path] & (place == size[path] - 1), branches.offsets[path], index)
@@ -330,7 +331,7 @@ def _result(field: ScalarField, lines: Polylines, found: _Found, doubts: tuple[s
     turns = np.where(closed[:, None], np.round((ends[1] - ends[0]) / field.size), 0.0).astype(np.intp)
     kept = np.ones(len(lines.points), dtype=np.bool_)
     kept[last[closed]] = False
-    offsets = np.concatenate([[0], np.cumsum(last - first + 1 - closed)]).astype(np.intp)
+    offsets = ragged.offsets(last - first + 1 - closed)
     return ZeroManifold(
         field.domain,
         lines.points[kept],

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.scalar_field import ScalarField
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.weld import close_points
 
 FLAT = 1e-4
@@ -170,10 +171,10 @@ def joined_at_nodes(field: ScalarField, points: Floats, segments: Ints, nodes: F
     order = np.lexsort((np.arctan2(d[:, 1], d[:, 0]), node))
     end, node, outer = end[order], node[order], outer[order]
     meets = np.bincount(node, minlength=len(nodes))
-    rank = np.arange(len(node)) - (np.cumsum(meets) - meets)[node]
+    rank = np.arange(len(node)) - ragged.starts(meets)[node]
     # Each pair of opposite ends has a copy of the node to itself.
     copies = (meets + 1) // 2
-    copy = len(points) + (np.cumsum(copies) - copies)[node] + rank % np.maximum(copies[node], 1)
+    copy = len(points) + ragged.starts(copies)[node] + rank % np.maximum(copies[node], 1)
     new = np.where((outer == 0)[:, None], np.stack([end, copy], axis=1), np.stack([copy, end], axis=1))
     kept = segments[(at_node < 0).all(axis=1)]
     return Joined(
@@ -202,8 +203,8 @@ def within(field: ScalarField, points: Floats, centres: Floats, reach: Floats) -
         # One place more: the bounds are rounded.
         last = np.minimum(last + 1, len(order))
         count = np.maximum(last - first, 0)
-        centre = np.repeat(np.arange(len(centres)), count)
-        place = np.arange(len(centre)) - np.repeat(np.cumsum(count) - count, count) + first[centre]
+        centre = ragged.owner(count)
+        place = ragged.place(count) + first[centre]
         pairs.append((centre, order[place]))
     centre, point = (np.concatenate([pair[k] for pair in pairs]) for k in (0, 1))
     d = _difference(field, points[point], centres[centre]) / reach[centre]

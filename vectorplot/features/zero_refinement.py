@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.scalar_field import ScalarField
 from vectorplot.features.zero_crossings import bracketed_zeros
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 JUMP = 1e-8
 """Part of the domain over which positions jump where they are farther apart than the tolerance: on the way there the
@@ -199,7 +200,7 @@ def without_repeats(lines: Polylines, size: Floats) -> tuple[Polylines, Floats]:
     drop[swap], drop[swap - 1] = False, True
     first = starts_of(lines.last)
     drop[first] = False
-    path = np.repeat(np.arange(len(first)), np.diff(np.append(first, len(drop))))
+    path = ragged.owner(np.diff(np.append(first, len(drop))))
     step[lines.last[:-1]] = 0.0
     dot = np.bincount(path[1:], weights=step, minlength=len(first)) <= 1e-8
     kept = ~drop & ~dot[path]

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.zero_cells import Lattice
 from vectorplot.features.zero_crossings import bracketed_zeros, cubic_parabola, zero_of_cubic_parabola
 from vectorplot.features.zero_triangles import Corners
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 RESIDUAL = 1e-12
 """Part of the scale of f down to which |f| is brought at every point."""

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.grid_triangulation import normals_among, other_diagonal
 from vectorplot.features.zero_cells import Cells, Lattice, Subdivision, corner_values, in_domain
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats, Ints, Mesh
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.winding import edge_uses, signed_volumes
 
 NO_FACE = -1

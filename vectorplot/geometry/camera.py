@@ -8,9 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.lens import field_of_vision_deg
-from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.rotations import euler_angles, rotation_x, rotation_z
 
 Point = tuple[float, float, float]

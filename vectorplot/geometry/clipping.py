@@ -14,8 +14,9 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 LEFT, RIGHT, ABOVE, BELOW, INFRONT, BEHIND = 1, 2, 4, 8, 16, 32
 """Region codes; a point outside in two ways has their sum. Source: Cohen and Sutherland."""
@@ -178,7 +179,7 @@ class Polygons:
     def of(cls, *polygons: ArrayLike) -> Polygons:
         """The polygons given as arrays (k, columns) of corners."""
         arrays = [np.asarray(p, dtype=np.float64) for p in polygons]
-        return cls(np.concatenate(arrays), np.cumsum([0, *(len(a) for a in arrays)], dtype=np.intp))
+        return cls(np.concatenate(arrays), ragged.offsets([len(a) for a in arrays]))
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
@@ -196,9 +197,7 @@ def cut_polygons(polygons: Polygons, distance: Floats) -> tuple[Polygons, Bools]
     Source: Glaeser, section 2.5 (Hodgman and Sutherland); errata G2-10 to G2-12.
     """
     count = len(polygons.points)
-    following = np.arange(1, count + 1)
-    filled = polygons.offsets[1:] > polygons.offsets[:-1]
-    following[polygons.offsets[1:][filled] - 1] = polygons.offsets[:-1][filled]
+    following = ragged.following(polygons.offsets)
     beyond = distance[following]
     crossing = (distance < 0.0) & (beyond > 0.0) | (distance > 0.0) & (beyond < 0.0)
     share = np.where(crossing, distance / np.where(crossing, distance - beyond, 1.0), 0.0)
@@ -206,10 +205,10 @@ def cut_polygons(polygons: Polygons, distance: Floats) -> tuple[Polygons, Bools]
     # Every corner may leave itself and, after it, a new corner on its side.
     pairs = np.stack([polygons.points, made], axis=1).reshape(2 * count, polygons.points.shape[1])
     kept = np.stack([distance >= 0.0, crossing], axis=1).reshape(2 * count)
-    ends = np.concatenate([[0], np.cumsum(kept)])[2 * polygons.offsets]
+    ends = ragged.offsets(kept)[2 * polygons.offsets]
     sizes = np.diff(ends)
     kept &= np.repeat(np.repeat(sizes >= 3, np.diff(polygons.offsets)), 2)
-    offsets = np.concatenate([[0], np.cumsum(np.where(sizes >= 3, sizes, 0))])
+    offsets = ragged.offsets(np.where(sizes >= 3, sizes, 0))
     is_new = np.tile(np.array([False, True]), count)
     return Polygons(pairs[kept], offsets), is_new[kept]
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 
 def clipped(
@@ -88,8 +89,8 @@ def _doubled_areas(points: Floats, offsets: Ints) -> Floats:
 def _some(points: Floats, offsets: Ints, which: Ints) -> tuple[Floats, Ints]:
     """Some of the polygons, and their offsets."""
     sizes = offsets[which + 1] - offsets[which]
-    ends = np.concatenate([[0], np.cumsum(sizes)])
-    position = np.repeat(offsets[which] - ends[:-1], sizes) + np.arange(int(ends[-1]))
+    ends = ragged.offsets(sizes)
+    position = ragged.ranges(offsets[which], sizes)
     return points[:, position], ends
 
 
@@ -117,7 +118,7 @@ def _cut(points: Floats, offsets: Ints, height: Floats) -> tuple[Floats, Ints, I
     # Every corner leaves itself if inside and, where its side crosses, a new corner after it.
     counts = (~out).astype(np.intp)
     counts[crossing] += 1
-    ends = np.concatenate([[0], np.cumsum(counts)])
+    ends = ragged.offsets(counts)
     made = np.empty((len(points), int(ends[-1])))
     kept = np.flatnonzero(~out)
     made[:, ends[kept]] = points[:, kept]

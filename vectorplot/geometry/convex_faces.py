@@ -7,8 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputWarning
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.columns import cross, dot
 from vectorplot.geometry.tolerance import ROUNDING
 
 PLANE = 1e-6
@@ -56,7 +58,7 @@ def convex_faces(points: Floats, corners: Ints, offsets: Ints, tolerance: float)
     all_corners = np.concatenate([corners[kept], quad_triangles.ravel(), triangles.ravel()])
     all_inner = np.concatenate([np.zeros(int(kept.sum()), dtype=np.bool_), quad_inner.ravel(), inner.ravel()])
     order = np.argsort(all_source, kind="stable")
-    ends = np.concatenate([[0], np.cumsum(all_sizes)])
+    ends = ragged.offsets(all_sizes)
     positions, starts, _ = _runs(ends, order)
     return ConvexFaces(all_corners[positions], starts, all_source[order], all_inner[positions])
 
@@ -64,40 +66,32 @@ def convex_faces(points: Floats, corners: Ints, offsets: Ints, tolerance: float)
 def _runs(offsets: Ints, faces: Ints) -> tuple[Ints, Ints, Ints]:
     """Positions of the corners of some faces, where each face starts in them, and the face (0, 1, ...) of each."""
     sizes = offsets[faces + 1] - offsets[faces]
-    starts = np.concatenate([[0], np.cumsum(sizes)])
-    owner = np.repeat(np.arange(len(faces)), sizes)
-    return np.arange(starts[-1]) - np.repeat(starts[:-1] - offsets[faces], sizes), starts, owner
+    starts = ragged.offsets(sizes)
+    owner = ragged.owner(sizes)
+    return ragged.ranges(offsets[faces], sizes), starts, owner
 
 
 def _planar_convex(p: list[Floats], tolerance: float) -> Bools:
     """Which polygons of one size, given by their first, second, ... corners (3,n), are planar and convex."""
     side = [after - here for here, after in zip(p, [*p[1:], p[0]], strict=True)]
-    turn = [_cross(here, after) for here, after in zip([side[-1], *side[:-1]], side, strict=True)]
-    normal = _cross(p[1] - p[0], p[2] - p[0])
+    turn = [cross(here, after) for here, after in zip([side[-1], *side[:-1]], side, strict=True)]
+    normal = cross(p[1] - p[0], p[2] - p[0])
     for k in range(3, len(p)):
-        normal = normal + _cross(p[k - 1] - p[0], p[k] - p[0])
-    longest = np.max([_dot(s, s) for s in side], axis=0)
+        normal = normal + cross(p[k - 1] - p[0], p[k] - p[0])
+    longest = np.max([dot(s, s) for s in side], axis=0)
     # The two halves of a bow tie cancel out.
-    has_area = np.sqrt(_dot(normal, normal)) > ROUNDING * longest
-    normal = normal / np.maximum(np.sqrt(_dot(normal, normal)), np.finfo(float).tiny)
+    has_area = np.sqrt(dot(normal, normal)) > ROUNDING * longest
+    normal = normal / np.maximum(np.sqrt(dot(normal, normal)), np.finfo(float).tiny)
     planar = np.ones(normal.shape[1], dtype=np.bool_)
     left = np.ones(normal.shape[1], dtype=np.bool_)
-    length = [np.sqrt(_dot(s, s)) for s in side]
+    length = [np.sqrt(dot(s, s)) for s in side]
     for k in range(len(p)):
-        planar &= np.abs(_dot(p[k] - p[0], normal)) <= tolerance
-        left &= _dot(turn[k], normal) >= -tolerance * np.maximum(length[k - 1], length[k])
+        planar &= np.abs(dot(p[k] - p[0], normal)) <= tolerance
+        left &= dot(turn[k], normal) >= -tolerance * np.maximum(length[k - 1], length[k])
     if len(p) == 4:
         return np.asarray(planar & left & has_area, dtype=np.bool_)
-    angle = sum(np.arctan2(_dot(turn[k], normal), _dot(side[k - 1], side[k])) for k in range(len(p)))
+    angle = sum(np.arctan2(dot(turn[k], normal), dot(side[k - 1], side[k])) for k in range(len(p)))
     return np.asarray(planar & left & (angle < 3.0 * np.pi), dtype=np.bool_)
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
-
-
-def _dot(a: Floats, b: Floats) -> Floats:
-    return np.asarray(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], dtype=np.float64)
 
 
 def _cut_quads(points: Floats, quads: Ints) -> tuple[Ints, Bools]:
@@ -126,7 +120,7 @@ def _crossing_quads(p: Floats) -> Bools:
     """(q,) which plane quadrilaterals (3,q,4) cross themselves: along either diagonal their halves lie over each
     other."""
     halves = [(0, 1, 2), (0, 2, 3), (1, 2, 3), (1, 3, 0)]
-    normals = np.stack([_cross(p[:, :, b] - p[:, :, a], p[:, :, c] - p[:, :, a]) for a, b, c in halves])
+    normals = np.stack([cross(p[:, :, b] - p[:, :, a], p[:, :, c] - p[:, :, a]) for a, b, c in halves])
     sizes = (normals * normals).sum(axis=1)
     largest = normals[sizes.argmax(axis=0), :, np.arange(p.shape[1])]
     size = np.maximum(sizes.max(axis=0), np.finfo(float).tiny)
@@ -158,10 +152,10 @@ def _cut_polygons(points: Floats, corners: Ints, offsets: Ints, faces: Ints) -> 
     local, part_of = _counter_clockwise(corner_of[sound[part_of]], flat), part_of[sound[part_of]]
     if not sound.all():
         warnings.warn(f"{int((~sound).sum())} faces cross themselves: cut as fans", InputWarning, stacklevel=4)
-        fans, fan_of = _fans(starts, np.flatnonzero(~sound))
-        local, part_of = np.concatenate([local, fans]), np.concatenate([part_of, fan_of])
-    following = np.arange(1, len(owner) + 1)
-    following[starts[1:] - 1] = starts[:-1]
+        fans, fan_of = ragged.fans(starts)
+        crossed = ~sound[fan_of]
+        local, part_of = np.concatenate([local, fans[crossed]]), np.concatenate([part_of, fan_of[crossed]])
+    following = ragged.following(starts)
     inner = following[local] != np.roll(local, -1, axis=1)
     if touching.any():
         some = touching[part_of]
@@ -181,8 +175,7 @@ def _inside_ring(local: Ints, flat: Floats, owner: Ints, following: Ints) -> Boo
 
 def _in_mean_plane(p: Floats, starts: Ints, owner: Ints) -> Floats:
     """(c,2) coordinates of polygon corners in their polygon's mean plane, counter-clockwise."""
-    following = np.arange(1, len(owner) + 1)
-    following[starts[1:] - 1] = starts[:-1]
+    following = ragged.following(starts)
     arm = p - p[:, starts[:-1]][:, owner]
     normal = np.add.reduceat(np.cross(arm, arm[:, following], axis=0), starts[:-1], axis=1)
     normal = normal / np.maximum(np.sqrt((normal * normal).sum(axis=0)), np.finfo(float).tiny)
@@ -215,12 +208,3 @@ def _counter_clockwise(local: Ints, flat: Floats) -> Ints:
     a, b, c = (flat[local[:, k]] for k in range(3))
     area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
     return np.where(area[:, None] < 0.0, local[:, ::-1], local)
-
-
-def _fans(starts: Ints, polygons: Ints) -> tuple[Ints, Ints]:
-    """Triangles from each polygon's first corner, and the polygon of each."""
-    counts = starts[polygons + 1] - starts[polygons] - 2
-    of = np.repeat(np.arange(len(polygons)), counts)
-    step = np.arange(int(counts.sum())) - np.repeat(np.cumsum(counts) - counts, counts)
-    first = starts[polygons][of]
-    return np.column_stack([first, first + step + 1, first + step + 2]), polygons[of]

@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.exact.predicates import orient2d
-from vectorplot.geometry.mesh import Floats, Ints, Mesh
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 
 BOTTOM, TOP = 0, 1
@@ -38,7 +40,7 @@ def convex_hulls(points: Floats, offsets: Ints) -> tuple[Ints, Ints]:
     p = np.ascontiguousarray(points[:, :2], dtype=np.float64)
     if not np.isfinite(p).all():
         raise InputError("a coordinate is not a finite number")
-    owner = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    owner = ragged.owner(np.diff(offsets))
     by_place = np.lexsort((np.arange(len(p)), p[:, 1], p[:, 0], owner))
     filled = np.flatnonzero(np.diff(offsets))
     least, most = by_place[offsets[:-1][filled]], by_place[offsets[1:][filled] - 1]
@@ -158,7 +160,7 @@ def _merged(triangles: Ints, face: Ints) -> tuple[Ints, Ints]:
     keys = (owner * count + start)[place]
     following = np.searchsorted(keys, (owner * count + end)[place])
     sizes = np.bincount(owner)
-    offsets = np.concatenate([[0], np.cumsum(sizes)])
+    offsets = ragged.offsets(sizes)
     here, corners = offsets[:-1].copy(), np.empty(len(start), dtype=np.intp)
     for step in range(int(sizes.max())):
         left = np.flatnonzero(sizes > step)

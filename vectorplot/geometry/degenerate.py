@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
 
 _PIECE = 1 << 15
 # Below this ratio of height to longest side a triangle has no direction any more (a sliver of 1:1e8 still has).
@@ -62,7 +64,7 @@ def _with_flipped_caps(mesh: Mesh, thin: Bools) -> Mesh:
 def chosen_faces(mesh: Mesh, chosen: Bools) -> Mesh:
     """The mesh with the chosen faces (f,) alone; vertices stay."""
     corners = mesh.corners[np.repeat(chosen, mesh.face_sizes)]
-    offsets = np.concatenate([[0], np.cumsum(mesh.face_sizes[chosen])])
+    offsets = ragged.offsets(mesh.face_sizes[chosen])
     return Mesh(mesh.vertices, corners, offsets, None if mesh.present is None else mesh.present[chosen])
 
 
@@ -78,7 +80,7 @@ def without_stutter(mesh: Mesh) -> tuple[Mesh, int]:
     sizes = mesh.face_sizes - np.bincount(mesh.corner_face[stutter], minlength=mesh.face_count)
     alive = sizes >= 3
     corners = mesh.corners[~stutter & alive[mesh.corner_face]]
-    offsets = np.concatenate([[0], np.cumsum(sizes[alive])])
+    offsets = ragged.offsets(sizes[alive])
     present = None if mesh.present is None else mesh.present[alive]
     return Mesh(mesh.vertices, corners, offsets, present), int((~alive).sum())
 
@@ -109,9 +111,7 @@ def _squares(vertices: Floats, corners: Ints, offsets: Ints, scale: float) -> tu
         return _cross_square(p, q), np.einsum("ij,ij->i", p, p) + np.einsum("ij,ij->i", q, q)
     sizes = np.diff(offsets)
     arms = (points - np.repeat(points[offsets[:-1]], sizes, axis=0)) * scale
-    following = np.arange(1, len(corners) + 1)
-    following[offsets[1:] - 1] = offsets[:-1]
-    vector = np.add.reduceat(np.cross(arms, arms[following]), offsets[:-1], axis=0)
+    vector = np.add.reduceat(np.cross(arms, arms[ragged.following(offsets)]), offsets[:-1], axis=0)
     longest = np.maximum.reduceat(np.einsum("ij,ij->i", arms, arms), offsets[:-1])
     return np.einsum("ij,ij->i", vector, vector), longest
 

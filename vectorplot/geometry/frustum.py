@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.clipping import Box
-from vectorplot.geometry.mesh import Bools, Floats, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.projection import CoordinateSystem, depth_of
 from vectorplot.geometry.tolerance import INFINITE
 

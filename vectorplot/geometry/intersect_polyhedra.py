@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
 from vectorplot.geometry.convex_parts import convex_polygon_parts, plane_axes, signed_area, split_faces
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import has_convex_outline, zero_distance
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.geometry.winding import is_closed_oriented
@@ -93,7 +95,7 @@ def cut_body(body: Mesh, normal: Floats, point: Floats, zero: float, shown: bool
     caps = _caps(vertices, _border(corners, sizes, on_plane), normal)
     present = np.concatenate([_present(body)[stays], np.full(len(caps), shown)])
     all_sizes = np.concatenate([sizes, [len(cap) for cap in caps]]).astype(np.intp)
-    offsets = np.concatenate([[0], np.cumsum(all_sizes)])
+    offsets = ragged.offsets(all_sizes)
     return Mesh(vertices, np.concatenate([corners, *caps]), offsets, present)
 
 
@@ -129,10 +131,7 @@ def _crossings(body: Mesh, distance: Floats, corner_side: Ints) -> tuple[Floats,
 
 def _border(corners: Ints, sizes: Ints, on_plane: Bools) -> list[tuple[int, int]]:
     """The sides of faces in the plane that have no face on their other hand, turned round."""
-    ends = np.cumsum(sizes)
-    following = np.arange(1, len(corners) + 1)
-    following[ends - 1] = ends - sizes
-    a, b = corners, corners[following]
+    a, b = corners, corners[ragged.following(ragged.offsets(sizes))]
     flat = on_plane[a] & on_plane[b] & (a != b)
     a, b = a[flat], b[flat]
     alone = ~np.isin(b * len(on_plane) + a, a * len(on_plane) + b)

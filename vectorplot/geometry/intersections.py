@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.planes import Plane
 from vectorplot.geometry.tolerance import INFINITE, PARALLEL_SINE, ROUNDING, ZERO_OF_EXTENT
 from vectorplot.geometry.vectors import cross, dot, length, point_on_line

@@ -7,22 +7,18 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.intp]
-Bools = NDArray[np.bool_]
+from vectorplot.geometry import ragged
 
 
 def next_positions(offsets: Ints, position: Ints) -> Ints:
     """(n,) where the corners stand that follow those at some positions, in faces with the offsets (f+1,)."""
     if offsets[-1] == 3 * (len(offsets) - 1):
         return position + np.where(position % 3 == 2, -2, 1)
-    following = np.arange(1, int(offsets[-1]) + 1)
-    following[offsets[1:] - 1] = offsets[:-1]
-    return np.asarray(following[position], dtype=np.intp)
+    return np.asarray(ragged.following(offsets)[position], dtype=np.intp)
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +70,7 @@ class Mesh:
         """The mesh of faces given as lists of vertex indices from 0."""
         lists = [list(face) for face in faces]
         corners = np.array([corner for face in lists for corner in face], dtype=np.intp)
-        offsets = np.cumsum([0, *(len(face) for face in lists)], dtype=np.intp)
+        offsets = ragged.offsets([len(face) for face in lists])
         flags = None if present is None else np.asarray(present, dtype=np.bool_)
         return cls(np.asarray(vertices, dtype=np.float64).reshape(-1, 3), corners, offsets, flags)
 
@@ -112,14 +108,12 @@ class Mesh:
     @cached_property
     def corner_face(self) -> Ints:
         """(c,) the face every corner belongs to."""
-        return np.repeat(np.arange(self.face_count), self.face_sizes)
+        return ragged.owner(self.face_sizes)
 
     @cached_property
     def next_corner(self) -> Ints:
         """(c,) position in corners of the corner that follows in the same face."""
-        following = np.arange(1, len(self.corners) + 1)
-        following[self.offsets[1:] - 1] = self.offsets[:-1]
-        return following
+        return ragged.following(self.offsets)
 
     def polygons(self) -> list[list[int]]:
         """The faces as lists of vertex indices from 0."""

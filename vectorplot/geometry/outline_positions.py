@@ -12,8 +12,9 @@ from enum import Enum
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats
+from vectorplot.geometry.vectors import cross
 
 
 class Position(Enum):
@@ -48,18 +49,18 @@ def in_convex_polygon(points: ArrayLike, polygon: ArrayLike) -> tuple[Bools, Flo
     corner, p = _checked(polygon), np.atleast_2d(np.asarray(points, dtype=np.float64))[:, :2]
     arm, out = corner[1:, :2] - corner[0, :2], p - corner[0, :2]
     side = arm[1:] - arm[:-1]
-    turn = _cross(arm[:-1], side)
+    turn = cross(arm[:-1], side)
     # A sector of the fan holds the point where it is between its two arms: half-open, so that none is missed.
     sign = 1.0 if turn.sum() > 0.0 else -1.0
-    from_first, from_second = (sign * _cross(a[None], out[:, None]) for a in (arm[:-1], arm[1:]))
+    from_first, from_second = (sign * cross(a[None], out[:, None]) for a in (arm[:-1], arm[1:]))
     within = (from_first >= 0.0) & (from_second <= 0.0) & (sign * turn > 0.0)
-    length = _cross(out[:, None], side[None])
+    length = cross(out[:, None], side[None])
     # The side is met at out / share.
     share = np.where(within, length / np.where(turn != 0.0, turn, 1.0), np.inf)
     sector = share.argmin(axis=1)
     pick = np.arange(len(p))
     inside = share[pick, sector] <= 1.0
-    along = _cross(arm[:-1][sector], out) / np.where(length[pick, sector] != 0.0, length[pick, sector], 1.0)
+    along = cross(arm[:-1][sector], out) / np.where(length[pick, sector] != 0.0, length[pick, sector], 1.0)
     leaving = corner[1:-1, 2][sector] + along * (corner[2:, 2] - corner[1:-1, 2])[sector]
     depth = corner[0, 2] + np.where(inside, share[pick, sector], 0.0) * (leaving - corner[0, 2])
     return inside, np.where(inside, depth, np.nan)
@@ -98,26 +99,22 @@ def _checked(polygon: ArrayLike) -> Floats:
     return corner
 
 
-def _cross(a: Floats, b: Floats) -> Floats:
-    return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], dtype=np.float64)
-
-
 def _kept_apart(one: Floats, two: Floats) -> bool:
     """Whether a side of one has all of two on its outer side, or on it."""
     along = np.roll(one, -1, axis=0)[:, :2] - one[:, :2]
-    sign = 1.0 if _cross(one[:, :2] - one[0, :2], along).sum() > 0.0 else -1.0
-    height = sign * _cross(along[:, None], two[None, :, :2] - one[:, None, :2])
+    sign = 1.0 if cross(one[:, :2] - one[0, :2], along).sum() > 0.0 else -1.0
+    height = sign * cross(along[:, None], two[None, :, :2] - one[:, None, :2])
     return bool((height.max(axis=1) <= 0.0)[(along != 0.0).any(axis=1)].any())
 
 
 def _crossings(one: Floats, two: Floats) -> Floats:
     """(k,2) depths of both outlines where their sides cross; a side owns its start, not its end."""
     after_one, after_two = np.roll(one, -1, axis=0), np.roll(two, -1, axis=0)
-    along, other = (after_one - one)[:, None], (after_two - two)[None]
-    arm = two[None] - one[:, None]
-    turn = _cross(along, other)
+    along, other = (after_one - one)[:, None, :2], (after_two - two)[None, :, :2]
+    arm = two[None, :, :2] - one[:, None, :2]
+    turn = cross(along, other)
     safe = np.where(turn != 0.0, turn, 1.0)
-    t, u = _cross(arm, other) / safe, _cross(arm, along) / safe
+    t, u = cross(arm, other) / safe, cross(arm, along) / safe
     met = (turn != 0.0) & (t >= 0.0) & (t < 1.0) & (u >= 0.0) & (u < 1.0)
     i, j = np.nonzero(met)
     return np.stack(

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
-from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+from vectorplot.geometry.mesh import next_positions
 
 PAIRS_AT_ONCE = 1 << 15
 """Pairs handled at once: few enough for the processor's cache."""
@@ -75,15 +77,8 @@ class Crossings:
 
     def some(self, which: Ints) -> Crossings:
         """Some of them, given by ascending numbers."""
-        position, first = runs(self.first, which)
+        position, first = ragged.take(self.first, which)
         return Crossings(self.pair[which], self.planes[:, position], first)
-
-
-def runs(offsets: Ints, which: Ints) -> tuple[Ints, Ints]:
-    """Where the members of some groups stand, one group after the other, and the offsets of these groups."""
-    sizes = offsets[which + 1] - offsets[which]
-    ends = np.concatenate([[0], np.cumsum(sizes)])
-    return np.arange(int(ends[-1])) + np.repeat(offsets[which] - ends[:-1], sizes), ends
 
 
 def crossings_of(
@@ -107,7 +102,7 @@ def crossings_of(
     useful = useful[np.argsort(pair[useful], kind="stable")]
     left = np.flatnonzero(alive)
     counts = np.bincount(pair[useful], minlength=len(polygon))[left]
-    return Crossings(left, bundles.planes[:, plane[useful]], np.concatenate([[0], np.cumsum(counts)]))
+    return Crossings(left, bundles.planes[:, plane[useful]], ragged.offsets(counts))
 
 
 def parts_of(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings, tolerance: float) -> Parts:
@@ -123,7 +118,7 @@ def parts_of(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings,
     sizes = np.concatenate([np.diff(f.offsets) for f in found])
     return Parts(
         np.concatenate([f.points for f in found], axis=1),
-        np.concatenate([[0], np.cumsum(sizes)]),
+        ragged.offsets(sizes),
         np.concatenate([f.pair for f in found]),
         np.concatenate([f.whole for f in found]),
     )
@@ -208,7 +203,7 @@ def _parts(found: list[tuple[Ints, Polygons]], crossings: Crossings, tolerance: 
     here = np.concatenate([f[0] for f in found])
     sizes = np.concatenate([np.diff(f[1].offsets) for f in found])
     corners = np.concatenate([f[1].points for f in found])
-    offsets = np.concatenate([[0], np.cumsum(sizes)])
+    offsets = ragged.offsets(sizes)
     whole = crossings.whole[here]
     order = np.flatnonzero(_wider(corners.T, offsets, tolerance) | whole)
     order = order[np.argsort(here[order], kind="stable")]
@@ -218,7 +213,7 @@ def _parts(found: list[tuple[Ints, Polygons]], crossings: Crossings, tolerance: 
 
 def _picked(points: Floats, offsets: Ints, which: Ints) -> Polygons:
     """Some of the polygons with the points (c,3)."""
-    position, ends = runs(offsets, which)
+    position, ends = ragged.take(offsets, which)
     return Polygons(points[position], ends)
 
 

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.rotations import look_rotation
 from vectorplot.geometry.tolerance import INFINITE
 from vectorplot.geometry.vectors import length

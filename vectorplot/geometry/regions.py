@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
 
 POLYGON, MULTIPOLYGON = 3, 6
 """The numbers of shapely's types."""
@@ -23,7 +24,7 @@ def polygons_of(points: Floats, offsets: Ints) -> Any:
     import shapely
 
     position = np.insert(np.arange(points.shape[1]), offsets[1:], offsets[:-1])
-    of = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets) + 1)
+    of = ragged.owner(np.diff(offsets) + 1)
     return shapely.polygons(shapely.linearrings(points[:2, position].T, indices=of))
 
 

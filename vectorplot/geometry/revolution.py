@@ -9,8 +9,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import BOTH_CAPS, BOTTOM, TOP, checked_points, presence
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 
@@ -59,7 +61,7 @@ def revolution(
                 stored.append(cap)
     vertices = np.concatenate([profile.vertices(), *feet])
     all_sizes = np.concatenate([sizes[sizes > 0], [len(polygon) for polygon in polygons]]).astype(np.intp)
-    offsets = np.concatenate([[0], np.cumsum(all_sizes)])
+    offsets = ragged.offsets(all_sizes)
     mesh = Mesh(vertices, np.concatenate([corners, *polygons]), offsets, presence(len(all_sizes), caps, stored))
     return mesh.reversed() if profile.runs_down else mesh
 
@@ -93,7 +95,7 @@ class _Profile:
     def rings(self) -> Ints:
         """(s, order) vertex number of every point of the meridian at every step."""
         sizes = np.where(self.on_axis, 1, self.order)
-        first = np.cumsum(sizes) - sizes
+        first = ragged.starts(sizes)
         return np.asarray(first[:, None] + np.where(self.on_axis[:, None], 0, np.arange(self.order)))
 
     def vertices(self) -> Floats:

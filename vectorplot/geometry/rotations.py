@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.geometry.mesh import Floats
+from vectorplot.arrays import Floats
 from vectorplot.geometry.vectors import normalize, spherical_coordinates
 
 

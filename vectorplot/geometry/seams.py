@@ -11,7 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats, Ints, Mesh, next_positions
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh, next_positions
 from vectorplot.geometry.weld import chained, distinct_points
 from vectorplot.geometry.winding import unbalanced_vertices
 
@@ -25,7 +27,7 @@ def joined_seams(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
     Degenerate: vertices in one place that no common edge joins stay apart; so do closed meshes that touch.
     """
     counts = np.array([len(mesh.vertices) for mesh in meshes], dtype=np.intp)
-    first = np.concatenate([[0], np.cumsum(counts)])
+    first = ragged.offsets(counts)
     corners, offsets = _stacked(meshes, first)
     loose = unbalanced_vertices(int(first[-1]), corners, offsets)
     if not loose.any():
@@ -56,7 +58,7 @@ def _stacked(meshes: Sequence[Mesh], first_vertex: Ints) -> tuple[Ints, Ints]:
     corners = np.concatenate([none, *(mesh.corners for mesh in meshes)]) + np.repeat(first_vertex[:-1], counts)
     ends = np.concatenate([none, *(mesh.offsets[1:] for mesh in meshes)])
     faces = np.array([mesh.face_count for mesh in meshes], dtype=np.intp)
-    return corners, np.concatenate([[0], ends + np.repeat(np.cumsum(counts) - counts, faces)])
+    return corners, np.concatenate([[0], ends + np.repeat(ragged.starts(counts), faces)])
 
 
 def _boundary(corners: Ints, offsets: Ints, loose: np.ndarray) -> tuple[Ints, Ints]:
@@ -95,4 +97,4 @@ def _without_stutter(mesh: Mesh) -> Mesh:
     kept = ~stutter | gone[mesh.corner_face]
     sizes = np.where(gone, mesh.face_sizes, left)
     present = ~gone if mesh.present is None else mesh.present & ~gone
-    return Mesh(mesh.vertices, mesh.corners[kept], np.concatenate([[0], np.cumsum(sizes)]), present)
+    return Mesh(mesh.vertices, mesh.corners[kept], ragged.offsets(sizes), present)

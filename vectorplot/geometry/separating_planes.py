@@ -13,8 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 
 FLAT_THICKNESS = 2e-4
@@ -75,9 +77,9 @@ class Surroundings:
             np.reshape(around, (-1, 8, 3)),
             np.column_stack([np.reshape(middles, (-1, 3)), radii]),
             np.concatenate([np.zeros((0, 3)), *(s.vertices for s in shapes)]),
-            np.cumsum([0, *(len(s.vertices) for s in shapes)]),
+            ragged.offsets([len(s.vertices) for s in shapes]),
             np.concatenate([np.zeros((0, 4)), *planes]),
-            np.cumsum([0, *map(len, planes)]),
+            ragged.offsets([*map(len, planes)]),
         )
 
 
@@ -222,6 +224,6 @@ def _between_faces(around: Surroundings, one: Ints, two: Ints, limit: Floats) ->
 def _listed(offsets: Ints, which: Ints) -> tuple[Ints, Ints]:
     """All members of some groups, one group after the other: the place in which of each, and the member."""
     sizes: Any = np.diff(offsets)[which]
-    owner = np.repeat(np.arange(len(which)), sizes)
-    start = np.repeat(offsets[which] - (np.cumsum(sizes) - sizes), sizes)
+    owner = ragged.owner(sizes)
+    start = np.repeat(offsets[which] - ragged.starts(sizes), sizes)
     return owner, start + np.arange(len(owner))

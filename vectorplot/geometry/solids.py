@@ -10,8 +10,9 @@ from math import isfinite
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
 
 BOTTOM, TOP = "bottom", "top"

@@ -9,14 +9,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.tolerance import ROUNDING
 
 
 def dot(a: ArrayLike, b: ArrayLike) -> Floats:
     """The scalar products (...) of vectors (..., k)."""
-    return np.asarray((np.asarray(a, dtype=np.float64) * np.asarray(b, dtype=np.float64)).sum(axis=-1))
+    return np.asarray(np.einsum("...i,...i->...", np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)))
 
 
 def cross(a: ArrayLike, b: ArrayLike) -> Floats:

@@ -9,7 +9,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh, next_positions
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.mesh import Mesh, next_positions
 
 _PIECE = 1 << 15
 

@@ -9,8 +9,10 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats, Ints, Mesh
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.weld import distinct_points
 from vectorplot.io.mesh_file import FLOAT32, MeshFile, file_bytes, shown
 
@@ -47,8 +49,8 @@ def read_glb(path: Path) -> MeshFile:
         _fail(name, f"damaged glTF: {type(error).__name__} {error}")
     if not parts:
         _fail(name, "no triangles in this file")
-    vertex_starts = np.cumsum([0, *(len(vertices) for _, vertices, _ in parts)])
-    first_faces = np.cumsum([0, *(len(triangles) for _, _, triangles in parts)])
+    vertex_starts = ragged.offsets([len(vertices) for _, vertices, _ in parts])
+    first_faces = ragged.offsets([len(triangles) for _, _, triangles in parts])
     triangles = np.concatenate([part[2] + start for part, start in zip(parts, vertex_starts[:-1], strict=True)])
     mesh = Mesh.from_triangles(np.concatenate([vertices for _, vertices, _ in parts]), triangles)
     names = tuple(part[0] or path.stem for part in parts)

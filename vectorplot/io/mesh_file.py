@@ -10,8 +10,9 @@ from typing import NoReturn, TypeVar
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError, printable
-from vectorplot.geometry.mesh import Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.numerals import PAD, Bytes, NumeralError, decimals, integers, padded
 
 FLOAT32 = 2.0**-23
@@ -211,12 +212,6 @@ def check_announced(name: str, announced: dict[str, int], least_bytes: int, size
     if least_bytes > size:
         what = " and ".join(f"{count} {kind}" for kind, count in islice(announced.items(), 10))
         raise InputError(f"announces {what}, but has only {size} bytes (truncated, or a wrong count)", file=name)
-
-
-def runs(first: Ints, count: Ints) -> Ints:
-    """The numbers first, first + 1, ... of every run, count of them, one after the other."""
-    ends = np.cumsum(count)
-    return np.repeat(first - (ends - count), count) + np.arange(ends[-1] if len(ends) else 0)
 
 
 def joined(pieces: list[Floats], columns: int) -> Floats:

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
-from vectorplot.io.mesh_file import FLOAT64, JOINT, Lines, MeshFile, TextFile, joined, polygon_mesh, runs, text_file
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.io.mesh_file import FLOAT64, JOINT, Lines, MeshFile, TextFile, joined, polygon_mesh, text_file
 
 
 @dataclass
@@ -57,7 +58,7 @@ def _read_lines(lines: Lines, found: _Found) -> None:
     single = lines.ends[lines.first] - lines.starts[lines.first] == 1
     is_vertex, is_face = single & (letters == ord("v")), single & (letters == ord("f"))
     objects = np.flatnonzero(single & (letters == ord("o")))
-    faces_before = found.face_count + np.concatenate([[0], np.cumsum(is_face)])[objects]
+    faces_before = found.face_count + ragged.offsets(is_face)[objects]
     for line, first_face in zip(objects.tolist(), faces_before.tolist(), strict=True):
         found.objects.append((_rest_of_line(lines, int(lines.first[line])), first_face))
     _read_faces(lines, is_vertex, is_face, found)
@@ -89,7 +90,7 @@ def _read_faces(lines: Lines, is_vertex: Bools, is_face: Bools, found: _Found) -
         return
     if size.min() < 3:
         lines.fail(int(first[size < 3][0]) - 1, "a face (f) needs three corners")
-    words = runs(first, size)
+    words = ragged.ranges(first, size)
     corners = lines.integers(words)
     if corners.min() < 0:
         seen = found.vertex_count + np.cumsum(is_vertex)[is_face]
@@ -109,7 +110,7 @@ def _check_indices(text: TextFile, found: _Found) -> None:
     for lines in text.lines(slashed=True):
         letters = lines.text[lines.starts[lines.first]]
         is_face = (lines.ends[lines.first] - lines.starts[lines.first] == 1) & (letters == ord("f"))
-        words = runs(lines.first[is_face] + 1, lines.count[is_face] - 1)
+        words = ragged.ranges(lines.first[is_face] + 1, lines.count[is_face] - 1)
         wild = np.flatnonzero(lines.integers(words) > found.vertex_count)
         if len(wild):
             word = int(words[wild[0]])

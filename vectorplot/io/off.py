@@ -7,19 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats, Ints
-from vectorplot.io.mesh_file import (
-    FLOAT64,
-    Lines,
-    MeshFile,
-    TextFile,
-    check_announced,
-    joined,
-    polygon_mesh,
-    runs,
-    text_file,
-)
+from vectorplot.geometry import ragged
+from vectorplot.io.mesh_file import FLOAT64, Lines, MeshFile, TextFile, check_announced, joined, polygon_mesh, text_file
 
 # The keyword may be missing, or stand in one line with the counts (ModelNet writes it without a blank). What a part of
 # this pattern has taken it keeps (++ and *+): a header that does not fit is refused after one reading.
@@ -92,7 +83,7 @@ def face_corners(lines: Lines, first: Ints, sizes: Ints, stop: Ints, vertex_coun
         k = int(np.argmax(bad))
         lines.fail(int(first[k]) - 1, f"a face of {sizes[k]} corners, but {stop[k] - first[k]} words follow")
     first, sizes = first[sizes >= 3], sizes[sizes >= 3]
-    words = runs(first, sizes)
+    words = ragged.ranges(first, sizes)
     corners = lines.integers(words)
     wild = np.flatnonzero((corners < 0) | (corners >= vertex_count))
     if len(wild):

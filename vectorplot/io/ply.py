@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.io.mesh_file import (
     FLOAT32,
     FLOAT64,

@@ -9,8 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
+from vectorplot.arrays import Ints
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.mesh import Ints, Mesh
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair import Mending, is_closed_oriented, mended
 from vectorplot.io.foreign import foreign_kind
 from vectorplot.io.mesh_file import MeshFile, check_file, shown
@@ -123,7 +125,7 @@ def _mended_parts(stem: str, content: MeshFile) -> tuple[list[tuple[str, Mesh]],
 
 
 def _face_parts(mesh: Mesh, first_faces: tuple[int, ...]) -> Ints:
-    return np.repeat(np.arange(len(first_faces)), np.diff([*first_faces, mesh.face_count]))
+    return ragged.owner(np.diff([*first_faces, mesh.face_count]))
 
 
 def _share_vertices(mesh: Mesh, first_faces: tuple[int, ...]) -> bool:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.function import FunctionCurve, curve_of_function
-from vectorplot.geometry.mesh import Floats
 from vectorplot.io.expressions import Expression
 from vectorplot.surfaces.function import FunctionSurface, surface_of_function
 from vectorplot.surfaces.graph import Graph, PolarGraph, graph, graph_over_disc

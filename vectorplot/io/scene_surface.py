@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.geometry.solids import IDENTITY
 from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT

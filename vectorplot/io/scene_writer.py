@@ -7,10 +7,11 @@ from json import dumps
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Floats, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.scene_reserved import RESERVED
 from vectorplot.io.scene_words import bare_word
 from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene

@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.weld import distinct_points
 from vectorplot.io.mesh_file import FLOAT32, MeshFile, check_announced, check_file, joined, shown, text_file
 

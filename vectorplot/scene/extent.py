@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.tolerance import LARGEST
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 

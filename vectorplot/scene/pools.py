@@ -7,8 +7,10 @@ from functools import cached_property
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.adjacency import mesh_edges
-from vectorplot.geometry.mesh import Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Scene
 
 
@@ -48,7 +50,7 @@ def pools(scene: Scene) -> Pools:
     """The pools of a scene. Degenerate: those of an empty scene are empty."""
     meshes = [item.mesh for item in scene.items]
     counts = np.array([len(mesh.vertices) for mesh in meshes], dtype=np.intp)
-    first_vertex = np.concatenate([[0], np.cumsum(counts)])
+    first_vertex = ragged.offsets(counts)
     return Pools(scene.vertices, *_faces(meshes, first_vertex), first_vertex)
 
 
@@ -61,9 +63,9 @@ def _faces(meshes: list[Mesh], first_vertex: Ints) -> tuple[Ints, Ints, Ints]:
     corners = np.concatenate([m.corners for m in meshes] or [none]) + np.repeat(first_vertex[:-1], corner_counts)
     ends = np.concatenate([m.offsets[1:] for m in meshes] or [none])
     face_counts = np.array([m.face_count for m in meshes], dtype=np.intp)
-    starts = np.concatenate([[0], np.cumsum(corner_counts)])[:-1]
+    starts = ragged.offsets(corner_counts)[:-1]
     offsets = np.concatenate([[0], ends + np.repeat(starts, face_counts)])
-    face_item = np.repeat(np.arange(len(meshes)), face_counts)
+    face_item = ragged.owner(face_counts)
     if all(m.present is None for m in meshes):
         return corners, offsets, face_item
     present = np.concatenate(
@@ -71,4 +73,4 @@ def _faces(meshes: list[Mesh], first_vertex: Ints) -> tuple[Ints, Ints, Ints]:
     )
     sizes = np.diff(offsets)
     kept = np.repeat(present, sizes)
-    return corners[kept], np.concatenate([[0], np.cumsum(sizes[present])]), face_item[present]
+    return corners[kept], ragged.offsets(sizes[present]), face_item[present]

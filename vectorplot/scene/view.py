@@ -7,10 +7,11 @@ from functools import cached_property
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.convex_faces import convex_faces
-from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.scene.pools import pools
 from vectorplot.scene.scene import Scene

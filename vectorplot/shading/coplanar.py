@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.scene.view import View
 from vectorplot.shading.face_shades import face_normals

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.tolerance import ROUNDING
 from vectorplot.scene.view import View
-from vectorplot.shading.screen import fans
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,12 +25,12 @@ class CornerNormals:
 
 
 def view_normals(view: View, normals: Sequence[Floats | None], crease_angle_deg: float) -> CornerNormals:
-    """The normals at the corners of the triangles (t, 3) that the faces of a view make, as of screen.fans.
+    """The normals at the corners of the triangles (t, 3) that the faces of a view make, as of ragged.fans.
 
     normals: for every item the unit normals (v, 3) of the world at its vertices, None where its faces are flat or,
     where they meet at less than the crease angle, look round.
     """
-    triangles, _ = fans(view.corners, view.offsets)
+    triangles = view.corners[ragged.fans(view.offsets)[0]]
     points = np.ascontiguousarray(view.points.T)
     known, given = np.zeros(len(points), dtype=np.bool_), np.zeros((len(points), 3))
     for item, own in enumerate(normals):
@@ -43,7 +43,7 @@ def view_normals(view: View, normals: Sequence[Floats | None], crease_angle_deg:
 
 def at_corners(view: View, normals: CornerNormals) -> Floats:
     """(3, c) the normals, as of view_normals, at the corners of the faces of a view."""
-    place, _ = fans(np.arange(len(view.corners)), view.offsets)
+    place, _ = ragged.fans(view.offsets)
     found = np.zeros((3, len(view.corners)))
     found[:, place.ravel()] = normals.normals[normals.index.ravel()].T
     return found
@@ -116,10 +116,10 @@ def _with_creases(
     vertex, triangle, corner = vertex[order], triangle[order], corner[order]
     starts = np.flatnonzero(np.diff(vertex, prepend=-1))
     count = np.diff(np.append(starts, len(vertex)))
-    run = np.repeat(np.arange(len(starts)), count)
+    run = ragged.owner(count)
     # Every corner beside every other one at its vertex.
-    one = np.repeat(np.arange(len(corner)), count[run])
-    other = np.arange(len(one)) - np.repeat(np.cumsum(count[run]) - count[run], count[run]) + starts[run[one]]
+    one = ragged.owner(count[run])
+    other = ragged.place(count[run]) + starts[run[one]]
     alike = np.einsum("ij,ij->i", own[triangle[one]], own[triangle[other]]) >= np.cos(np.radians(angle_deg)) - ROUNDING
     one, other = one[alike], other[alike]
     sums = np.zeros((len(corner), 3))

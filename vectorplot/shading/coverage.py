@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 SUBPIXEL_BITS = 8
 """Corners are snapped to 2^-8 pixel."""
@@ -188,8 +189,8 @@ def tile_pairs(box: Boxes, chosen: Ints, side: int) -> tuple[Ints, Ints, Ints]:
     first_column, first_row = box.left[chosen] // side, box.top[chosen] // side
     wide = (box.right[chosen] - 1) // side - first_column + 1
     count = tile_counts(box, chosen, side)
-    owner = np.repeat(np.arange(len(chosen)), count)
-    number = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
+    owner = ragged.owner(count)
+    number = ragged.place(count)
     row, column = np.divmod(number, wide[owner])
     return chosen[owner], first_column[owner] + column, first_row[owner] + row
 

@@ -12,8 +12,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.shading import coverage
 from vectorplot.shading.depth_code import DepthCode
 from vectorplot.shading.depth_keys import KEY_BITS, THINNEST, Task, front_keys, keys_before

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.geometry.mesh import Floats
+from vectorplot.arrays import Floats
 
 MIDDLE = 0.5
 """The shade of all edges without depth cueing, in the palette of their item."""

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.shading import coverage
 from vectorplot.shading.coverage import Boxes, Fragments, Snapped
 

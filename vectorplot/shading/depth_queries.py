@@ -8,9 +8,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.tolerance import PARALLEL_SINE, ZERO_OF_EXTENT
 from vectorplot.shading.coverage import SUBPIXELS
 from vectorplot.shading.depth_buffer import DepthBuffer
@@ -94,7 +95,7 @@ def depth_planes(polygons: Polygons) -> Floats:
     filled = np.flatnonzero(np.diff(offsets))
     if not len(filled):
         return planes
-    owner = np.repeat(np.arange(len(filled)), np.diff(offsets)[filled])
+    owner = ragged.owner(np.diff(offsets)[filled])
     starts = offsets[:-1][filled]
     arm = points - points[starts][owner]
     second = _first(np.abs(arm[:, :2]).max(axis=1) > 0.0, starts)

@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.clipping import Polygons
-from vectorplot.geometry.mesh import Floats
 from vectorplot.shading import framebuffer
 from vectorplot.shading.framebuffer import Framebuffer
 

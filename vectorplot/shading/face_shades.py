@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.features.edges import cross
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.columns import cross
 from vectorplot.scene.curve_light import UPPER_LEFT
 from vectorplot.scene.scene import Item, Light
 from vectorplot.scene.view import View
@@ -115,7 +116,7 @@ def corner_shades(view: View, items: Sequence[Item], lights: Sequence[Light], no
     inside are turned round with it, so that no corner beside a contour is lit from the wrong side.
     """
     points = view.points[:, view.corners]
-    face = np.repeat(np.arange(view.face_count), view.face_sizes)
+    face = ragged.owner(view.face_sizes)
     inside = shows_inside(view)[face]
     return point_shades(view, items, lights, points.T, np.where(inside, -normals, normals).T, view.face_item[face])
 

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputWarning
 from vectorplot.features.edge_splitting import Demand
 from vectorplot.features.facets import facets
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
-from vectorplot.geometry.mesh import Floats
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
 from vectorplot.shading.illumination import distance_factor
-from vectorplot.shading.screen import fans
 
 LEAST_REACH = 0.25
 """What is nearer to a lamp than this part of the distance of the farthest point keeps all of its light: else the lamp's
@@ -24,7 +24,7 @@ def lamp_reach(view: View, light: Light) -> float:
     and for a scene without faces."""
     if not light.fading or light.parallel or not view.face_count:
         return np.inf
-    corners, _ = fans(view.corners, view.offsets)
+    corners = view.corners[ragged.fans(view.offsets)[0]]
     place = np.array(light.position)
     nearest = float(_distances(place, view.points, corners).min(initial=np.inf))
     arm = view.points - place[:, None]

@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.features.edge_splitting import NONE, Edges
 from vectorplot.features.facets import INSIDE, Allowed, off_chords, turning
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Bools, Floats, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.view import View, look

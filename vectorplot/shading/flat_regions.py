@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
 from vectorplot.shading.face_shades import face_middles
 from vectorplot.visibility.projected_faces import newell
@@ -70,7 +71,7 @@ def _neighbours(view: View) -> tuple[Ints, Ints]:
     order = np.argsort(key, kind="stable")
     first = np.flatnonzero(np.diff(key[order], prepend=-1))
     pairs = first[np.diff(np.append(first, len(key))) == 2]
-    face = np.repeat(np.arange(view.face_count), view.face_sizes)[order]
+    face = ragged.owner(view.face_sizes)[order]
     return face[pairs], face[pairs + 1]
 
 
@@ -79,9 +80,9 @@ def _greatest_height(view: View, face: Ints, normal: Floats, place: Floats) -> F
     if not len(face):
         return np.zeros(0)
     sizes = view.face_sizes[face]
-    ends = np.concatenate([[0], np.cumsum(sizes)])
-    position = np.repeat(view.offsets[face] - ends[:-1], sizes) + np.arange(int(ends[-1]))
-    owner = np.repeat(np.arange(len(face)), sizes)
+    ends = ragged.offsets(sizes)
+    position = ragged.ranges(view.offsets[face], sizes)
+    owner = ragged.owner(sizes)
     arm = view.points[:, view.corners[position]] - place[:, owner]
     return np.asarray(np.maximum.reduceat(np.abs((arm * normal[:, owner]).sum(axis=0)), ends[:-1]))
 

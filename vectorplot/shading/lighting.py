@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.scene.scene import Item, Light
 from vectorplot.scene.view import View
 from vectorplot.shading.barycentrics import VisiblePoints

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats, Ints
 
 LARGEST_COORDINATE = 1 << 30
 """Pixels further away than this are refused: products of differences fit into 64 bits."""

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.scene.scene import Item, Light
 from vectorplot.scene.view import View
 from vectorplot.shading.corner_normals import at_corners, view_normals
@@ -38,7 +39,7 @@ def painted_normals(
     """
     found = at_corners(view, view_normals(view, given, crease_angle_deg))
     own = face_normals(view)
-    of_corner = np.repeat(np.arange(view.face_count), view.face_sizes)
+    of_corner = ragged.owner(view.face_sizes)
     turned = (found * own[:, of_corner]).sum(axis=0) < FLAT_COSINE
     turned &= (own != 0.0).any(axis=0)[of_corner]
     count = int(plane.max(initial=-1)) + 1
@@ -56,7 +57,7 @@ def painted_normals(
 def _varied(view: View, items: Sequence[Item], lights: Sequence[Light], plane: Ints) -> Bools:
     """(p,) the regions on which light varies, from corner to corner, middle to middle and along sides."""
     corner = np.arange(len(view.corners))
-    of_corner = np.repeat(np.arange(view.face_count), view.face_sizes)
+    of_corner = ragged.owner(view.face_sizes)
     start, end = view.points[:, view.corners], view.points[:, view.corners[view.after(corner)]]
     points = np.concatenate([start, (start + end) / 2.0, face_middles(view)], axis=1)
     face = np.concatenate([of_corner, of_corner, np.arange(view.face_count)])

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
 from vectorplot.shading.painted_colours import Lighting, corner_shades_of, smooth_faces
-from vectorplot.shading.screen import fans
-from vectorplot.visibility.painter.image_faces import corner_positions, unmapped
+from vectorplot.visibility.painter.image_faces import unmapped
 
 SHADE_ERROR = 2.0 / 255.0
 """By how much of a palette shades in the middle of sides may be off."""
@@ -41,9 +41,9 @@ def refined(
     cut any more. Polygons with one shade stay as they are.
     """
     smooth = np.flatnonzero(smooth_faces(view, lighting.normals)[source])
-    position, ends = corner_positions(offsets, smooth)
-    corners, of = fans(position, ends)
-    triangles, parent = points[:, corners].transpose(1, 2, 0), smooth[of]
+    position, ends = ragged.take(offsets, smooth)
+    fans, of = ragged.fans(ends)
+    triangles, parent = points[:, position[fans]].transpose(1, 2, 0), smooth[of]
     bad = _badly_shaded(view, lighting, triangles, source[parent], shortest)
     cut = np.zeros(len(source), dtype=np.bool_)
     cut[parent[bad.any(axis=1)]] = True
@@ -63,12 +63,12 @@ def refined(
         bad = _badly_shaded(view, lighting, triangles, source[parent], shortest)
     made, of_made = np.concatenate(done), np.concatenate(done_parent)
     kept = np.flatnonzero(~cut)
-    position, ends = corner_positions(offsets, kept)
+    position, ends = ragged.take(offsets, kept)
     every = np.concatenate([points[:, position], made.reshape(-1, 3).T], axis=1)
     starts = np.concatenate([ends, ends[-1] + 3 * np.arange(1, len(made) + 1)])
     number = np.concatenate([kept, of_made])
     order = np.argsort(number, kind="stable")
-    position, starts = corner_positions(starts, order)
+    position, starts = ragged.take(starts, order)
     return every[:, position], starts, number[order]
 
 

@@ -12,9 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons
-from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.shading.coverage import GUARD_BAND, SUBPIXELS
 
 SPECK_RADIUS = 0.4
@@ -85,7 +86,7 @@ def with_specks_grown(polygons: Polygons) -> Polygons:
     low, high = (extreme.reduceat(cell, starts, axis=0) for extreme in (np.minimum, np.maximum))
     alone = np.zeros(len(polygons), dtype=np.bool_)
     alone[filled] = (low == high).all(axis=1)
-    owner = np.repeat(np.arange(len(polygons)), sizes)
+    owner = ragged.owner(sizes)
     corner = np.flatnonzero(alone[owner])
     angle = 2.0 * np.pi * (corner - polygons.offsets[owner[corner]] + 0.25) / sizes[owner[corner]]
     points = polygons.points.copy()
@@ -98,10 +99,8 @@ def _spans(polygons: Polygons, columns: int, rows: int) -> Iterator[Spans]:
     if not (np.abs(points[:, :2]) <= GUARD_BAND).all():
         raise InputError("a corner of a polygon is not a number, or too far away: clip first")
     grid = np.rint(points[:, :2] * SUBPIXELS).astype(np.int64)
-    following = np.arange(1, len(points) + 1)
-    filled = np.diff(offsets) > 0
-    following[offsets[1:][filled] - 1] = offsets[:-1][filled]
-    owner = np.repeat(np.arange(len(polygons)), np.diff(offsets))
+    following = ragged.following(offsets)
+    owner = ragged.owner(np.diff(offsets))
     upward = grid[:, 1] > grid[following, 1]
     upper, lower = (
         np.where(upward, following, np.arange(len(points))),
@@ -110,13 +109,13 @@ def _spans(polygons: Polygons, columns: int, rows: int) -> Iterator[Spans]:
     top = np.maximum(-(-grid[upper, 1] // SUBPIXELS), 0)
     bottom = np.minimum(-(-grid[lower, 1] // SUBPIXELS), rows)
     count = np.maximum(bottom - top, 0)
-    ends = np.concatenate([[0], np.cumsum(count)])[offsets]
+    ends = ragged.offsets(count)[offsets]
     begin = 0
     while begin < len(polygons):
         stop = max(begin + 1, int(np.searchsorted(ends, ends[begin] + AT_ONCE, side="right")) - 1)
         edges = np.arange(offsets[begin], offsets[stop])
         edge = np.repeat(edges, count[edges])
-        row = np.arange(len(edge)) - np.repeat(np.cumsum(count[edges]) - count[edges], count[edges]) + top[edge]
+        row = ragged.place(count[edges]) + top[edge]
         begin = stop
         yield _paired(points, grid, upper[edge], lower[edge], owner[edge], row, columns)
 

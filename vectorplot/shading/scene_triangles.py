@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.shading.corner_normals import CornerNormals, view_normals
-from vectorplot.shading.screen import fans
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,9 +31,10 @@ class SceneTriangles:
 
 def scene_triangles(view: View, normals: Sequence[Floats | None], crease_angle_deg: float) -> SceneTriangles:
     """The faces of a view; normals and crease angle as of view_normals."""
-    corners, face = fans(view.corners, view.offsets)
+    fans, face = ragged.fans(view.offsets)
     points = np.ascontiguousarray(view.points.T)
-    return SceneTriangles(points, corners, face, view.face_item[face], view_normals(view, normals, crease_angle_deg))
+    corner_normals = view_normals(view, normals, crease_angle_deg)
+    return SceneTriangles(points, view.corners[fans], face, view.face_item[face], corner_normals)
 
 
 def camera_in_view(view: View, camera: Camera) -> Camera:

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.projection import CoordinateSystem, PixelWindow
 from vectorplot.geometry.tolerance import INFINITE
 from vectorplot.shading.coverage import GUARD_BAND
@@ -98,17 +98,6 @@ def fitted(system: CoordinateSystem, points: ArrayLike, columns: int, rows: int)
     centre = np.array([columns - 1, rows - 1]) / 2.0
     x, y = (centre + factor * (middle - (low + high) / 2.0)).tolist()
     return replace(system, scale=(factor * system.scale[0], factor * system.scale[1]), middle=(x, y))
-
-
-def fans(corners: Ints, offsets: Ints) -> tuple[Ints, Ints]:
-    """Triangles (t, 3) around the first corner of each convex polygon, and (t,) the polygon each belongs to."""
-    if len(corners) == 3 * (len(offsets) - 1) and (np.diff(offsets) == 3).all():
-        return corners.reshape(-1, 3), np.arange(len(offsets) - 1)
-    count = np.maximum(np.diff(offsets) - 2, 0)
-    polygon = np.repeat(np.arange(len(count)), count)
-    step = np.arange(len(polygon)) - np.repeat(np.cumsum(count) - count, count)
-    first = offsets[:-1][polygon]
-    return corners[np.stack([first, first + step + 1, first + step + 2], axis=1)], polygon
 
 
 def front_facing(points: ArrayLike, corners: Ints, eye: ArrayLike) -> Bools:

@@ -13,7 +13,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.projection import CoordinateSystem
 from vectorplot.geometry.tolerance import INFINITE, ZERO_OF_EXTENT
 from vectorplot.scene.scene import Light
@@ -125,7 +126,7 @@ def _sorted_into_cells(places: Floats, side: int) -> _Cells:
     column, row = np.clip(places[:, :2].astype(np.intp), 0, side - 1).T
     cell = row * side + column
     order = np.argsort(cell, kind="stable")
-    starts = np.concatenate([[0], np.cumsum(np.bincount(cell, minlength=side * side))])
+    starts = ragged.offsets(np.bincount(cell, minlength=side * side))
     deepest = np.full(side * side, np.inf)
     np.minimum.at(deepest, cell, places[:, 2])
     return _Cells(side, order, starts, deepest)

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 
 FOCUS_LINE = 0.8

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.tolerance import PARALLEL_SINE
 
 LARGEST_SHIFT = 1e4

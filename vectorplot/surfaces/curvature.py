@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats
+from vectorplot.arrays import Floats
+from vectorplot.geometry.vectors import dot
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Surface
 
@@ -12,14 +13,14 @@ from vectorplot.surfaces.surface import Surface
 def first_form(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
     """(...,) E, F, G: the scalar products of the partials, which measure lengths on the surface."""
     a, b = surface.partials(u, v)
-    return _dot(a, a), _dot(a, b), _dot(b, b)
+    return dot(a, a), dot(a, b), dot(b, b)
 
 
 def second_form(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
     """(...,) L, M, N: the parts of the second partials along the unit normal."""
     n = unit_normals(surface, u, v)
     uu, uv, vv = surface.second_partials(u, v)
-    return _dot(n, uu), _dot(n, uv), _dot(n, vv)
+    return dot(n, uu), dot(n, uv), dot(n, vv)
 
 
 def gaussian_curvature(surface: Surface, u: Floats, v: Floats) -> Floats:
@@ -35,10 +36,6 @@ def mean_curvature(surface: Surface, u: Floats, v: Floats) -> Floats:
     """
     (e, f, g), (p, m, q) = first_form(surface, u, v), second_form(surface, u, v)
     return _ratio(0.5 * (e * q - 2.0 * f * m + g * p), e * g - f * f)
-
-
-def _dot(a: Floats, b: Floats) -> Floats:
-    return np.asarray((a * b).sum(axis=-1))
 
 
 def _ratio(above: Floats, below: Floats) -> Floats:

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import number, parameter_range, positive, vector
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
 from vectorplot.surfaces.elliptic_sections import EllipticSections, Profile
 from vectorplot.surfaces.surface import Domain
 

@@ -8,7 +8,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats
+from vectorplot.arrays import Floats
 
 # (p, q), their first and their second derivatives.
 Profile = tuple[tuple[Floats, Floats], tuple[Floats, Floats], tuple[Floats, Floats]]

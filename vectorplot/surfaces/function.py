@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, cut_off, numeric_function
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
 from vectorplot.surfaces.surface import Domain
 
 LOOKS = 16

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.derivatives import NumericFunction, cut_off, numeric_function
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.surfaces.function import ranges_of
 from vectorplot.surfaces.regions import Disc, Region
 from vectorplot.surfaces.surface import Domain

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
 
 MOST_POINTS = 1 << 24
 """Points of a grid at most."""

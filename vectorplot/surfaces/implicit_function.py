@@ -9,8 +9,8 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
-from vectorplot.geometry.mesh import Floats
 from vectorplot.surfaces.quadric import checked_box
 from vectorplot.surfaces.surface import ImplicitSurface
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
-from vectorplot.geometry.mesh import Floats
 from vectorplot.surfaces.quadric import checked_box
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
 

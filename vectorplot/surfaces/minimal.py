@@ -12,9 +12,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import is_whole_turns, number
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
 from vectorplot.surfaces.surface import Domain
 
 Complexes = NDArray[np.complex128]

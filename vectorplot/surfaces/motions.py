@@ -11,10 +11,10 @@ from typing import Protocol
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import is_whole_turns
 from vectorplot.curves.second_derivatives import second_derivatives
-from vectorplot.geometry.mesh import Floats
 
 
 class Motion(Protocol):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats
+from vectorplot.arrays import Bools, Floats
 from vectorplot.geometry.vectors import cross
 from vectorplot.surfaces.surface import Domain, Surface
 

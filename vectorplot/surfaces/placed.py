@@ -9,8 +9,8 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import invertible, vector
-from vectorplot.geometry.mesh import Floats
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
 

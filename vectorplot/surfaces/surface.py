@@ -7,8 +7,8 @@ from typing import Protocol, TypeGuard
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.geometry.vectors import cross
 
 

@@ -7,10 +7,10 @@ from functools import cached_property
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.curves.second_derivatives import second_derivatives
-from vectorplot.geometry.mesh import Floats
 from vectorplot.surfaces.motions import Motion
 from vectorplot.surfaces.surface import Domain
 

@@ -8,8 +8,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
-from vectorplot.geometry.mesh import Floats
 from vectorplot.surfaces.elliptic_sections import EllipticSections, Profile
 from vectorplot.surfaces.surface import Domain
 

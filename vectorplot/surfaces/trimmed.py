@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.tolerance import ROUNDING
 from vectorplot.surfaces.surface import Domain, Surface
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.vectors import dot
 from vectorplot.words import LineKind
 
 Group = tuple[int, bool]
@@ -62,7 +64,7 @@ def lines_by_group(drawing: Drawing) -> dict[Group, Floats]:
 def path_segments(offsets: Ints, closed: Bools) -> tuple[Ints, Ints, Ints]:
     """Indices of both ends of every segment of some paths, and of its path; a path of one point is a segment too."""
     count = np.diff(offsets)
-    path = np.repeat(np.arange(len(count)), count)
+    path = ragged.owner(count)
     start = np.arange(len(path))
     last = start == offsets[1:][path] - 1
     end = np.where(last, offsets[:-1][path], start + 1)
@@ -121,11 +123,6 @@ def covered(lines: Floats, others: Floats, tolerance: float) -> tuple[Floats, Fl
     box = (near <= far) & (length > 0.0)
     low, high = np.where(box, np.minimum(low, near), low), np.where(box, np.maximum(high, far), high)
     return np.clip(low, 0.0, None), np.clip(high, None, 1.0)
-
-
-def dot(a: Floats, b: Floats) -> Floats:
-    """Scalar products, row by row."""
-    return np.asarray(np.einsum("ij,ij->i", a, b))
 
 
 def within_disc(arm: Floats, way: Floats, radius: float) -> tuple[Floats, Floats]:

@@ -7,8 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.testing.polylines import Curves, points_of, polylines_of
 
 ACCURACY = 1e-9
@@ -99,8 +100,8 @@ class Tree:
         long = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
         piece = float(long.sum()) / max(len(ends), 64)
         count = np.maximum(np.ceil(long / piece), 1.0).astype(np.intp) if piece > 0.0 else np.ones(len(ends), np.intp)
-        self.owner = np.repeat(np.arange(len(ends)), count)
-        place = np.arange(len(self.owner)) - (np.cumsum(count) - count)[self.owner]
+        self.owner = ragged.owner(count)
+        place = np.arange(len(self.owner)) - ragged.starts(count)[self.owner]
         share = ((place + 0.5) / count[self.owner])[:, None]
         self.ends = ends
         self.half = 0.5 * float((long / count).max())

@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Floats
 from vectorplot.geometry.vectors import length, normalize
 from vectorplot.scene.scene import Light
 from vectorplot.surfaces.normals import unit_normals

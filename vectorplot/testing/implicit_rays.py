@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.testing.rays import CONTACT, REACH, Rays

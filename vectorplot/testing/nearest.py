@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.surfaces.surface import Domain, Surface, is_hole
 
 CELLS = (48, 256)

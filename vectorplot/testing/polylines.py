@@ -8,9 +8,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.strokes import Strokes
 from vectorplot.words import LineKind
 
@@ -45,8 +46,8 @@ def cut(points: Floats, offsets: Ints, closed: Bools, kept: Bools) -> list[Float
     if not kept.any():
         return []
     size = np.diff(offsets) + closed
-    starts = np.concatenate([[0], np.cumsum(size)])
-    path = np.repeat(np.arange(len(size)), size)
+    starts = ragged.offsets(size)
+    path = ragged.owner(size)
     place = np.arange(starts[-1]) - starts[path]
     place[closed[path] & (place == size[path] - 1)] = 0
     return [
@@ -110,7 +111,7 @@ def points_of(curves: Curves) -> CurvePoints:
     size = [len(part) for part in parts]
     found = CurvePoints(
         np.concatenate(parts),
-        np.repeat(np.arange(len(parts)), size),
+        ragged.owner(size),
         np.concatenate([np.arange(count) for count in size]),
     )
     bad = np.flatnonzero(~np.isfinite(found.points).all(axis=1))

@@ -10,8 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Scene
 from vectorplot.testing.triangles import triangulated
 
@@ -119,7 +121,7 @@ def near_pairs(rays: Rays, solids: Solids) -> Iterator[tuple[Ints, Ints]]:
         for part in range(0, len(ray), CHUNK // CLUSTER):
             some = slice(part, part + CHUNK // CLUSTER)
             count = sizes[cluster[some]]
-            inner = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+            inner = ragged.place(count)
             simplex = np.repeat(starts[cluster[some]], count) + inner
             of_ray = np.repeat(ray[some], count)
             kept = near(rays, of_ray, centre[simplex], radius[simplex])

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.scene.scene import Scene
 from vectorplot.testing.compare import path_segments
 from vectorplot.testing.rays import edges_of_faces

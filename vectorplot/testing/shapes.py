@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.geometry.mesh import Floats, Mesh
+from vectorplot.arrays import Floats
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.testing.surfaces import bumpy_icosphere, grid_graph, moebius_strip, torus_mesh
 

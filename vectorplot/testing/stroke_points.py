@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.features.conditions import CentralContour, ParallelContour
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised

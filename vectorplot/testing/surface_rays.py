@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Surface, is_hole
 from vectorplot.testing.nearest import inside, nearest_places

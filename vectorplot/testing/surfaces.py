@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats, Ints, Mesh
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry.mesh import Mesh
 
 
 def quads(rows: int, columns: int) -> Ints:

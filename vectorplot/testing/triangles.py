@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.convex_faces import convex_faces
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 
 FLAT = 1e-12
@@ -25,7 +27,9 @@ def triangulated(mesh: Mesh) -> tuple[Ints, Ints]:
     """
     present = np.ones(mesh.face_count, dtype=np.bool_) if mesh.present is None else mesh.present
     convex, bent = faces_are_convex(mesh), faces_are_bent(mesh)
-    triangles, faces = fans(mesh, present & convex & ~bent)
+    fans, face = ragged.fans(mesh.offsets)
+    wanted = (present & convex & ~bent)[face]
+    triangles, faces = mesh.corners[fans[wanted]], face[wanted]
     ears = [(ear_clipping(mesh, face), face) for face in np.flatnonzero(present & ~convex & ~bent).tolist()]
     more = [with_area(mesh, np.asarray(cut, dtype=np.intp).reshape(-1, 3)) for cut, _ in ears]
     owner = [np.full(len(cut), face, dtype=np.intp) for cut, (_, face) in zip(more, ears, strict=True)]
@@ -48,7 +52,7 @@ def bent_triangles(mesh: Mesh, faces: Ints) -> tuple[Ints, Ints]:
     if not len(faces):
         return np.zeros((0, 3), dtype=np.intp), faces
     corners = mesh.corners[np.isin(mesh.corner_face, faces)]
-    offsets = np.concatenate([[0], np.cumsum(mesh.face_sizes[faces])])
+    offsets = ragged.offsets(mesh.face_sizes[faces])
     cut = convex_faces(np.ascontiguousarray(mesh.vertices.T), corners, offsets, 0.0)
     return cut.corners.reshape(-1, 3), faces[cut.source]
 
@@ -63,16 +67,6 @@ def faces_are_convex(mesh: Mesh) -> Bools:
     scale = np.linalg.norm(arriving, axis=1) * np.linalg.norm(leaving, axis=1)
     left = np.einsum("ij,ij->i", turn, mesh.face_normals[mesh.corner_face]) >= -FLAT * scale
     return np.asarray(np.bincount(mesh.corner_face[~left], minlength=mesh.face_count) == 0)
-
-
-def fans(mesh: Mesh, wanted: Bools) -> tuple[Ints, Ints]:
-    """Triangles around the first corner of each wanted face, and their faces."""
-    count = np.where(wanted, mesh.face_sizes - 2, 0)
-    faces = np.repeat(np.arange(mesh.face_count), count)
-    step = np.arange(len(faces)) - np.repeat(np.cumsum(count) - count, count)
-    first = mesh.offsets[:-1][faces]
-    positions = np.stack([first, first + step + 1, first + step + 2], axis=1)
-    return mesh.corners[positions], faces
 
 
 def ear_clipping(mesh: Mesh, face: int) -> list[list[int]]:

@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
 from vectorplot.visibility import grid as grids
 from vectorplot.visibility.grid import MAX_COVER_TESTS, Entries, Floats32, Grid
@@ -105,7 +106,7 @@ def _inner_cells(grid: Grid, box: Floats32) -> tuple[Ints, Ints, Ints, Ints]:
     c1, r1 = np.minimum(c1, grid.columns[level]), np.minimum(r1, grid.rows[level])
     wide, tall = np.maximum(c1 - c0, 0), np.maximum(r1 - r0, 0)
     count = wide * tall
-    occluder = np.repeat(np.arange(box.shape[1]), count)
-    step = np.arange(len(occluder)) - np.repeat(np.cumsum(count) - count, count)
+    occluder = ragged.owner(count)
+    step = ragged.place(count)
     width = wide[occluder]
     return occluder, c0[occluder] + step % width, r0[occluder] + step // width, level[occluder]

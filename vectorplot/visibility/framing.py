@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats
+from vectorplot.arrays import Floats
 from vectorplot.scene.scene import Page
 from vectorplot.scene.view import View
 from vectorplot.visibility.lines import Lines

@@ -8,7 +8,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 
 Floats32 = NDArray[np.float32]
 
@@ -56,7 +57,7 @@ class Grid:
         while columns[-1] > 1 or rows[-1] > 1:
             columns.append((columns[-1] + 1) // 2)
             rows.append((rows[-1] + 1) // 2)
-        first = np.concatenate([[0], np.cumsum(np.multiply(columns, rows))])
+        first = ragged.offsets(np.multiply(columns, rows))
         return cls(left, bottom, cell, np.array(columns), np.array(rows), first)
 
     def column_of(self, x: Floats) -> Ints:
@@ -129,16 +130,15 @@ def cell_size(start: Floats, end: Floats, typical: float) -> float:
 
 def cut(grid: Grid, start: Floats, end: Floats, start_depth: Floats, end_depth: Floats, central: bool) -> Pieces:
     """Segments with image ends (2,n) and depths (n,), cut at the cell borders of the finest level."""
-    count = start.shape[1]
     one, two = _columns_rows(grid, start), _columns_rows(grid, end)
     crossings = [np.abs(two[k] - one[k]) for k in range(2)]
     pieces = 1 + crossings[0] + crossings[1]
-    segment = np.repeat(np.arange(count), pieces)
-    first = np.cumsum(pieces) - pieces
+    segment = ragged.owner(pieces)
+    first = ragged.starts(pieces)
     at = np.zeros(len(segment))
     for axis, origin in enumerate((grid.left, grid.bottom)):
-        owner = np.repeat(np.arange(count), crossings[axis])
-        step = np.arange(len(owner)) - np.repeat(np.cumsum(crossings[axis]) - crossings[axis], crossings[axis])
+        owner = ragged.owner(crossings[axis])
+        step = ragged.place(crossings[axis])
         forward = two[axis][owner] > one[axis][owner]
         line = np.where(forward, one[axis][owner] + 1 + step, one[axis][owner] - step)
         where = (origin + line * grid.cell - start[axis][owner]) / (end[axis] - start[axis])[owner]
@@ -245,7 +245,7 @@ class Entries:
     def _starts(self) -> Ints:
         """(cells + 1,) where the entries of every cell begin."""
         counts = np.bincount(self.cell, minlength=int(self.grid.first[-1]))
-        return np.concatenate([[0], np.cumsum(counts)])
+        return ragged.offsets(counts)
 
 
 def touched(grid: Grid, box: Floats32, level: Ints) -> tuple[Ints, Ints, Ints]:
@@ -253,8 +253,8 @@ def touched(grid: Grid, box: Floats32, level: Ints) -> tuple[Ints, Ints, Ints]:
     c0, r0, c1, r1 = grid.corner_cells(box, level)
     wide, tall = c1 - c0 + 1, r1 - r0 + 1
     count = wide * tall
-    thing = np.repeat(np.arange(box.shape[1]), count)
-    step = np.arange(len(thing)) - np.repeat(np.cumsum(count) - count, count)
+    thing = ragged.owner(count)
+    step = ragged.place(count)
     row = step // wide[thing]
     return thing, c0[thing] + step - row * wide[thing], r0[thing] + row
 

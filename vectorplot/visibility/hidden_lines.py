@@ -9,8 +9,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.exact import intervals
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
 from vectorplot.visibility import grid as grids
 from vectorplot.visibility.cells import covered_cells, entered
@@ -210,7 +211,7 @@ def _expanded(begin: Ints, counts: Ints, which: Ints) -> Iterator[tuple[Ints, In
     for low, high in pairwise(edges.tolist()):
         size = counts[low:high]
         owner = np.repeat(np.arange(low, high), size)
-        step = np.arange(len(owner)) - np.repeat(np.cumsum(size) - size, size)
+        step = ragged.place(size)
         yield which[owner], begin[owner] + step
 
 

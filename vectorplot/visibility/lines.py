@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.edges import Faces, mesh_edges
 from vectorplot.features.intersections import face_intersections
 from vectorplot.features.mesh_curves import MeshCurves
@@ -19,7 +20,8 @@ from vectorplot.features.mesh_lines import (
     mesh_point_light_isophotes,
 )
 from vectorplot.features.patterns import pattern_outline
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.winding import pieces_of_faces
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
@@ -146,7 +148,7 @@ def _faces(view: View, faces: ProjectedFaces) -> Faces:
 
 def _some_faces(faces: Faces, which: Ints) -> Faces:
     size = np.diff(faces.offsets)[which]
-    offsets = np.concatenate([[0], np.cumsum(size)])
+    offsets = ragged.offsets(size)
     shift = faces.offsets[which] - offsets[:-1]
     position = np.arange(offsets[-1]) + np.repeat(shift, size)
     return Faces(faces.points, faces.corners[position], offsets, faces.inner[position], faces.facing[which])

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.features.edges import cross
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.columns import cross
 from vectorplot.geometry.winding import unbalanced_vertices
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import Floats32, ProjectedFaces, newell
@@ -59,7 +60,7 @@ def solid_items(view: View, faces: ProjectedFaces, *, most_faces: int = MAX_SOLI
     constant = (normal * view.points[:, first]).sum(axis=0)
     for low, high in _blocks(vertex_counts[of]):
         pair_face = np.repeat(np.arange(low, high), vertex_counts[of[low:high]])
-        starts = np.cumsum(vertex_counts[of[low:high]]) - vertex_counts[of[low:high]]
+        starts = ragged.starts(vertex_counts[of[low:high]])
         vertex = np.arange(len(pair_face)) + (view.item_vertices[of[low:high]] - starts)[pair_face - low]
         height = (
             normal[0, pair_face] * view.points[0, vertex]
@@ -89,7 +90,7 @@ def face_occluders(view: View, faces: ProjectedFaces, which: Ints) -> Occluders:
     normal, _, first = newell(view, which)
     toward = -faces.facing[which].astype(np.float64)
     depth_planes = _planes(normal * toward, view.points[:, first])
-    position = np.repeat(view.offsets[which] - (np.cumsum(sizes) - sizes), sizes) + np.arange(int(sizes.sum()))
+    position = ragged.ranges(view.offsets[which], sizes)
     side = _side_planes(view, view.corners[position], view.corners[view.after(position)])
     side *= np.repeat(-toward, sizes)
     return _interleaved(
@@ -109,7 +110,7 @@ def solid_occluders(view: View, faces: ProjectedFaces, items: Ints) -> Occluders
     normal, _, first = newell(view, which)
     depth_planes = _planes(-normal, view.points[:, first])
     sizes = view.face_sizes[which]
-    position = np.repeat(view.offsets[which] - (np.cumsum(sizes) - sizes), sizes) + np.arange(int(sizes.sum()))
+    position = ragged.ranges(view.offsets[which], sizes)
     a, b = view.corners[position], view.corners[view.after(position)]
     key = np.minimum(a, b) * view.points.shape[1] + np.maximum(a, b)
     order = np.argsort(key, kind="stable")
@@ -171,13 +172,13 @@ def _interleaved(
 ) -> Occluders:
     """Occluders from their depth planes and side planes, both listed occluder by occluder."""
     counts = depth_counts + side_counts
-    first = np.concatenate([[0], np.cumsum(counts)])
+    first = ragged.offsets(counts)
     planes = np.empty((4, int(first[-1])))
-    shift = first[:-1] - (np.cumsum(depth_counts) - depth_counts)
+    shift = first[:-1] - ragged.starts(depth_counts)
     planes[:, np.arange(depth.shape[1]) + np.repeat(shift, depth_counts)] = depth
-    shift = first[:-1] + depth_counts - (np.cumsum(side_counts) - side_counts)
+    shift = first[:-1] + depth_counts - ragged.starts(side_counts)
     planes[:, np.arange(side.shape[1]) + np.repeat(shift, side_counts)] = side
-    starts = np.cumsum(depth_counts) - depth_counts
+    starts = ragged.starts(depth_counts)
     box = faces.box[:, which]
     if len(which) != len(item):
         smallest = np.minimum.reduceat(box[[0, 2]], starts, axis=1)
@@ -201,6 +202,6 @@ def _farthest(view: View, which: Ints) -> Floats32:
     sizes = view.face_sizes[which]
     if not len(which):
         return np.zeros(0, dtype=np.float32)
-    position = np.repeat(view.offsets[which] - (np.cumsum(sizes) - sizes), sizes) + np.arange(int(sizes.sum()))
-    depth = np.maximum.reduceat(view.depth[view.corners[position]], np.cumsum(sizes) - sizes)
+    position = ragged.ranges(view.offsets[which], sizes)
+    depth = np.maximum.reduceat(view.depth[view.corners[position]], ragged.starts(sizes))
     return (depth + 2e-7 * np.abs(depth) + 1e-7).astype(np.float32)

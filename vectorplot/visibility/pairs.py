@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.features.edges import cross
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.columns import cross
 from vectorplot.scene.view import View
 from vectorplot.visibility.occluders import Occluders
 

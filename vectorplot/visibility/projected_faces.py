@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vectorplot.features.edges import cross
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.columns import cross
 from vectorplot.scene.view import View
 
 Floats32 = NDArray[np.float32]
@@ -93,7 +94,7 @@ def _polygons(view: View, faces: ProjectedFaces, x: Floats, y: Floats, depth: Fl
     starts = view.offsets[low:high] - first
     px, py = x[view.corners[first:last]], y[view.corners[first:last]]
     following = view.after(np.arange(first, last)) - first
-    owner = np.repeat(np.arange(high - low), view.face_sizes[low:high])
+    owner = ragged.owner(view.face_sizes[low:high])
     rx, ry = px - px[starts][owner], py - py[starts][owner]
     area = np.add.reduceat(rx * ry[following] - rx[following] * ry, starts)
     box = [

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import shapely
 
+from vectorplot.arrays import Ints
 from vectorplot.drawing.fills import FillKind
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.mesh import Ints
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Material, Scene
 from vectorplot.surfaces.ellipsoid import Sphere

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
 from vectorplot.visibility.occluders import solid_items
-from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions
+from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, newell
 
 
@@ -55,9 +56,9 @@ def convex_bodies(view: View, faces: ImageFaces, items: Ints) -> Bodies:
     return Bodies(
         items[kept],
         view.image[:, corner],
-        np.concatenate([[0], np.cumsum(sizes[kept])]),
+        ragged.offsets(sizes[kept]),
         shown[listed],
-        np.concatenate([[0], np.cumsum(counts)]),
+        ragged.offsets(counts),
         _spheres(view, items[kept]),
     )
 
@@ -94,7 +95,7 @@ def _outlines(view: View, number: Ints, count: int, shown: Ints) -> tuple[Ints, 
 
 
 def _single_sides(view: View, number: Ints, shown: Ints) -> tuple[Ints, Ints, Ints]:
-    position, _ = corner_positions(view.offsets, shown)
+    position, _ = ragged.take(view.offsets, shown)
     a, b = view.corners[position], view.corners[view.after(position)]
     key = np.minimum(a, b) * view.points.shape[1] + np.maximum(a, b)
     order = np.argsort(key, kind="stable")
@@ -108,7 +109,7 @@ def _single_sides(view: View, number: Ints, shown: Ints) -> tuple[Ints, Ints, In
 
 def _spheres(view: View, items: Ints) -> Floats:
     """(4,n) middle of the box of each item's vertices, and the distance of the farthest one."""
-    vertex, offsets = corner_positions(view.item_vertices, items)
+    vertex, offsets = ragged.take(view.item_vertices, items)
     if not len(items):
         return np.zeros((4, 0))
     points = view.points[:, vertex]
@@ -136,14 +137,14 @@ def faces_between(view: View, faces: ImageFaces, bodies: Bodies, nearer: Ints, f
     Source: Glaeser, section 5.8 (separating planes); erratum G5-07.
     """
     counts = bodies.first[farther + 1] - bodies.first[farther]
-    pair = np.repeat(np.arange(len(nearer)), counts)
-    position, _ = corner_positions(bodies.first, farther)
+    pair = ragged.owner(counts)
+    position, _ = ragged.take(bodies.first, farther)
     face = faces.source[bodies.shown[position]]
     normal, _, first = newell(view, face)
     length = np.sqrt((normal * normal).sum(axis=0))
     normal /= np.where(length > 0.0, length, 1.0)
-    vertex, ends = corner_positions(view.item_vertices, bodies.item[nearer[pair]])
-    plane = np.repeat(np.arange(len(pair)), np.diff(ends))
+    vertex, ends = ragged.take(view.item_vertices, bodies.item[nearer[pair]])
+    plane = ragged.owner(np.diff(ends))
     arm = view.points[:, vertex] - view.points[:, first[plane]]
     height = (arm * normal[:, plane]).sum(axis=0)
     beyond = (

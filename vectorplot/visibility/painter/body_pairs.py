@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.bodies import Bodies, faces_between, spheres_apart
 from vectorplot.visibility.painter.face_pairs import BEHIND, IN_FRONT, ON_OUTLINE, Codes

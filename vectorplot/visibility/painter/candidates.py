@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.arrays import Floats, Ints
 
 QUERIES_AT_ONCE = 1 << 15
 """Boxes looked up in the tree at once: their partners are handled before the next ones are looked up."""

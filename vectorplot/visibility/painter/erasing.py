@@ -6,9 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import next_positions
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, mapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, mapped
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,21 +36,21 @@ def erasing_edges(view: View, painted: ImageFaces, drawn: Bools | None = None) -
     """
     drawn = ~view.inner if drawn is None else drawn
     edge = np.flatnonzero(drawn)
-    face = np.repeat(np.arange(view.face_count), view.face_sizes)[edge]
+    face = ragged.owner(view.face_sizes)[edge]
     start, end, known = _images(view, view.corners[edge], view.corners[view.after(edge)])
     edge_of = np.searchsorted(face[known], np.arange(view.face_count + 1))
     start, end = start[:, known], end[:, known]
-    owner = np.repeat(np.arange(len(painted)), np.diff(painted.offsets))
+    owner = ragged.owner(np.diff(painted.offsets))
     side_end = next_positions(painted.offsets, np.arange(len(owner))) if len(owner) else owner
     source = painted.source[owner]
     counts = np.diff(edge_of)[source]
-    side = np.repeat(np.arange(len(owner)), counts)
-    which = edge_of[:-1][source[side]] + np.arange(len(side)) - np.repeat(np.cumsum(counts) - counts, counts)
+    side = ragged.owner(counts)
+    which = edge_of[:-1][source[side]] + np.arange(len(side)) - np.repeat(ragged.starts(counts), counts)
     on = _on(painted.points[:2, side], start[:2, which], end[:2, which], view.tolerance)
     on &= _on(painted.points[:2, side_end[side]], start[:2, which], end[:2, which], view.tolerance)
     kept = np.unique(side[on])
     counts = np.bincount(owner[kept], minlength=len(painted))
-    return Erased(painted.points[:, kept], painted.points[:, side_end[kept]], np.concatenate([[0], np.cumsum(counts)]))
+    return Erased(painted.points[:, kept], painted.points[:, side_end[kept]], ragged.offsets(counts))
 
 
 def _images(view: View, first: Ints, second: Ints) -> tuple[Floats, Floats, Ints]:
@@ -85,7 +87,7 @@ def interleaved(painted: ImageFaces, erased: Erased) -> list[tuple[Floats, Float
     starts and the ends (3,e) of the edges to be drawn on it."""
     result = []
     for number in range(len(painted)):
-        position, _ = corner_positions(painted.offsets, np.array([number]))
+        position, _ = ragged.take(painted.offsets, np.array([number]))
         edges = slice(int(erased.first[number]), int(erased.first[number + 1]))
         result.append((painted.points[:, position], erased.start[:, edges], erased.end[:, edges]))
     return result

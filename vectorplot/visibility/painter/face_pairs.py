@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.outlines import Outlines, common_points, overlapping
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Floats
+from vectorplot.geometry import ragged
 from vectorplot.geometry.convex_clipping import clipped
-from vectorplot.geometry.mesh import Floats
-from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions
+from vectorplot.visibility.painter.image_faces import ImageFaces
 
 
 def framed_faces(faces: ImageFaces, low: Floats, high: Floats, tolerance: float) -> ImageFaces:
@@ -20,7 +21,7 @@ def framed_faces(faces: ImageFaces, low: Floats, high: Floats, tolerance: float)
     if inside.all():
         return faces
     cut = np.flatnonzero(~outside & ~inside)
-    corner, offsets = corner_positions(faces.offsets, cut)
+    corner, offsets = ragged.take(faces.offsets, cut)
     frame = np.array([[low[0], high[0], high[0], low[0]], [low[1], low[1], high[1], high[1]]])
     points, ends, kept = clipped(
         faces.points[:, corner],
@@ -30,11 +31,11 @@ def framed_faces(faces: ImageFaces, low: Floats, high: Floats, tolerance: float)
         tolerance=tolerance,
     )
     whole = np.flatnonzero(inside)
-    corner, whole_ends = corner_positions(faces.offsets, whole)
+    corner, whole_ends = ragged.take(faces.offsets, whole)
     number = np.concatenate([whole, cut[kept]])
     every = np.concatenate([faces.points[:, corner], points], axis=1)
     offsets = np.concatenate([whole_ends, ends[1:] + whole_ends[-1]])
     order = np.argsort(number, kind="stable")
-    corner, offsets = corner_positions(offsets, order)
+    corner, offsets = ragged.take(offsets, order)
     number = number[order]
     return ImageFaces(every[:, corner], offsets, faces.planes[:, number], faces.source[number], faces.rank[number])

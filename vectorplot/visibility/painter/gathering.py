@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Ints
+from vectorplot.arrays import Bools, Ints
 from vectorplot.visibility.painter.candidates import box_pairs, boxes_over
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.mikado import Links

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.geometry.mesh import Ints
+from vectorplot.arrays import Ints
 from vectorplot.visibility.painter.slices import eye_coordinate, slice_order
 
 

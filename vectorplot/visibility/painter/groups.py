@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Ints
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.mesh import Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.mikado import component_ranks, mikado
 from vectorplot.visibility.painter.priorities import demands, priorities, view_objects

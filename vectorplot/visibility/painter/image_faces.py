@@ -8,8 +8,10 @@ from functools import cached_property
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
-from vectorplot.geometry.mesh import Bools, Floats, Ints, next_positions
+from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.winding import unbalanced_vertices
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, newell
@@ -41,7 +43,7 @@ class ImageFaces:
 
     def some(self, which: Ints) -> ImageFaces:
         """Some of the polygons, in the order asked for."""
-        position, offsets = corner_positions(self.offsets, which)
+        position, offsets = ragged.take(self.offsets, which)
         return ImageFaces(
             self.points[:, position], offsets, self.planes[:, which], self.source[which], self.rank[which]
         )
@@ -66,13 +68,6 @@ def joined(one: ImageFaces, two: ImageFaces) -> ImageFaces:
         np.concatenate([one.source, two.source]),
         np.concatenate([one.rank, two.rank]),
     )
-
-
-def corner_positions(offsets: Ints, which: Ints) -> tuple[Ints, Ints]:
-    """Where the corners of some polygons stand, one polygon after the other, and the offsets of these polygons."""
-    sizes = offsets[which + 1] - offsets[which]
-    ends = np.concatenate([[0], np.cumsum(sizes)])
-    return np.repeat(offsets[which] - ends[:-1], sizes) + np.arange(int(ends[-1])), ends
 
 
 def over_corners(reduce: np.ufunc, row: Floats, offsets: Ints) -> Floats:
@@ -128,7 +123,7 @@ def image_faces(view: View, which: Ints) -> ImageFaces:
     The height over the image plane is f (f - d) / d for the depth d and the image plane's depth f; in a parallel
     projection it is f - d itself. Source: Glaeser, section 2.4 (the transformation T2).
     """
-    position, offsets = corner_positions(view.offsets, which)
+    position, offsets = ragged.take(view.offsets, which)
     corner = view.corners[position]
     if view.eye is None or not (view.depth[corner] < view.near).any():
         return polygons_of(mapped(view, view.points)[:, corner], offsets, which, view.tolerance)
@@ -178,7 +173,7 @@ def polygons_of(points: Floats, offsets: Ints, source: Ints, tolerance: float) -
         *(over_corners(np.maximum, row, offsets) - over_corners(np.minimum, row, offsets) for row in points[:2])
     )
     wide = np.flatnonzero(np.abs(normal[2]) > tolerance * spread)
-    position, ends = corner_positions(offsets, wide)
+    position, ends = ragged.take(offsets, wide)
     backwards = np.repeat(normal[2, wide] < 0.0, sizes[wide])
     mirrored = np.repeat(offsets[wide] + offsets[wide + 1] - 1, sizes[wide]) - position
     corners = points[:, np.where(backwards, mirrored, position)]

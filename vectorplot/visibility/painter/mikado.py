@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Ints
+from vectorplot.arrays import Bools, Ints
+from vectorplot.geometry import ragged
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,13 +61,12 @@ class Links:
     def __init__(self, count: int, start: Ints, end: Ints) -> None:
         order = np.argsort(start, kind="stable")
         self.end = end[order]
-        self.first = np.concatenate([[0], np.cumsum(np.bincount(start, minlength=count))])
+        self.first = ragged.offsets(np.bincount(start, minlength=count))
 
     def of(self, things: Ints) -> Ints:
         """What some things are linked to, as often as they are."""
         sizes = self.first[things + 1] - self.first[things]
-        ends = np.cumsum(sizes)
-        position = np.repeat(self.first[things] - (ends - sizes), sizes) + np.arange(int(ends[-1]) if len(ends) else 0)
+        position = ragged.ranges(self.first[things], sizes)
         return np.asarray(self.end[position], dtype=np.intp)
 
 

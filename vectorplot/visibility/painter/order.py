@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.bodies import Bodies, convex_bodies, outlined_items
@@ -24,13 +25,7 @@ from vectorplot.visibility.painter.face_pairs import (
     face_relations,
 )
 from vectorplot.visibility.painter.groups import group_ranks
-from vectorplot.visibility.painter.image_faces import (
-    ImageFaces,
-    corner_positions,
-    drawn_faces,
-    image_faces,
-    joined,
-)
+from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces, joined
 from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.ribbons import in_slices, ribbon_order, ribbons
 from vectorplot.visibility.painter.splitting import dense
@@ -167,14 +162,14 @@ class _Things:
     def faces_of(self, thing: Ints) -> tuple[Ints, Ints]:
         """The image faces of some things, one thing after the other, and the offsets."""
         first = np.concatenate([self.bodies.first, self.bodies.first[-1] + 1 + np.arange(len(self.single))])
-        position, offsets = corner_positions(first, thing)
+        position, offsets = ragged.take(first, thing)
         return np.concatenate([self.bodies.shown, self.single])[position], offsets
 
 
 def _things(view: View, projected: ProjectedFaces, faces: ImageFaces) -> _Things:
     bodies = convex_bodies(view, faces, np.flatnonzero(outlined_items(view, projected)))
     of_face = np.full(len(faces), -1, dtype=np.intp)
-    of_face[bodies.shown] = np.repeat(np.arange(len(bodies)), np.diff(bodies.first))
+    of_face[bodies.shown] = ragged.owner(np.diff(bodies.first))
     single = np.flatnonzero(of_face < 0)
     of_face[single] = len(bodies) + np.arange(len(single))
     box = faces.box[:4, single]
@@ -238,10 +233,9 @@ def _all_face_pairs(
     """All pairs of faces of pairs of things whose boxes overlap."""
     one, one_first = things.faces_of(first)
     two, two_first = things.faces_of(second)
-    pair = np.repeat(np.arange(len(first)), np.diff(one_first))
+    pair = ragged.owner(np.diff(one_first))
     counts = np.diff(two_first)[pair]
-    ends = np.cumsum(counts)
-    partner = np.repeat(two_first[:-1][pair] - (ends - counts), counts) + np.arange(int(ends[-1]))
+    partner = ragged.ranges(two_first[:-1][pair], counts)
     a, b = np.repeat(one, counts), two[partner]
     near = _boxes_overlap(faces.box, a, b, tolerance)
     return a[near], b[near]

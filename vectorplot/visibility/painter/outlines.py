@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 
 SIZES = np.array([3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024, 4096, 1 << 16, 1 << 20])
 """Outlines are held in tables by their number of corners, rounded up to one of these."""

@@ -10,16 +10,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
 from vectorplot.geometry.convex_clipping import contained
 from vectorplot.geometry.convex_hulls import convex_hulls
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.separating_planes import Surroundings, separations
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.bodies import outlined_items
 from vectorplot.visibility.painter.candidates import box_pairs
 from vectorplot.visibility.painter.face_pairs import APART, BEHIND, IN_FRONT, STRADDLING, Codes, face_relations
-from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, drawn_faces, image_faces
+from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces
 from vectorplot.visibility.projected_faces import project_faces
 
 
@@ -64,10 +66,10 @@ def view_objects(view: View, object_of: ArrayLike | None = None) -> Objects:
 
 def _mesh(view: View, items: Ints) -> Mesh:
     """Some items of the view as one mesh, in its coordinates."""
-    vertex, _ = corner_positions(view.item_vertices, items)
+    vertex, _ = ragged.take(view.item_vertices, items)
     number = np.full(view.points.shape[1], -1, dtype=np.intp)
     number[vertex] = np.arange(len(vertex))
-    position, offsets = corner_positions(view.offsets, np.flatnonzero(np.isin(view.face_item, items)))
+    position, offsets = ragged.take(view.offsets, np.flatnonzero(np.isin(view.face_item, items)))
     return Mesh(view.points[:, vertex].T, number[view.corners[position]], offsets)
 
 
@@ -188,5 +190,5 @@ def _convex(objects: Objects) -> Bools:
 
 
 def _some(points: Floats, offsets: Ints, which: Ints) -> tuple[Floats, Ints]:
-    position, ends = corner_positions(offsets, which)
+    position, ends = ragged.take(offsets, which)
     return points[:2, position], ends

@@ -11,14 +11,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats, Ints, next_positions
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.candidates import box_pairs
 from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
 from vectorplot.visibility.painter.face_pairs import drawn_before
-from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions, mapped, polygons_of, unmapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, mapped, polygons_of, unmapped
 from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.slices import cut_into_slices, pairs_in_slices, related, slice_order
 from vectorplot.visibility.painter.splitting import dense
@@ -154,7 +156,7 @@ def _adjoining(view: View, slices: Slices) -> tuple[Ints, Ints]:
     """Pairs of pieces of one slice that have a part of an edge of the surface in common."""
     height = slices.frame[2] @ view.points
     used = np.unique(slices.faces.source)
-    position, ends = corner_positions(view.offsets, used)
+    position, ends = ragged.take(view.offsets, used)
     face = np.repeat(used, np.diff(ends))
     start, end = view.corners[position], view.corners[view.after(position)]
     side = np.minimum(start, end) * view.points.shape[1] + np.maximum(start, end)
@@ -166,8 +168,8 @@ def _adjoining(view: View, slices: Slices) -> tuple[Ints, Ints]:
     bottom = np.searchsorted(slices.levels, low, side="right")
     top = np.maximum(np.searchsorted(slices.levels, high, side="left"), bottom)
     sizes = top - bottom + 1
-    edge = np.repeat(np.arange(len(one)), sizes)
-    level = np.arange(len(edge)) - np.repeat(np.cumsum(sizes) - sizes, sizes) + bottom[edge]
+    edge = ragged.owner(sizes)
+    level = ragged.place(sizes) + bottom[edge]
     first, second = (_pieces_at(slices, face[side][edge], level) for side in (one, other))
     there = (first >= 0) & (second >= 0)
     return first[there], second[there]

@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
-from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.visibility.painter.candidates import box_pairs
 from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
 from vectorplot.visibility.painter.face_pairs import APART, face_relations
-from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions
+from vectorplot.visibility.painter.image_faces import ImageFaces
 
 
 def slice_order(levels: ArrayLike, eye: float) -> Ints:
@@ -81,13 +82,13 @@ def _cut_at(polygons: Polygons, height: Floats, axis: int, level: Floats) -> Pol
 
 
 def _some(polygons: Polygons, which: Ints) -> Polygons:
-    position, offsets = corner_positions(polygons.offsets, which)
+    position, offsets = ragged.take(polygons.offsets, which)
     return Polygons(polygons.points[position], offsets)
 
 
 def _joined(*lots: Polygons) -> Polygons:
     sizes = np.concatenate([np.diff(lot.offsets) for lot in lots])
-    return Polygons(np.concatenate([lot.points for lot in lots]), np.concatenate([[0], np.cumsum(sizes)]))
+    return Polygons(np.concatenate([lot.points for lot in lots]), ragged.offsets(sizes))
 
 
 def sliced_order(faces: ImageFaces, place: Ints, tolerance: float) -> ImageFaces:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Ints
+from vectorplot.arrays import Ints
+from vectorplot.geometry import ragged
 from vectorplot.visibility.painter.image_faces import ImageFaces, joined
 from vectorplot.visibility.painter.splitting import dense, halves, height_span
 
@@ -61,7 +62,7 @@ def _dividing_faces(faces: ImageFaces, cell: Ints, active: Ints, tolerance: floa
     starts = np.flatnonzero(np.concatenate([[True], cell[order][1:] != cell[order][:-1]]))
     sizes = np.diff(np.append(starts, len(order)))
     number = np.empty(len(cell), dtype=np.intp)
-    number[order] = np.repeat(np.arange(len(starts)), sizes)
+    number[order] = ragged.owner(sizes)
     mine = number[active]
     best, best_cost = np.zeros(len(starts), dtype=np.intp), np.full(len(starts), np.iinfo(np.intp).max)
     for attempt in range(TRIED):

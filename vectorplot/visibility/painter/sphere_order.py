@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Ints
+from vectorplot.arrays import Ints
 from vectorplot.geometry.separating_planes import spheres_power
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.bodies import Bodies, spheres_apart

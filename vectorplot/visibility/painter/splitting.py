@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.clipping import Polygons, cut_polygons
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.visibility.painter.image_faces import ImageFaces
 
 

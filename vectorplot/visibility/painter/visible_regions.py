@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.convex_clipping import clipped
-from vectorplot.geometry.mesh import Bools, Floats, Ints
 from vectorplot.geometry.regions import (
     WIDTH_KEPT,
     corners_of,
@@ -20,7 +21,7 @@ from vectorplot.geometry.regions import (
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.bodies import convex_bodies, outlined_items
 from vectorplot.visibility.painter.candidates import boxes_over
-from vectorplot.visibility.painter.image_faces import ImageFaces, corner_positions
+from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.order import Painted
 from vectorplot.visibility.painter.outlines import Outlines, overlapping
 from vectorplot.visibility.projected_faces import project_faces
@@ -171,7 +172,7 @@ def _faulty(faces: _Covers, covers: _Covers, behind: Ints, front: Ints, of: Ints
 
 def _some(outlines: _Covers, which: Ints) -> tuple[Floats, Ints]:
     """Points and offsets of some outlines."""
-    position, offsets = corner_positions(outlines.offsets, which)
+    position, offsets = ragged.take(outlines.offsets, which)
     return outlines.points[:2, position], offsets
 
 
@@ -195,7 +196,7 @@ def _whole_faces(regions: Any, source: Ints, place: Ints, tolerance: float) -> t
     result = regions[order[last]]
     if len(joined):
         pieces = np.repeat(counts > 1, counts)
-        of = np.repeat(np.arange(len(joined)), counts[joined])
+        of = ragged.owner(counts[joined])
         result[joined] = unions(regions[order[pieces]], of, tolerance)
     places = place[order[last]]
     by_place = np.argsort(places, kind="stable")

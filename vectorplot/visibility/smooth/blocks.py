@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from vectorplot.geometry.mesh import Ints
+from vectorplot.arrays import Ints
 
 T = TypeVar("T")
 

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
 from vectorplot.visibility.smooth.curves import Curves
-from vectorplot.visibility.smooth.sheet import dot
 
 STEPS = 3
 """Steps of Newton from the part of a chord to that of its curve, which is close to it."""

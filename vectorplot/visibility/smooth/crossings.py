@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
 from vectorplot.visibility.smooth.blocks import Block, in_blocks
@@ -16,7 +17,7 @@ from vectorplot.visibility.smooth.cubics import cubics
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.edge_sides import covered_sides, turn
 from vectorplot.visibility.smooth.events import Events, hopped, on_chord, once
-from vectorplot.visibility.smooth.sheet import Sheet, dot
+from vectorplot.visibility.smooth.sheet import Sheet
 from vectorplot.words import LineKind
 
 if TYPE_CHECKING:

@@ -8,7 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.visibility.smooth.family import Along, Chords, Family
 
 
@@ -40,7 +41,7 @@ class Curves:
     @cached_property
     def owner(self) -> Ints:
         """(n,) the curve of every point."""
-        return np.repeat(np.arange(len(self)), np.diff(self.offsets))
+        return ragged.owner(np.diff(self.offsets))
 
     @cached_property
     def chords(self) -> Ints:
@@ -86,8 +87,8 @@ class Curves:
     def some(self, which: Ints) -> Curves:
         """Some of the curves."""
         counts = np.diff(self.offsets)[which]
-        offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.intp)
-        index = np.arange(offsets[-1]) + np.repeat(self.offsets[which] - offsets[:-1], counts)
+        offsets = ragged.offsets(counts)
+        index = ragged.ranges(self.offsets[which], counts)
         return Curves(
             self.points[index],
             self.places[index],
@@ -106,12 +107,12 @@ def together(parts: Sequence[Curves]) -> Curves:
     """All the curves of all parts."""
     parts = [no_curves(), *parts]
     counts = np.concatenate([np.diff(p.offsets) for p in parts])
-    shift = np.cumsum([0, *(len(p.families) for p in parts[:-1])])
+    shift = ragged.starts([len(p.families) for p in parts])
     return Curves(
         np.concatenate([p.points for p in parts]),
         np.concatenate([p.places for p in parts]),
         np.concatenate([p.second_places for p in parts]),
-        np.concatenate([[0], np.cumsum(counts)]).astype(np.intp),
+        ragged.offsets(counts),
         np.concatenate([p.closed for p in parts]),
         np.concatenate([p.kind for p in parts]),
         np.concatenate([p.item for p in parts]),

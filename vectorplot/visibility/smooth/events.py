@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.visibility.smooth.curves import Curves
 
 SAME = 1e-6

@@ -7,12 +7,12 @@ from typing import Protocol
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.features.conditions import Condition
 from vectorplot.features.implicit_conditions import SpatialCondition
-from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.vectors import dot
 from vectorplot.visibility.smooth.implicit_sheet import ImplicitSheet
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
-from vectorplot.visibility.smooth.sheet import dot
 
 ROUNDS, RENEWED = 8, 4
 """Steps of Newton from a chord to its curve; the one at which slopes are computed anew."""

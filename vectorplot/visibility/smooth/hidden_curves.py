@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import Budget
-from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.chord_parts import ChordParts
 from vectorplot.visibility.smooth.crossings import crossings
@@ -80,8 +81,8 @@ def cut_curves(curves: Curves, found: HiddenCurves) -> tuple[Floats, Floats, Cho
     """The chords of all pieces, cut at events: start and end (c,3), which parts of chords, hidden_by (c,)."""
     pieces = found.pieces
     count = pieces.end_chord - pieces.begin_chord + 1
-    first = np.cumsum(count) - count
-    owner = np.repeat(np.arange(len(pieces)), count)
+    first = ragged.starts(count)
+    owner = ragged.owner(count)
     step = np.arange(len(owner)) - first[owner]
     chord = pieces.begin_chord[owner] + step
     start, end = curves.points[chord].copy(), curves.points[chord + 1].copy()

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.implicit_conditions import (
     ImplicitCentralContour,
@@ -24,7 +25,7 @@ from vectorplot.features.implicit_curves import (
     implicit_point_light_isophotes,
 )
 from vectorplot.features.implicit_tracing import ImplicitCurves, ImplicitTracing
-from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry import ragged
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
@@ -80,8 +81,8 @@ def as_spatial_curves(
     the points found, in the view's coordinates."""
     view = sheet.view
     counts = np.diff(found.offsets) + found.closed
-    offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.intp)
-    index = np.arange(offsets[-1]) - np.repeat(offsets[:-1] - found.offsets[:-1], counts)
+    offsets = ragged.offsets(counts)
+    index = ragged.ranges(found.offsets[:-1], counts)
     index[offsets[1:][found.closed] - 1] = found.offsets[:-1][found.closed]
     points = np.ascontiguousarray(view.points_of(found.points).T)[index]
     return Curves(

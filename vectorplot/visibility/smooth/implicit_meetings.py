@@ -6,13 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.features.conditions import ImplicitSection
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.implicit_conditions import MeetsImplicit
 from vectorplot.features.implicit_curves import implicit_intersection
 from vectorplot.features.implicit_mesh_section import implicit_mesh_section
 from vectorplot.features.sections import intersection
-from vectorplot.geometry.mesh import Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.family import Along, ConditionCurves, SpatialCurves
 from vectorplot.visibility.smooth.implicit_items import as_spatial_curves, tracing_in_world

@@ -6,13 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.polygonize import settled_mesh
-from vectorplot.geometry.mesh import Bools, Floats, Ints, Mesh
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.tolerance import ROUNDING
+from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.surfaces.placed import PlacedImplicit
 from vectorplot.surfaces.surface import ImplicitSurface
-from vectorplot.visibility.smooth.sheet import dot
 
 FEWEST, MOST = 48, 192
 """Cells along the longest side of the box on which a surface is polygonised, at least and at most."""

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.features.conditions import Slopes
-from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry.vectors import dot
 from vectorplot.visibility.smooth.family import (
     FARTHEST,
     ROUNDS,
@@ -21,7 +22,6 @@ from vectorplot.visibility.smooth.family import (
 )
 from vectorplot.visibility.smooth.implicit_sheet import ImplicitSheet
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
-from vectorplot.visibility.smooth.sheet import dot
 
 MISSED = 1e-6
 """Where the sheets, or the last two steps, are still apart by this part of a chord the sheets do not cross, but touch,

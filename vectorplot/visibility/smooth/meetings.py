@@ -7,12 +7,14 @@ from itertools import combinations
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.double_curves import DoubleCurves
 from vectorplot.features.mesh_section import mesh_section
 from vectorplot.features.self_intersection import self_intersections
 from vectorplot.features.surface_intersection import surface_intersection
-from vectorplot.geometry.mesh import Bools, Floats, Mesh
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.graph import is_graph
@@ -126,8 +128,8 @@ def _double(
 ) -> Curves:
     """Curves on two sheets, closed ones led back to their first point in whatever roles and periods it is there."""
     counts = np.diff(found.offsets) + found.closed
-    offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.intp)
-    index = np.arange(offsets[-1]) - np.repeat(offsets[:-1] - found.offsets[:-1], counts)
+    offsets = ragged.offsets(counts)
+    index = ragged.ranges(found.offsets[:-1], counts)
     back = offsets[1:][found.closed] - 1
     start = found.offsets[:-1][found.closed]
     index[back] = start

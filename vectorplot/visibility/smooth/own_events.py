@@ -6,14 +6,15 @@ from collections.abc import Callable
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.events import Events, all_events
 from vectorplot.visibility.smooth.family import Along
 from vectorplot.visibility.smooth.roots import roots_along
-from vectorplot.visibility.smooth.sheet import Sheet, dot
+from vectorplot.visibility.smooth.sheet import Sheet
 from vectorplot.words import LineKind
 
 EDGE_ON = 1e-9

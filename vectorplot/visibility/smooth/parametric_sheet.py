@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_tracing import wrapped
-from vectorplot.geometry.mesh import Bools, Floats, Ints
-from vectorplot.geometry.vectors import cross
+from vectorplot.geometry.vectors import cross, dot
 from vectorplot.surfaces.jumps import jumping_cells, jumps
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Domain, Surface
-from vectorplot.visibility.smooth.sheet import dot, solved
+from vectorplot.visibility.smooth.sheet import solved
 
 FEWEST, MOST = 32, 512
 """Cells of the tessellation in each direction, at least and at most."""

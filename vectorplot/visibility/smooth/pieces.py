@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
 from vectorplot.visibility.smooth.curves import Curves

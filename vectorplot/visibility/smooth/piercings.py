@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
 from vectorplot.visibility.smooth.blocks import Block, in_blocks
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.events import Events, all_events, hopped, on_chord, once
-from vectorplot.visibility.smooth.sheet import Sheet, dot
+from vectorplot.visibility.smooth.sheet import Sheet
 from vectorplot.visibility.smooth.targets import Target, inside, weights
 from vectorplot.visibility.smooth.unmet import unmet_stretches
 

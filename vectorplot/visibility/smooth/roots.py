@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.tolerance import ROUNDING
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.family import Along

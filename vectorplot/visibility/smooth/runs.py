@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Floats, Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
 from vectorplot.visibility.smooth.curves import Curves

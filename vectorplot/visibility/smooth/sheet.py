@@ -6,8 +6,8 @@ from typing import Protocol
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
-from vectorplot.geometry.vectors import cross
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.vectors import cross, dot
 
 
 class Sheet(Protocol):
@@ -83,11 +83,6 @@ class Sheet(Protocol):
     def on_sheet(self, places: Floats) -> Bools:
         """(k,) whether places lie in the domain."""
         ...
-
-
-def dot(a: Floats, b: Floats) -> Floats:
-    """(k,) scalar products of the rows."""
-    return np.asarray(np.einsum("ij,ij->i", a, b))
 
 
 def solved(a: Floats, b: Floats, c: Floats, right: Floats) -> Floats:

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Ints
 from vectorplot.geometry.budget import USUAL, Budget, unheard, unresolved
-from vectorplot.geometry.mesh import Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.lines import Lines
 from vectorplot.visibility.smooth.curves import Curves, together

@@ -6,16 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.parameter_lines import MISSED, PROBES
-from vectorplot.geometry.mesh import Bools, Floats
+from vectorplot.geometry import ragged
+from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.family import Along, Chords
 from vectorplot.visibility.smooth.meetings import SmoothSheet
 from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
-from vectorplot.visibility.smooth.sheet import dot
 from vectorplot.words import LineKind
 
 FIRST_CHORDS = 64
@@ -79,7 +80,7 @@ def space_curve(view: View, curve: Curve, item: int, sheets: tuple[SmoothSheet, 
         points[kept],
         places[kept],
         np.full((int(kept.sum()), 3), np.nan),
-        np.concatenate([[0], np.cumsum(counts[long])]).astype(np.intp),
+        ragged.offsets(counts[long]),
         np.full(many, curve.closed and bool(good.all())),
         np.full(many, int(LineKind.CURVE)),
         np.full(many, item, dtype=np.intp),

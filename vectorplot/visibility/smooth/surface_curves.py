@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.features.surface_curves import SurfaceCurves
-from vectorplot.geometry.mesh import Floats
+from vectorplot.geometry import ragged
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.family import ConditionCurves, ParameterCurves
 from vectorplot.visibility.smooth.meeting_families import FaceCurves
@@ -19,8 +20,8 @@ def as_curves(
 ) -> Curves:
     """Curves of a surface with closed ones led back to their first point; second_places (n,3) of the points found."""
     counts = np.diff(found.offsets) + found.closed
-    offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.intp)
-    index = np.arange(offsets[-1]) - np.repeat(offsets[:-1] - found.offsets[:-1], counts)
+    offsets = ragged.offsets(counts)
+    index = ragged.ranges(found.offsets[:-1], counts)
     back = offsets[1:][found.closed] - 1
     index[back] = found.offsets[:-1][found.closed]
     places = np.stack([found.u, found.v, np.zeros_like(found.u)], axis=1)[index]

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from vectorplot.geometry.mesh import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth import projection
-from vectorplot.visibility.smooth.sheet import Sheet, dot
+from vectorplot.visibility.smooth.sheet import Sheet
 
 if TYPE_CHECKING:
     import shapely

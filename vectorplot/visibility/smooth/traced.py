@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.curve import is_curve
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.geometry.budget import USUAL, Budget, in_one_line, unheard
-from vectorplot.geometry.mesh import Bools, Floats
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.surface import is_implicit, is_parametrised

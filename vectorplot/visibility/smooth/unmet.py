@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.arrays import Floats, Ints
 from vectorplot.exact import intervals
-from vectorplot.geometry.mesh import Floats, Ints
 from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.events import Events
 

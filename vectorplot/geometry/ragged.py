@@ -1,0 +1,85 @@
+"""Arrays of groups of different lengths: one array of elements, group after group, and the offsets between them.
+
+offsets (g+1,): group i holds the elements offsets[i] to offsets[i+1]; sizes (g,) are their differences. Polygons are
+groups of corners, polylines groups of points, the neighbours of a cell groups of indices.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Ints
+
+Sizes = Ints | Bools | Sequence[int]
+"""How many elements each group has; a mask counts as groups of one or none."""
+
+
+def offsets(sizes: Sizes) -> Ints:
+    """(g+1,) where each of consecutive groups of these sizes begins, and where the last one ends.
+
+    Of a mask: how many elements are kept before each one, and in all.
+    """
+    result = np.zeros(len(sizes) + 1, dtype=np.intp)
+    np.cumsum(sizes, out=result[1:])
+    return result
+
+
+def starts(sizes: Sizes) -> Ints:
+    """(g,) where each of consecutive groups of these sizes begins."""
+    return offsets(sizes)[:-1]
+
+
+def owner(sizes: Sizes) -> Ints:
+    """(n,) the group every element belongs to: 0 as often as the first size says, and so on."""
+    return np.repeat(np.arange(len(sizes)), sizes)
+
+
+def place(sizes: Ints) -> Ints:
+    """(n,) how many elements of its group stand before each element: 0, 1, ... in every group."""
+    return np.arange(sizes.sum(), dtype=np.intp) - np.repeat(starts(sizes), sizes)
+
+
+def ranges(first: Ints, sizes: Ints) -> Ints:
+    """(n,) the indices first[i], first[i] + 1, ... (sizes[i] of them), range after range."""
+    return np.arange(sizes.sum(), dtype=np.intp) + np.repeat(first - starts(sizes), sizes)
+
+
+def take(offsets_: Ints, which: Ints | Bools) -> tuple[Ints, Ints]:
+    """The elements of some groups, in the order given, and the offsets of these groups among themselves.
+
+    which: indices (w,) of groups, as often as named; or a mask (g,).
+    """
+    chosen = np.flatnonzero(which) if which.dtype == np.bool_ else which
+    sizes = offsets_[chosen + 1] - offsets_[chosen]
+    return ranges(offsets_[chosen], sizes), offsets(sizes)
+
+
+def following(offsets_: Ints) -> Ints:
+    """(n,) the element after each in its group; the first one follows the last."""
+    result = np.arange(1, int(offsets_[-1]) + 1)
+    filled = offsets_[1:] > offsets_[:-1]
+    result[offsets_[1:][filled] - 1] = offsets_[:-1][filled]
+    return result
+
+
+def preceding(offsets_: Ints) -> Ints:
+    """(n,) the element before each in its group; the last one precedes the first."""
+    result = np.arange(-1, int(offsets_[-1]) - 1)
+    filled = offsets_[1:] > offsets_[:-1]
+    result[offsets_[:-1][filled]] = offsets_[1:][filled] - 1
+    return result
+
+
+def fans(offsets_: Ints) -> tuple[Ints, Ints]:
+    """Triangles (t,3) of elements that fan out from the first one of each group, and (t,) the group of each.
+
+    Groups of fewer than three elements have none.
+    """
+    sizes = np.diff(offsets_)
+    if (sizes == 3).all():
+        return np.arange(3 * len(sizes)).reshape(-1, 3), np.arange(len(sizes))
+    count = np.maximum(sizes - 2, 0)
+    first, step = np.repeat(offsets_[:-1], count), place(count)
+    return np.stack([first, first + step + 1, first + step + 2], axis=1), owner(count)
