@@ -9,6 +9,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+from support.paths import ROOT
 
 import vectorplot as vp
 from vectorplot.cli.draw import draw
@@ -17,7 +18,6 @@ from vectorplot.cli.main import run
 from vectorplot.cli.paint import paint
 from vectorplot.cli.render import render
 
-ROOT = Path(__file__).resolve().parent.parent
 DOCS = ROOT / "docs"
 PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("*/*.md"))]
 

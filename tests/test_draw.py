@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from support.paths import DATA, MODELS
 
 from vectorplot.draw import default_camera, draw
 from vectorplot.drawing.drawing import Drawing, Paths
@@ -21,7 +21,6 @@ from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, e
 from vectorplot.testing.shapes import box, rotated_boxes
 from vectorplot.words import LineKind
 
-DATA = Path(__file__).resolve().parent.parent / "data"
 CUBE = Scene((Item("cube", box((-1, -1, -1), (1, 1, 1)), colour="blue"),))
 CAMERAS = [
     Camera((6.0, -8.0, 5.0)),
@@ -247,7 +246,7 @@ def test_sizes_whose_products_leave_the_range_of_numbers_are_an_error(size: floa
 
 
 def model_files() -> list[Path]:
-    folder = Path(os.environ.get("VECTORPLOT_MODELS", DATA.parent.parent / "shared" / "models"))
+    folder = MODELS
     return sorted(folder.glob("*.obj"))
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from scipy.ndimage import grey_dilation
+from support.paths import DATA
 
 import vectorplot as vp
 from vectorplot.arrays import Floats
@@ -21,7 +22,7 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.scene.scene import Scene
 from vectorplot.words import LINE_WORDS
 
-SCENES = sorted((Path(__file__).resolve().parent.parent / "data").glob("*.scene"))
+SCENES = sorted(DATA.glob("*.scene"))
 PAGE, PEN, DPI = vp.Page(120.0, 90.0, 5.0), Pen(0.3), 100.0
 ROUGH = 0.1
 """Tolerance in mm: lines and facets are off by a fifth of a pixel."""

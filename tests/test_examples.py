@@ -10,16 +10,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from svg_fills import area, painted_by_layer
-from svg_strokes import SVG, strokes_by_layer
+from support.paths import ROOT
+from support.svg_fills import area, painted_by_layer
+from support.svg_strokes import SVG, strokes_by_layer
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind
 from vectorplot.plan import plan_draw, plan_paint
 from vectorplot.testing import assert_drawing_is_right, edge_points
 from vectorplot.words import DRAWN
-
-ROOT = Path(__file__).resolve().parent.parent
 
 
 def gallery_module():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from drawn import drawn
+from support.drawn import drawn
 
 import vectorplot as vp
 from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, edge_points

@@ -14,14 +14,14 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from fuzz_oracle import cpu_seconds, finding
+from fuzz.fuzz_oracle import cpu_seconds, finding
+from support.paths import PACKAGE
 
 from vectorplot.cli.main import run
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.glb import read_glb
 from vectorplot.io.read import read
 
-PACKAGE = Path(__file__).parents[1] / "vectorplot"
 STEERING = ("\x1b[31mred\x1b[0m", "\x9b2J", "\u202egnp.exe", "\u2066x\u2069", "a\rb", "\x07", "\u2028", "\udc80")
 """What would colour a terminal, wipe it, turn its text round, go back on its line, or ring."""
 

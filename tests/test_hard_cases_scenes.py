@@ -5,11 +5,11 @@ from __future__ import annotations
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
-from drawn import EVERY_EDGE, drawn, moved, on_page, plate, stroke_count
+from support.drawn import EVERY_EDGE, drawn, moved, on_page, plate, stroke_count
+from support.paths import TESTS
 
 import vectorplot as vp
 from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, edge_points
@@ -248,7 +248,7 @@ from vectorplot.plan import peak_mb
 from vectorplot.testing import visible_by_rays
 from vectorplot.testing.surfaces import grid_graph
 sys.path.insert(0, sys.argv[1])
-from drawn import drawn, on_page
+from support.drawn import drawn, on_page
 mesh = grid_graph(710)
 assert mesh.face_count > 1_000_000
 scene = vp.Scene((vp.Item("GRAPH", mesh),))
@@ -277,7 +277,7 @@ print(peak, peak - before, sure.sum(), wrong.sum(), (lines.hidden_by[which][sure
 
 @pytest.mark.hard(27)
 def test_a_million_triangles_stay_below_a_ceiling_and_agree_with_rays() -> None:
-    here = Path(__file__).parent / "drawing"
+    here = TESTS
     result = subprocess.run([sys.executable, "-c", MILLION, str(here)], capture_output=True, text=True, timeout=60)
     assert result.returncode == 0, result.stderr
     peak, grown, sure, wrong, hidden = map(float, result.stdout.split())

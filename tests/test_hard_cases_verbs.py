@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from picture_rays import compared
-from pixel_rays import first_triangles, pixel_rays
-from shaded_scenes import triangles_of
+from support.picture_rays import compared
+from support.pixel_rays import first_triangles, pixel_rays
+from support.shaded_scenes import triangles_of
 
 import vectorplot as vp
 from vectorplot.arrays import Floats

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from drawn import EVERY_EDGE, drawn, moved, on_page, plate, stroke_count
+from support.drawn import EVERY_EDGE, drawn, moved, on_page, plate, stroke_count
 
 import vectorplot as vp
 from vectorplot.exact.predicates import orient3d

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from strewn import STREWN
-from top_fills import assert_same_picture, blended, colours_at, covering, fills_of, top_at
+from support.strewn import STREWN
+from support.top_fills import assert_same_picture, blended, colours_at, covering, fills_of, top_at
 
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Drawing

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from picture_rays import COLUMNS, EDGE, PAGE, ROWS, compared, random_camera, random_lights
-from scene_rays import clear_of_edges, faces_of, page_rays
-from strewn import STREWN, placed
-from top_fills import covering, fills_of, pixel_places
+from support.picture_rays import COLUMNS, EDGE, PAGE, ROWS, compared, random_camera, random_lights
+from support.scene_rays import clear_of_edges, faces_of, page_rays
+from support.strewn import STREWN, placed
+from support.top_fills import covering, fills_of, pixel_places
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.fills import Fills

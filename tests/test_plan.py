@@ -5,10 +5,10 @@ from __future__ import annotations
 import subprocess
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from support.paths import DATA
 
 from vectorplot.geometry.camera import Camera
 from vectorplot.io.read import read
@@ -18,7 +18,6 @@ from vectorplot.scene.scene import Item, Light, Material, Pattern, Scene
 from vectorplot.surfaces.ellipsoid import Sphere
 from vectorplot.testing.shapes import box
 
-DATA = Path(__file__).resolve().parent.parent / "data"
 PLAIN = ["look", "faces", "order", "shades", "fills"]
 CUBE = Item("CUBE", box((-1, -1, -1), (1, 1, 1)), "blue")
 SUN = Light((2.0, -3.0, 4.0), parallel=True)

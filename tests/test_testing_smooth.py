@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from analytic_sight import sheets_in_front
-from torus_runs import contour_of, isophotes_of, parameter_lines, runs_of
+from support.analytic_sight import sheets_in_front
+from support.torus_runs import contour_of, isophotes_of, parameter_lines, runs_of
 
 from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Curves, Drawing, Paths

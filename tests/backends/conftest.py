@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from backend_samples import drawing_of, paths_of
+from support.backend_samples import drawing_of, paths_of
 
 from vectorplot.drawing.drawing import Drawing, Paths
 

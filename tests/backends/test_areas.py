@@ -3,9 +3,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
-from fill_samples import fan, flat, shaded
 from hypothesis import given
 from hypothesis import strategies as st
+from support.fill_samples import fan, flat, shaded
 
 from vectorplot.backends.areas import RUN_LENGTH, areas
 from vectorplot.backends.strips import SHADE_ERROR, nearly_flat

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from backend_samples import drawing_of, grey_of_png, paths_of, program, run
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.backend_samples import drawing_of, grey_of_png, paths_of, program, run
 
 from vectorplot.backends.cairo import eps_bytes, pdf_bytes, png_bytes, ps_bytes
 from vectorplot.drawing.drawing import Pen

@@ -10,7 +10,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-from backend_samples import DPI, assert_same_picture, drawing_of, grey_of_pgm, grey_of_png, missing, paths_of, run
+from support.backend_samples import (
+    DPI,
+    assert_same_picture,
+    drawing_of,
+    grey_of_pgm,
+    grey_of_png,
+    missing,
+    paths_of,
+    run,
+)
 
 from vectorplot.backends.cairo import png_bytes
 from vectorplot.backends.svg import svg_bytes

@@ -10,9 +10,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-from backend_samples import paths_of, run
-from fill_samples import colour_at, fan, flat, page_of, pictures, rgb, shaded
-from svg_fills import HREF, points_of
+from support.backend_samples import paths_of, run
+from support.fill_samples import colour_at, fan, flat, page_of, pictures, rgb, shaded
+from support.svg_fills import HREF, points_of
 
 from vectorplot.backends.cairo import eps_bytes, png_bytes, ps_bytes
 from vectorplot.backends.json_file import json_bytes, read_drawing

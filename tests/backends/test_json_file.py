@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from backend_samples import drawing_of, paths_of
+from support.backend_samples import drawing_of, paths_of
 
 from vectorplot.backends.json_file import json_bytes, read_drawing
 from vectorplot.drawing.drawing import Paths

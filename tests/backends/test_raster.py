@@ -6,7 +6,7 @@ import io
 
 import numpy as np
 import pytest
-from backend_samples import drawing_of, paths_of
+from support.backend_samples import drawing_of, paths_of
 
 from vectorplot.backends import cairo
 from vectorplot.backends.raster import painted, png_bytes

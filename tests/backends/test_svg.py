@@ -6,9 +6,9 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
-from backend_samples import drawing_of, paths_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.backend_samples import drawing_of, paths_of
 
 from vectorplot.backends.svg import svg_bytes, svg_text
 from vectorplot.backends.svg_numbers import millimetres

@@ -7,9 +7,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import shapely
-from fill_samples import colour_at, fan, flat, page_of, pictures, shaded
 from hypothesis import given
 from hypothesis import strategies as st
+from support.fill_samples import colour_at, fan, flat, page_of, pictures, shaded
 
 import vectorplot as vp
 from vectorplot.backends.areas import areas

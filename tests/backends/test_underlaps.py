@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import shapely
-from fill_samples import fan, flat, page_of, shaded
+from support.fill_samples import fan, flat, page_of, shaded
 
 from vectorplot.backends.areas import areas
 from vectorplot.backends.cairo import pdf_bytes, ps_bytes

@@ -1,13 +1,13 @@
 """What the command does with smooth curves."""
 
 import json
-from pathlib import Path
 
 import numpy as np
+from support.paths import DATA
 
 from vectorplot.cli.main import run
 
-TORUS = Path(__file__).parents[2] / "data" / "torus.scene"
+TORUS = DATA / "torus.scene"
 
 
 def drawn(tmp_path, name, *options):

@@ -11,14 +11,13 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+from support.paths import ROOT
 
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.cli.stopping import stoppable
 from vectorplot.plan import Walk
 from vectorplot.save import write
-
-ROOT = Path(__file__).resolve().parents[2]
 
 SCENE = """
 light LAMP position 4 -6 9

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import shapely
-from sample_paths import lines_of, polylines
+from support.sample_paths import lines_of, polylines
 
 from vectorplot.curves.bezier import bezier_points, bezier_tangents
 from vectorplot.drawing.curves import one_mark, with_curves

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sample_paths import canonical, farthest_from, length_mm, pieces, samples_of, segments_of
+from support.sample_paths import canonical, farthest_from, length_mm, pieces, samples_of, segments_of
 
 from vectorplot.drawing.duplicates import without_duplicates
 from vectorplot.drawing.pieces import chosen

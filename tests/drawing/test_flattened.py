@@ -122,8 +122,8 @@ def floor(height: float, count: int = 10) -> Mesh:
 @pytest.mark.parametrize("opacity", [1.0, 0.5])
 @pytest.mark.parametrize("height", [0.0, 0.4])
 def test_no_light_between_faces_in_the_shadow(height: float, opacity: float) -> None:
-    from backend_samples import grey_of_png
     from scipy.ndimage import maximum_filter, minimum_filter
+    from support.backend_samples import grey_of_png
 
     material = Material("transparent", opacity) if opacity < 1.0 else Material()
     roof = Item("ROOF", box((-2.2, -2.2, 3.0), (2.2, 2.2, 3.3)), material=material)

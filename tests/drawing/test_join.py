@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sample_paths import canonical, length_mm, lines_of, pieces, polylines
+from support.sample_paths import canonical, length_mm, lines_of, pieces, polylines
 
 from vectorplot.drawing.join import joined
 from vectorplot.drawing.pieces import chosen

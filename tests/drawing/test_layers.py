@@ -1,5 +1,5 @@
 import numpy as np
-from sample_paths import pieces
+from support.sample_paths import pieces
 
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.layers import layers_by_colour, layers_by_kind, layers_by_object

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
-from backend_samples import grey_of_png
 from scipy.ndimage import maximum_filter, minimum_filter
+from support.backend_samples import grey_of_png
 
 import vectorplot as vp
 from vectorplot.backends.cairo import png_bytes

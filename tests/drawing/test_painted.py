@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 import shapely
+from support.paths import DATA
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind, Fills
@@ -17,8 +17,6 @@ from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.painter.framing import framed_faces
 from vectorplot.visibility.painter.order import painters_order
-
-DATA = Path(__file__).resolve().parents[2] / "data"
 
 
 def triangles(count: int, item: int) -> Fills:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sample_paths import pieces, polylines
+from support.sample_paths import pieces, polylines
 
 from vectorplot.drawing.pen_order import pen_ordered, travel_mm
 from vectorplot.drawing.pieces import chosen

@@ -1,7 +1,7 @@
 """What a stroke is stays with its pieces: whether it samples a smooth curve."""
 
 import numpy as np
-from sample_paths import polylines
+from support.sample_paths import polylines
 
 from vectorplot.drawing.clip import clipped
 from vectorplot.drawing.dashes import dashed

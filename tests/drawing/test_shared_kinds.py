@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from drawn import drawn
+from support.drawn import drawn
 
 import vectorplot as vp
 from vectorplot.geometry.mesh import Mesh

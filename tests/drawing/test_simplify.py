@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sample_paths import farthest_from, length_mm, lines_of, polylines, segments_of
+from support.sample_paths import farthest_from, length_mm, lines_of, polylines, segments_of
 
 from vectorplot.drawing.simplify import without_collinear_points
 

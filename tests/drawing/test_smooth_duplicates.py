@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from sample_paths import length_mm, polylines
+from support.sample_paths import length_mm, polylines
 
 from vectorplot.drawing.pieces import chosen, concatenated
 from vectorplot.drawing.smooth_duplicates import without_smooth_duplicates

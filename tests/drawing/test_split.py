@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sample_paths import length_mm, lines_of, polylines
+from support.sample_paths import length_mm, lines_of, polylines
 
 from vectorplot.drawing.split import split_long
 from vectorplot.errors import InputError

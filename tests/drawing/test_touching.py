@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sample_paths import pieces
+from support.sample_paths import pieces
 
 from vectorplot.drawing.pen_order import pen_ordered, travel_mm
 from vectorplot.drawing.touching import trails

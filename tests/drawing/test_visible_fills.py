@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 import shapely
+from support.paths import DATA
 
 import vectorplot as vp
 from vectorplot.drawing.fills import Fills
@@ -14,7 +13,6 @@ from vectorplot.drawing.visible_fills import visible_fills
 from vectorplot.geometry.regions import polygons_of
 from vectorplot.paint import paint
 
-DATA = Path(__file__).resolve().parents[2] / "data"
 FLAT = np.array([[1.0, 0, 0, 0], [0, 1.0, 0, 0], [0, 0, 1.0, 0], [0, 0, 0, 1.0]])
 
 

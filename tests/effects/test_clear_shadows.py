@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from blocked_lights import face_points, highest_grade
+from support.blocked_lights import face_points, highest_grade
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind

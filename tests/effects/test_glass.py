@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 import shapely
-from seen_rays import first_hits, sight_rays, topmost, triangles
+from support.seen_rays import first_hits, sight_rays, topmost, triangles
 
 from vectorplot.effects.decals import Decals
 from vectorplot.effects.glass import refracting_items, seen_in_glass

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import shapely
+from support.paths import DATA
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind
@@ -17,7 +16,6 @@ from vectorplot.scene.scene import Item, Light, Material, Scene
 from vectorplot.shading.palettes import palette
 from vectorplot.testing.shapes import box
 
-DATA = Path(__file__).resolve().parents[2] / "data"
 SUN = Light((-1.0, -2.0, 4.0), parallel=True, intensity=0.8)
 ABOVE = Camera((0.0, 0.0, 10.0), up=(0.0, 1.0, 0.0), parallel=True, height=8.0)
 

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from seen_rays import topmost
+from support.seen_rays import topmost
 
 from vectorplot.effects.decals import joined_decals, no_decals
 from vectorplot.effects.laying import laid

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from seen_rays import first_hits, topmost, triangles
+from support.seen_rays import first_hits, topmost, triangles
 
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.mirror_lights import MIRRORED_SHARE, LightDouble, light_doubles, mirror_light

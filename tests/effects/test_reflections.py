@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from seen_rays import first_hits, sight_rays, topmost, triangles
+from support.seen_rays import first_hits, sight_rays, topmost, triangles
 
 from vectorplot.effects.reflections import Mirrors, mirrored_view, mirrors, originals, reflections
 from vectorplot.effects.windows import SeenThrough

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from blocked_lights import FacePoints, face_points, highest_grade
+from support.blocked_lights import FacePoints, face_points, highest_grade
 
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals import joined_decals

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from blocked_lights import wrong_points
+from support.blocked_lights import wrong_points
 
 import vectorplot.effects.shadow_grades as grades
 from vectorplot.drawing.fills import FillKind

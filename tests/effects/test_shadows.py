@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from blocked_lights import blocked, face_points, scene_triangles, wrong_points
+from support.blocked_lights import blocked, face_points, scene_triangles, wrong_points
 
 from vectorplot.arrays import Floats
 from vectorplot.effects.light_system import FacePlanes, light_system

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from top_fills import colours_at, fills_of, top_at
+from support.top_fills import colours_at, fills_of, top_at
 
 import vectorplot as vp
 from vectorplot.paint import PAPER

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from blocked_lights import wrong_points
+from support.blocked_lights import wrong_points
 
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals import Decals, no_decals

@@ -4,7 +4,7 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from drawn import drawn
+from support.drawn import drawn
 
 from vectorplot.draw import draw
 from vectorplot.features.edges import Edges, Faces, mesh_edges

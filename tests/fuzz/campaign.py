@@ -26,7 +26,7 @@ from tempfile import TemporaryDirectory
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from fuzz_oracle import TARGETS, Finding, attack, attacks, judged
+from fuzz.fuzz_oracle import TARGETS, Finding, attack, attacks, judged
 
 MEMORY_BYTES = 3 << 30
 """A campaign gets no more memory than this; what needs more is a finding."""

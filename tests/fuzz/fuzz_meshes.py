@@ -9,7 +9,7 @@ from copy import deepcopy
 from random import Random
 from typing import Any
 
-from fuzz_words import HOSTILE, NAMES, changed_bytes, changed_words, number, one, repeated, whole
+from fuzz.fuzz_words import HOSTILE, NAMES, changed_bytes, changed_words, number, one, repeated, whole
 
 
 def obj_file(rng: Random) -> bytes:

@@ -15,8 +15,8 @@ from random import Random
 from tempfile import TemporaryDirectory
 from types import FrameType
 
-from fuzz_meshes import MESHES, mesh_bytes
-from fuzz_scenes import formula_text, scene_bytes
+from fuzz.fuzz_meshes import MESHES, mesh_bytes
+from fuzz.fuzz_scenes import formula_text, scene_bytes
 
 import vectorplot as vp
 from vectorplot.errors import InputError, InputWarning

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from random import Random
 
-from fuzz_words import HOSTILE, NAMES, changed_bytes, changed_words, number, one, repeated, whole
+from fuzz.fuzz_words import HOSTILE, NAMES, changed_bytes, changed_words, number, one, repeated, whole
 
 from vectorplot.io.expression_parser import CONSTANTS, FUNCTIONS
 from vectorplot.io.scene_families import CURVES, SURFACES

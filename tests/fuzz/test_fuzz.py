@@ -9,9 +9,9 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from fuzz_meshes import MESHES, mesh_bytes
-from fuzz_oracle import TARGETS, VERBS, attack, finding, judged
-from fuzz_scenes import formula_text, scene_bytes
+from fuzz.fuzz_meshes import MESHES, mesh_bytes
+from fuzz.fuzz_oracle import TARGETS, VERBS, attack, finding, judged
+from fuzz.fuzz_scenes import formula_text, scene_bytes
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from support.paths import DATA
 
 from vectorplot.geometry.adjacency import (
     NO_FACE,
@@ -26,8 +26,6 @@ from vectorplot.shading.face_shades import face_middles, face_normals, face_shad
 from vectorplot.visibility.painter.face_pairs import BEHIND, IN_FRONT
 from vectorplot.visibility.painter.priorities import priorities, view_objects, wholly_hidden
 from vectorplot.words import MATERIALS, check_colour
-
-DATA = Path(__file__).parents[2] / "data"
 
 VERTICES = [
     [2, 0, 0], [1, 2, 0], [-1, 2, 0], [-2, 0, 0], [-1, -2, 0], [1, -2, 0],

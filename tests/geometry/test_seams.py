@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import trimesh
-from drawn import drawn
+from support.drawn import drawn
 
 import vectorplot as vp
 from vectorplot.features.grid_triangulation import mesh_of_grid

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
-from fuzz_meshes import random_tree
+from fuzz.fuzz_meshes import random_tree
 
 from vectorplot.errors import InputError
 from vectorplot.io.glb import read_glb

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from fuzz_oracle import cpu_seconds, finding
+from fuzz.fuzz_oracle import cpu_seconds, finding
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.weld import close_points

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.paths import DATA, DOCS
 
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.adjacency import body_record
@@ -21,8 +21,6 @@ from vectorplot.io.scene_language import parse_scene, read_scene
 from vectorplot.io.scene_reserved import RESERVED
 from vectorplot.scene.scene import Light, Page
 from vectorplot.words import PALETTES
-
-DATA = Path(__file__).parents[2] / "data"
 
 PYRAMID = """PYRAMID metallic gray convex hollow
 vertices
@@ -513,7 +511,7 @@ def test_torn_texts_raise_input_errors_only(data):
         assert error.line is not None
 
 
-DOCUMENTED = (Path(__file__).parents[2] / "docs" / "scene-language.md").read_text().split("```")[1::2]
+DOCUMENTED = (DOCS / "scene-language.md").read_text().split("```")[1::2]
 
 
 @pytest.mark.capability("G3.0-language")
@@ -527,6 +525,6 @@ def test_the_examples_of_the_documentation_are_scenes():
 
 @pytest.mark.capability("G3.0-language")
 def test_every_word_of_the_language_is_documented():
-    text = (Path(__file__).parents[2] / "docs" / "scene-language.md").read_text()
+    text = (DOCS / "scene-language.md").read_text()
     words = RESERVED - {c for p in PALETTES for c in ("light" + p, "dark" + p)}
     assert not [word for word in sorted(words) if f"`{word}`" not in text and f'"{word}"' not in text]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from sample_surfaces import FAMILIES, same_surface
+from support.sample_surfaces import FAMILIES, same_surface
 
 from vectorplot.curves.helix import Helix
 from vectorplot.curves.line import Line

@@ -6,7 +6,7 @@ import time
 
 import numpy as np
 import pytest
-from sample_surfaces import FAMILIES, same_surface
+from support.sample_surfaces import FAMILIES, same_surface
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh

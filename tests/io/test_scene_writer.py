@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.paths import DATA
 
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
@@ -19,8 +18,6 @@ from vectorplot.io.scene_surface_writer import curve_text, surface_text
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
 from vectorplot.words import COLOURS, MATERIALS
-
-DATA = Path(__file__).parents[2] / "data"
 
 
 def words(shape):

@@ -1,9 +1,8 @@
 """The pools of scenes: every point, edge and face once, found by index, whatever is added behind them."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from support.paths import DATA
 
 import vectorplot as vp
 from vectorplot.cli.main import run
@@ -13,7 +12,7 @@ from vectorplot.scene.pools import pools
 from vectorplot.surfaces.torus import Torus
 from vectorplot.testing.shapes import box, hard_shapes
 
-FILES = sorted((Path(__file__).parents[2] / "data").glob("*.scene"))
+FILES = sorted(DATA.glob("*.scene"))
 
 
 @pytest.mark.capability("G3.1-pools")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from pixel_rays import pixel_rays
-from shaded_scenes import COLUMNS, ROWS, camera_of, sample
+from support.pixel_rays import pixel_rays
+from support.shaded_scenes import COLUMNS, ROWS, camera_of, sample
 
 from vectorplot.errors import InputError
 from vectorplot.shading.barycentrics import visible_points

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from shaded_scenes import triangles_of
+from support.shaded_scenes import triangles_of
 
 from vectorplot.shading.corner_normals import corner_normals, face_normals, unit
 from vectorplot.testing.shapes import box

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from pixel_rays import beside_edges, first_triangles, pixel_rays
-from shaded_scenes import COLUMNS, ROWS, camera_of, floor, sample, triangles_of
+from support.pixel_rays import beside_edges, first_triangles, pixel_rays
+from support.shaded_scenes import COLUMNS, ROWS, camera_of, floor, sample, triangles_of
 
 from vectorplot.draw import default_camera
 from vectorplot.errors import InputError

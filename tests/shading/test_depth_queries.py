@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from pixel_rays import beside_edges, intersector
-from shaded_scenes import COLUMNS, ROWS, camera_of, floor, sample, triangles_of
+from support.pixel_rays import beside_edges, intersector
+from support.shaded_scenes import COLUMNS, ROWS, camera_of, floor, sample, triangles_of
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera

@@ -5,7 +5,7 @@ from functools import reduce
 
 import numpy as np
 import pytest
-from backend_samples import grey_of_pgm, run
+from support.backend_samples import grey_of_pgm, run
 
 import vectorplot as vp
 from vectorplot.backends.areas import Areas

@@ -111,7 +111,7 @@ def test_both_verbs_have_the_same_normals() -> None:
 
 @pytest.mark.parametrize("kind", ["prism", "floor"])
 def test_paint_and_render_agree_on_round_meshes_and_floors_near_a_lamp(kind: str) -> None:
-    from backend_samples import grey_of_png
+    from support.backend_samples import grey_of_png
 
     from vectorplot.backends.cairo import png_bytes
 

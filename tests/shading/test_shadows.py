@@ -6,8 +6,19 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from pixel_rays import stopped
-from shaded_scenes import COLUMNS, FIELD_CAMERA, ROWS, box, camera_of, field, floor, sample, triangles_of, visible
+from support.pixel_rays import stopped
+from support.shaded_scenes import (
+    COLUMNS,
+    FIELD_CAMERA,
+    ROWS,
+    box,
+    camera_of,
+    field,
+    floor,
+    sample,
+    triangles_of,
+    visible,
+)
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera

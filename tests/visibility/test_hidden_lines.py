@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from seen import EVERY_EDGE, Seen, seen, wrong_samples
+from support.seen import EVERY_EDGE, Seen, seen, wrong_samples
 
 from vectorplot.geometry.camera import Camera
 from vectorplot.scene.scene import Item, Scene

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from smooth_scenes import lit, ring, views
-from smooth_seen import Chords, chords_seen
+from support.smooth_scenes import lit, ring, views
+from support.smooth_seen import Chords, chords_seen
 
 from vectorplot.draw import draw
 from vectorplot.errors import InputError

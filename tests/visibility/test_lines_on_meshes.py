@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from smooth_scenes import lit, views
+from support.smooth_scenes import lit, views
 
 from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Curves, Drawing

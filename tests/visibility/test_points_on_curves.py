@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from smooth_scenes import mixed_scenes, views
+from support.smooth_scenes import mixed_scenes, views
 
 from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing

@@ -6,10 +6,10 @@ import warnings
 
 import numpy as np
 import pytest
-from dense_rays import DenseRays
-from drawn import drawn
-from singular_scenes import eyes, lines_through, singular_surfaces, turned
-from smooth_seen import chords_seen
+from support.dense_rays import DenseRays
+from support.drawn import drawn
+from support.singular_scenes import eyes, lines_through, singular_surfaces, turned
+from support.smooth_seen import chords_seen
 
 from vectorplot.curves.line import Line
 from vectorplot.draw import draw

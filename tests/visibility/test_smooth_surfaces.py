@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from analytic_sight import sheets_in_front
-from smooth_scenes import few, implicit_surfaces, mixed_scenes, single_surfaces, special_views, views
-from smooth_seen import Chords, chords_seen
+from support.analytic_sight import sheets_in_front
+from support.smooth_scenes import few, implicit_surfaces, mixed_scenes, single_surfaces, special_views, views
+from support.smooth_seen import Chords, chords_seen
 
 from vectorplot.draw import draw
 from vectorplot.errors import InputWarning

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from smooth_scenes import COSINES, LIGHT, lit, ring, views
-from smooth_seen import chords_seen
-from torus_runs import Run, TorusCurve, contour_of, drawn_runs, isophotes_of, parameter_lines, runs_of
+from support.smooth_scenes import COSINES, LIGHT, lit, ring, views
+from support.smooth_seen import chords_seen
+from support.torus_runs import Run, TorusCurve, contour_of, drawn_runs, isophotes_of, parameter_lines, runs_of
 
 from vectorplot.geometry.camera import Camera
 from vectorplot.surfaces.torus import Torus

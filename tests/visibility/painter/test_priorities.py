@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from painted import nearest, sample_points, top_polygon
-from strewn import STREWN, placed
+from support.painted import nearest, sample_points, top_polygon
+from support.strewn import STREWN, placed
 
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.camera import Camera

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from painted import SAME_DEPTH, heights_on, nearest, sample_points, top_polygon
-from strewn import placed
+from support.painted import SAME_DEPTH, heights_on, nearest, sample_points, top_polygon
+from support.strewn import placed
 
 import vectorplot as vp
 from vectorplot.errors import InputError

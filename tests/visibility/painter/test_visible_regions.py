@@ -7,8 +7,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import shapely
-from painted import NEAR_EDGE, SAME_DEPTH, heights_on, nearest, sample_points
-from strewn import STREWN
+from support.painted import NEAR_EDGE, SAME_DEPTH, heights_on, nearest, sample_points
+from support.strewn import STREWN
 
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh

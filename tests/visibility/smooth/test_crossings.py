@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from smooth_parts import around, ball_from_above, polylines
+from support.smooth_parts import around, ball_from_above, polylines
 
 from vectorplot.geometry.budget import USUAL
 from vectorplot.visibility.smooth.crossings import crossings

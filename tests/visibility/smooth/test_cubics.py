@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from smooth_parts import ball_from_above, polylines
+from support.smooth_parts import ball_from_above, polylines
 
 from vectorplot.visibility.smooth.cubics import Cubics, cubics
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from smooth_parts import ball_from_above
+from support.smooth_parts import ball_from_above
 
 from vectorplot.visibility.smooth.edge_sides import covered_sides, turn
 from vectorplot.words import LineKind

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from smooth_parts import around, ball_from_above, polylines
+from support.smooth_parts import around, ball_from_above, polylines
 
 from vectorplot.geometry.camera import Camera
 from vectorplot.scene.scene import Item, Scene

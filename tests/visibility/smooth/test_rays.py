@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from smooth_parts import ball_from_above
+from support.smooth_parts import ball_from_above
 
 from vectorplot.geometry.budget import USUAL
 from vectorplot.visibility.smooth.rays import Samples, counts_in_front

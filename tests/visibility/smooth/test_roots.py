@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from smooth_parts import polylines
+from support.smooth_parts import polylines
 
 from vectorplot.visibility.smooth.roots import roots_along
 

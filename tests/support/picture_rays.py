@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scene_rays import ABOVE, GRAZING, Faces, clear_of_edges, faces_of, lacking, page_rays
-from top_fills import colours_at, covering, fills_of, last_at, pixel_places
 
+from support.scene_rays import ABOVE, GRAZING, Faces, clear_of_edges, faces_of, lacking, page_rays
+from support.top_fills import colours_at, covering, fills_of, last_at, pixel_places
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import FillKind

@@ -5,9 +5,9 @@ from __future__ import annotations
 import io
 
 import numpy as np
-from backend_samples import run
 from PIL import Image
 
+from support.backend_samples import run
 from vectorplot.backends.cairo import png_bytes
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills

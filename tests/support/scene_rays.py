@@ -6,8 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from pixel_rays import intersector
 
+from support.pixel_rays import intersector
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.camera import Camera
 from vectorplot.scene.scene import Page, Scene

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from analytic_sight import sight, torus_polynomial
 
+from support.analytic_sight import sight, torus_polynomial
 from vectorplot.geometry.camera import Camera
 from vectorplot.surfaces.torus import Torus
 from vectorplot.words import LineKind

@@ -6,7 +6,8 @@ import re
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
-from svg_strokes import LABEL, SVG
+
+from support.svg_strokes import LABEL, SVG
 
 HREF = "{http://www.w3.org/1999/xlink}href"
 
