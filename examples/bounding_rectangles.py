@@ -16,7 +16,7 @@ from vectorplot.geometry.revolution import revolution
 from vectorplot.geometry.solids import box, prism
 from vectorplot.geometry.vectors import translated
 from vectorplot.scene.view import look
-from vectorplot.visibility.painter.face_pairs import APART
+from vectorplot.visibility.painter.pairs.face_pairs import APART
 from vectorplot.visibility.painter.priorities import priorities, view_objects
 
 

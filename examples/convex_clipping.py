@@ -12,8 +12,8 @@ import shapely
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.geometry.convex_clipping import clipped, contained
-from vectorplot.shading.palettes import palette
+from vectorplot.geometry.convex.polygon_clipping import clipped, contained
+from vectorplot.shading.light.palettes import palette
 
 ARROW = np.array([(6, 22), (40, 22), (40, 8), (74, 30), (40, 52), (40, 38), (6, 38)], dtype=np.float64)
 ANGLES = np.radians(np.arange(15, 375, 60))

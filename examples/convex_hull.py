@@ -11,8 +11,8 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.geometry.convex_hulls import convex_hull
-from vectorplot.shading.palettes import palette
+from vectorplot.geometry.convex.convex_hulls import convex_hull
+from vectorplot.shading.light.palettes import palette
 
 PAGE_MM = (70.0, 60.0)
 

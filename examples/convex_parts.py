@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.adjacency import body_record
-from vectorplot.geometry.convex_parts import convex_revolution_parts
+from vectorplot.geometry.convex.convex_parts import convex_revolution_parts
+from vectorplot.geometry.repair.adjacency import body_record
 from vectorplot.geometry.revolution import revolution
 from vectorplot.geometry.solids import has_convex_outline
 from vectorplot.geometry.vectors import translated

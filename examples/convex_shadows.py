@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.effects.shadows import shadow_decals
+from vectorplot.effects.shadows.shadow_decals import shadow_decals
 from vectorplot.geometry.outline import spatial_hull
 from vectorplot.geometry.revolution import revolution
 from vectorplot.geometry.solids import box

@@ -13,8 +13,8 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.curves.line import Line
-from vectorplot.features.grid_triangulation import mesh_of_grid, triangulate_surface
-from vectorplot.features.zero_manifold import zero_manifold_of_f_uv
+from vectorplot.features.zeros.grid_triangulation import mesh_of_grid, triangulate_surface
+from vectorplot.features.zeros.zero_manifold import zero_manifold_of_f_uv
 from vectorplot.surfaces.graph import graph
 from vectorplot.surfaces.surface import Domain
 from vectorplot.testing import branch_count, curves_in_space

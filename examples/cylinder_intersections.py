@@ -13,7 +13,7 @@ import numpy as np
 import vectorplot as vp
 from vectorplot.curves.cylinder_intersection import cylinder_intersection
 from vectorplot.geometry.rotations import rotation_x
-from vectorplot.surfaces.cylinder import Cylinder
+from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.placed import PlacedSurface
 from vectorplot.testing import assert_closed, curves_in_space
 

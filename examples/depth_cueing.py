@@ -14,7 +14,7 @@ import vectorplot as vp
 from vectorplot.geometry.revolution import revolution
 from vectorplot.geometry.solids import box
 from vectorplot.geometry.vectors import translated
-from vectorplot.shading.palettes import SIZE
+from vectorplot.shading.light.palettes import SIZE
 
 GLASS = revolution([(1.3, 0, 0), (0.2, 0, 0.3), (0.2, 0, 2), (1, 0, 2.6), (1.3, 0, 3.5), (1.1, 0, 4.5)], 36)
 ROW = 7

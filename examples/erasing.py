@@ -12,9 +12,9 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.drawing.painted import placed_faces
+from vectorplot.drawing.painted_fills import placed_faces
 from vectorplot.scene.view import look
-from vectorplot.visibility.painter.erasing import erasing_edges, interleaved
+from vectorplot.textbook.erasing_faces import erasing_edges, interleaved
 from vectorplot.visibility.painter.order import painters_order
 
 DATA = Path(__file__).resolve().parent.parent / "data"

@@ -15,7 +15,7 @@ import vectorplot as vp
 from vectorplot.geometry.regions import polygons_of
 from vectorplot.geometry.revolution import revolution
 from vectorplot.geometry.vectors import translated
-from vectorplot.shading.illumination import FINISHES, lambert
+from vectorplot.shading.light.illumination import FINISHES, lambert
 
 WORDS = ("mat", "wood", "normal", "plastic", "metallic", "shiny")
 LATITUDE = np.linspace(-np.pi / 2, np.pi / 2, 17)

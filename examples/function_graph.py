@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.features.grid_triangulation import mesh_of_grid
+from vectorplot.features.zeros.grid_triangulation import mesh_of_grid
 from vectorplot.surfaces.graph import graph
 from vectorplot.surfaces.surface import Domain
 from vectorplot.testing import curves_in_space, hausdorff

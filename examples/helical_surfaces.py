@@ -13,7 +13,7 @@ import vectorplot as vp
 from vectorplot.curves.circle import Circle
 from vectorplot.curves.line import Line
 from vectorplot.geometry.rotations import rotation_z
-from vectorplot.surfaces.helical import helical_surface
+from vectorplot.surfaces.families.helical import helical_surface
 
 RISE, TURNS = 0.32, 2 * np.pi
 

@@ -11,7 +11,7 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.surfaces.curvature import first_form, gaussian_curvature, mean_curvature
-from vectorplot.surfaces.minimal import helicoid_to_catenoid
+from vectorplot.surfaces.families.minimal import helicoid_to_catenoid
 
 STEPS = 5
 

@@ -12,9 +12,9 @@ import numpy as np
 import vectorplot as vp
 from vectorplot.curves.function import curve_of_function
 from vectorplot.scene.surface_lines import even_cosines
+from vectorplot.surfaces.families.revolution import revolution_surface
+from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.normals import unit_normals
-from vectorplot.surfaces.revolution import revolution_surface
-from vectorplot.surfaces.torus import Torus
 from vectorplot.testing import curves_in_space
 
 LIGHT = vp.Light((-2, -2, 3), parallel=True)

@@ -12,7 +12,7 @@ import numpy as np
 import vectorplot as vp
 from vectorplot.curves.circle import Circle
 from vectorplot.geometry.rotations import rotation_z
-from vectorplot.surfaces.spiral import spiral_surface
+from vectorplot.surfaces.families.spiral import spiral_surface
 
 SHELLS = {
     # name: circle, growth, turns, eye, light, colour

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.convex_hulls import convex_hull
-from vectorplot.geometry.outline_positions import Position, relative_position
+from vectorplot.geometry.convex.convex_hulls import convex_hull
 from vectorplot.geometry.solids import box, placed
 from vectorplot.scene.view import look
+from vectorplot.textbook.outline_positions import Position, relative_position
 from vectorplot.visibility.painter.image_faces import mapped
 
 CASES = {

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
+from vectorplot.geometry.convex.separating_planes import own_box
 from vectorplot.geometry.rotations import rotation_about
-from vectorplot.geometry.separating_planes import own_box
 from vectorplot.geometry.solids import prism
 
 HOUSE = prism([(-1, -2, 0), (1, -2, 0), (1, -2, 1.4), (0, -2, 2.4), (-1, -2, 1.4)], (0, 4, 0))

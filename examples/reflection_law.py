@@ -10,8 +10,8 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.curves.line import Line
-from vectorplot.shading.illumination import reflected
-from vectorplot.surfaces.ellipsoid import Sphere
+from vectorplot.shading.light.illumination import reflected
+from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.trimmed import TrimmedSurface
 
 PLACES = ((4.35, 0.7), (5.15, 0.55), (5.85, 0.85))

@@ -12,7 +12,7 @@ import numpy as np
 import vectorplot as vp
 from vectorplot.curves.circle import Circle
 from vectorplot.curves.line import Line
-from vectorplot.surfaces.rotoidal import rotoidal_surface
+from vectorplot.surfaces.families.rotoidal import rotoidal_surface
 
 DISTANCE = 3.0
 

@@ -11,7 +11,7 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.geometry.clipping import Polygons
-from vectorplot.shading.framebuffer import Framebuffer, swapped, with_lines, with_polygons, with_smooth_polygons
+from vectorplot.textbook.framebuffer import Framebuffer, swapped, with_lines, with_polygons, with_smooth_polygons
 
 ENLARGED = 8
 LEFT = np.array([(3.0, 4.0), (17.3, 2.2), (20.6, 15.1), (9.5, 24.7), (2.1, 14.0)])

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
+from vectorplot.geometry.convex.separating_planes import Surroundings, separations
 from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.separating_planes import Surroundings, separations
 from vectorplot.geometry.solids import box, placed
 
 EYES = ((7.0, -15.0, 7.0), (-7.0, 15.0, 7.0))

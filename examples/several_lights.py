@@ -12,9 +12,9 @@ import shapely
 
 import vectorplot as vp
 from vectorplot.drawing.fills import Fills
-from vectorplot.effects.shadows import shadow_decals
+from vectorplot.effects.shadows.shadow_decals import shadow_decals
 from vectorplot.scene.view import look
-from vectorplot.shading.palettes import palette
+from vectorplot.shading.light.palettes import palette
 from vectorplot.testing import visible_by_rays
 
 DATA = Path(__file__).resolve().parent.parent / "data"

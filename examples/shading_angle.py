@@ -11,8 +11,8 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.geometry.solids import placed
-from vectorplot.shading.illumination import REDUCED
-from vectorplot.shading.palettes import palette
+from vectorplot.shading.light.illumination import REDUCED
+from vectorplot.shading.light.palettes import palette
 
 SHEET = vp.Mesh.from_polygons([(-0.9, -0.9, 0), (0.9, -0.9, 0), (0.9, 0.9, 0), (-0.9, 0.9, 0)], [(0, 1, 2, 3)])
 TOWARDS = np.array([0.0, -1.0, 1.0]) / np.sqrt(2.0)

@@ -12,10 +12,10 @@ import numpy as np
 import vectorplot as vp
 from vectorplot.curves.function import curve_of_function
 from vectorplot.geometry.solids import box
-from vectorplot.surfaces.ellipsoid import Sphere
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.revolution import revolution_surface
+from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.placed import PlacedSurface
-from vectorplot.surfaces.revolution import revolution_surface
-from vectorplot.surfaces.torus import Torus
 
 SIZE = (360, 240)
 

@@ -12,7 +12,7 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.effects.shadows import shadow_decals
+from vectorplot.effects.shadows.shadow_decals import shadow_decals
 from vectorplot.scene.view import look
 
 LAMP = np.array([-2.5, -3.0, 6.0])

@@ -12,8 +12,8 @@ import numpy as np
 import vectorplot as vp
 from vectorplot.drawing.fills import Fills
 from vectorplot.scene.view import look
-from vectorplot.shading.face_shades import face_shades, view_lights
-from vectorplot.shading.palettes import shaded_colours
+from vectorplot.shading.light.face_shades import face_shades, view_lights
+from vectorplot.shading.light.palettes import shaded_colours
 from vectorplot.visibility.painter.image_faces import image_faces
 from vectorplot.visibility.painter.slices import cut_into_slices, slice_order, sliced_order
 

@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
+from vectorplot.geometry.convex.separating_planes import spheres_power
 from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.separating_planes import spheres_power
 from vectorplot.geometry.vectors import translated
 
 SPHERES = np.array(

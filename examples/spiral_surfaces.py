@@ -13,7 +13,7 @@ import vectorplot as vp
 from vectorplot.curves.circle import Circle
 from vectorplot.curves.line import Line
 from vectorplot.geometry.rotations import rotation_z
-from vectorplot.surfaces.spiral import spiral_surface
+from vectorplot.surfaces.families.spiral import spiral_surface
 
 GROWTH = 0.1
 

@@ -11,7 +11,7 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.drawing.fills import Fills
-from vectorplot.shading.palettes import LIMITS, SIZE, colour_map, palette
+from vectorplot.shading.light.palettes import LIMITS, SIZE, colour_map, palette
 
 CELL_MM = np.array([3.6, 6.0])
 

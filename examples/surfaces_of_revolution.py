@@ -12,8 +12,8 @@ import numpy as np
 import vectorplot as vp
 from vectorplot.curves.helix import Helix
 from vectorplot.curves.line import Line
-from vectorplot.surfaces.hyperboloid import Hyperboloid
-from vectorplot.surfaces.revolution import revolution_surface
+from vectorplot.surfaces.families.hyperboloid import Hyperboloid
+from vectorplot.surfaces.families.revolution import revolution_surface
 from vectorplot.testing import assert_on_surface, curves_in_space
 
 PAGE = vp.Page(90, 110, 5)

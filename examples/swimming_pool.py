@@ -11,7 +11,7 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind
-from vectorplot.effects.refraction import seen_in_surface
+from vectorplot.effects.glass.refraction import seen_in_surface
 
 POOL = vp.read(Path(__file__).resolve().parent.parent / "data" / "pool.scene")
 EYES = {"low": np.array([-9.0, -15.0, 17.0]), "high": np.array([3.0, -7.0, 24.0])}

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.projection import CoordinateSystem
+from vectorplot.geometry.cameras.projection import CoordinateSystem
 from vectorplot.geometry.revolution import revolution
 from vectorplot.geometry.rotations import rotation_about, rotation_x, rotation_z
 from vectorplot.geometry.solids import box, prism

@@ -11,7 +11,7 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.curves.function import curve_of_function
-from vectorplot.surfaces.translation import translation_surface
+from vectorplot.surfaces.families.translation import translation_surface
 from vectorplot.testing import assert_on_surface, curves_in_space
 
 

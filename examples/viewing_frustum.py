@@ -11,14 +11,14 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
+from vectorplot.geometry.cameras.projection import CoordinateSystem, collineate
 from vectorplot.geometry.clipping import Box, Window
-from vectorplot.geometry.frustum import Frustum
-from vectorplot.geometry.intersect_polyhedra import intersection
-from vectorplot.geometry.projection import CoordinateSystem, collineate
+from vectorplot.geometry.convex.intersect_polyhedra import intersection
 from vectorplot.geometry.revolution import revolution
 from vectorplot.geometry.rotations import rotation_about
 from vectorplot.geometry.solids import box
 from vectorplot.geometry.vectors import translated
+from vectorplot.textbook.frustum import Frustum
 
 PAGE = vp.Page(140, 110, 6)
 

@@ -112,7 +112,7 @@ def test_the_numbers_of_the_pages_are_those_of_the_code():
     from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
     from vectorplot.scene.view import NEAR_OF_DISTANCE, ULPS
     from vectorplot.visibility.framing import WIDEST_DEG
-    from vectorplot.visibility.occluders import MAX_SOLID_FACES
+    from vectorplot.visibility.polyhedra.occluders import MAX_SOLID_FACES
 
     limits = (DOCS / "accuracy-and-limits.md").read_text(encoding="utf-8")
     for number in (f"up to {MAX_SOLID_FACES} faces", f"more than {WIDEST_DEG:g} degrees", f"{ULPS:g} rounding steps"):

@@ -12,7 +12,7 @@ from support.paths import DATA, MODELS
 from vectorplot.draw import default_camera, draw
 from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.errors import InputError
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.read import read
 from vectorplot.plan import StageReport

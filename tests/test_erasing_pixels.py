@@ -14,11 +14,11 @@ from support.paths import DATA
 
 import vectorplot as vp
 from vectorplot.arrays import Floats
-from vectorplot.backends.cairo import png_bytes
+from vectorplot.backends.cairo.surfaces import png_bytes
 from vectorplot.draw import default_camera
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import FillKind
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Scene
 from vectorplot.words import LINE_WORDS
 

@@ -8,10 +8,10 @@ import pytest
 import vectorplot as vp
 from vectorplot.curves.line import Line
 from vectorplot.drawing.drawing import Curves, Drawing
-from vectorplot.surfaces.cylinder import Cone
+from vectorplot.surfaces.families.cylinder import Cone
+from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function import surface_of_function
 from vectorplot.surfaces.surface import Domain
-from vectorplot.surfaces.torus import Torus
 from vectorplot.testing import assert_drawing_is_right, curves_in_space
 
 pytestmark = pytest.mark.filterwarnings("ignore:SURFACE. f :vectorplot.errors.InputWarning")

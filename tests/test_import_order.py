@@ -16,13 +16,16 @@ PACKAGE = Path(vectorplot.__file__).parent
 ORDER = [
     *("errors", "words", "arrays"),
     *("exact", "geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
-    *("drawing", "effects", "animation", "backends"),
+    *("drawing", "effects", "animation", "textbook", "backends"),
     *("verbs", "testing", "cli"),
 ]
 VERBS = {"draw", "paint", "render", "save", "plan"}
 
 # A Drawing shows itself in a notebook; the import happens when the notebook asks.
 ALLOWED = {("drawing/drawing.py", "backends")}
+
+MOST_FILES = 18
+"""What a folder holds before one cannot find a file in it any more."""
 
 HEAVY = {"cairo", "scipy", "shapely", "svgwrite", "trimesh", "click", "tqdm", "HersheyFonts", "embreex", "skimage"}
 
@@ -60,6 +63,52 @@ def test_a_room_imports_only_what_stands_left_of_it(file):
             continue
         right = ORDER.index(target) > ORDER.index(home)
         assert not right or (file, target) in ALLOWED, f"{file} imports {'.'.join(module)}, which stands right of it"
+
+
+def modules_imported_by(file: str) -> set[str]:
+    """The files of the package that a file imports anywhere, for types alone too; names are taken for their module."""
+    path = Path(file)
+    tree = ast.parse((PACKAGE / path).read_text(encoding="utf-8"))
+    found = set()
+    for module in imported_modules(tree, ("vectorplot", *path.parts[:-1])):
+        for parts in (module, module[:-1]):
+            candidates = ["/".join(parts) + ".py", "/".join((*parts, "__init__.py"))]
+            hit = next((name for name in candidates if name in FILES), None)
+            if parts and hit:
+                found.add(hit)
+                break
+    return found - {file}
+
+
+def test_no_files_import_each_other_in_a_circle():
+    """Not even inside functions, and not for types alone; but for a drawing that shows itself."""
+    hooks = {home for home, _ in ALLOWED}
+    waiting = {file: set() if file in hooks else modules_imported_by(file) for file in FILES}
+    while free := [file for file, needs in waiting.items() if not needs & waiting.keys()]:
+        for file in free:
+            del waiting[file]
+    assert not waiting, f"in circles, or behind one: {sorted(waiting)}"
+
+
+def test_no_file_takes_what_another_keeps_to_itself():
+    """Names with an underscore in front are a file's own."""
+    taken = []
+    for file in FILES:
+        for node in ast.walk(ast.parse((PACKAGE / file).read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("vectorplot"):
+                taken += [
+                    f"{file}: {alias.name}"
+                    for alias in node.names
+                    if alias.name.startswith("_") and alias.name != "__version__"
+                ]
+    assert not taken
+
+
+@pytest.mark.parametrize("folder", sorted({path.parent for path in PACKAGE.rglob("*.py")}))
+def test_a_room_has_few_files_and_says_what_it_is_for(folder):
+    files = [path for path in folder.glob("*.py") if path.name != "__init__.py"]
+    assert len(files) <= MOST_FILES, f"{folder.name} has {len(files)} files: give it rooms of its own"
+    assert ast.get_docstring(ast.parse((folder / "__init__.py").read_text(encoding="utf-8")))
 
 
 @pytest.mark.parametrize("file", [file for file in FILES if not file.startswith(("backends/", "cli/"))])

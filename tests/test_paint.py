@@ -13,12 +13,12 @@ from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.errors import InputError
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
-from vectorplot.shading.palettes import palette
-from vectorplot.surfaces.ellipsoid import Sphere
+from vectorplot.shading.light.palettes import palette
+from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.testing.shapes import (
     box,
     cyclic_bars,

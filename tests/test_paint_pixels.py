@@ -14,7 +14,7 @@ from support.top_fills import covering, fills_of, pixel_places
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.fills import Fills
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Light, Material, Scene
 from vectorplot.testing.shapes import box, random_convex_solids, rotated_boxes

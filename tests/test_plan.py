@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from support.paths import DATA
 
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.io.read import read
 from vectorplot.paint import paint
 from vectorplot.plan import Stage, StageReport, Walk
 from vectorplot.scene.scene import Item, Light, Material, Pattern, Scene
-from vectorplot.surfaces.ellipsoid import Sphere
+from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.testing.shapes import box
 
 PLAIN = ["look", "faces", "order", "shades", "fills"]

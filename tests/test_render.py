@@ -20,12 +20,12 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.plan import chosen_shadows, plan_render
 from vectorplot.render import render
 from vectorplot.save import write
-from vectorplot.shading import picture
-from vectorplot.shading.illumination import AMBIENT, DARK_SIDE, FINISHES, REDUCED
-from vectorplot.shading.palettes import LIMITS, palette
-from vectorplot.surfaces.ellipsoid import Sphere
-from vectorplot.surfaces.spiral import spiral_surface
-from vectorplot.surfaces.torus import Torus
+from vectorplot.shading.light.illumination import AMBIENT, DARK_SIDE, FINISHES, REDUCED
+from vectorplot.shading.light.palettes import LIMITS, palette
+from vectorplot.shading.raster import picture
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.spiral import spiral_surface
+from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing.shapes import box
 
 SUN = vp.Light((-1.0, -2.0, 2.5), parallel=True, intensity=1.0)
@@ -661,7 +661,7 @@ from vectorplot.testing.shapes import box
 vp.render(vp.Scene((vp.Item("A", box((0, 0, 0), (1, 1, 1))),), (vp.Light((1, -2, 3)),)), size=(20, 20), shadows="none")
 print(*(name for name in sys.modules if name.split(".")[0] in ("cairo", "scipy", "shapely", "svgwrite", "skimage")
         or name.startswith(("vectorplot.effects", "vectorplot.backends", "vectorplot.shading.shadow",
-                            "vectorplot.shading.trapezoid", "vectorplot.shading.seen"))))
+                            "vectorplot.shading.shadows.trapezoid", "vectorplot.shading.seen"))))
 """
     result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert result.stdout.split() == []

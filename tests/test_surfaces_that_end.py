@@ -11,8 +11,8 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.io.expressions import parse_expression
-from vectorplot.io.scene_formulas import Formulas, formula_graph, formula_implicit
+from vectorplot.io.expressions.expression import parse_expression
+from vectorplot.io.scenes.scene_formulas import Formulas, formula_graph, formula_implicit
 from vectorplot.surfaces.surface import Domain
 from vectorplot.testing import assert_drawing_is_right
 from vectorplot.testing.stroke_points import stroke_points

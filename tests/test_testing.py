@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.testing import (
@@ -19,9 +19,9 @@ from vectorplot.testing import (
     hard_shapes,
     visible_by_rays,
 )
+from vectorplot.testing.rays.triangles import triangulated
 from vectorplot.testing.shapes import box, honeycomb, prism, scene_of, without
 from vectorplot.testing.surfaces import bumpy_icosphere, grid_graph, torus_mesh
-from vectorplot.testing.triangles import triangulated
 from vectorplot.words import LineKind
 
 LINE = [(10.0, 10.0), (50.0, 10.0), (50.0, 40.0)]

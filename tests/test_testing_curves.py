@@ -9,15 +9,15 @@ from hypothesis import strategies as st
 
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.errors import InputError
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.strokes import Strokes
 from vectorplot.scene.scene import Light
-from vectorplot.surfaces.cylinder import Cylinder
-from vectorplot.surfaces.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.families.cylinder import Cylinder
+from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.families.quadric import Quadric, implicit_cylinder, implicit_plane, implicit_sphere
+from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.function import surface_of_function
-from vectorplot.surfaces.quadric import Quadric, implicit_cylinder, implicit_plane, implicit_sphere
 from vectorplot.surfaces.surface import Domain
-from vectorplot.surfaces.torus import ImplicitTorus, Torus
 from vectorplot.testing import (
     assert_closed,
     assert_contour,
@@ -29,7 +29,7 @@ from vectorplot.testing import (
     curves_in_space,
     hausdorff,
 )
-from vectorplot.testing.nearest import nearest_places
+from vectorplot.testing.rays.nearest import nearest_places
 from vectorplot.words import LineKind
 
 T = np.linspace(0.0, 2.0 * np.pi, 201)

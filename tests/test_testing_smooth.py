@@ -11,19 +11,19 @@ from support.torus_runs import contour_of, isophotes_of, parameter_lines, runs_o
 
 from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Curves, Drawing, Paths
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.surface_lines import SurfaceLines
-from vectorplot.surfaces.cyclide import ImplicitCyclide, dupin_cyclide
-from vectorplot.surfaces.cylinder import Cone, Cylinder
-from vectorplot.surfaces.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
+from vectorplot.surfaces.families.cylinder import Cone, Cylinder
+from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
+from vectorplot.surfaces.families.hyperboloid import Hyperboloid, Paraboloid
+from vectorplot.surfaces.families.quadric import implicit_ellipsoid
+from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.graph import graph
-from vectorplot.surfaces.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.hyperboloid import Hyperboloid, Paraboloid
-from vectorplot.surfaces.quadric import implicit_ellipsoid
 from vectorplot.surfaces.surface import Domain
-from vectorplot.surfaces.torus import ImplicitTorus, Torus
 from vectorplot.testing import assert_drawing_is_right, visible_by_rays
 
 SURE = 2e-5

@@ -8,9 +8,9 @@ import pytest
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.geometry.solids import box
-from vectorplot.io.scene_language import parse_scene
-from vectorplot.shading.illumination import FINISHES
-from vectorplot.shading.palettes import LIMITS, PLAIN, palette
+from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.shading.light.illumination import FINISHES
+from vectorplot.shading.light.palettes import LIMITS, PLAIN, palette
 from vectorplot.words import (
     COLOURS,
     DRAWN,

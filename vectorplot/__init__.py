@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from vectorplot.draw import draw
     from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
     from vectorplot.errors import InputError, InputWarning
-    from vectorplot.geometry.camera import Camera
+    from vectorplot.geometry.cameras.camera import Camera
     from vectorplot.geometry.mesh import Mesh
     from vectorplot.geometry.strokes import Strokes
     from vectorplot.io.read import read
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from vectorplot.save import save
     from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
     from vectorplot.scene.surface_lines import Section, SurfaceLines
-    from vectorplot.shading.image import Image
+    from vectorplot.shading.raster.image import Image
     from vectorplot.words import LineKind
 
 __version__ = "0.1.0"
@@ -56,9 +56,9 @@ __all__ = [
 ]
 
 _HOME = {
-    "Camera": "geometry.camera",
+    "Camera": "geometry.cameras.camera",
     "Drawing": "drawing.drawing",
-    "Image": "shading.image",
+    "Image": "shading.raster.image",
     "InputError": "errors",
     "InputWarning": "errors",
     "Item": "scene.scene",

@@ -12,13 +12,13 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.drawing.drawing import Drawing, Layer, Paths
-from vectorplot.drawing.ink import inked
 from vectorplot.drawing.layers import layers_by_colour, layers_by_kind, layers_by_object
-from vectorplot.drawing.page import mm_per_image, page_from_image, page_from_world, strokes_on_page
-from vectorplot.drawing.shared_kinds import with_shared_kinds
+from vectorplot.drawing.placement import mm_per_image, page_from_image, page_from_world, strokes_on_page
+from vectorplot.drawing.strokes.finishing import inked
+from vectorplot.drawing.strokes.shared_kinds import with_shared_kinds
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.budget import Budget, budget_of
-from vectorplot.geometry.camera import Camera, Point
+from vectorplot.geometry.cameras.camera import Camera, Point
 from vectorplot.geometry.vectors import cross, normalize
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_draw
 from vectorplot.scene.scene import Page, Scene
@@ -26,8 +26,8 @@ from vectorplot.scene.seams import without_seams
 from vectorplot.scene.unbounded import tell_what_is_cut_off
 from vectorplot.scene.view import View, look
 from vectorplot.visibility.framing import in_frame
-from vectorplot.visibility.hidden_lines import Visibility, counted_parts, visible_parts
-from vectorplot.visibility.lines import (
+from vectorplot.visibility.polyhedra.hidden_lines import Visibility, counted_parts, visible_parts
+from vectorplot.visibility.polyhedra.lines import (
     Lines,
     edge_lines,
     intersection_lines,
@@ -35,13 +35,13 @@ from vectorplot.visibility.lines import (
     mesh_curve_lines,
     pattern_lines,
 )
-from vectorplot.visibility.occluders import solid_items
-from vectorplot.visibility.pairs import Segments
+from vectorplot.visibility.polyhedra.occluders import solid_items
+from vectorplot.visibility.polyhedra.pairs import Segments
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 from vectorplot.words import DRAWN, WIRES, LineKind, check_word, line_kinds
 
 if TYPE_CHECKING:
-    from vectorplot.visibility.smooth.meetings import SmoothSheet
+    from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet
 
 LARGER = 1.25
 """Curves are traced anew where they come out so many times larger on the page than they were taken for."""
@@ -235,7 +235,7 @@ def _sheets(walk: Walk, scene: Scene, view: View) -> tuple[SmoothSheet, ...]:
     """The smooth surfaces of the scene, if it has any."""
     if not walk.calls_for("curves"):
         return ()
-    from vectorplot.visibility.smooth.traced import scene_sheets
+    from vectorplot.visibility.smooth.tracing.traced import scene_sheets
 
     return scene_sheets(scene, view)
 
@@ -254,7 +254,7 @@ def _with_curves(
     if not walk.calls_for("curves"):
         return lines
     from vectorplot.visibility.smooth.smooth_lines import with_curves, with_whole_curves
-    from vectorplot.visibility.smooth.traced import traced_scene
+    from vectorplot.visibility.smooth.tracing.traced import traced_scene
 
     if tolerance < FINEST:
         text = "the picture shows so small a part of the scene that smooth curves are off by more than the tolerance"

@@ -13,29 +13,29 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.draw import default_camera, lines_in_place, seen_part
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Colours, FillKind, Fills
-from vectorplot.drawing.ink import inked
 from vectorplot.drawing.layers import layers_by_kind
-from vectorplot.drawing.page import allowed_in_space, page_from_world
-from vectorplot.drawing.painted import Overlay, Placed, fills_on_page, placed_faces, stacked
+from vectorplot.drawing.painted_fills import Overlay, Placed, fills_on_page, placed_faces, stacked
+from vectorplot.drawing.placement import allowed_in_space, page_from_world
+from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.errors import InputError
 from vectorplot.features.facets import Within
 from vectorplot.geometry.budget import budget_of
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_paint
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seams import without_seams
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.unbounded import tell_what_is_cut_off
 from vectorplot.scene.view import View, look
-from vectorplot.shading.face_shades import Shades, item_colours, view_lights
-from vectorplot.shading.faceted import FacetedScene, faceted
-from vectorplot.shading.fineness import picture_fineness
-from vectorplot.shading.flat_regions import plane_numbers
-from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
-from vectorplot.shading.painted_normals import painted_normals
-from vectorplot.shading.palettes import SIZE, shaded_colours
-from vectorplot.shading.palettes import palette as shades_of
-from vectorplot.shading.refinement import SHORTEST_MM, refined
+from vectorplot.shading.light.face_shades import Shades, item_colours, view_lights
+from vectorplot.shading.light.faceted import FacetedScene, faceted
+from vectorplot.shading.light.fineness import picture_fineness
+from vectorplot.shading.light.flat_regions import plane_numbers
+from vectorplot.shading.light.painted_colours import Lighting, colours_of, corner_shades_of, opacities
+from vectorplot.shading.light.painted_normals import painted_normals
+from vectorplot.shading.light.palettes import SIZE, shaded_colours
+from vectorplot.shading.light.palettes import palette as shades_of
+from vectorplot.shading.light.refinement import SHORTEST_MM, refined
 from vectorplot.visibility.painter.gathering import side_by_side
 from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
@@ -44,7 +44,7 @@ from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 from vectorplot.words import LINE_WORDS, LineKind, check_word, line_kinds
 
 if TYPE_CHECKING:
-    from vectorplot.effects.decals import Decals
+    from vectorplot.effects.decals.decal_polygons import Decals
 
 MOST_NAMES = 5
 """So many items of a knot are named."""
@@ -150,7 +150,7 @@ def paint(
 
         polygons = walk.run("visible fills", visible_fills, polygons, world)
     if walk.calls_for("screen door"):
-        from vectorplot.effects.screen_fills import screened
+        from vectorplot.effects.windows.screened_fills import screened
 
         polygons = walk.run("screen door", screened, polygons, PEN.width_mm, world)
     layers = [Layer("fills", PEN, (polygons,))]
@@ -302,7 +302,7 @@ def _shades(seen: _Seen, lighting: Lighting) -> Shades:
 
 def _erased(walk: Walk, seen: _Seen, scene: Scene, ruler: _Ruler, kinds: frozenset[LineKind], size: int) -> Fills:
     """Blank polygons, and the lines of the scene on them."""
-    from vectorplot.drawing.erased import erased_fills, line_fills
+    from vectorplot.drawing.erasing_fills import erased_fills, line_fills
 
     view, faces = seen.view, seen.faces
     blank = fills_on_page(
@@ -325,8 +325,8 @@ def _coloured_strokes(
 ) -> list[tuple[Paths, Colours]]:
     """The visible lines of a scene, and their inks (m,3): the middle shades of the palettes of items, and of those of
     patterns."""
-    from vectorplot.drawing.pieces import chosen
-    from vectorplot.shading.depth_cueing import MIDDLE
+    from vectorplot.drawing.strokes.paths import chosen
+    from vectorplot.shading.light.depth_cueing import MIDDLE
 
     strokes = ruler.strokes(scene, kinds)
     plain = chosen(strokes, strokes.kind != LineKind.PATTERN)
@@ -356,22 +356,22 @@ def _decals(walk: Walk, seen: _Seen, lighting: Lighting, aura: float) -> tuple[t
     scene, view, projected = seen.scene, seen.view, seen.projected
     found: list[Decals] = []
     if walk.calls_for("shadows"):
-        from vectorplot.effects.scene_decals import scene_shadows
+        from vectorplot.effects.decals.scene_decals import scene_shadows
 
         found.append(walk.run("shadows", scene_shadows, view, scene.lights, projected, aura))
     if walk.calls_for("mirror light"):
-        from vectorplot.effects.scene_decals import scene_mirror_light
+        from vectorplot.effects.decals.scene_decals import scene_mirror_light
 
         lit, doubles = walk.run("mirror light", scene_mirror_light, scene, view, projected, lighting, found[0])
         found.append(lit)
         lighting = replace(lighting, doubles=doubles)
     if walk.calls_for("patterns"):
-        from vectorplot.effects.decals import joined_decals
-        from vectorplot.effects.scene_decals import scene_patterns
+        from vectorplot.effects.decals.decal_polygons import joined_decals
+        from vectorplot.effects.decals.scene_decals import scene_patterns
 
         found.append(walk.run("patterns", scene_patterns, scene, view, lighting, joined_decals(*found[:1])))
     if walk.calls_for("clear shadows"):
-        from vectorplot.effects.clear_shadows import clear_shadows
+        from vectorplot.effects.shadows.transparent_shadows import clear_shadows
 
         clear = partial(clear_shadows, projected=projected)
         found.append(walk.run("clear shadows", clear, view, scene, scene.lights, found[0] if found else None))
@@ -382,7 +382,7 @@ def _laid(seen: _Seen, lighting: Lighting, decals: tuple[Decals, ...]) -> tuple[
     """What lies on the polygons of the picture."""
     if not decals:
         return ()
-    from vectorplot.effects.decal_fills import decal_fills
+    from vectorplot.effects.decals.decal_fills import decal_fills
 
     return tuple(decal_fills(seen.view, lighting, some, seen.faces, seen.placed) for some in decals)
 
@@ -396,9 +396,9 @@ def _overlays(
     """
     found = []
     if walk.calls_for("reflections"):
-        from vectorplot.effects.double_decals import double_decals
-        from vectorplot.effects.reflection_fills import reflection_fills
-        from vectorplot.effects.reflections import mirrors
+        from vectorplot.effects.mirrors.reflected_decals import double_decals
+        from vectorplot.effects.mirrors.reflection_fills import reflection_fills
+        from vectorplot.effects.mirrors.reflections import mirrors
 
         shown = mirrors(seen.scene, seen.view, seen.projected)
         borders = aura if walk.calls_for("shadows") else None
@@ -410,7 +410,7 @@ def _overlays(
             walk.run("reflections", reflection_fills, seen.view, lighting, shown, decals_of, seen.faces, seen.placed)
         )
     if walk.calls_for("refraction"):
-        from vectorplot.effects.glass_fills import glass_fills
+        from vectorplot.effects.glass.glass_fills import glass_fills
 
         found.append(
             walk.run(
@@ -453,14 +453,14 @@ def _fills(
         kind=np.where(opacity < 1.0, int(FillKind.GLASS), int(FillKind.FACE)),
     )
     if walk.calls_for("reflections"):
-        from vectorplot.effects.reflection_fills import silvered
-        from vectorplot.effects.reflections import mirrors
+        from vectorplot.effects.mirrors.reflection_fills import silvered
+        from vectorplot.effects.mirrors.reflections import mirrors
 
         panes = np.isin(faces.source, mirrors(seen.scene, view, seen.projected).face)
         fills, laid = silvered(fills, panes, _paper(seen.scene)[0], laid)
     if walk.calls_for("refraction"):
-        from vectorplot.effects.glass import refracting_items
-        from vectorplot.effects.glass_fills import tinted
+        from vectorplot.effects.glass.glass_fills import tinted
+        from vectorplot.effects.glass.glass_polygons import refracting_items
 
         clear = refracting_items(seen.scene, view, seen.projected)[item]
         fills, both = tinted(fills, clear, opacity, _paper(seen.scene)[0], (*laid, *overlays))

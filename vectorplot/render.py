@@ -14,31 +14,37 @@ from vectorplot.draw import default_camera, seen_part
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.facets import Within
 from vectorplot.geometry.budget import budget_of
-from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.projection import CoordinateSystem
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.cameras.projection import CoordinateSystem
 from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, dims_light, plan_cuts, plan_render
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seams import without_seams
 from vectorplot.scene.unbounded import tell_what_is_cut_off
 from vectorplot.scene.view import LARGEST, View, look
-from vectorplot.shading.coplanar import coplanar_faces
-from vectorplot.shading.face_shades import view_lights
-from vectorplot.shading.faceted import FacetedScene, faceted
-from vectorplot.shading.image import Image
-from vectorplot.shading.lighting import Blocked, Lighting, lighting_of
-from vectorplot.shading.map_settings import MapSettings
-from vectorplot.shading.palettes import palette
-from vectorplot.shading.picture import Picture, opaque_buffer, picture_of, shaded, with_glass, with_mirrors
-from vectorplot.shading.png import Bytes
-from vectorplot.shading.scene_triangles import SceneTriangles, camera_in_view, scene_triangles
-from vectorplot.shading.screen import LARGEST_RASTER_PIXELS, LARGEST_SIDE_PIXELS, fitted, raster_size, raster_system
-from vectorplot.shading.supersampling import averaged_light
+from vectorplot.shading.depth.coplanar import coplanar_faces
+from vectorplot.shading.light.face_shades import view_lights
+from vectorplot.shading.light.faceted import FacetedScene, faceted
+from vectorplot.shading.light.lighting import Blocked, Lighting, lighting_of
+from vectorplot.shading.light.palettes import palette
+from vectorplot.shading.raster.image import Image
+from vectorplot.shading.raster.picture import Picture, opaque_buffer, picture_of, shaded, with_glass, with_mirrors
+from vectorplot.shading.raster.png import Bytes
+from vectorplot.shading.raster.scene_triangles import SceneTriangles, camera_in_view, scene_triangles
+from vectorplot.shading.raster.screen import (
+    LARGEST_RASTER_PIXELS,
+    LARGEST_SIDE_PIXELS,
+    fitted,
+    raster_size,
+    raster_system,
+)
+from vectorplot.shading.raster.supersampling import averaged_light
+from vectorplot.shading.shadows.map_settings import MapSettings
 from vectorplot.visibility.painter.image_faces import outer_sides
 from vectorplot.words import check_word, line_kinds
 
 if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Drawing
-    from vectorplot.shading.seen_region import SeenRegion
+    from vectorplot.shading.shadows.seen_region import SeenRegion
 
 SIZE = (800, 600)
 """Columns and rows of a picture if nobody says otherwise."""
@@ -191,7 +197,7 @@ def _check_lights(lights: Sequence[Light]) -> None:
 
 def _allowed(scene: Scene, camera: Camera, size: tuple[int, int], fit: bool) -> Callable[[Floats], Floats]:
     """How far triangles may be off smooth surfaces at points of the world."""
-    from vectorplot.drawing.page import allowed_in_space
+    from vectorplot.drawing.placement import allowed_in_space
 
     # A millimetre of this page is a pixel.
     return allowed_in_space(scene, camera, Page(*size, 0.0), fit, FACET_PIXELS)
@@ -214,11 +220,11 @@ class _Maps:
         triangles = self.triangles
         shown = casts[triangles.item]
         if self.shadows == "exact":
-            from vectorplot.shading.shadow_rays import exact_shadows
+            from vectorplot.shading.shadows.shadow_rays import exact_shadows
 
             number = np.where(shown, np.cumsum(shown) - 1, -1)
             return exact_shadows(self.lights, triangles.points, triangles.corners[shown], number)
-        from vectorplot.shading.shadow_buffer import shadow_buffers
+        from vectorplot.shading.shadows.shadow_buffer import shadow_buffers
 
         side, corners = self.sides[triangles.item[shown]], triangles.corners[shown]
         settings = self.settings
@@ -256,7 +262,7 @@ def _region(
     """What is seen, for shadow maps that are tapered for it; None for others."""
     if shadows != "trapezoid":
         return None
-    from vectorplot.shading.seen_region import region_in_picture
+    from vectorplot.shading.shadows.seen_region import region_in_picture
 
     return region_in_picture(system, *size, triangles.points, triangles.corners)
 

@@ -10,16 +10,16 @@ from pathlib import Path
 
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
-from vectorplot.shading.image import Image
+from vectorplot.shading.raster.image import Image
 
 # Module and function of each format; a backend is imported when it is called for.
 _BACKENDS = {
-    "svg": ("svg", "svg_bytes"),
-    "ps": ("cairo", "ps_bytes"),
-    "eps": ("cairo", "eps_bytes"),
-    "pdf": ("cairo", "pdf_bytes"),
-    "png": ("cairo", "png_bytes"),
-    "json": ("json_file", "json_bytes"),
+    "svg": ("svg.document", "svg_bytes"),
+    "ps": ("cairo.surfaces", "ps_bytes"),
+    "eps": ("cairo.surfaces", "eps_bytes"),
+    "pdf": ("cairo.surfaces", "pdf_bytes"),
+    "png": ("cairo.surfaces", "png_bytes"),
+    "json": ("json.document", "json_bytes"),
 }
 
 _BINARY = getattr(os, "O_BINARY", 0)
@@ -32,7 +32,7 @@ def save(drawing: Drawing | Image, path: str | os.PathLike[str]) -> None:
     """Write the drawing in the format of the suffix: svg, ps, eps, pdf, png or json; a picture of pixels as png.
 
     The file is written whole or not at all; an old one stays until the new one is complete.
-    Errors: InputError for an unknown suffix and for what vectorplot.backends.sheet refuses; OSError.
+    Errors: InputError for an unknown suffix and for what page_marks.sheet refuses; OSError.
     """
     suffix = Path(path).suffix
     if suffix[1:].lower() not in _BACKENDS:
@@ -43,7 +43,7 @@ def save(drawing: Drawing | Image, path: str | os.PathLike[str]) -> None:
 def write(drawing: Drawing | Image, format: str) -> bytes:
     """The drawing as the content of a file: svg, ps, eps, pdf, png (at 150 dpi) or json; a picture of pixels as png.
 
-    Same drawing, same bytes. Errors: InputError for an unknown format and for what vectorplot.backends.sheet refuses.
+    Same drawing, same bytes. Errors: InputError for an unknown format and for what page_marks.sheet refuses.
     """
     if format.lower() not in _BACKENDS:
         raise InputError(f"unknown format {format!r}; known are {', '.join(FORMATS)}")

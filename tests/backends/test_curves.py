@@ -21,11 +21,11 @@ from support.backend_samples import (
     run,
 )
 
-from vectorplot.backends.cairo import png_bytes
-from vectorplot.backends.svg import svg_bytes
-from vectorplot.drawing.curves import with_curves
+from vectorplot.backends.cairo.surfaces import png_bytes
+from vectorplot.backends.svg.document import svg_bytes
 from vectorplot.drawing.drawing import Curves, Drawing, Pen
-from vectorplot.drawing.pieces import concatenated
+from vectorplot.drawing.strokes.curved_strokes import with_curves
+from vectorplot.drawing.strokes.paths import concatenated
 from vectorplot.errors import InputError
 from vectorplot.save import FORMATS, save, write
 

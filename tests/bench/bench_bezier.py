@@ -7,9 +7,9 @@ import time
 import numpy as np
 import pytest
 
-from vectorplot.curves.bezier_fit import fitted_paths
-from vectorplot.drawing.curves import with_curves
+from vectorplot.curves.bezier.fit import fitted_paths
 from vectorplot.drawing.drawing import Curves, Paths
+from vectorplot.drawing.strokes.curved_strokes import with_curves
 
 pytestmark = pytest.mark.bench
 

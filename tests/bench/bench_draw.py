@@ -15,17 +15,17 @@ import numpy as np
 import pytest
 
 from vectorplot.draw import default_camera
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import rotated_boxes
 from vectorplot.testing.surfaces import bumpy_icosphere
 from vectorplot.visibility.framing import in_frame
-from vectorplot.visibility.hidden_lines import visible_parts
-from vectorplot.visibility.lines import edge_lines, joined_lines
-from vectorplot.visibility.occluders import solid_items
-from vectorplot.visibility.pairs import Segments
+from vectorplot.visibility.polyhedra.hidden_lines import visible_parts
+from vectorplot.visibility.polyhedra.lines import edge_lines, joined_lines
+from vectorplot.visibility.polyhedra.occluders import solid_items
+from vectorplot.visibility.polyhedra.pairs import Segments
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import LineKind
 

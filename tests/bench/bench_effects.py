@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from vectorplot.draw import default_camera
-from vectorplot.effects.glass import seen_in_glass
-from vectorplot.effects.reflections import mirrors, reflections
+from vectorplot.effects.glass.glass_polygons import seen_in_glass
+from vectorplot.effects.mirrors.reflections import mirrors, reflections
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.revolution import revolution
 from vectorplot.paint import paint

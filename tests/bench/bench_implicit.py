@@ -5,11 +5,11 @@ import time
 import numpy as np
 import pytest
 
-from vectorplot.features.implicit_curves import implicit_contour, implicit_isophotes
-from vectorplot.features.implicit_tracing import ImplicitTracing
-from vectorplot.features.mesh_lines import mesh_plane_sections
-from vectorplot.features.polygonize import polygonized, settled_mesh
-from vectorplot.surfaces.torus import ImplicitTorus
+from vectorplot.features.implicit.implicit_curves import implicit_contour, implicit_isophotes
+from vectorplot.features.implicit.implicit_tracing import ImplicitTracing
+from vectorplot.features.implicit.polygonize import polygonized, settled_mesh
+from vectorplot.features.meshes.mesh_lines import mesh_plane_sections
+from vectorplot.surfaces.families.torus import ImplicitTorus
 
 TORUS = ImplicitTorus(3.0, 1.0)
 

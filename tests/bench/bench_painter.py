@@ -8,24 +8,24 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from vectorplot.backends.svg import svg_bytes
+from vectorplot.backends.svg.document import svg_bytes
 from vectorplot.draw import default_camera
-from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.convex_clipping import clipped
-from vectorplot.geometry.convex_hulls import hull_mesh
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.convex.convex_hulls import hull_mesh
+from vectorplot.geometry.convex.polygon_clipping import clipped
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box, numbered, rotated_boxes, rotation
 from vectorplot.testing.surfaces import bumpy_icosphere
-from vectorplot.visibility.painter.bodies import convex_bodies, outlined_items
-from vectorplot.visibility.painter.graphs import graph_order, graph_triangles
+from vectorplot.textbook.graph_order import graph_order, graph_triangles
+from vectorplot.textbook.ring_order import ring_order, sliced_meridian
+from vectorplot.textbook.sphere_order import sphere_order
 from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.order import painters_order
-from vectorplot.visibility.painter.rings import ring_order, sliced_meridian
-from vectorplot.visibility.painter.sphere_order import sphere_order
+from vectorplot.visibility.painter.pairs.bodies import convex_bodies, outlined_items
 from vectorplot.visibility.painter.visible_regions import visible_regions
 from vectorplot.visibility.projected_faces import project_faces
 

@@ -7,9 +7,9 @@ import time
 import numpy as np
 import pytest
 
-from vectorplot.effects.decals import Decals
-from vectorplot.effects.shadows import shadow_decals
-from vectorplot.geometry.camera import Camera
+from vectorplot.effects.decals.decal_polygons import Decals
+from vectorplot.effects.shadows.shadow_decals import shadow_decals
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Light, Scene
 from vectorplot.scene.view import View, look

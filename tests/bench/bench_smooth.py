@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from vectorplot.draw import draw
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.plan import StageReport
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.surface_lines import SurfaceLines, even_cosines
-from vectorplot.surfaces.ellipsoid import Sphere
-from vectorplot.surfaces.torus import Torus
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.torus import Torus
 
 pytestmark = pytest.mark.bench
 

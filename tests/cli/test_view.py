@@ -6,11 +6,11 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.cli.view import CameraOptions, camera_from, page_from
 from vectorplot.draw import default_camera
-from vectorplot.geometry.camera import VIEWS, Camera
+from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import look
-from vectorplot.shading.scene_triangles import camera_in_view
-from vectorplot.shading.screen import raster_system
+from vectorplot.shading.raster.scene_triangles import camera_in_view
+from vectorplot.shading.raster.screen import raster_system
 from vectorplot.testing.shapes import box, scene_of
 
 SCENE = scene_of(BOX=box((0, 0, 0), (2, 1, 1)))

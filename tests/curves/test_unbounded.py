@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from vectorplot.io.expressions import parse_expression
-from vectorplot.io.scene_formulas import Formulas, formula_graph, formula_surface
+from vectorplot.io.expressions.expression import parse_expression
+from vectorplot.io.scenes.scene_formulas import Formulas, formula_graph, formula_surface
 from vectorplot.surfaces.graph import graph, graph_over_disc
 from vectorplot.surfaces.regions import Disc
 from vectorplot.surfaces.surface import Domain

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import shapely
 
-from vectorplot.backends.cairo import png_bytes
+from vectorplot.backends.cairo.surfaces import png_bytes
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.flattened import CLEARANCE_MM, MARGIN_MM, flattened
-from vectorplot.drawing.painted import Overlay, stacked
-from vectorplot.geometry.camera import Camera
+from vectorplot.drawing.painted_fills import Overlay, stacked
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.regions import polygons_of
 from vectorplot.paint import paint

@@ -9,7 +9,7 @@ from scipy.ndimage import maximum_filter, minimum_filter
 from support.backend_samples import grey_of_png
 
 import vectorplot as vp
-from vectorplot.backends.cairo import png_bytes
+from vectorplot.backends.cairo.surfaces import png_bytes
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.regions import polygons_of

@@ -6,7 +6,7 @@ from support.top_fills import colours_at, fills_of, top_at
 
 import vectorplot as vp
 from vectorplot.paint import PAPER
-from vectorplot.shading.palettes import palette
+from vectorplot.shading.light.palettes import palette
 from vectorplot.testing.shapes import box
 
 PAGE = vp.Page(100.0, 100.0, 0.0)

@@ -8,12 +8,12 @@ import pytest
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.drawing.drawing import Drawing
-from vectorplot.geometry.adjacency import mesh_edges
+from vectorplot.geometry.repair.adjacency import mesh_edges
 from vectorplot.geometry.revolution import revolution
-from vectorplot.shading.palettes import palette
-from vectorplot.surfaces.ellipsoid import Sphere
-from vectorplot.surfaces.quadric import implicit_sphere
-from vectorplot.surfaces.torus import Torus
+from vectorplot.shading.light.palettes import palette
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.quadric import implicit_sphere
+from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing import assert_drawings_equal
 from vectorplot.testing.shapes import box
 from vectorplot.words import WIRES

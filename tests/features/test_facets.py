@@ -8,14 +8,14 @@ import pytest
 from vectorplot.errors import InputError
 from vectorplot.features.facets import Within, facets
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.surfaces.cylinder import Cone
-from vectorplot.surfaces.ellipsoid import Sphere
+from vectorplot.surfaces.families.cylinder import Cone
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.hyperboloid import Hyperboloid
+from vectorplot.surfaces.families.minimal import helicoid_to_catenoid
+from vectorplot.surfaces.families.quadric import implicit_sphere
+from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.graph import graph
-from vectorplot.surfaces.hyperboloid import Hyperboloid
-from vectorplot.surfaces.minimal import helicoid_to_catenoid
-from vectorplot.surfaces.quadric import implicit_sphere
 from vectorplot.surfaces.surface import Domain
-from vectorplot.surfaces.torus import ImplicitTorus, Torus
 
 
 def within(tolerance: float) -> Within:

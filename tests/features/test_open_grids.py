@@ -7,10 +7,10 @@ import pytest
 from support.drawn import drawn
 
 from vectorplot.draw import draw
-from vectorplot.features.edges import Edges, Faces, mesh_edges
-from vectorplot.geometry.camera import Camera
+from vectorplot.features.meshes.edges import Edges, Faces, mesh_edges
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.winding import unbalanced_vertices
+from vectorplot.geometry.repair.winding import unbalanced_vertices
 from vectorplot.io.read import read
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.words import LineKind

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vectorplot.features.zero_manifold import zero_manifold_of_f_uv
+from vectorplot.features.zeros.zero_manifold import zero_manifold_of_f_uv
 from vectorplot.surfaces.surface import Domain
 
 SQUARE = Domain(-1, 1, -1, 1)

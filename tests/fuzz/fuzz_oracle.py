@@ -20,7 +20,7 @@ from fuzz.fuzz_scenes import formula_text, scene_bytes
 
 import vectorplot as vp
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.io.expressions import parse_expression
+from vectorplot.io.expressions.expression import parse_expression
 from vectorplot.io.info import describe
 from vectorplot.io.read import read
 

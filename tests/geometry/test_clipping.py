@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
 from vectorplot.geometry import clipping as cl
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.cameras.projection import CoordinateSystem, PixelWindow, collineate, depth_of
 from vectorplot.geometry.clipping import Box, Polygons, Window
-from vectorplot.geometry.frustum import Frustum
-from vectorplot.geometry.projection import CoordinateSystem, PixelWindow, collineate, depth_of
+from vectorplot.textbook.frustum import Frustum
 
 HUNDRED = Window(0, 100, 0, 100)
 SCREEN = CoordinateSystem.of_screen(Camera(eye=(9, -7, 6), target=(1, 0, 1), twist_deg=15), PixelWindow(800, 600))

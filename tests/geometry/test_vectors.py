@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
 from vectorplot.geometry import vectors as v
-from vectorplot.shading.lines import whole_pixels
+from vectorplot.shading.raster.pixel_lines import whole_pixels
 
 component = st.floats(-1e3, 1e3)
 vector3 = st.tuples(component, component, component).map(np.array)

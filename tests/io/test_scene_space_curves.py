@@ -17,14 +17,14 @@ from vectorplot.curves.loxodrome import Loxodrome
 from vectorplot.curves.placed import PlacedCurve
 from vectorplot.draw import draw
 from vectorplot.errors import InputError
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.io.info import describe
-from vectorplot.io.scene_families import CURVES
-from vectorplot.io.scene_language import parse_scene
-from vectorplot.io.scene_writer import write_scene
+from vectorplot.io.scenes.scene_families import CURVES
+from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.io.scenes.scene_writer import write_scene
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.surface_lines import SurfaceLines
-from vectorplot.surfaces.revolution import revolution_surface
+from vectorplot.surfaces.families.revolution import revolution_surface
 from vectorplot.testing import assert_on_both, curves_in_space
 
 TURN = 2.0 * np.pi

@@ -6,15 +6,15 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_about
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Item, Scene
-from vectorplot.surfaces.cyclide import dupin_cyclide
-from vectorplot.surfaces.cylinder import Cone
-from vectorplot.surfaces.ellipsoid import Ellipsoid
+from vectorplot.surfaces.families.cyclide import dupin_cyclide
+from vectorplot.surfaces.families.cylinder import Cone
+from vectorplot.surfaces.families.ellipsoid import Ellipsoid
+from vectorplot.surfaces.families.quadric import implicit_sphere
+from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.function import surface_of_function
 from vectorplot.surfaces.graph import graph
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
-from vectorplot.surfaces.quadric import implicit_sphere
 from vectorplot.surfaces.surface import Domain
-from vectorplot.surfaces.torus import ImplicitTorus, Torus
 from vectorplot.testing.shapes import box
 
 SHIFT = np.array([3e6, -2.0, 1.0])

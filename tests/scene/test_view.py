@@ -2,16 +2,16 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.cameras.projection import CoordinateSystem
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.projection import CoordinateSystem
 from vectorplot.scene.pools import pools
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.view import View, look
-from vectorplot.shading.shadow_buffer import light_system
-from vectorplot.surfaces.torus import ImplicitTorus, Torus
+from vectorplot.shading.shadows.shadow_buffer import light_system
+from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.testing.shapes import box, rotated_boxes
-from vectorplot.visibility.occluders import solid_items
+from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import project_faces
 
 CAMERAS = [

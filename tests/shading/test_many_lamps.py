@@ -9,8 +9,9 @@ import vectorplot as vp
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.solids import box
 from vectorplot.scene.scene import Light
-from vectorplot.shading import picture, shadow_buffer, shadow_map
-from vectorplot.shading.map_settings import MapSettings
+from vectorplot.shading.raster import picture
+from vectorplot.shading.shadows import shadow_buffer, shadow_map
+from vectorplot.shading.shadows.map_settings import MapSettings
 
 FLOOR = vp.Item("FLOOR", box((8, 8, 0.5)))
 

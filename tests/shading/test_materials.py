@@ -5,7 +5,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.backends.raster import painted
-from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scenes.scene_language import parse_scene
 
 WORDS = ("normal", "metallic", "shiny", "mat", "wood", "plastic", "transparent", "mirror")
 SAME = {"reflecting": "shiny", "matte": "mat"}

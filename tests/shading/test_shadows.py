@@ -21,14 +21,21 @@ from support.shaded_scenes import (
 )
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.projection import CoordinateSystem
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.cameras.projection import CoordinateSystem
 from vectorplot.scene.scene import Light
-from vectorplot.shading import shadow_map as maps
-from vectorplot.shading.screen import raster_system
-from vectorplot.shading.seen_region import focus_of_depths, region_in_picture, seen_region
-from vectorplot.shading.shadow_buffer import LONGEST, ShadowBuffer, is_inside, light_system, shadow_buffer, shape_of
-from vectorplot.shading.shadow_map import (
+from vectorplot.shading.raster.screen import raster_system
+from vectorplot.shading.shadows import shadow_map as maps
+from vectorplot.shading.shadows.seen_region import focus_of_depths, region_in_picture, seen_region
+from vectorplot.shading.shadows.shadow_buffer import (
+    LONGEST,
+    ShadowBuffer,
+    is_inside,
+    light_system,
+    shadow_buffer,
+    shape_of,
+)
+from vectorplot.shading.shadows.shadow_map import (
     in_texels,
     light_plane,
     shadow_map,
@@ -37,8 +44,8 @@ from vectorplot.shading.shadow_map import (
     trapezoid_frame,
     vertices_with_own_depth,
 )
-from vectorplot.shading.shadow_rays import blocked_exactly
-from vectorplot.shading.trapezoid import focus_area
+from vectorplot.shading.shadows.shadow_rays import blocked_exactly
+from vectorplot.shading.shadows.trapezoid import focus_area
 from vectorplot.testing.surfaces import bumpy_icosphere
 
 SUN = Light((1.0, -1.5, 2.0), parallel=True)

@@ -6,12 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vectorplot.geometry.camera import Camera
-from vectorplot.surfaces.cylinder import Cone, Cylinder
-from vectorplot.surfaces.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.hyperboloid import Hyperboloid, Paraboloid
-from vectorplot.surfaces.torus import Torus
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.surfaces.families.cylinder import Cone, Cylinder
+from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
+from vectorplot.surfaces.families.hyperboloid import Hyperboloid, Paraboloid
+from vectorplot.surfaces.families.torus import Torus
 
 
 class Hits(NamedTuple):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.effects.decals import Decals
+from vectorplot.effects.decals.decal_polygons import Decals
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import newell

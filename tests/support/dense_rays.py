@@ -7,7 +7,7 @@ import embreex.mesh_construction
 import embreex.rtcore_scene
 import numpy as np
 
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
 

@@ -11,7 +11,7 @@ from support.top_fills import colours_at, covering, fills_of, last_at, pixel_pla
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import FillKind
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Light, Page, Scene
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.camera import Camera
-from vectorplot.shading.screen import raster_system
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.shading.raster.screen import raster_system
 
 
 def intersector(vertices, triangles):

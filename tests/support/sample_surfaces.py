@@ -7,25 +7,25 @@ import numpy as np
 from vectorplot.curves.circle import Circle
 from vectorplot.curves.function import curve_of_function
 from vectorplot.curves.line import Line
-from vectorplot.io.scene_language import parse_scene
-from vectorplot.surfaces.cyclide import ImplicitCyclide, dupin_cyclide
-from vectorplot.surfaces.cylinder import Cone, Cylinder
-from vectorplot.surfaces.ellipsoid import Ellipsoid, Sphere
+from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
+from vectorplot.surfaces.families.cylinder import Cone, Cylinder
+from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.families.helical import helical_surface
+from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
+from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
+from vectorplot.surfaces.families.minimal import helicoid_to_catenoid, minimal_spiral_surface
+from vectorplot.surfaces.families.quadric import Quadric
+from vectorplot.surfaces.families.revolution import revolution_surface
+from vectorplot.surfaces.families.rotoidal import rotoidal_surface
+from vectorplot.surfaces.families.spiral import spiral_surface
+from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
+from vectorplot.surfaces.families.translation import translation_surface
 from vectorplot.surfaces.function import surface_of_function
 from vectorplot.surfaces.graph import graph, graph_over_disc
-from vectorplot.surfaces.helical import helical_surface
-from vectorplot.surfaces.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
 from vectorplot.surfaces.implicit_function import hessians
-from vectorplot.surfaces.minimal import helicoid_to_catenoid, minimal_spiral_surface
-from vectorplot.surfaces.quadric import Quadric
 from vectorplot.surfaces.regions import Disc
-from vectorplot.surfaces.revolution import revolution_surface
-from vectorplot.surfaces.rotoidal import rotoidal_surface
-from vectorplot.surfaces.spiral import spiral_surface
 from vectorplot.surfaces.surface import Domain, is_parametrised
-from vectorplot.surfaces.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.translation import translation_surface
 from vectorplot.surfaces.trimmed import TrimmedSurface
 
 

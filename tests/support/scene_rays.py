@@ -9,7 +9,7 @@ import numpy as np
 
 from support.pixel_rays import intersector
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Page, Scene
 
 ABOVE = 2e-5

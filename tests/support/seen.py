@@ -6,15 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing import visible_by_rays
 from vectorplot.visibility.framing import in_frame
-from vectorplot.visibility.hidden_lines import Visibility, counted_parts, visible_parts
-from vectorplot.visibility.lines import Lines, edge_lines, intersection_lines, joined_lines
-from vectorplot.visibility.occluders import solid_items
-from vectorplot.visibility.pairs import Segments
+from vectorplot.visibility.polyhedra.hidden_lines import Visibility, counted_parts, visible_parts
+from vectorplot.visibility.polyhedra.lines import Lines, edge_lines, intersection_lines, joined_lines
+from vectorplot.visibility.polyhedra.occluders import solid_items
+from vectorplot.visibility.polyhedra.pairs import Segments
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import DRAWN, LineKind
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.geometry import ragged
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.shading.barycentrics import visible_points
-from vectorplot.shading.depth_buffer import depth_buffer
-from vectorplot.shading.screen import raster_system, screen_triangles
+from vectorplot.shading.depth.depth_buffer import depth_buffer
+from vectorplot.shading.raster.barycentrics import visible_points
+from vectorplot.shading.raster.screen import raster_system, screen_triangles
 from vectorplot.testing.shapes import box, rotated_boxes
 from vectorplot.testing.surfaces import bumpy_icosphere, grid_graph, torus_mesh
 

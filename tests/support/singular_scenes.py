@@ -7,15 +7,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.curves.line import Line
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Item, Scene
-from vectorplot.surfaces.cylinder import Cone
-from vectorplot.surfaces.ellipsoid import Sphere
+from vectorplot.surfaces.families.cylinder import Cone
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function import surface_of_function
 from vectorplot.surfaces.implicit_function import implicit_of_function
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, is_implicit
-from vectorplot.surfaces.torus import Torus
 
 Points = tuple[tuple[float, float, float], ...]
 

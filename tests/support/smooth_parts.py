@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View, look
-from vectorplot.surfaces.ellipsoid import Sphere
-from vectorplot.visibility.smooth.curves import Curves
-from vectorplot.visibility.smooth.family import StraightLines
-from vectorplot.visibility.smooth.parametric_items import sheet_of_parametrised
-from vectorplot.visibility.smooth.parametric_sheet import ParametricSheet
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.visibility.smooth.sheets.family import StraightLines
+from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
+from vectorplot.visibility.smooth.tracing.parametric_items import sheet_of_parametrised
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.words import LineKind
 
 

@@ -7,22 +7,22 @@ from collections.abc import Iterator
 import numpy as np
 
 from vectorplot.curves.circle import Circle
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
-from vectorplot.surfaces.cyclide import ImplicitCyclide, dupin_cyclide
-from vectorplot.surfaces.cylinder import Cone, Cylinder
-from vectorplot.surfaces.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
+from vectorplot.surfaces.families.cylinder import Cone, Cylinder
+from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.families.helical import helical_surface
+from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
+from vectorplot.surfaces.families.hyperboloid import Hyperboloid, Paraboloid
+from vectorplot.surfaces.families.minimal import helicoid_to_catenoid
+from vectorplot.surfaces.families.quadric import implicit_ellipsoid, implicit_sphere
+from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.function import FunctionSurface, surface_of_function
 from vectorplot.surfaces.graph import graph
-from vectorplot.surfaces.helical import helical_surface
-from vectorplot.surfaces.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.hyperboloid import Hyperboloid, Paraboloid
-from vectorplot.surfaces.minimal import helicoid_to_catenoid
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
-from vectorplot.surfaces.quadric import implicit_ellipsoid, implicit_sphere
 from vectorplot.surfaces.surface import Domain
-from vectorplot.surfaces.torus import ImplicitTorus, Torus
 from vectorplot.testing.shapes import box, rotation
 
 TURN = 2.0 * np.pi

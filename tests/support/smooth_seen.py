@@ -6,17 +6,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import look
 from vectorplot.visibility.framing import in_frame
-from vectorplot.visibility.hidden_lines import counted_parts
-from vectorplot.visibility.lines import edge_lines, intersection_lines, joined_lines
-from vectorplot.visibility.occluders import solid_items
-from vectorplot.visibility.pairs import Segments
+from vectorplot.visibility.polyhedra.hidden_lines import counted_parts
+from vectorplot.visibility.polyhedra.lines import edge_lines, intersection_lines, joined_lines
+from vectorplot.visibility.polyhedra.occluders import solid_items
+from vectorplot.visibility.polyhedra.pairs import Segments
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.visibility.smooth.smooth_lines import with_curves
-from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
+from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind
 
 

@@ -10,12 +10,12 @@ import pytest
 
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.surfaces.curvature import gaussian_curvature, mean_curvature
-from vectorplot.surfaces.ellipsoid import Sphere
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function import surface_of_function
 from vectorplot.surfaces.graph import graph, graph_over_disc
 from vectorplot.surfaces.regions import Disc, PolygonRegion
 from vectorplot.surfaces.surface import Domain, is_hole
-from vectorplot.surfaces.torus import Torus
 
 TORUS = Torus(3, 1)
 DOMAIN = TORUS.domain

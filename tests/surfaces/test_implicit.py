@@ -9,15 +9,12 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.rotations import rotation_about
-from vectorplot.surfaces.cyclide import ImplicitCyclide, dupin_cyclide
-from vectorplot.surfaces.cylinder import Cone, Cylinder
-from vectorplot.surfaces.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
-from vectorplot.surfaces.implicit_function import hessians, implicit_of_function
-from vectorplot.surfaces.inversion import InvertedImplicit, InvertedSurface, inverted
-from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
-from vectorplot.surfaces.quadric import (
+from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
+from vectorplot.surfaces.families.cylinder import Cone, Cylinder
+from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
+from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
+from vectorplot.surfaces.families.quadric import (
     Quadric,
     implicit_cone,
     implicit_cylinder,
@@ -25,7 +22,10 @@ from vectorplot.surfaces.quadric import (
     implicit_plane,
     implicit_sphere,
 )
-from vectorplot.surfaces.torus import ImplicitTorus, ImplicitTorusByDistance, Torus
+from vectorplot.surfaces.families.torus import ImplicitTorus, ImplicitTorusByDistance, Torus
+from vectorplot.surfaces.implicit_function import hessians, implicit_of_function
+from vectorplot.surfaces.inversion import InvertedImplicit, InvertedSurface, inverted
+from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
 
 BOX = np.array([(-4, -4, -4), (4, 4, 4)])
 TEN = [1, 2, 3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, -1]

@@ -2,12 +2,12 @@ import numpy as np
 import pytest
 
 from vectorplot.features.facets import Within, facets
-from vectorplot.io.expressions import parse_expression
-from vectorplot.io.scene_formulas import Formulas, formula_graph
+from vectorplot.io.expressions.expression import parse_expression
+from vectorplot.io.scenes.scene_formulas import Formulas, formula_graph
+from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.graph import Graph
 from vectorplot.surfaces.jumps import jumping_cells, jumps
 from vectorplot.surfaces.surface import Domain
-from vectorplot.surfaces.torus import Torus
 
 SQUARE = Domain(-2.0, 2.0, -2.0, 2.0)
 

@@ -10,24 +10,24 @@ from vectorplot.curves.curve import Curve
 from vectorplot.curves.helix import Helix
 from vectorplot.curves.line import Line
 from vectorplot.geometry.rotations import rotation_about
-from vectorplot.surfaces.cyclide import dupin_cyclide
-from vectorplot.surfaces.cylinder import Cone, Cylinder
-from vectorplot.surfaces.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.families.cyclide import dupin_cyclide
+from vectorplot.surfaces.families.cylinder import Cone, Cylinder
+from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.families.helical import helical_surface
+from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
+from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
+from vectorplot.surfaces.families.minimal import helicoid_to_catenoid, minimal_spiral_surface
+from vectorplot.surfaces.families.revolution import revolution_surface
+from vectorplot.surfaces.families.rotoidal import rotoidal_surface
+from vectorplot.surfaces.families.spiral import spiral_surface
+from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.families.translation import translation_surface
 from vectorplot.surfaces.function import surface_of_function
 from vectorplot.surfaces.graph import graph, graph_over_disc
-from vectorplot.surfaces.helical import helical_surface
-from vectorplot.surfaces.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
-from vectorplot.surfaces.minimal import helicoid_to_catenoid, minimal_spiral_surface
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.placed import PlacedSurface
 from vectorplot.surfaces.regions import Disc
-from vectorplot.surfaces.revolution import revolution_surface
-from vectorplot.surfaces.rotoidal import rotoidal_surface
-from vectorplot.surfaces.spiral import spiral_surface
 from vectorplot.surfaces.surface import Domain, normals
-from vectorplot.surfaces.torus import Torus
-from vectorplot.surfaces.translation import translation_surface
 
 LINE = Line((2, 0.5, -1), (0.4, 1, 0.7))
 CIRCLE = Circle((3, 0.2, 0.1), 0.8, (0.3, 1, 0.2))

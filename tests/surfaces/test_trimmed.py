@@ -2,10 +2,10 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.surfaces.cylinder import Cylinder
-from vectorplot.surfaces.ellipsoid import Sphere
+from vectorplot.surfaces.families.cylinder import Cylinder
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
-from vectorplot.surfaces.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.trimmed import TrimmedSurface
 
 

@@ -9,23 +9,23 @@ from support.smooth_seen import Chords, chords_seen
 
 from vectorplot.draw import draw
 from vectorplot.errors import InputError
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import View, look
-from vectorplot.surfaces.cyclide import ImplicitCyclide, dupin_cyclide
-from vectorplot.surfaces.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.hyperboloid import Hyperboloid
-from vectorplot.surfaces.implicit_function import implicit_of_function
-from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
-from vectorplot.surfaces.quadric import (
+from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
+from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.families.hyperboloid import Hyperboloid
+from vectorplot.surfaces.families.quadric import (
     Quadric,
     implicit_cone,
     implicit_cylinder,
     implicit_ellipsoid,
     implicit_sphere,
 )
-from vectorplot.surfaces.torus import ImplicitTorus, Torus
+from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
+from vectorplot.surfaces.implicit_function import implicit_of_function
+from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
 from vectorplot.testing import assert_drawing_is_right, hausdorff
 from vectorplot.testing.shapes import box, rotation
 from vectorplot.words import LineKind

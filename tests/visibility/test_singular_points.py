@@ -14,9 +14,9 @@ from support.smooth_seen import chords_seen
 from vectorplot.curves.line import Line
 from vectorplot.draw import draw
 from vectorplot.errors import InputWarning
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Item, Scene
-from vectorplot.surfaces.cylinder import Cone
+from vectorplot.surfaces.families.cylinder import Cone
 from vectorplot.words import LineKind
 
 SURFACES = singular_surfaces()

@@ -13,10 +13,10 @@ from support.smooth_seen import Chords, chords_seen
 
 from vectorplot.draw import draw
 from vectorplot.errors import InputWarning
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Light, Scene
-from vectorplot.surfaces.ellipsoid import Sphere
+from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.placed import PlacedSurface
 from vectorplot.testing import assert_drawing_is_right
 from vectorplot.testing.shapes import box

@@ -10,19 +10,19 @@ from collections.abc import Iterator
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.backends.sheet import LARGEST_PAGE_MM
+from vectorplot.backends.page.page_marks import LARGEST_PAGE_MM
 from vectorplot.drawing.drawing import Curves, Drawing, Paths
 from vectorplot.drawing.fills import Fills
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons
-from vectorplot.shading.coverage import GUARD_BAND
-from vectorplot.shading.lines import line_pixels
-from vectorplot.shading.png import DPI, Bytes
-from vectorplot.shading.png import png_bytes as pixels_as_png
-from vectorplot.shading.scan_lines import polygon_pixels, with_specks_grown
-from vectorplot.shading.screen import raster_size
-from vectorplot.shading.supersampling import averaged
+from vectorplot.shading.raster.coverage import GUARD_BAND
+from vectorplot.shading.raster.pixel_lines import line_pixels
+from vectorplot.shading.raster.png import DPI, Bytes
+from vectorplot.shading.raster.png import png_bytes as pixels_as_png
+from vectorplot.shading.raster.scan_lines import polygon_pixels, with_specks_grown
+from vectorplot.shading.raster.screen import raster_size
+from vectorplot.shading.raster.supersampling import averaged
 
 JOIN_SIDES = 12
 """Ends and joins of strokes are polygons of so many sides."""

@@ -76,7 +76,7 @@ def sheet(text: str) -> tuple[float, float]:
 
 def pixels(text: str) -> tuple[int, int]:
     """Columns and rows of a picture, WIDTHxHEIGHT."""
-    from vectorplot.shading.screen import raster_size
+    from vectorplot.shading.raster.screen import raster_size
 
     sides = text.lower().split("x")
     if len(sides) != 2 or not all(side.strip().isdigit() for side in sides):

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Drawing
     from vectorplot.plan import StageReport
     from vectorplot.scene.scene import Scene
-    from vectorplot.shading.image import Image
+    from vectorplot.shading.raster.image import Image
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ def make_picture(
 
 def is_empty(made: Drawing | Image) -> bool:
     """Whether a picture shows nothing: no marks, or a single colour."""
-    from vectorplot.shading.image import Image
+    from vectorplot.shading.raster.image import Image
 
     if isinstance(made, Image):
         return bool((made.pixels == made.pixels[0, 0]).all())

@@ -14,7 +14,7 @@ from vectorplot.cli.view import CAMERA_OPTIONS, CameraOptions, camera_from, with
 if TYPE_CHECKING:
     from vectorplot.cli.picture import Report
     from vectorplot.scene.scene import Scene
-    from vectorplot.shading.image import Image
+    from vectorplot.shading.raster.image import Image
 
 FORMATS = ("png",)
 SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")

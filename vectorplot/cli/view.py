@@ -14,7 +14,7 @@ import click
 from vectorplot.cli.options import at_least, between, chosen, exclusive, number, point, sheet
 
 if TYPE_CHECKING:
-    from vectorplot.geometry.camera import Camera, Point
+    from vectorplot.geometry.cameras.camera import Camera, Point
     from vectorplot.scene.scene import Page, Scene
 
 Command = Callable[..., None]
@@ -91,8 +91,8 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
     """
     from vectorplot.draw import default_camera
     from vectorplot.errors import InputWarning
-    from vectorplot.geometry.camera import Camera
-    from vectorplot.geometry.lens import advice
+    from vectorplot.geometry.cameras.camera import Camera
+    from vectorplot.geometry.cameras.lens import advice
 
     upright = options.up if options.up is not None and any(options.up) else (0.0, 0.0, 1.0)
     base = scene.camera or default_camera(scene, upright)

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.curves.bezier import BezierPaths
-from vectorplot.curves.elliptic_arcs import EllipseArcs
+from vectorplot.curves.bezier.elliptic_arcs import EllipseArcs
+from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.drawing.fills import Fills
 
 
@@ -107,11 +107,11 @@ class Drawing:
         return f"<Drawing {self.title!r}: {self.width_mm:g}x{self.height_mm:g} mm, marks: {layers or 'none'}>"
 
     def _repr_svg_(self) -> str:
-        from vectorplot.backends.svg import svg_text
+        from vectorplot.backends.svg.document import svg_text
 
         return svg_text(self)
 
     def _repr_png_(self) -> bytes:
-        from vectorplot.backends.cairo import png_bytes
+        from vectorplot.backends.cairo.surfaces import png_bytes
 
         return png_bytes(self)

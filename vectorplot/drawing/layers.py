@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Ints
 from vectorplot.drawing.drawing import Layer, Paths, Pen
-from vectorplot.drawing.pieces import chosen
+from vectorplot.drawing.strokes.paths import chosen
 from vectorplot.words import LineKind
 
 BLACK = "#000000"

@@ -10,8 +10,8 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputWarning
 from vectorplot.geometry import ragged
-from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.convex_faces import convex_faces
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.scene.extent import smooth_bounds

@@ -8,9 +8,9 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
-from vectorplot.visibility import grid as grids
-from vectorplot.visibility.hidden_lines import Visibility
-from vectorplot.visibility.lines import Lines
+from vectorplot.visibility.polyhedra import grid as grids
+from vectorplot.visibility.polyhedra.hidden_lines import Visibility
+from vectorplot.visibility.polyhedra.lines import Lines
 
 OWN_DEPTH = 2.0
 """An outline interrupts lines of its own item only if they are so many widths behind it: others meet it."""

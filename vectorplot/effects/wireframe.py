@@ -15,12 +15,12 @@ from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.layers import PENS, layers_of
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import View
-from vectorplot.shading.depth_cueing import MIDDLE, edge_shades
-from vectorplot.shading.face_shades import limited_depths
-from vectorplot.shading.illumination import shade_numbers
-from vectorplot.shading.palettes import SIZE, palette
-from vectorplot.visibility.hidden_lines import Visibility
-from vectorplot.visibility.lines import Lines
+from vectorplot.shading.light.depth_cueing import MIDDLE, edge_shades
+from vectorplot.shading.light.face_shades import limited_depths
+from vectorplot.shading.light.illumination import shade_numbers
+from vectorplot.shading.light.palettes import SIZE, palette
+from vectorplot.visibility.polyhedra.hidden_lines import Visibility
+from vectorplot.visibility.polyhedra.lines import Lines
 
 BACKGROUND = "gray"
 """Its darkest shade is behind wireframes where the scene names no background."""

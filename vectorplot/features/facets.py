@@ -11,11 +11,11 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, Vertices, refined
-from vectorplot.features.grid_triangulation import triangulate_surface
-from vectorplot.features.poles import Pole, poles
-from vectorplot.features.polygonize import onto_surface, settled_mesh
-from vectorplot.features.singular_set import VANISHED, led_into_singular_set, usual_gradient
+from vectorplot.features.implicit.polygonize import onto_surface, settled_mesh
+from vectorplot.features.implicit.singular_set import VANISHED, led_into_singular_set, usual_gradient
+from vectorplot.features.parametric.poles import Pole, poles
 from vectorplot.features.tessellation import grid_numbers
+from vectorplot.features.zeros.grid_triangulation import triangulate_surface
 from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.surfaces.jumps import jumps

@@ -9,9 +9,9 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.features.curve_tracing import TURN, wrapped
-from vectorplot.features.grid_triangulation import average_normals, cut_cells
-from vectorplot.features.poles import poles
+from vectorplot.features.parametric.curve_tracing import TURN, wrapped
+from vectorplot.features.parametric.poles import poles
+from vectorplot.features.zeros.grid_triangulation import average_normals, cut_cells
 from vectorplot.surfaces.surface import Domain, Surface
 
 UNEVEN = 0.17

@@ -6,10 +6,10 @@ from collections.abc import Iterable
 
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
-from vectorplot.geometry.degenerate import without_stutter
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair import MeshReport, mesh_report, without_loose_vertices
-from vectorplot.io.scene_surface_writer import curve_text, surface_text
+from vectorplot.geometry.repair.degenerate import without_stutter
+from vectorplot.geometry.repair.mesh_repair import MeshReport, mesh_report, without_loose_vertices
+from vectorplot.io.scenes.scene_surface_writer import curve_text, surface_text
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.seams import without_seams

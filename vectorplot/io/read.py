@@ -13,9 +13,9 @@ from vectorplot.arrays import Ints
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair import Mending, is_closed_oriented, mended
+from vectorplot.geometry.repair.mesh_repair import Mending, is_closed_oriented, mended
 from vectorplot.io.foreign import foreign_kind
-from vectorplot.io.mesh_file import MeshFile, check_file, shown
+from vectorplot.io.meshes.mesh_file import MeshFile, check_file, shown
 from vectorplot.scene.extent import check_range
 from vectorplot.scene.scene import Item, Scene
 
@@ -49,7 +49,7 @@ def read(path: str | os.PathLike[str]) -> Scene:
 
 def _scene_text(path: Path) -> Scene:
     """The scene that a text describes; what is wrong with it may be that it is none."""
-    from vectorplot.io.scene_language import read_scene
+    from vectorplot.io.scenes.scene_language import read_scene
 
     try:
         return read_scene(path)
@@ -63,23 +63,23 @@ def _scene_text(path: Path) -> Scene:
 def _mesh_reader(suffix: str) -> Callable[[Path], MeshFile] | None:
     """The reader of a mesh format; None for what must be text in the scene language. Imported when called for."""
     if suffix == ".obj":
-        from vectorplot.io.obj import read_obj
+        from vectorplot.io.meshes.obj import read_obj
 
         return read_obj
     if suffix == ".off":
-        from vectorplot.io.off import read_off
+        from vectorplot.io.meshes.off import read_off
 
         return read_off
     if suffix == ".ply":
-        from vectorplot.io.ply import read_ply
+        from vectorplot.io.meshes.ply import read_ply
 
         return read_ply
     if suffix == ".stl":
-        from vectorplot.io.stl import read_stl
+        from vectorplot.io.meshes.stl import read_stl
 
         return read_stl
     if suffix == ".glb":
-        from vectorplot.io.glb import read_glb
+        from vectorplot.io.meshes.glb import read_glb
 
         return read_glb
     return None

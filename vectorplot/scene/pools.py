@@ -9,8 +9,8 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.adjacency import mesh_edges
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.repair.adjacency import mesh_edges
 from vectorplot.scene.scene import Scene
 
 

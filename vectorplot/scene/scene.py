@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines

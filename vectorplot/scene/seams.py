@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.seams import joined_seams
+from vectorplot.geometry.repair.seams import joined_seams
 from vectorplot.scene.scene import Scene
 
 

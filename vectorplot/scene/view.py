@@ -9,8 +9,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.convex_faces import convex_faces
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.scene.pools import pools

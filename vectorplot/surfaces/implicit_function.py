@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
-from vectorplot.surfaces.quadric import checked_box
+from vectorplot.surfaces.families.quadric import checked_box
 from vectorplot.surfaces.surface import ImplicitSurface
 
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
-from vectorplot.surfaces.quadric import checked_box
+from vectorplot.surfaces.families.quadric import checked_box
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
 
 

@@ -12,10 +12,10 @@ from vectorplot.testing.curves import (
     assert_same_curve,
     branch_count,
 )
+from vectorplot.testing.drawing_checks import assert_drawing_is_right, edge_points
 from vectorplot.testing.polylines import curves_in_space
-from vectorplot.testing.right import assert_drawing_is_right, edge_points
+from vectorplot.testing.rays.sight import Sight, visible_by_rays
 from vectorplot.testing.shapes import hard_shapes
-from vectorplot.testing.sight import Sight, visible_by_rays
 
 __all__ = [
     "BranchCount",

@@ -10,14 +10,14 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.vectors import length, normalize
 from vectorplot.scene.scene import Light
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 from vectorplot.testing.curve_distance import Worst, worst_of_both
-from vectorplot.testing.nearest import nearest_places
 from vectorplot.testing.polylines import CurvePoints, Curves, points_of, polylines_of
+from vectorplot.testing.rays.nearest import nearest_places
 
 AnySurface = Surface | ImplicitSurface
 

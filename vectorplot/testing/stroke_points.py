@@ -8,12 +8,12 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing, Paths
-from vectorplot.features.conditions import CentralContour, ParallelContour
-from vectorplot.geometry.camera import Camera
+from vectorplot.features.parametric.conditions import CentralContour, ParallelContour
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
-from vectorplot.testing.nearest import inside, nearest_places
+from vectorplot.testing.rays.nearest import inside, nearest_places
 from vectorplot.words import LineKind
 
 STEPS = 8

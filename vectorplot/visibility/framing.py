@@ -7,7 +7,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.scene.scene import Page
 from vectorplot.scene.view import View
-from vectorplot.visibility.lines import Lines
+from vectorplot.visibility.polyhedra.lines import Lines
 
 WIDEST_DEG = 60.0
 """A picture that is fitted to the page shows what lies up to so many degrees off the principal ray."""

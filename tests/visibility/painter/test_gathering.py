@@ -6,11 +6,11 @@ import shapely
 
 from vectorplot.arrays import Ints
 from vectorplot.drawing.fills import FillKind
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Material, Scene
-from vectorplot.surfaces.ellipsoid import Sphere
-from vectorplot.surfaces.torus import Torus
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.torus import Torus
 from vectorplot.visibility.painter.gathering import gathered, side_by_side
 from vectorplot.visibility.painter.image_faces import ImageFaces, polygons_of
 

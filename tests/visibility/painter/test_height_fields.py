@@ -7,17 +7,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box
-from vectorplot.visibility.painter.candidates import box_pairs
-from vectorplot.visibility.painter.face_pairs import drawn_before, face_relations
-from vectorplot.visibility.painter.graphs import graph_order, graph_triangles
+from vectorplot.textbook.graph_order import graph_order, graph_triangles
 from vectorplot.visibility.painter.height_fields import field_order, known_orders
 from vectorplot.visibility.painter.image_faces import image_faces
 from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.painter.pairs.candidates import box_pairs
+from vectorplot.visibility.painter.pairs.face_pairs import drawn_before, face_relations
 
 
 def field(seed: int, rows: int = 9, columns: int = 6, holes: bool = True) -> Mesh:

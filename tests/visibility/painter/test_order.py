@@ -7,7 +7,7 @@ import pytest
 from support.painted import compared, nearest, sample_points, top_polygon
 from support.strewn import STREWN, placed
 
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import look

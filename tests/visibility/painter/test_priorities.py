@@ -8,7 +8,7 @@ from support.painted import nearest, sample_points, top_polygon
 from support.strewn import STREWN, placed
 
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import (
     box,
@@ -20,14 +20,14 @@ from vectorplot.testing.shapes import (
     scene_of,
 )
 from vectorplot.testing.surfaces import torus_mesh
-from vectorplot.visibility.painter.bodies import convex_bodies, outlined_items
-from vectorplot.visibility.painter.face_pairs import APART, BEHIND, IN_FRONT, STRADDLING
+from vectorplot.textbook.sphere_order import sphere_order
 from vectorplot.visibility.painter.groups import gordian_knots, grouped_order, knot_report, object_order
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.mikado import component_ranks, mikado
 from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.painter.pairs.bodies import convex_bodies, outlined_items
+from vectorplot.visibility.painter.pairs.face_pairs import APART, BEHIND, IN_FRONT, STRADDLING
 from vectorplot.visibility.painter.priorities import demands, priorities, view_objects, which_first, wholly_hidden
-from vectorplot.visibility.painter.sphere_order import sphere_order
 from vectorplot.visibility.projected_faces import project_faces
 
 EYE = Camera((9.0, 7.0, 6.0), (0, 0, 0))

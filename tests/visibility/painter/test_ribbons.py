@@ -11,16 +11,16 @@ from support.strewn import placed
 
 import vectorplot as vp
 from vectorplot.errors import InputError
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.io.scene_language import parse_scene
-from vectorplot.io.scene_writer import write_scene
+from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.io.scenes.scene_writer import write_scene
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box, numbered
 from vectorplot.testing.surfaces import torus_mesh
-from vectorplot.visibility.painter.graphs import graph_triangles
+from vectorplot.textbook.graph_order import graph_triangles
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces, unmapped
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.painter.ribbons import in_slices, ribbon_order, ribbons

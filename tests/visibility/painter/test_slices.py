@@ -10,15 +10,15 @@ from support.painted import SAME_DEPTH, heights_on, nearest, sample_points, top_
 from support.strewn import placed
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box, numbered, scene_of
 from vectorplot.testing.surfaces import torus_mesh
-from vectorplot.visibility.painter.graphs import graph_order, graph_triangles
+from vectorplot.textbook.graph_order import graph_order, graph_triangles
+from vectorplot.textbook.ring_order import ring_order, sliced_meridian
 from vectorplot.visibility.painter.image_faces import image_faces, mapped, polygons_of
 from vectorplot.visibility.painter.order import painters_order
-from vectorplot.visibility.painter.rings import ring_order, sliced_meridian
 from vectorplot.visibility.painter.slices import cut_into_slices, eye_coordinate, slice_order, sliced_order
 
 

@@ -10,7 +10,7 @@ import shapely
 from support.painted import NEAR_EDGE, SAME_DEPTH, heights_on, nearest, sample_points
 from support.strewn import STREWN
 
-from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import look

@@ -7,15 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.visibility.painter.face_pairs import (
+from vectorplot.visibility.painter.image_faces import ImageFaces, joined
+from vectorplot.visibility.painter.mikado import component_ranks
+from vectorplot.visibility.painter.pairs.face_pairs import (
     APART,
     STRADDLING,
     Codes,
     drawn_before,
     face_relations,
 )
-from vectorplot.visibility.painter.image_faces import ImageFaces, joined
-from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.space_partition import partitioned
 from vectorplot.visibility.painter.splitting import dense, halves, height_span, in_two
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry import ragged
-from vectorplot.geometry.convex_clipping import clipped
+from vectorplot.geometry.convex.polygon_clipping import clipped
 from vectorplot.visibility.painter.image_faces import ImageFaces
 
 

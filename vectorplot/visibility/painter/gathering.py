@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Bools, Ints
-from vectorplot.visibility.painter.candidates import box_pairs, boxes_over
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.mikado import Links
-from vectorplot.visibility.painter.outlines import Outlines, overlapping
+from vectorplot.visibility.painter.pairs.candidates import box_pairs, boxes_over
+from vectorplot.visibility.painter.pairs.outlines import Outlines, overlapping
 
 MOST_TURNS = 8
 """So many times polygons of planes are moved both ways at most."""

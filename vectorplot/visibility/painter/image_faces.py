@@ -12,7 +12,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.mesh import next_positions
-from vectorplot.geometry.winding import unbalanced_vertices
+from vectorplot.geometry.repair.winding import unbalanced_vertices
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, newell
 

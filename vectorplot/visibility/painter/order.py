@@ -12,11 +12,14 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.bodies import Bodies, convex_bodies, outlined_items
-from vectorplot.visibility.painter.body_pairs import UNDECIDED, body_relations
-from vectorplot.visibility.painter.candidates import box_pairs
 from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
-from vectorplot.visibility.painter.face_pairs import (
+from vectorplot.visibility.painter.groups import group_ranks
+from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces, joined
+from vectorplot.visibility.painter.mikado import component_ranks
+from vectorplot.visibility.painter.pairs.bodies import Bodies, convex_bodies, outlined_items
+from vectorplot.visibility.painter.pairs.body_pairs import UNDECIDED, body_relations
+from vectorplot.visibility.painter.pairs.candidates import box_pairs
+from vectorplot.visibility.painter.pairs.face_pairs import (
     APART,
     BEHIND,
     IN_FRONT,
@@ -24,9 +27,6 @@ from vectorplot.visibility.painter.face_pairs import (
     drawn_before,
     face_relations,
 )
-from vectorplot.visibility.painter.groups import group_ranks
-from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces, joined
-from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.ribbons import in_slices, ribbon_order, ribbons
 from vectorplot.visibility.painter.splitting import dense
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces

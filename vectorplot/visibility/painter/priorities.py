@@ -13,15 +13,15 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.geometry.convex_clipping import contained
-from vectorplot.geometry.convex_hulls import convex_hulls
+from vectorplot.geometry.convex.convex_hulls import convex_hulls
+from vectorplot.geometry.convex.polygon_clipping import contained
+from vectorplot.geometry.convex.separating_planes import Surroundings, separations
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.separating_planes import Surroundings, separations
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.bodies import outlined_items
-from vectorplot.visibility.painter.candidates import box_pairs
-from vectorplot.visibility.painter.face_pairs import APART, BEHIND, IN_FRONT, STRADDLING, Codes, face_relations
 from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces
+from vectorplot.visibility.painter.pairs.bodies import outlined_items
+from vectorplot.visibility.painter.pairs.candidates import box_pairs
+from vectorplot.visibility.painter.pairs.face_pairs import APART, BEHIND, IN_FRONT, STRADDLING, Codes, face_relations
 from vectorplot.visibility.projected_faces import project_faces
 
 

@@ -17,11 +17,11 @@ from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.candidates import box_pairs
 from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
-from vectorplot.visibility.painter.face_pairs import drawn_before
 from vectorplot.visibility.painter.image_faces import ImageFaces, mapped, polygons_of, unmapped
 from vectorplot.visibility.painter.mikado import component_ranks
+from vectorplot.visibility.painter.pairs.candidates import box_pairs
+from vectorplot.visibility.painter.pairs.face_pairs import drawn_before
 from vectorplot.visibility.painter.slices import cut_into_slices, pairs_in_slices, related, slice_order
 from vectorplot.visibility.painter.splitting import dense
 from vectorplot.visibility.projected_faces import Bytes

@@ -9,10 +9,10 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
-from vectorplot.visibility.painter.candidates import box_pairs
 from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
-from vectorplot.visibility.painter.face_pairs import APART, face_relations
 from vectorplot.visibility.painter.image_faces import ImageFaces
+from vectorplot.visibility.painter.pairs.candidates import box_pairs
+from vectorplot.visibility.painter.pairs.face_pairs import APART, face_relations
 
 
 def slice_order(levels: ArrayLike, eye: float) -> Ints:

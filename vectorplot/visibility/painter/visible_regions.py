@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.convex_clipping import clipped
+from vectorplot.geometry.convex.polygon_clipping import clipped
 from vectorplot.geometry.regions import (
     WIDTH_KEPT,
     corners_of,
@@ -19,11 +19,11 @@ from vectorplot.geometry.regions import (
     without_splinters,
 )
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.bodies import convex_bodies, outlined_items
-from vectorplot.visibility.painter.candidates import boxes_over
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.order import Painted
-from vectorplot.visibility.painter.outlines import Outlines, overlapping
+from vectorplot.visibility.painter.pairs.bodies import convex_bodies, outlined_items
+from vectorplot.visibility.painter.pairs.candidates import boxes_over
+from vectorplot.visibility.painter.pairs.outlines import Outlines, overlapping
 from vectorplot.visibility.projected_faces import project_faces
 
 

@@ -9,8 +9,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
-from vectorplot.visibility.smooth import projection
-from vectorplot.visibility.smooth.curves import Curves
+from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 STEPS = 3
 """Steps of Newton from the part of a chord to that of its curve, which is close to it."""

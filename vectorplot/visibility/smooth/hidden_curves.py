@@ -12,16 +12,16 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import Budget
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.chord_parts import ChordParts
-from vectorplot.visibility.smooth.crossings import crossings
-from vectorplot.visibility.smooth.curves import Curves
-from vectorplot.visibility.smooth.events import all_events
-from vectorplot.visibility.smooth.missed_events import missed_events
-from vectorplot.visibility.smooth.own_events import edge_on_curves, own_events
+from vectorplot.visibility.smooth.events.crossings import crossings
+from vectorplot.visibility.smooth.events.events import all_events
+from vectorplot.visibility.smooth.events.missed_events import missed_events
+from vectorplot.visibility.smooth.events.own_events import edge_on_curves, own_events
+from vectorplot.visibility.smooth.events.piercings import piercings
 from vectorplot.visibility.smooth.pieces import Pieces, carried, counted, cut
-from vectorplot.visibility.smooth.piercings import piercings
 from vectorplot.visibility.smooth.runs import without_short_runs
 from vectorplot.visibility.smooth.targets import target
-from vectorplot.visibility.smooth.traced import TracedScene
+from vectorplot.visibility.smooth.tracing.traced import TracedScene
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,11 +8,11 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.scene.view import View
-from vectorplot.visibility.smooth import projection
-from vectorplot.visibility.smooth.curves import Curves
-from vectorplot.visibility.smooth.events import Events
+from vectorplot.visibility.smooth.events.events import Events
 from vectorplot.visibility.smooth.rays import Samples, counts_in_front
+from vectorplot.visibility.smooth.sheets import projection
 from vectorplot.visibility.smooth.targets import Target
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 SAFE = 1e-3
 """A sight line that passes all edges at this distance in the image, of a scene about 1 large, is trusted."""

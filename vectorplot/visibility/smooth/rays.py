@@ -9,9 +9,9 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
-from vectorplot.visibility.smooth import projection
 from vectorplot.visibility.smooth.blocks import Block, in_blocks
-from vectorplot.visibility.smooth.sheet import Sheet
+from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.sheets.sheet import Sheet
 from vectorplot.visibility.smooth.targets import Target, distance_to, inside, weights
 
 ROUNDS = 12

@@ -6,9 +6,9 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.scene.view import View
-from vectorplot.visibility.smooth import projection
-from vectorplot.visibility.smooth.curves import Curves
 from vectorplot.visibility.smooth.pieces import Pieces
+from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 
 def without_short_runs(view: View, curves: Curves, pieces: Pieces, hidden_by: Ints, shortest: float) -> Ints:

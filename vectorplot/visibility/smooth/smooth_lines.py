@@ -10,14 +10,14 @@ import numpy as np
 from vectorplot.arrays import Ints
 from vectorplot.geometry.budget import USUAL, Budget, unheard, unresolved
 from vectorplot.scene.view import View
-from vectorplot.visibility.lines import Lines
-from vectorplot.visibility.smooth.curves import Curves, together
-from vectorplot.visibility.smooth.edge_sides import covered_sides
-from vectorplot.visibility.smooth.events import all_events
-from vectorplot.visibility.smooth.family import StraightLines
+from vectorplot.visibility.polyhedra.lines import Lines
+from vectorplot.visibility.smooth.events.edge_sides import covered_sides
+from vectorplot.visibility.smooth.events.events import all_events
 from vectorplot.visibility.smooth.hidden_curves import HiddenCurves, cut_curves, hidden_curves
 from vectorplot.visibility.smooth.pieces import cut
-from vectorplot.visibility.smooth.traced import TracedScene
+from vectorplot.visibility.smooth.sheets.family import StraightLines
+from vectorplot.visibility.smooth.tracing.traced import TracedScene
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves, together
 from vectorplot.words import LineKind
 
 OUTLINES = (LineKind.CONTOUR, LineKind.BOUNDARY)

@@ -11,8 +11,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
-from vectorplot.visibility.smooth import projection
-from vectorplot.visibility.smooth.sheet import Sheet
+from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.sheets.sheet import Sheet
 
 if TYPE_CHECKING:
     import shapely

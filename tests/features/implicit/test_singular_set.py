@@ -1,0 +1,43 @@
+import numpy as np
+import pytest
+
+from vectorplot.features.facets import Within, facets
+from vectorplot.features.implicit.polygonize import settled_mesh
+from vectorplot.features.implicit.singular_set import led_into_singular_set
+from vectorplot.io.expressions.expression import parse_expression
+from vectorplot.io.scenes.scene_formulas import Formulas, formula_implicit
+from vectorplot.surfaces.implicit_function import ImplicitFunction
+
+BOX = np.array([[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]])
+
+
+def implicit(text: str, shift: float = 0.0) -> ImplicitFunction:
+    box = BOX + shift * np.array([1.0, 0.7, 0.0])
+    return formula_implicit(Formulas((parse_expression(text, ("x", "y", "z")),)), box)
+
+
+@pytest.mark.hard(79)
+@pytest.mark.parametrize("shift", [0.0, 0.0137])
+@pytest.mark.parametrize(
+    ("text", "along"), [("x*y", (-0.95, 0.95)), ("x^2-y^2*z", (0.2, 0.95)), ("x^2-y^2*z^2", (0.35, 0.95))]
+)
+def test_sheets_that_cross_end_on_their_common_line(text: str, along: tuple[float, float], shift: float) -> None:
+    surface = implicit(text, shift)
+    mesh = facets(surface, Within(lambda points: np.full(points.shape[:-1], 0.1))).mesh
+    corners = mesh.vertices[mesh.corners.reshape(-1, 3)]
+    on = np.hypot(corners[..., 0], corners[..., 1]) < 1e-6
+    # Sides of triangles that lie on the line cover it, from four sheets.
+    side = on & np.roll(on, -1, axis=1)
+    ends = np.stack([corners[..., 2], np.roll(corners[..., 2], -1, axis=1)], axis=-1)[side]
+    low, high = ends.min(axis=1), ends.max(axis=1)
+    for z in np.linspace(*along, 41) + 0.00123:
+        assert ((low <= z) & (z <= high)).sum() >= 4, z
+
+
+def test_what_has_no_singular_point_stays_as_it_is() -> None:
+    ball = implicit("x^2+y^2+z^2-0.8")
+    mesh = settled_mesh(ball, 16)[0]
+    led = led_into_singular_set(ball, mesh)
+    assert (led.vertices == mesh.vertices).all() and (led.corners == mesh.corners).all()
+    nothing = settled_mesh(implicit("x^2+y^2+z^2+1"), 16)[0]
+    assert led_into_singular_set(ball, nothing) is nothing

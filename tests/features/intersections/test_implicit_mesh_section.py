@@ -1,0 +1,93 @@
+"""Where implicit surfaces meet the faces of meshes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from vectorplot.features.implicit.implicit_tracing import ImplicitTracing
+from vectorplot.features.implicit.polygonize import polygonized
+from vectorplot.features.intersections.implicit_mesh_section import ImplicitPatch, implicit_mesh_section
+from vectorplot.features.intersections.mesh_section import mesh_section
+from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.quadric import Quadric, implicit_sphere
+from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
+from vectorplot.surfaces.placed import PlacedImplicit
+from vectorplot.testing import hausdorff
+from vectorplot.testing.shapes import box
+
+FINE = 1e-5
+
+
+def curves(shape, mesh):
+    found = implicit_mesh_section(shape, mesh, tracing=ImplicitTracing(tolerance=FINE)).curves
+    assert found.doubts == ()
+    return found
+
+
+def test_a_plane_cuts_a_circle_out_of_a_sphere() -> None:
+    found = curves(implicit_sphere(1.5), box((0.3, -3.0, -3.0), (3.0, 3.0, 3.0)))
+    assert len(found) == 1 and found.closed.all()
+    assert np.abs(found.points[:, 0] - 0.3).max() < 1e-12
+    assert np.abs(np.linalg.norm(found.points, axis=1) - 1.5).max() < 1e-12
+    length = np.linalg.norm(np.diff(found[0], axis=0), axis=1).sum()
+    assert np.isclose(length, 2.0 * np.pi * np.sqrt(1.5**2 - 0.3**2), rtol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("equation", "surface", "mesh"),
+    [
+        (implicit_sphere(1.5), Sphere(1.5), box((0.2, -0.4, -0.3), (2.0, 1.8, 0.9))),
+        (ImplicitTorus(3.0, 1.0), Torus(3.0, 1.0), box((1.3, -1.1, -0.45), (5.1, 0.9, 2.2))),
+        (ImplicitTorus(3.0, 1.0), Torus(3.0, 1.0), polygonized(implicit_sphere(1.7, (3.0, 0.4, 0.3)), 12)),
+    ],
+)
+def test_the_parametrised_form_gives_the_same_curves(equation, surface, mesh) -> None:
+    found = curves(equation, mesh)
+    other = mesh_section(surface, mesh, tracing=Tracing(tolerance=FINE)).curves
+    assert len(found) == len(other) and found.closed.all() and other.closed.all()
+    assert hausdorff([found[k] for k in range(len(found))], [other[k] for k in range(len(other))]) < 10.0 * FINE
+
+
+def test_curves_end_on_the_sides_of_the_box() -> None:
+    cut = Quadric([1.0, 1.0, 1.0, *[0.0] * 6, -1.0], np.array([[-1.2, -0.7, -1.2], [0.8, 1.2, 0.6]]))
+    found = curves(cut, box((0.1, -3.0, -3.0), (3.0, 3.0, 3.0)))
+    assert len(found) == 1 and not found.closed.any()
+    ends = found.points[[0, -1]]
+    assert sorted(np.round(ends[:, 1], 12).tolist())[0] == -0.7
+    assert sorted(np.round(ends[:, 2], 12).tolist())[-1] == 0.6
+    assert np.abs(np.linalg.norm(found.points, axis=1) - 1.0).max() < 1e-12
+
+
+@pytest.mark.parametrize(("scale", "offset"), [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e6)])
+def test_size_and_place_change_nothing(scale: float, offset: float) -> None:
+    block = box((0.2, -0.4, -0.3), (2.0, 1.8, 0.9))
+    here = curves(implicit_sphere(1.5), block)
+    moved = PlacedImplicit(implicit_sphere(1.5), scale * np.eye(3), np.full(3, offset))
+    there = implicit_mesh_section(
+        moved,
+        Mesh(scale * block.vertices + offset, block.corners, block.offsets),
+        tracing=ImplicitTracing(tolerance=FINE * scale),
+    ).curves
+    back = [(there[k] - offset) / scale for k in range(len(there))]
+    assert hausdorff([here[k] for k in range(len(here))], back) < 10.0 * FINE
+
+
+def test_shapes_apart_have_no_curves() -> None:
+    assert len(curves(implicit_sphere(1.0), box((2.0, 2.0, 2.0), (3.0, 3.0, 3.0)))) == 0
+    empty = Quadric([1.0, 1.0, 1.0, *[0.0] * 6, 1.0], np.array([[-1.0] * 3, [1.0] * 3]))
+    assert len(curves(empty, box((-0.5, -0.5, -0.5), (3.0, 3.0, 3.0)))) == 0
+
+
+def test_heights_of_a_patch_bend_as_the_surface_does() -> None:
+    torus = ImplicitTorus(3.0, 1.0)
+    patch = ImplicitPatch(torus, polygonized(torus, 24))
+    at = np.array([[4.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 1.0]])
+    # Two axes in the tangent plane, along the meridian and the parallel; the third along the normal.
+    frames = np.array(
+        [[[0, 0, 1], [0, 1, 0], [1, 0, 0]], [[0, 0, 1], [0, 1, 0], [-1, 0, 0]], [[1, 0, 0], [0, 1, 0], [0, 0, 1]]]
+    ).astype(float)
+    expected = [np.diag([-1.0, -0.25]), np.diag([-1.0, 0.5]), np.diag([-1.0, 0.0])]
+    assert np.allclose(patch.bends(at, frames), expected, atol=1e-9)

@@ -1,0 +1,66 @@
+import numpy as np
+import pytest
+
+from vectorplot.features.meshes.edges import Faces
+from vectorplot.features.meshes.mesh_intersections import Intersections, face_intersections
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.testing.shapes import box
+from vectorplot.testing.surfaces import bumpy_icosphere
+
+
+def met(*meshes: Mesh) -> Intersections:
+    """The intersections of several meshes, each a part."""
+    first = np.cumsum([0, *(len(m.vertices) for m in meshes)])
+    corners = np.concatenate([m.corners + k for m, k in zip(meshes, first[:-1], strict=True)])
+    sizes = np.concatenate([m.face_sizes for m in meshes])
+    offsets = np.concatenate([[0], np.cumsum(sizes)])
+    points = np.concatenate([m.vertices for m in meshes]).T.copy()
+    part = np.repeat(np.arange(len(meshes)), [m.face_count for m in meshes])
+    none = np.zeros(len(sizes), dtype=np.int8)
+    return face_intersections(Faces(points, corners, offsets, none[:0].astype(bool), none), part, 1e-9)
+
+
+def length(found: Intersections) -> float:
+    return float(np.sqrt(((found.end - found.start) ** 2).sum(axis=0)).sum())
+
+
+@pytest.mark.hard(21)
+def test_two_boxes_meet_in_a_closed_polygon() -> None:
+    found = met(box((-1, -1, -1), (1, 1, 1)), box((0.5, -0.5, -0.5), (1.5, 0.5, 0.5)))
+    assert np.isclose(length(found), 4.0)
+    assert np.allclose(found.start[0], 1.0) and np.allclose(found.end[0], 1.0)
+
+
+def test_two_spheres_meet_in_a_circle() -> None:
+    sphere = bumpy_icosphere(4, bump=0.0)
+    other = Mesh(sphere.vertices + np.array([0.7, 0.0, 0.0]), sphere.corners, sphere.offsets)
+    found = met(sphere, other)
+    assert np.isclose(length(found), 2.0 * np.pi * np.sqrt(1.0 - 0.35**2), rtol=2e-3)
+    ends = np.round(np.concatenate([found.start, found.end], axis=1).T, 7)
+    assert (np.unique(ends, axis=0, return_counts=True)[1] == 2).all()
+
+
+def test_both_ends_lie_in_both_planes() -> None:
+    random = np.random.default_rng(3)
+    for _ in range(30):
+        one, two = (Mesh.from_triangles(random.normal(size=(3, 3)), [[0, 1, 2]]) for _ in range(2))
+        found = met(one, two)
+        for mesh in (one, two):
+            heights = (found.start.T - mesh.vertices[0]) @ mesh.face_normals[0]
+            assert np.allclose(heights, 0.0, atol=1e-9)
+
+
+def test_a_box_on_a_table_touches_along_its_base() -> None:
+    found = met(box((-2, -2, -1), (2, 2, 0)), box((-1, -1, 0), (1, 1, 1)))
+    assert np.isclose(length(found), 8.0)
+    assert np.allclose(found.start[2], 0.0)
+
+
+def test_apart_and_within_there_is_nothing() -> None:
+    assert length(met(box((0, 0, 0), (1, 1, 1)), box((2, 0, 0), (3, 1, 1)))) == 0.0
+    assert length(met(box((0, 0, 0), (3, 3, 3)), box((1, 1, 1), (2, 2, 2)))) == 0.0
+
+
+def test_the_order_of_parts_changes_nothing() -> None:
+    one, two = box((-1, -1, -1), (1, 1, 1)), bumpy_icosphere(2)
+    assert np.isclose(length(met(one, two)), length(met(two, one)))

@@ -1,0 +1,121 @@
+"""Sections of surfaces against closed forms."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+from vectorplot.errors import InputWarning
+from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.features.parametric.sections import intersection, level_lines, plane_sections
+from vectorplot.surfaces.families.cylinder import Cylinder
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
+from vectorplot.surfaces.families.quadric import implicit_cylinder, implicit_plane, implicit_sphere
+from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
+
+BOX = [[-9.0] * 3, [9.0] * 3]
+
+
+@pytest.mark.capability("G8.4-intersection")
+@pytest.mark.parametrize("offset", [0.0, 1e6])
+def test_two_spheres_meet_in_a_circle(offset):
+    far = np.array([offset, 0.0, 0.0])
+    curves = intersection(Sphere(2.0, far), implicit_sphere(2.0, (offset + 1.0, 0.5, 0.0)))
+    assert len(curves) == 1 and curves.closed.all() and not curves.doubts
+    assert np.abs((curves.points - far) @ (1.0, 0.5, 0.0) - 0.625).max() < (1e-10 if offset == 0.0 else 1e-8)
+
+
+@pytest.mark.capability("G8.4-intersection")
+def test_steinmetz_curve_is_two_ellipses_through_two_nodes():
+    curves = intersection(Cylinder(1.0, -2.0, 2.0), implicit_cylinder(1.0, (0, 0, 0), (1, 0, 0), BOX))
+    x, y, z = curves.points.T
+    assert np.abs(x * x + y * y - 1).max() < 1e-12 and np.abs(y * y + z * z - 1).max() < 1e-11
+    assert len(curves) == 2 and curves.closed.all() and len(curves.nodes) == 2
+    nodes = Cylinder().points(*curves.nodes.T)
+    assert np.abs(np.abs(nodes) - (0, 1, 0)).max() < 1e-9
+    # A branch goes straight on through a node: each is a plane ellipse z = x or z = -x.
+    for k in range(2):
+        p = curves[k]
+        assert min(np.abs(p[:, 2] - p[:, 0]).max(), np.abs(p[:, 2] + p[:, 0]).max()) < 1e-9
+
+
+@pytest.mark.capability("G8.4-intersection")
+def test_viviani_curve_on_the_cylinder_and_on_the_sphere():
+    on_cylinder = intersection(Cylinder(1.0, -3.0, 3.0, (1, 0, 0)), implicit_sphere(2.0))
+    on_sphere = intersection(Sphere(2.0), implicit_cylinder(1.0, (1, 0, 0), (0, 0, 1), BOX))
+    for curves in (on_cylinder, on_sphere):
+        x, y, z = curves.points.T
+        assert np.abs((x - 1) ** 2 + y * y - 1).max() < 1e-10 and np.abs(x * x + y * y + z * z - 4).max() < 1e-10
+        assert len(curves.nodes) == 1 and curves.closed.all()
+        # The length by the closed form (1 + cos t, sin t, 2 sin(t/2)).
+        t = np.linspace(0, 4 * np.pi, 20001)
+        true = np.stack([1 + np.cos(t), np.sin(t), 2 * np.sin(t / 2)], axis=1)
+        length = np.linalg.norm(np.diff(true, axis=0), axis=1).sum()
+        found = sum(np.linalg.norm(np.diff(curves[k], axis=0), axis=1).sum() for k in range(len(curves)))
+        assert abs(found - length) < 0.02
+
+
+@pytest.mark.capability("G8.4-intersection")
+def test_torus_and_plane_and_torus_and_torus():
+    torus = Torus(3.0, 1.0)
+    villarceau = plane_sections(torus, (0.0, -1.0, np.sqrt(8.0)), [0.0])
+    assert len(villarceau.nodes) == 2 and villarceau.closed.all()
+    # Two circles of radius 3 about (1, 0, 0) and (-1, 0, 0).
+    p = villarceau.points
+    off = [np.abs(np.linalg.norm(p - (s, 0, 0), axis=1) - 3.0) for s in (1, -1)]
+    assert np.minimum(*off).max() < 1e-9
+    other = ImplicitTorus(3.0, 1.0, (2.0, 0.5, 0.3))
+    curves = intersection(torus, other)
+    assert len(curves) and np.abs(other.values(curves.points)).max() < 1e-10 * 200
+    assert curves.closed.all()
+
+
+@pytest.mark.hard(43)
+@pytest.mark.parametrize(
+    ("point", "normal"),
+    [((0, 0, 2), (0, 0, 1)), ((0, 0, -2), (0, 0, 1)), ((2, 0, 0), (1, 0, 0)), ((0, 2, 0), (0, -1, 0))],
+)
+def test_sphere_touching_a_plane_gives_a_point_and_a_warning(point, normal):
+    sphere = Sphere(2.0)
+    with pytest.warns(InputWarning, match="single point"):
+        curves = intersection(sphere, implicit_plane(point, normal, BOX))
+    assert len(curves) == 0 and len(curves.isolated) == 1 and not len(curves.touching)
+    assert np.linalg.norm(sphere.points(*curves.isolated.T)[0] - point) < 1e-7
+
+
+def test_a_plane_that_misses_gives_nothing_and_no_warning():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        curves = intersection(Sphere(2.0), implicit_plane((0, 0, 3), (0, 0, 1), BOX))
+    assert len(curves) == 0 and curves.points.shape == (0, 3) and not curves.doubts
+
+
+def test_a_plane_through_the_poles_cuts_a_sphere_in_one_circle():
+    curves = plane_sections(Sphere(2.0), (3.0, 1.0, 0.0), [0.0])
+    assert len(curves) == 1 and curves.closed.all() and not len(curves.nodes)
+    assert abs(np.linalg.norm(np.diff(curves[0], axis=0), axis=1).sum() - 4 * np.pi) < 0.02
+
+
+def test_a_plane_through_one_pole_cuts_a_sphere_in_one_circle():
+    n = np.array([1.0, 0.5, 1.0]) / 1.5
+    curves = plane_sections(Sphere(1.0), n, [n[2]])
+    assert len(curves) == 1 and curves.closed.all()
+    assert np.abs(curves.points @ n - n[2]).max() < 1e-10
+    length = np.linalg.norm(np.diff(curves[0], axis=0), axis=1).sum()
+    assert abs(length - 2 * np.pi * np.sqrt(1 - n[2] ** 2)) < 0.01
+
+
+def test_level_lines_of_the_saddle_are_hyperbolas_and_at_zero_two_lines():
+    saddle = HyperbolicParaboloid(1.0, 1.0, 1.0, 1.0)
+    heights = [-0.25, 0.0, 0.25]
+    curves = level_lines(saddle, heights, tracing=Tracing(tolerance=1e-4))
+    level = np.repeat(curves.levels, np.diff(curves.offsets))
+    assert np.abs(curves.points[:, 2] - level).max() < 1e-11
+    assert [int((curves.levels == h).sum()) for h in heights] == [2, 2, 2]
+    assert len(curves.nodes) == 1 and np.abs(curves.nodes).max() < 1e-9
+
+
+def test_coinciding_surfaces_say_so():
+    curves = intersection(Sphere(2.0), implicit_sphere(2.0))
+    assert len(curves) == 0 and len(curves.doubts) == 1

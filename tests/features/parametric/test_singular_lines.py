@@ -1,0 +1,76 @@
+"""Cuspidal edges."""
+
+import numpy as np
+import pytest
+
+from vectorplot.features.parametric.singular_lines import singular_lines
+from vectorplot.surfaces.families.cylinder import Cylinder
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.function import surface_of_function
+from vectorplot.surfaces.surface import Domain
+
+TURN = 2.0 * np.pi
+SQUARE = Domain(-1, 1, -1, 1)
+
+
+@pytest.mark.hard(49)
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("end", [1.0, 1.3])
+def test_edge_of_the_tangents_of_a_helix_is_the_helix(scale, end):
+    def points(u, v):
+        return scale * (np.cos(v) - u * np.sin(v)), scale * (np.sin(v) + u * np.cos(v)), scale * (v + u)
+
+    curves = singular_lines(surface_of_function(points, Domain(-1, end, 0, 6)))
+    assert len(curves) == 1 and not curves.closed.any() and not curves.doubts
+    x, y, z = curves.points.T / scale
+    assert np.abs(np.stack([x - np.cos(z), y - np.sin(z)])).max() < 1e-9
+    assert sorted(curves.v[[0, -1]]) == [0.0, 6.0]
+
+
+@pytest.mark.hard(49)
+@pytest.mark.parametrize("domain", [SQUARE, Domain(-1, 1.3, -0.8, 1.1)])
+def test_edge_of_the_swallowtail_has_its_cusp(domain):
+    tail = surface_of_function(lambda u, v: (3 * v**4 + u * v * v, 4 * v**3 + 2 * u * v, u), domain)
+    curves = singular_lines(tail)
+    assert len(curves) == 1 and np.abs(curves.u + 6 * curves.v**2).max() < 1e-9
+    # In space the edge is (-3 v^4, -8 v^3, -6 v^2), with a cusp at v = 0 which is a point of the polyline.
+    assert np.linalg.norm(curves.points, axis=1).min() < 1e-12
+    assert np.abs(curves.points[:, 2].min() + 1.0) < 1e-9
+
+
+@pytest.mark.hard(49)
+def test_cusps_of_a_profile_that_is_turned_give_closed_edges():
+    def points(u, v):
+        radius = 3 + np.cos(u) ** 3
+        return radius * np.cos(v), radius * np.sin(v), np.sin(u) ** 3
+
+    domain = Domain(0, TURN, 0, TURN, closed_u=True, closed_v=True)
+    curves = singular_lines(surface_of_function(points, domain))
+    assert len(curves) == 4 and curves.closed.all()
+    assert np.abs(np.sin(2 * curves.u)).max() < 1e-9
+
+
+def test_lines_that_are_points_are_isolated():
+    curves = singular_lines(Torus(1.0, 2.0))
+    tips = Torus(1.0, 2.0).points(*curves.isolated.T)
+    assert len(curves) == 0 and np.abs(np.abs(tips) - (0, 0, np.sqrt(3))).max() < 1e-9 and len(tips) == 2
+
+
+@pytest.mark.parametrize(
+    "surface",
+    [
+        Sphere(1.0),
+        Torus(2.0, 1.0),
+        Cylinder(),
+        surface_of_function(lambda u, v: (u * v, u, v * v), SQUARE),
+        surface_of_function(
+            lambda u, v: ((2 + v * np.cos(u / 2)) * np.cos(u), (2 + v * np.cos(u / 2)) * np.sin(u), v * np.sin(u / 2)),
+            Domain(0, TURN, -0.5, 0.5),
+        ),
+        surface_of_function(lambda u, v: (u, v, np.nan * u), SQUARE),
+    ],
+)
+def test_smooth_surfaces_pinch_points_and_one_sided_ones_have_none(surface):
+    curves = singular_lines(surface)
+    assert len(curves) == 0 and not len(curves.isolated) and not curves.doubts

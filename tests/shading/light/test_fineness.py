@@ -1,0 +1,109 @@
+"""Triangles as fine as a picture asks: outlines within the tolerance, shades within their bound, and few of them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import shapely
+
+from vectorplot.draw import default_camera
+from vectorplot.drawing.placement import allowed_in_space
+from vectorplot.features.facets import facets
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.paint import paint
+from vectorplot.scene.scene import Item, Page, Scene
+from vectorplot.shading.light.fineness import SHADE_ERROR, picture_fineness
+from vectorplot.surfaces.families.cyclide import dupin_cyclide
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.quadric import implicit_sphere
+from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
+from vectorplot.surfaces.graph import graph
+from vectorplot.surfaces.surface import Domain
+
+WAVES = graph(lambda x, y: np.sin(3.0 * x) * np.cos(2.0 * y), Domain(-2.0, 2.0, -2.0, 2.0))
+CLOSED = {
+    "sphere": Sphere(2.0),
+    "torus": Torus(3.0, 1.0),
+    "implicit sphere": implicit_sphere(1.0),
+    "implicit torus": ImplicitTorus(3.0, 1.0),
+}
+
+
+def made(surface, camera: Camera | None = None, tolerance_mm: float = 0.02):
+    scene = Scene((Item("THING", surface),))
+    camera = camera or default_camera(scene)
+    allowed = allowed_in_space(scene, camera, Page(), True, tolerance_mm)
+    demand = picture_fineness(scene, camera, False, allowed)(0)
+    return facets(surface, demand), demand
+
+
+@pytest.mark.parametrize("name", CLOSED)
+@pytest.mark.parametrize("eye", [(8.0, -16.0, 11.0), (3.0, 20.0, -4.0)])
+def test_neighbours_of_different_sizes_share_their_vertices(name, eye):
+    found, _ = made(CLOSED[name], Camera(eye=eye, target=(0.0, 0.0, 0.0), fov_deg=30.0))
+    corners = found.mesh.corners.reshape(-1, 3)
+    edges = np.stack((corners, np.roll(corners, -1, axis=1)), axis=2).reshape(-1, 2)
+    assert (np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)[1] == 2).all()
+    assert len(np.unique(edges, axis=0)) == len(edges), "and turn the same way"
+
+
+@pytest.mark.parametrize("tolerance", [0.02, 0.2])
+def test_the_outline_of_a_ball_is_within_the_tolerance(tolerance):
+    camera = Camera(eye=(8.0, -16.0, 11.0), target=(0.0, 0.0, 0.0), fov_deg=26.0)
+    (fills,) = paint(Scene((Item("BALL", Sphere(2.0)),)), camera, tolerance_mm=tolerance).layers[0].marks
+    seen = shapely.union_all(
+        shapely.make_valid([shapely.Polygon(p) for p in np.split(fills.points, fills.offsets[1:-1])])
+    )
+    angle = np.arcsin(2.0 / np.linalg.norm(camera.eye))
+    # Seen from the eye in its middle, a ball is a disc; it fills the width of the page inside the margins.
+    assert 0.0 < angle < 0.2
+    ring = shapely.get_coordinates(shapely.segmentize(shapely.get_exterior_ring(seen), 0.1))
+    radius = np.linalg.norm(ring - (105.0, 148.5), axis=1)
+    assert radius.max() <= 95.0 + tolerance
+    assert np.quantile(radius, 0.1) >= 95.0 - 1.5 * tolerance
+    # Where a narrow triangle beside the outline turns away, it is missing.
+    assert radius.min() >= 95.0 - 5.0 * tolerance
+
+
+@pytest.mark.parametrize("surface", [Sphere(2.0), Torus(3.0, 1.0), WAVES], ids=["sphere", "torus", "waves"])
+def test_shades_between_corners_are_within_their_bound(surface):
+    found, demand = made(surface)
+    corners = found.mesh.corners.reshape(-1, 3)
+    random = np.random.default_rng(3)
+    weights = random.dirichlet((1.0, 1.0, 1.0), len(corners))
+
+    def shades(normals, points):
+        folds = demand.folds(points, normals)
+        return 0.8 * np.where(folds[1] * np.sign(folds[0]) > 0.0, np.abs(folds[1]), 0.3 * np.abs(folds[1]))
+
+    points = found.mesh.vertices[corners]
+    normals = np.nan_to_num(found.normals[corners])
+    middle = np.einsum("tk,tki->ti", weights, points)
+    between = np.einsum("tk,tki->ti", weights, normals)
+    between /= np.linalg.norm(between, axis=1)[:, None]
+    side = np.sign(demand.folds(middle, between)[0])
+    at_corners = np.stack([shades(normals[:, k] * side[:, None], points[:, k]) for k in range(3)], axis=1)
+    of_side = np.stack([np.sign(demand.folds(points[:, k], normals[:, k])[0]) == side for k in range(3)], axis=1)
+    off = np.abs((weights * at_corners).sum(axis=1) - shades(between * side[:, None], middle))
+    assert np.quantile(off[of_side.all(axis=1)], 0.99) < 2.0 * SHADE_ERROR
+
+
+def test_a_coarser_tolerance_makes_fewer_polygons():
+    cyclide = dupin_cyclide(3.0, 1.0, (6.5, 0.0, 0.0), 5.0)
+    counts = [made(cyclide, tolerance_mm=t)[0].mesh.face_count for t in (0.005, 0.02, 0.2)]
+    assert counts[0] > 1.3 * counts[1] > 1.5 * counts[2]
+
+
+@pytest.mark.parametrize(("surface", "most"), [(Torus(3.0, 1.0), 3_000), (Sphere(2.0), 2_000), (WAVES, 12_000)])
+def test_pictures_have_few_polygons(surface, most):
+    (fills,) = paint(Scene((Item("THING", surface),))).layers[0].marks
+    assert 200 < len(fills) < most
+
+
+def test_boxes_of_other_items_count_where_they_meet_and_once():
+    """A crowd costs no box for each pair: those that lie elsewhere, and copies in one place, add nothing."""
+    balls = [Sphere(1.0)] * 50 + [Sphere(1.0, (5.0 * k, 0.0, 0.0)) for k in range(1, 50)]
+    scene = Scene(tuple(Item(f"BALL{number}", ball) for number, ball in enumerate(balls)))
+    camera = default_camera(scene)
+    demand = picture_fineness(scene, camera, False, allowed_in_space(scene, camera, Page(200, 150), True, 0.02))
+    assert [len(demand(number).others) for number in (0, 49, 60)] == [1, 1, 0]

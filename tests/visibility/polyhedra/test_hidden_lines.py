@@ -1,0 +1,144 @@
+"""The engine against brute-force rays, and against itself seen another way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from support.seen import EVERY_EDGE, Seen, seen, wrong_samples
+
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.scene.scene import Item, Scene
+from vectorplot.testing.shapes import hard_shapes, hollow_bodies, random_convex_solids, rotated_boxes
+
+SCENES = hard_shapes()
+
+
+def cameras(scene: Scene, seed: int) -> Iterator[Camera]:
+    """From outside, central and parallel; from inside the bounding box; along the axes; nearly along one."""
+    random = np.random.default_rng(seed)
+    low, high = scene.bounds
+    middle, size = (low + high) / 2.0, float(np.linalg.norm(high - low))
+    direction = random.normal(size=3)
+    outside = tuple(middle + 1.5 * size * direction / np.linalg.norm(direction))
+    target = tuple(middle)
+    yield Camera(outside, target)
+    yield Camera(outside, target, parallel=True)
+    inside = tuple(middle + random.uniform(-0.45, 0.45, 3) * (high - low))
+    yield Camera(inside, tuple(middle + 2.0 * size * random.normal(size=3)), fov_deg=100.0)
+    for name in ("front", "top", "iso"):
+        yield Camera.view(name, target, 2.0 * size)
+    yield Camera((middle[0], middle[1] - 2.0 * size, middle[2]), target)
+    yield Camera((middle[0] + 1e-3 * size, middle[1] - 2.0 * size, middle[2] + 0.1 * size), target)
+
+
+def assert_as_rays_say(scene: Scene, camera: Camera, result: Seen, samples: int) -> None:
+    wrong, compared, fault = wrong_samples(scene, camera, result, samples, 1)
+    assert wrong == 0, f"{wrong} of {compared} samples, {fault}, {camera}"
+
+
+@pytest.mark.capability("G7.2-exact", "G7.2-zones", "G7.2-lines-on-faces")
+@pytest.mark.parametrize("name", SCENES)
+def test_hard_shapes_as_rays_see_them(name: str) -> None:
+    scene = SCENES[name]
+    for camera in cameras(scene, len(name)):
+        assert_as_rays_say(scene, camera, seen(scene, camera, EVERY_EDGE), 120)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_random_scenes_as_rays_see_them(seed: int) -> None:
+    scenes = random_convex_solids(14, seed), rotated_boxes(25, seed)
+    for scene in scenes:
+        for camera in cameras(scene, seed):
+            assert_as_rays_say(scene, camera, seen(scene, camera, EVERY_EDGE), 25)
+
+
+@pytest.mark.capability("G7.2-hollow1", "G7.2-hollow2")
+@pytest.mark.parametrize("name", ["hollow tube", "hollow bodies"])
+def test_one_sees_through_removed_faces(name: str) -> None:
+    scene = SCENES[name]
+    for seed in range(12):
+        for camera in cameras(scene, seed):
+            assert_as_rays_say(scene, camera, seen(scene, camera, EVERY_EDGE), 60)
+
+
+def test_a_body_without_top_and_bottom_shows_its_inner_wall() -> None:
+    tube = hollow_bodies()
+    above = seen(tube, Camera.view("top", tuple(tube.bounds.mean(axis=0)), 50.0), EVERY_EDGE)
+    assert above.length(above.visible) > 0.0
+
+
+@pytest.mark.capability("G7.2-visible")
+@pytest.mark.parametrize("name", SCENES)
+def test_visible_and_hidden_parts_make_up_the_whole(name: str) -> None:
+    scene = SCENES[name]
+    for camera in cameras(scene, 3):
+        result = seen(scene, camera, EVERY_EDGE)
+        along = result.lines.end - result.lines.start
+        whole = np.sqrt((along * along).sum(axis=0)).sum() * result.view.scale
+        assert np.isclose(result.length(result.counted), whole, rtol=1e-6)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_visible_parts_are_those_that_nothing_hides(name: str) -> None:
+    scene = SCENES[name]
+    for camera in cameras(scene, 5):
+        result = seen(scene, camera, EVERY_EDGE)
+        free = result.counted.hidden_by == 0
+        assert np.array_equal(result.counted.segment[free], result.visible.segment)
+        assert np.allclose(result.counted.low[free], result.visible.low, atol=1e-7)
+        assert np.allclose(result.counted.high[free], result.visible.high, atol=1e-7)
+
+
+def lengths_by_count(result: Seen) -> np.ndarray:
+    """Length hidden by 0, 1, 2, ... items."""
+    along = result.lines.end - result.lines.start
+    each = np.sqrt((along * along).sum(axis=0))[result.counted.segment]
+    weights = (result.counted.high - result.counted.low) * each
+    return np.bincount(result.counted.hidden_by, weights=weights, minlength=12) * result.view.scale
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1e6])
+@pytest.mark.parametrize("name", ["rotated boxes", "box on table", "torus mesh", "nine touching cubes", "hollow tube"])
+def test_the_size_of_the_scene_changes_nothing(name: str, scale: float) -> None:
+    scene = SCENES[name]
+    larger = Scene(tuple(moved(item, scale * np.eye(3), np.zeros(3)) for item in scene.items))
+    for camera in cameras(scene, 7):
+        far = Camera(
+            scaled(camera.eye, scale), scaled(camera.target, scale), camera.up, 0.0, camera.fov_deg, camera.parallel
+        )
+        expected = lengths_by_count(seen(scene, camera, EVERY_EDGE))
+        assert np.allclose(lengths_by_count(seen(larger, far, EVERY_EDGE)) / scale, expected, rtol=1e-6, atol=1e-5)
+
+
+@pytest.mark.parametrize("name", ["rotated boxes", "box on table", "interpenetrating boxes", "hollow tube"])
+def test_a_million_units_off_the_origin_changes_nothing(name: str) -> None:
+    scene = SCENES[name]
+    offset = np.array([1e6, -1e6, 1e6])
+    away = Scene(tuple(moved(item, np.eye(3), offset) for item in scene.items))
+    for camera in list(cameras(scene, 7))[:2]:
+        eye, target = np.add(camera.eye, offset), np.add(camera.target, offset)
+        there = Camera(tuple(eye.tolist()), tuple(target.tolist()), camera.up, 0.0, camera.fov_deg, camera.parallel)
+        expected = lengths_by_count(seen(scene, camera, EVERY_EDGE))
+        assert np.allclose(lengths_by_count(seen(away, there, EVERY_EDGE)), expected, rtol=1e-6, atol=1e-5)
+
+
+@pytest.mark.parametrize("name", ["rotated boxes", "coincident faces", "touching boxes", "cyclic bars"])
+def test_the_order_of_items_changes_nothing(name: str) -> None:
+    scene = SCENES[name]
+    order = np.random.default_rng(0).permutation(len(scene.items))
+    shuffled = Scene(tuple(scene.items[k] for k in order))
+    for camera in cameras(scene, 9):
+        expected = lengths_by_count(seen(scene, camera, EVERY_EDGE))
+        assert np.allclose(lengths_by_count(seen(shuffled, camera, EVERY_EDGE)), expected, atol=1e-6)
+
+
+def moved(item: Item, matrix: np.ndarray, offset: np.ndarray) -> Item:
+    whole = np.eye(4)
+    whole[:3, :3], whole[:3, 3] = matrix, offset
+    return Item(item.name, item.shape.transformed(whole))
+
+
+def scaled(point: tuple[float, float, float], scale: float) -> tuple[float, float, float]:
+    return (point[0] * scale, point[1] * scale, point[2] * scale)

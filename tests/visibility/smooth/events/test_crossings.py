@@ -1,0 +1,43 @@
+"""Lines that pass behind the contour of a sphere."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from support.smooth_parts import around, ball_from_above, polylines
+
+from vectorplot.geometry.budget import USUAL
+from vectorplot.visibility.smooth.events.crossings import crossings
+from vectorplot.visibility.smooth.sheets.family import ParameterCurves
+from vectorplot.words import LineKind
+
+
+def behind(line):
+    """The events of a line (k,3), in radii of the sphere."""
+    view, sheet, radius = ball_from_above()
+    places = np.stack([np.linspace(0.0, 2.0 * np.pi, 65), np.zeros(65), np.zeros(65)], axis=1)
+    equator = replace(
+        polylines(around(64, radius), closed=True, kind=LineKind.CONTOUR),
+        places=places,
+        families=(ParameterCurves(sheet, 0),),
+    )
+    lines = polylines(radius * np.asarray(line))
+    return crossings(view, (sheet,), lines, equator, np.zeros(1, dtype=np.bool_), 1e-3, USUAL.pairs)[0]
+
+
+def test_behind_a_sphere_there_are_two_sheets_more() -> None:
+    found = behind([(-2.0, 0.6, -3.0), (2.0, 0.6, -2.0)])
+    order = np.argsort(found.part)
+    assert np.allclose(found.part[order], [0.3, 0.7], atol=1e-10)
+    assert found.change[order].tolist() == [2, -2]
+
+
+def test_in_front_of_it_or_beside_it_nothing_changes() -> None:
+    assert not len(behind([(-2.0, 0.6, 3.0), (2.0, 0.6, 2.0)]))
+    assert not len(behind([(-2.0, 1.01, -3.0), (2.0, 1.01, -3.0)]))
+
+
+def test_a_corner_of_a_line_on_the_contours_image_is_one_event() -> None:
+    found = behind([(-2.0, 0.6, -3.0), (-0.8, 0.6, -3.0), (0.0, 0.0, -3.0)])
+    assert found.change.tolist() == [2]

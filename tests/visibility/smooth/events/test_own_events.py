@@ -1,0 +1,58 @@
+"""Where curves pass the contours of their own sheets, and cusps of contours."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.smooth_parts import around, ball_from_above, polylines
+
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.view import look
+from vectorplot.surfaces.families.torus import Torus
+from vectorplot.visibility.smooth.events.own_events import edge_on_curves, own_events
+from vectorplot.visibility.smooth.sheets.family import ParameterCurves
+from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
+from vectorplot.words import DRAWN, LineKind
+
+
+def on_ball(places):
+    """The sphere's sheet, and a curve on it that is straight in its parameters."""
+    view, sheet, _ = ball_from_above()
+    curve = replace(
+        polylines(sheet.points(places)), places=places, families=(ParameterCurves(sheet, 0),), kind=np.array([6])
+    )
+    return view, sheet, curve
+
+
+def test_a_meridian_goes_behind_the_sphere_at_the_equator() -> None:
+    v = np.linspace(1.0, -1.0, 8)
+    view, sheet, meridian = on_ball(np.stack([np.full(8, 0.3), v, np.zeros(8)], axis=1))
+    found = own_events(view, (sheet,), meridian, np.zeros(1, dtype=np.bool_))
+    assert found.chord.tolist() == [3] and np.allclose(found.part, 0.5, atol=1e-9)
+    # In front of the lower half there is the upper one, too.
+    assert found.change.tolist() == [1]
+
+
+def test_the_equator_is_edge_on_and_a_parallel_circle_not() -> None:
+    for latitude, expected in ((0.0, True), (0.2, False)):
+        u = np.linspace(0.0, 2.0, 9)
+        view, sheet, circle = on_ball(np.stack([u, np.full(9, latitude), np.zeros(9)], axis=1))
+        assert edge_on_curves(view, (sheet,), circle).tolist() == [expected]
+    assert not edge_on_curves(view, (sheet,), replace(polylines(around(8)), item=np.array([0]))).any()
+
+
+@pytest.mark.hard(29)
+def test_cusps_of_a_torus_come_in_pairs_that_begin_and_end_two_sheets() -> None:
+    scene = Scene((Item("ring", Torus(3.0, 1.0)),))
+    view = look(scene, Camera((0.0, -12.0, 5.0), (0.0, 0.0, 0.0), parallel=True))
+    sheets = scene_sheets(scene, view)
+    contour = traced_scene(scene, view, sheets, frozenset(map(LineKind.from_word, DRAWN)), 1e-4).edges
+    contour = contour.some(np.flatnonzero(contour.kind == LineKind.CONTOUR))
+    found = own_events(view, sheets, contour, np.ones(len(contour), dtype=np.bool_))
+    assert sorted(found.change.tolist()) == [-1, -1, 1, 1]
+    # There the sight line is an asymptotic direction: the contour runs along it.
+    at = contour.at(found.chord, found.part).slopes
+    assert (np.linalg.norm(at[:, :2], axis=1) < 1e-5 * np.linalg.norm(at, axis=1)).all()

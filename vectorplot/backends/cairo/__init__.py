@@ -1,0 +1,1 @@
+"""PostScript, EPS, PDF and PNG, through cairo."""

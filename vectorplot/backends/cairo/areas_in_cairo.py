@@ -1,0 +1,201 @@
+"""Filled polygons through cairo."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.backends.cairo.mesh_borders import border_sides, last_of_sides, rings, skirts
+from vectorplot.backends.page.areas import Areas
+from vectorplot.backends.page.underlaps import Underlaps, grown, underlaps
+from vectorplot.geometry import ragged
+
+if TYPE_CHECKING:
+    import cairo
+
+Corners = Any
+Colours = list[list[float]]
+
+GROUND_STEPS = 32.0
+"""Shades of each colour below meshes."""
+
+
+def paint(
+    context: cairo.Context[Any], areas: Areas, scale: float, height: float, line_width: float, seam: float
+) -> None:
+    """Paint the polygons. Cairo takes one side a call, so this loops over points.
+
+    scale: device units per micron; height: of the page's lower border in them, from the top; line_width: of polygons of
+    two corners; seam: of the line around opaque ones that have sides without a neighbour.
+    """
+    place = _Place(scale, height)
+    laps = underlaps(areas.microns, areas.offsets, areas.solid, areas.group)
+    outlines, offsets, parts = grown(areas.microns, areas.offsets, laps)
+    points, starts = place.of(outlines), offsets.tolist()
+    colours = [(r, g, b) for r, g, b in (areas.colours[areas.offsets[:-1]] / 255.0).tolist()]
+    meshed, line, open_ = areas.meshed.tolist(), (areas.sizes == 2).tolist(), laps.open
+    opacity, bare, group = areas.own_opacity.tolist(), areas.bare.tolist(), areas.group.tolist()
+    ends = dict(areas.group_ends.tolist())
+    end, clip = -1, None
+    for first, last in pairwise(areas.runs.tolist()):
+        if first in ends:
+            corners, border = areas.group_outline(group[first])
+            end, clip = ends[first], (place.of(corners), border.tolist())
+            _begin_group(context, clip[0])
+        if meshed[first]:
+            _paint_mesh(context, areas, place, laps, (first, last), seam)
+        else:
+            _outline(context, points, starts[parts[first] : parts[last] + 1])
+            red, green, blue = colours[first]
+            context.set_source_rgba(red, green, blue, opacity[first])
+            if line[first]:
+                context.set_line_width(line_width)
+                context.stroke()
+            elif bare[first] or not open_[first:last].any():
+                context.fill()
+            else:
+                context.set_line_width(seam)
+                context.fill_preserve()
+                context.stroke()
+        if clip is not None and last == end:
+            _end_group(context, *clip, areas.opacity[first])
+            clip = None
+
+
+@dataclass(frozen=True)
+class _Place:
+    """Where microns are on the device."""
+
+    scale: float
+    height: float
+
+    def of(self, microns: NDArray[Any]) -> Corners:
+        """Places (..., 2) on the device."""
+        found: Corners = (microns * (self.scale, -self.scale) + (0.0, self.height)).tolist()
+        return found
+
+
+def _paint_mesh(
+    context: cairo.Context[Any], areas: Areas, place: _Place, laps: Underlaps, run: tuple[int, int], seam: float
+) -> None:
+    """Paint a run of shaded triangles as one mesh, on lines along its border, and within it: there are readers that
+    smooth what is clipped, but not meshes, and others that do not smooth that either."""
+    starts = areas.offsets[[run[0], run[1]]].tolist()
+    corners, colours = areas.microns[starts[0] : starts[1]], areas.colours[starts[0] : starts[1]] / 255.0
+    opacity = float(areas.own_opacity[run[0]])
+    patches = corners.astype(np.float64).reshape(-1, 3, 2)[:, [0, 1, 2, 0]]
+    at = np.arange(len(corners)).reshape(-1, 3)[:, [0, 1, 2, 0]]
+    context.save()
+    if opacity == 1.0:
+        sides = border_sides(corners)
+        seen = sides[last_of_sides(corners, sides)]
+        _seams(context, place.of(corners[seen]), colours[seen].mean(axis=1), seam)
+        _ground(context, place, corners, colours.reshape(-1, 3, 3).mean(axis=1))
+        patches = np.concatenate((skirts(corners, seen), patches))
+        at = np.concatenate((seen[:, [0, 1, 1, 0]], at))
+        path = [corners[ring] for ring in rings(corners, sides)]
+        path += list(_underlaps_of(areas, laps, (starts[0], starts[1]), sides[:, 0]))
+    else:
+        # Meshes cover all of the pixels on their borders: where neighbours meet, things would be seen twice.
+        path = list(corners.reshape(-1, 3, 2))
+    sizes = [0, *(len(ring) for ring in path)]
+    _outline(context, place.of(np.concatenate(path)), np.cumsum(sizes).tolist())
+    context.clip()
+    context.set_source(_mesh(place.of(patches), colours[at].tolist(), opacity))
+    context.paint()
+    context.restore()
+
+
+def _seams(context: cairo.Context[Any], sides: list[Corners], colours: Floats, seam: float) -> None:
+    """Stroke sides, given by their ends, in their colours; those of one colour that follow each other at once."""
+    context.set_line_width(seam)
+    levels = np.rint(255.0 * colours) / 255.0
+    changes = np.append((levels[1:] != levels[:-1]).any(axis=1), True)[: len(levels)]
+    for (start, end), (red, green, blue), last in zip(sides, levels.tolist(), changes.tolist(), strict=True):
+        context.move_to(*start)
+        context.line_to(*end)
+        if last:
+            context.set_source_rgb(red, green, blue)
+            context.stroke()
+
+
+def _ground(context: cairo.Context[Any], place: _Place, corners: Ints, colours: Floats) -> None:
+    """Fill triangles in about their colours, many at once by what encloses them together: what a reader forgets between
+    the triangles of a mesh shows this."""
+    steps, group = np.unique(np.rint(colours * GROUND_STEPS), axis=0, return_inverse=True)
+    order = np.argsort(group.ravel(), kind="stable")
+    ends = np.searchsorted(group.ravel()[order], np.arange(1, len(steps) + 1)).tolist()
+    triangles, start = corners.reshape(-1, 3, 2), 0
+    for (red, green, blue), end in zip((steps / GROUND_STEPS).tolist(), ends, strict=True):
+        some = triangles[order[start:end]].reshape(-1, 2)
+        path = [some[ring] for ring in rings(some, border_sides(some))]
+        if path:
+            _outline(context, place.of(np.concatenate(path)), ragged.offsets([*map(len, path)]).tolist())
+        context.set_source_rgb(red, green, blue)
+        context.fill()
+        start = end
+
+
+def _underlaps_of(areas: Areas, laps: Underlaps, corners: tuple[int, int], border: Ints) -> Floats:
+    """(k,4,2) what is added to a run of triangles under polygons of other runs, counter-clockwise; border: the corners
+    of the run at which its border sides begin."""
+    low, high = np.searchsorted(laps.side, corners)
+    side = laps.side[low:high]
+    which = np.isin(side - corners[0], border)
+    side, near, far = side[which], laps.near[low:high][which], laps.far[low:high][which]
+    end = np.where((side - corners[0]) % 3 == 2, side - 2, side + 1)
+    return np.stack((areas.microns[end], areas.microns[side], near, far), axis=1)
+
+
+def _begin_group(context: cairo.Context[Any], corners: Corners) -> None:
+    """Paint to a transparency group from now on, as large as the whole pixels or points around its outline."""
+    places = np.array(corners).reshape(-1, 2)
+    low, high = np.floor(places.min(axis=0)), np.ceil(places.max(axis=0))
+    context.save()
+    context.rectangle(*low.tolist(), *(high - low).tolist())
+    context.clip()
+    context.push_group()
+
+
+def _end_group(context: cairo.Context[Any], corners: Corners, rings: list[int], opacity: float) -> None:
+    """Blend the group inside its outline: a clip set before would cover the pixels on its border twice."""
+    import cairo
+
+    context.pop_group_to_source()
+    _outline(context, corners, rings)
+    context.set_fill_rule(cairo.FILL_RULE_EVEN_ODD)
+    context.clip()
+    context.paint_with_alpha(opacity)
+    context.restore()
+
+
+def _outline(context: cairo.Context[Any], points: Corners, starts: list[int]) -> None:
+    """Add polygons to the path."""
+    move_to, line_to, close_path = context.move_to, context.line_to, context.close_path
+    for start, end in pairwise(starts):
+        move_to(*points[start])
+        for x, y in points[start + 1 : end]:
+            line_to(x, y)
+        if end - start > 2:
+            close_path()
+
+
+def _mesh(patches: list[Corners], colours: list[Colours], opacity: float) -> cairo.MeshPattern:
+    """Patches of four corners, the last of which may be the first one, shaded."""
+    import cairo
+
+    mesh = cairo.MeshPattern()
+    for corners, shades in zip(patches, colours, strict=True):
+        mesh.begin_patch()
+        mesh.move_to(*corners[0])
+        for corner in corners[1:]:
+            mesh.line_to(*corner)
+        for number, (red, green, blue) in enumerate(shades):
+            mesh.set_corner_color_rgba(number, red, green, blue, opacity)
+        mesh.end_patch()
+    return mesh

@@ -1,0 +1,190 @@
+"""PostScript, EPS, PDF and PNG through cairo.
+
+Cairo stores coordinates as 24.8 fixed point in device units. The device unit of PostScript and PDF is the point, so a
+coordinate is at most 1/512 point = 0.0007 mm off, and what is clipped to the page can never wrap round.
+
+Shaded triangles are meshes of the format, exact at any magnification; readers leave no gaps between the triangles of a
+mesh, and around it runs a seam with its colours. PostScript knows no opacity: where a polygon is transparent, cairo
+puts a picture of 300 dots per inch.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from vectorplot.backends.cairo.areas_in_cairo import paint
+from vectorplot.backends.cairo.gouraud import with_triangles_in_pdf, with_triangles_in_postscript
+from vectorplot.backends.page.areas import Areas
+from vectorplot.backends.page.page_marks import Lines, Sheet, sheet
+from vectorplot.drawing.drawing import Drawing
+from vectorplot.drawing.fills import SEAM_MM
+from vectorplot.errors import InputError
+from vectorplot.shading.raster.png import DPI, with_meaning
+
+if TYPE_CHECKING:
+    import cairo
+
+POINTS_PER_MICRON = 72.0 / 25400.0
+
+LARGEST_SIDE_PIXELS = 32767
+"""Cairo's limit for the side of a picture."""
+
+LARGEST_PICTURE_PIXELS = 100_000_000
+"""400 MB in memory."""
+
+_STROKES_AT_ONCE = 1000  # one huge path makes the rasterisers of all readers slow
+_TITLE_LENGTH = 200  # cairo refuses comments of more than 255 characters
+
+
+def ps_bytes(drawing: Drawing) -> bytes:
+    """The drawing as a PostScript file of one page, without fonts; language level 2, or 3 if it has shaded triangles.
+
+    Errors: InputError as of page_marks.sheet. Degenerate: the bounding box of an empty drawing is the page.
+    """
+    return _postscript(sheet(drawing), eps=False)
+
+
+def eps_bytes(drawing: Drawing) -> bytes:
+    """The drawing as an encapsulated PostScript file, to be placed in documents; the bounding box is that of the ink.
+
+    Errors: InputError as of page_marks.sheet. Degenerate: the bounding box of an empty drawing is the page.
+    Source: Adobe, Encapsulated PostScript File Format Specification 3.0.
+    """
+    return _postscript(sheet(drawing), eps=True)
+
+
+def pdf_bytes(drawing: Drawing) -> bytes:
+    """The drawing as a PDF file of one page.
+
+    Errors: InputError as vectorplot.backends.page.page_marks. Degenerate: an empty drawing is an empty page.
+    """
+    import cairo
+
+    page = sheet(drawing)
+    stream = io.BytesIO()
+    height = page.height * POINTS_PER_MICRON
+    surface = cairo.PDFSurface(stream, page.width * POINTS_PER_MICRON, height)
+    # Cairo writes the present time unless told otherwise; the same drawing must be the same file. This leaves it out.
+    surface.set_metadata(cairo.PDFMetadata.CREATE_DATE, "")
+    if page.title:
+        surface.set_metadata(cairo.PDFMetadata.TITLE, page.title)
+    _draw(surface, page, height)
+    return with_triangles_in_pdf(stream.getvalue())
+
+
+def png_bytes(drawing: Drawing, dpi: float = DPI) -> bytes:
+    """The drawing as a PNG picture on white, in sRGB and with its resolution in the file.
+
+    Errors: InputError as of page_marks.sheet, and for a picture too large to make. Degenerate: an empty drawing
+    is a white page; a page smaller than a pixel has one.
+    """
+    import cairo
+
+    page = sheet(drawing)
+    if not 0.0 < dpi < np.inf:
+        raise InputError(f"resolution of {dpi:g} dpi")
+    scale = dpi / 25400.0
+    if max(page.width, page.height) * scale > LARGEST_SIDE_PIXELS or (
+        page.width * scale * page.height * scale > LARGEST_PICTURE_PIXELS
+    ):
+        size = f"{page.width / 1e3:g} x {page.height / 1e3:g} mm"
+        raise InputError(f"a page of {size} has too many pixels at {dpi:g} dpi")
+    width, height = (max(1, round(side * scale)) for side in (page.width, page.height))
+    surface = cairo.ImageSurface(cairo.FORMAT_RGB24, width, height)
+    context = cairo.Context(surface)
+    context.set_source_rgb(1.0, 1.0, 1.0)
+    context.paint()
+    _ink(context, page, scale, page.height * scale, max(SEAM_MM * 1000.0 * scale, 1.0))
+    stream = io.BytesIO()
+    surface.write_to_png(stream)
+    return with_meaning(stream.getvalue(), dpi)
+
+
+def _postscript(page: Sheet, *, eps: bool) -> bytes:
+    import cairo
+
+    stream = io.BytesIO()
+    # Cairo flips y about the next whole point; with a whole height the page keeps its lower left corner at the origin.
+    width, height = _whole_points(page)
+    surface = cairo.PSSurface(stream, width, height)
+    shaded = any(areas.shaded.any() for ink in page.inks for areas in ink.areas)
+    surface.restrict_to_level(cairo.PSLevel.LEVEL_3 if shaded else cairo.PSLevel.LEVEL_2)
+    surface.set_eps(eps)
+    if page.title:
+        surface.dsc_comment(f"%%Title: ({postscript_string(page.title)})")
+    _draw(surface, page, height)
+    text = with_triangles_in_postscript(re.sub(rb"(?m)^%%CreationDate:.*\n", b"", stream.getvalue(), count=1))
+    if not any(len(part) for ink in page.inks for part in ink.parts):
+        text = _with_page_box(text, page)
+    return text
+
+
+def postscript_string(text: str) -> str:
+    """The text as it stands between the parentheses of a PostScript string: printable ASCII, specials escaped, cut to
+    a length that cairo takes."""
+    printable = "".join(c if " " <= c <= "~" else "?" for c in text)[: _TITLE_LENGTH // 2]
+    return re.sub(r"([\\()])", r"\\\1", printable)
+
+
+def _with_page_box(text: bytes, page: Sheet) -> bytes:
+    """The file of an empty drawing with the page as bounding box, where cairo writes a box turned inside out."""
+    width, height = _whole_points(page)
+    return re.sub(rb"(?m)^%%(Page)?BoundingBox:.*$", rb"%%\1BoundingBox: 0 0 " + b"%d %d" % (width, height), text)
+
+
+def _whole_points(page: Sheet) -> tuple[int, int]:
+    return math.ceil(page.width * POINTS_PER_MICRON), math.ceil(page.height * POINTS_PER_MICRON)
+
+
+def _draw(surface: cairo.Surface, page: Sheet, height: float) -> None:
+    import cairo
+
+    context = cairo.Context(surface)
+    _ink(context, page, POINTS_PER_MICRON, height, SEAM_MM * 1000.0 * POINTS_PER_MICRON)
+    context.show_page()
+    surface.finish()
+
+
+def _ink(context: cairo.Context[Any], page: Sheet, scale: float, height: float, seam: float) -> None:
+    """Draw all inks; scale: device units per micron; height: of the page's lower border in them, from the top; seam:
+    width of the line around opaque polygons."""
+    import cairo
+
+    context.set_line_cap(cairo.LINE_CAP_ROUND)
+    context.set_line_join(cairo.LINE_JOIN_ROUND)
+    for ink in page.inks:
+        width = ink.pen.width_mm * 1000.0 * scale
+        for part in ink.parts:
+            if isinstance(part, Areas):
+                paint(context, part, scale, height, width, seam)
+            else:
+                context.set_source_rgb(*(int(ink.pen.colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5)))
+                context.set_line_width(width)
+                _stroke(context, part, scale, height)
+
+
+def _stroke(context: cairo.Context[Any], lines: Lines, scale: float, height: float) -> None:
+    """Stroke the polylines and curves. Cairo takes one segment a call, so this loops over points."""
+    points = (lines.microns * (scale, -scale) + (0.0, height)).tolist()
+    move_to, line_to, curve_to = context.move_to, context.line_to, context.curve_to
+    strokes = zip(lines.offsets[1:].tolist(), lines.closed.tolist(), lines.curved.tolist(), strict=True)
+    start = 0
+    for number, (end, closed, curved) in enumerate(strokes, start=1):
+        move_to(*points[start])
+        if curved:
+            for i in range(start + 1, end, 3):
+                curve_to(*points[i], *points[i + 1], *points[i + 2])
+        else:
+            for x, y in points[start + 1 : end]:
+                line_to(x, y)
+        if closed:
+            context.close_path()
+        if number % _STROKES_AT_ONCE == 0:
+            context.stroke()
+        start = end
+    context.stroke()

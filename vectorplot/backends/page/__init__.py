@@ -1,0 +1,1 @@
+"""Drawings in whole microns on their page: what all backends start from."""

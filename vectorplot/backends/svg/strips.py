@@ -1,0 +1,142 @@
+"""Shaded triangles for formats that shade along one direction only.
+
+A triangle the colours of which change along one direction, as shades of one palette do, is exact. One that mixes three
+colours is cut into strips along the direction of its greatest change, so narrow that what changes across them cannot be
+seen.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.backends.page.areas import Areas, Polygons, rounded
+from vectorplot.geometry import ragged
+from vectorplot.geometry.convex.polygon_clipping import clipped
+
+SHADE_ERROR = 2.0
+"""By how many steps of 255 a shaded piece that is painted in one colour may differ from what it should be."""
+
+SMALLEST_MICRONS, NARROWEST_MICRONS = 250.0, 60.0
+"""Triangles that are no longer, or no wider, than this are painted in one colour: less than a pixel of a screen."""
+
+THINNEST = 1e-6
+"""Triangles narrower than this part of their length have colours along it only."""
+
+
+@dataclass(frozen=True, eq=False)
+class Strips:
+    """Polygons with linear gradients: microns (p,2) int64, offsets (s+1,); triangle (s,) that each is a part of,
+    ascending; ends (s,2,2) in microns from where to where the gradient runs; colours (s,2,3) there."""
+
+    microns: Ints
+    offsets: Ints
+    triangle: Ints
+    ends: Floats
+    colours: Floats
+
+    def some(self, which: Ints) -> Strips:
+        """Some of the strips, in the order asked for."""
+        sizes = np.diff(self.offsets)[which]
+        corner = ragged.ranges(self.offsets[which], sizes)
+        return Strips(
+            self.microns[corner], ragged.offsets(sizes), self.triangle[which], self.ends[which], self.colours[which]
+        )
+
+
+def joined_strips(one: Strips, other: Strips) -> Strips:
+    """The strips of both by their triangles."""
+    triangle = np.concatenate([one.triangle, other.triangle])
+    both = Strips(
+        np.concatenate([one.microns, other.microns]),
+        ragged.offsets(np.concatenate([np.diff(one.offsets), np.diff(other.offsets)])),
+        triangle,
+        np.concatenate([one.ends, other.ends]),
+        np.concatenate([one.colours, other.colours]),
+    )
+    return both.some(np.argsort(triangle, kind="stable"))
+
+
+def nearly_flat(areas: Areas) -> Areas:
+    """The same, but triangles that are very small or narrow, or the colours of which span no more than twice
+    SHADE_ERROR, have the middle one."""
+    which = np.flatnonzero(areas.shaded)
+    corner = areas.offsets[which, None] + np.arange(3)
+    of_corners = areas.colours[corner].astype(np.intp)
+    low, high = of_corners.min(axis=1), of_corners.max(axis=1)
+    sides = (areas.microns[corner] - areas.microns[np.roll(corner, 1, axis=1)]).astype(np.float64)
+    near = ((high - low) <= 2.0 * SHADE_ERROR).all(axis=1)
+    longest = np.hypot(sides[..., 0], sides[..., 1]).max(axis=1)
+    width = np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]) / longest
+    near |= (longest <= SMALLEST_MICRONS) | (width <= NARROWEST_MICRONS)
+    colours = areas.colours.copy()
+    colours[corner[near]] = ((low + high) // 2)[near, None].astype(np.uint8)
+    return replace(areas, colours=colours)
+
+
+def strips_of(corners: Floats, colours: Floats) -> Strips:
+    """Triangles with corners (t,3,2) in microns, shaded linearly from colours (t,3,3) there, as strips. No colour is
+    off by more than SHADE_ERROR, and what rounding adds.
+
+    The linear map from places to colours is, by its singular values, a change along one direction and a smaller one
+    across it. A strip has the colours of its middle line.
+    """
+    slopes = _slopes(corners, colours)
+    directions, sizes, _ = np.linalg.svd(slopes, full_matrices=False)
+    local = (corners - corners[:, :1]) @ directions
+    low, high = local.min(axis=1), local.max(axis=1)
+    number = np.ceil((high[:, 1] - low[:, 1]) * sizes[:, 1] / (2.0 * SHADE_ERROR))
+    number = np.maximum(number, 1.0).astype(np.intp)
+    owner = ragged.owner(number)
+    step = ragged.place(number)
+    width = ((high - low)[:, 1] / number)[owner]
+    middle = low[owner, 1] + (step + 0.5) * width
+    # Strips at the ends are wider, so that rounding cannot cut anything off.
+    before, behind = np.where(step == 0, 1.0, 0.5) * width, np.where(step == number[owner] - 1, 1.0, 0.5) * width
+    reach = (high - low).max(axis=1)[owner]
+    slabs = _rectangles(low[owner, 0] - reach, high[owner, 0] + reach, middle - before, middle + behind)
+    quads = corners[owner, :1] + slabs @ directions[owner].transpose(0, 2, 1)
+    microns, offsets, strip = _cut(corners[owner], quads)
+    owner, middle = owner[strip], middle[strip]
+    size = np.diff(offsets)
+    from_first = microns - np.repeat(corners[owner, 0], size, axis=0)
+    along = np.einsum("pi,pi->p", from_first, np.repeat(directions[owner, :, 0], size, axis=0))
+    ways = np.stack([np.stack((end, middle), axis=-1) for end in _extremes(along, offsets)], axis=1)
+    ways = ways @ directions[owner].transpose(0, 2, 1)
+    values = np.clip(colours[owner, :1] + ways @ slopes[owner], 0.0, 255.0)
+    return Strips(microns, offsets, owner, corners[owner, :1] + ways, values)
+
+
+def _slopes(corners: Floats, colours: Floats) -> Floats:
+    """(t,2,3): a way on the page times it is the change of colour. Across triangles too thin for that there is none."""
+    sides, changes = corners[:, 1:] - corners[:, :1], colours[:, 1:] - colours[:, :1]
+    return np.asarray(np.linalg.pinv(sides, rcond=THINNEST) @ changes)
+
+
+def _cut(triangles: Floats, quads: Floats) -> tuple[Ints, Ints, Ints]:
+    """Triangles (s,3,2) clipped by quadrilaterals (s,4,2): corners, offsets, and which ones are left."""
+    points, offsets, which = clipped(
+        triangles.reshape(-1, 2).T,
+        np.arange(0, 3 * len(triangles) + 1, 3),
+        quads.reshape(-1, 2).T,
+        np.arange(0, 4 * len(quads) + 1, 4),
+    )
+    blank = np.zeros((points.shape[1], 3), dtype=np.uint8)
+    microns, offsets, _, kept = rounded(Polygons(points.T / 1000.0, offsets, blank, which))
+    return microns, offsets, which[kept]
+
+
+def _rectangles(left: Floats, right: Floats, low: Floats, high: Floats) -> Floats:
+    """(s,4,2) the corners of rectangles."""
+    return np.stack(
+        [np.stack(corner, axis=-1) for corner in ((left, low), (right, low), (right, high), (left, high))], 1
+    )
+
+
+def _extremes(values: Floats, offsets: Ints) -> tuple[Floats, Floats]:
+    """Smallest and largest of the values of each polygon."""
+    if len(offsets) == 1:
+        return np.zeros(0), np.zeros(0)
+    return np.minimum.reduceat(values, offsets[:-1]), np.maximum.reduceat(values, offsets[:-1])

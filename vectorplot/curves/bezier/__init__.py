@@ -1,0 +1,1 @@
+"""Cubic Bézier curves and elliptic arcs through polylines."""

@@ -1,0 +1,188 @@
+"""Many arcs of ellipses in the plane: recognised in polylines, and as cubic segments."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.curves.bezier.arcs import arc_error
+from vectorplot.curves.bezier.paths import BezierPaths
+from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
+
+FEWEST_POINTS = 8
+"""Five points are on some conic in any case; the others must agree."""
+
+SMALLEST_ANGLE = np.radians(15.0)
+"""A flatter arc says too little about its ellipse."""
+
+SMALLEST_RISE = 100.0
+"""An arc rises above its chord by at least so many tolerances."""
+
+_MOST_SEGMENTS = 1 << 16
+
+
+@dataclass(frozen=True, eq=False)
+class EllipseArcs:
+    """Arcs centre + cos(t) first + sin(t) second, from t = start to end: first and second are the semi-axes.
+
+    centre, first, second (a,2); start, end (a,) radians, end less than start for clockwise arcs; stroke (a,): the
+    number of the stroke that each arc draws.
+    """
+
+    stroke: Ints
+    centre: Floats
+    first: Floats
+    second: Floats
+    start: Floats
+    end: Floats
+
+    def __len__(self) -> int:
+        return len(self.stroke)
+
+    @classmethod
+    def none(cls) -> EllipseArcs:
+        """No arcs."""
+        pairs, one = np.zeros((0, 2)), np.zeros(0)
+        return cls(np.zeros(0, dtype=np.intp), pairs, pairs, pairs, one, one)
+
+    @classmethod
+    def joined(cls, parts: Sequence[EllipseArcs]) -> EllipseArcs:
+        """All arcs of all parts."""
+        parts = (cls.none(), *parts)
+        return cls(
+            np.concatenate([part.stroke for part in parts]),
+            np.concatenate([part.centre for part in parts]),
+            np.concatenate([part.first for part in parts]),
+            np.concatenate([part.second for part in parts]),
+            np.concatenate([part.start for part in parts]),
+            np.concatenate([part.end for part in parts]),
+        )
+
+    def some(self, which: Ints | Bools) -> EllipseArcs:
+        """Some of the arcs."""
+        pairs = (self.centre[which], self.first[which], self.second[which])
+        return EllipseArcs(self.stroke[which], *pairs, self.start[which], self.end[which])
+
+    def points(self, t: Floats) -> Floats:
+        """(a,...,2) points at the parameters t (a,...)."""
+        shape = (len(self), *[1] * (t.ndim - 1), 2)
+        centre, first, second = (column.reshape(shape) for column in (self.centre, self.first, self.second))
+        return np.asarray(centre + np.cos(t)[..., None] * first + np.sin(t)[..., None] * second)
+
+    def tangents(self, t: Floats) -> Floats:
+        """(a,...,2) derivatives by t (a,...)."""
+        shape = (len(self), *[1] * (t.ndim - 1), 2)
+        first, second = (column.reshape(shape) for column in (self.first, self.second))
+        return np.asarray(np.cos(t)[..., None] * second - np.sin(t)[..., None] * first)
+
+
+def recognised_arcs(points: Floats, offsets: Ints, closed: Bools, *, tolerance: float) -> EllipseArcs:
+    """The polylines that sample an arc of a circle or an ellipse, and the arcs.
+
+    points (p,2), offsets (m+1,), closed (m,): the last point joins the first. All points of such a polyline lie within
+    tolerance of its arc, which runs through them in their order, by less than a quarter from one to the next.
+    Degenerate: polylines of fewer than FEWEST_POINTS points, flatter than SMALLEST_ANGLE or SMALLEST_RISE, or of more
+    than one turn are none.
+    Source: the conic through five of the points, from the pencil of the line pairs through four of them; Glaeser,
+    section 8.1 on conics.
+    """
+    stroke = np.flatnonzero(np.diff(offsets) >= FEWEST_POINTS)
+    if not len(stroke):
+        return EllipseArcs.none()
+    centre, axes, good = _ellipses(points, offsets[stroke], np.diff(offsets)[stroke], closed[stroke])
+    stroke, centre, axes = stroke[good], centre[good], axes[good]
+    if not len(stroke):
+        return EllipseArcs.none()
+    loop, count = closed[stroke], np.diff(offsets)[stroke]
+    starts = ragged.starts(count)
+    arm = points[ragged.ranges(offsets[stroke], count)] - np.repeat(centre, count, axis=0)
+    angle, off = _polar(arm, np.repeat(axes, count, axis=0))
+    step = _turned(np.diff(angle, append=angle[:1]))
+    last = starts + count - 1
+    step[last] = np.where(loop, _turned(angle[starts] - angle[last]), 0.0)
+    total = np.add.reduceat(step, starts)
+    forward = step * np.repeat(np.sign(total), count)
+    forward[last[~loop]] = 1.0
+    kept = np.maximum.reduceat(off, starts) <= tolerance
+    kept &= (np.minimum.reduceat(forward, starts) > 0.0) & (np.maximum.reduceat(np.abs(step), starts) < np.pi / 2.0)
+    kept &= np.where(loop, np.abs(np.abs(total) - 2.0 * np.pi) < 1e-6, np.abs(total) <= 2.0 * np.pi + 1e-9)
+    smaller = np.sqrt((axes * axes).sum(axis=2)).min(axis=1)
+    rise = smaller * (1.0 - np.cos(np.minimum(np.abs(total) / 2.0, np.pi / 2.0)))
+    kept &= (np.abs(total) >= SMALLEST_ANGLE) & (rise >= SMALLEST_RISE * tolerance)
+    start, whole = angle[starts], np.where(loop, 2.0 * np.pi * np.sign(total), total)
+    return EllipseArcs(stroke, centre, axes[:, 0], axes[:, 1], start, start + whole).some(kept)
+
+
+def arc_segments(arcs: EllipseArcs, closed: Bools, *, tolerance: float) -> BezierPaths:
+    """The arcs as cubic segments of equal parameter length, as few as lie within tolerance of each; closed (a,) as for
+    BezierPaths.
+
+    Points and tangents at the ends of segments are exact. Errors: InputError for a tolerance that is not positive or
+    takes more than 2^16 segments for an arc.
+    """
+    if not tolerance > 0.0:
+        raise InputError(f"an arc needs a positive tolerance, not {tolerance:g}")
+    radius = np.hypot(*np.maximum(np.abs(arcs.first), np.abs(arcs.second)).T)
+    angle = np.abs(arcs.end - arcs.start)
+    count = np.maximum(np.ceil(angle / (np.pi / 2.0) - 1e-9), 1.0).astype(np.intp)
+    while (coarse := radius * arc_error(angle / count) > tolerance).any():
+        count = np.where(coarse, count + 1 + count // 64, count)
+        if count.max() > _MOST_SEGMENTS:
+            raise InputError(f"a tolerance of {tolerance:g} takes more than {_MOST_SEGMENTS} segments")
+    offsets = ragged.offsets(count)
+    owner = ragged.owner(count)
+    place = np.arange(offsets[-1]) - offsets[:-1][owner]
+    width = (arcs.end - arcs.start) / count
+    t = arcs.start[owner, None] + width[owner, None] * np.stack((place, place + 1), axis=1)
+    one = arcs.some(owner)
+    ends, handles = one.points(t), 4.0 / 3.0 * np.tan(width / 4.0)[owner, None, None] * one.tangents(t)
+    control = np.stack((ends[:, 0], ends[:, 0] + handles[:, 0], ends[:, 1] - handles[:, 1], ends[:, 1]), axis=1)
+    return BezierPaths(control, offsets, closed, radius * arc_error(angle / count))
+
+
+def _polar(arm: Floats, axes: Floats) -> tuple[Floats, Floats]:
+    """(p,) parameters on ellipses with these semi-axes (p,2,2) below arms (p,2) from their centres; (p,) how far the
+    points there are from the arms' ends."""
+    along, across = ((arm * axes[:, k]).sum(axis=1) / (axes[:, k] ** 2).sum(axis=1) for k in (0, 1))
+    angle = np.arctan2(across, along)
+    off = arm - np.cos(angle)[:, None] * axes[:, 0] - np.sin(angle)[:, None] * axes[:, 1]
+    return angle, np.hypot(*off.T)
+
+
+def _turned(angle: Floats) -> Floats:
+    """Differences of angles, between -pi and pi."""
+    return np.asarray(np.mod(angle + np.pi, 2.0 * np.pi) - np.pi)
+
+
+def _ellipses(points: Floats, first: Ints, count: Ints, closed: Bools) -> tuple[Floats, Floats, Bools]:
+    """Centres (m,2) and semi-axes (m,2,2), one a row, of the ellipses through five points of each polyline; (m,) where
+    the conic is an ellipse."""
+    gaps = np.where(closed, count, count - 1)[:, None] * np.arange(5) // np.where(closed, 5, 4)[:, None]
+    five = points[first[:, None] + gaps]
+    middle = five.mean(axis=1)
+    scale = np.abs(five - middle[:, None]).max(axis=(1, 2))
+    scale = np.where(scale > 0.0, scale, 1.0)
+    local = np.concatenate(((five - middle[:, None]) / scale[:, None, None], np.ones((len(five), 5, 1))), axis=2)
+    sides = [np.cross(local[:, i], local[:, j]) for i, j in ((0, 1), (3, 4), (1, 3), (4, 0))]
+    pairs = [one[:, :, None] * two[:, None, :] for one, two in (sides[:2], sides[2:])]
+    one, two = (pair + pair.transpose(0, 2, 1) for pair in pairs)
+    at = local[:, 2]
+    conic = one * _value(two, at)[:, None, None] - two * _value(one, at)[:, None, None]
+    quadratic, linear = conic[:, :2, :2], conic[:, :2, 2]
+    good = np.linalg.det(quadratic) > 1e-12 * np.abs(quadratic).max(axis=(1, 2)) ** 2
+    quadratic = np.where(good[:, None, None], quadratic, np.eye(2))
+    centre = -np.linalg.solve(quadratic, linear[:, :, None])[:, :, 0]
+    level = -(conic[:, 2, 2] + (linear * centre).sum(axis=1))
+    sizes, turn = np.linalg.eigh(quadratic)
+    square = level[:, None] / sizes
+    good &= (square > 0.0).all(axis=1)
+    axes = np.sqrt(np.where(good[:, None], square, 1.0))[:, :, None] * turn.transpose(0, 2, 1)
+    return centre * scale[:, None] + middle, axes * scale[:, None, None], good
+
+
+def _value(conic: Floats, at: Floats) -> Floats:
+    return np.asarray(np.einsum("ai,aij,aj->a", at, conic, at))

@@ -1,0 +1,1 @@
+"""From visible pieces to what a pen draws."""

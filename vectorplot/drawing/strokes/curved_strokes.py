@@ -1,0 +1,102 @@
+"""Strokes of smooth curves as Bézier paths and arcs of ellipses."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from vectorplot.arrays import Ints
+from vectorplot.curves.bezier.elliptic_arcs import EllipseArcs, arc_segments, recognised_arcs
+from vectorplot.curves.bezier.fit import fitted_paths
+from vectorplot.curves.bezier.paths import BezierPaths
+from vectorplot.drawing.drawing import Curves, Paths
+from vectorplot.drawing.strokes.paths import chosen, concatenated
+from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
+
+CHORD_SHARE = 0.5
+"""The part of the tolerance that chords may be off their curves."""
+
+FIT_SHARE = 0.45
+"""The part of the tolerance for the fit. Half of it is spent on the chords; the rest is for rounding in files."""
+
+ARC_SHARE = 1e-3
+"""An arc of an ellipse is one only if all points agree within this part of the tolerance."""
+
+CORNER_ANGLE = np.radians(60.0)
+"""A smooth stroke that turns by more at one point has a cusp there: the chords of a curve that is only narrow, traced
+within half a tolerance, turn by less unless it is no larger than a few tolerances."""
+
+
+def with_curves(paths: Paths, tolerance_mm: float) -> Paths | Curves:
+    """The strokes with curves for the smooth ones: arcs of ellipses where they are, cubic Bézier paths elsewhere.
+
+    A curve begins and ends where its stroke does and lies within tolerance_mm of the curve that the stroke samples, if
+    the stroke's chords lie within half of that. Order and directions stay.
+    Errors: InputError unless the tolerance is positive. Degenerate: without smooth strokes of three points or more the
+    strokes themselves.
+    Source: vectorplot.curves.bezier.fit and vectorplot.curves.bezier.elliptic_arcs.
+    """
+    if not 0.0 < tolerance_mm < np.inf:
+        raise InputError(f"curves need a positive tolerance in mm, not {tolerance_mm:g}")
+    which = np.flatnonzero(paths.smooth & (np.diff(paths.offsets) > 2))
+    if not len(which):
+        return paths
+    smooth = chosen(paths, which)
+    arcs = recognised_arcs(smooth.points, smooth.offsets, smooth.closed, tolerance=ARC_SHARE * tolerance_mm)
+    fit = FIT_SHARE * tolerance_mm
+    round_ones = arc_segments(arcs, smooth.closed[arcs.stroke], tolerance=fit)
+    others = np.setdiff1d(np.arange(len(smooth)), arcs.stroke, assume_unique=True)
+    rest = chosen(smooth, others)
+    fitted = fitted_paths(
+        rest.points,
+        rest.offsets,
+        rest.closed,
+        tolerance=fit,
+        corner_angle=CORNER_ANGLE,
+        sag=CHORD_SHARE * tolerance_mm,
+    )
+    beziers = _in_places((round_ones, fitted), (which[arcs.stroke], which[others]), paths)
+    return Curves(paths, beziers, replace(arcs, stroke=which[arcs.stroke]))
+
+
+def one_mark(marks: tuple[Paths | Curves, ...]) -> Curves:
+    """All marks of a layer as one, one after the other; what was Paths stays polylines."""
+    some = [mark if isinstance(mark, Curves) else _polylines(mark) for mark in marks]
+    first = ragged.offsets(np.array([len(mark) for mark in some], dtype=np.intp))
+    arcs = [mark.arcs for mark in some]
+    beziers = [mark.beziers for mark in some]
+    return Curves(
+        concatenated(tuple(mark.paths for mark in some)),
+        BezierPaths(
+            np.concatenate([np.zeros((0, 4, 2)), *(part.control for part in beziers)]),
+            ragged.offsets(np.concatenate([np.zeros(0, dtype=np.intp), *(np.diff(part.offsets) for part in beziers)])),
+            np.concatenate([np.zeros(0, dtype=np.bool_), *(part.closed for part in beziers)]),
+            np.concatenate([np.zeros(0), *(part.error for part in beziers)]),
+        ),
+        EllipseArcs.joined(
+            [replace(part, stroke=part.stroke + k) for part, k in zip(arcs, first.tolist(), strict=False)]
+        ),
+    )
+
+
+def _polylines(paths: Paths) -> Curves:
+    none = BezierPaths(np.zeros((0, 4, 2)), np.zeros(len(paths) + 1, np.intp), paths.closed, np.zeros(len(paths)))
+    return Curves(paths, none, EllipseArcs.none())
+
+
+def _in_places(parts: tuple[BezierPaths, ...], strokes: tuple[Ints, ...], paths: Paths) -> BezierPaths:
+    """One path for each stroke, the numbers of which come with the parts; without segments where no part has one."""
+    count, error = np.zeros(len(paths), dtype=np.intp), np.zeros(len(paths))
+    for part, stroke in zip(parts, strokes, strict=True):
+        count[stroke], error[stroke] = np.diff(part.offsets), part.error
+    offsets = ragged.offsets(count)
+    control = np.zeros((offsets[-1], 4, 2))
+    for part, stroke in zip(parts, strokes, strict=True):
+        control[ragged.ranges(offsets[stroke], count[stroke])] = part.control
+    drawn = np.flatnonzero(count)
+    control[offsets[drawn], 0] = paths.points[paths.offsets[drawn]]
+    last = np.where(paths.closed[drawn], paths.offsets[drawn], paths.offsets[drawn + 1] - 1)
+    control[offsets[drawn + 1] - 1, 3] = paths.points[last]
+    return BezierPaths(control, offsets, paths.closed, error)

@@ -1,0 +1,97 @@
+"""Dashed lines as real segments: what a pen plotter can draw."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.drawing.drawing import Paths
+from vectorplot.drawing.strokes.paths import chosen, concatenated, sections, unrolled
+from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
+
+
+def dashed(paths: Paths, dash_mm: float, gap_mm: float, page_from_world: Floats | None = None) -> Paths:
+    """The strokes broken into dashes; every dash is a stroke of its own.
+
+    The pattern runs along each polyline and is stretched or squeezed as a whole so that an open stroke begins and ends
+    with a whole dash, and the dash over the first point of a closed one joins up. page_from_world (4,4) as in Drawing,
+    by default a parallel projection. There are about length / (dash + gap) dashes: clip to the page first.
+    Errors: InputError unless the dash is positive and the gap positive or zero.
+    Degenerate: a stroke too short for two dashes stays whole; with a gap of 0 nothing changes.
+    """
+    if not (0.0 < dash_mm < np.inf and 0.0 <= gap_mm < np.inf):
+        raise InputError(f"dash and gap must be lengths in mm, got {dash_mm:g} and {gap_mm:g}")
+    length = _lengths(paths)
+    many = _number_of_dashes(paths, length, dash_mm, gap_mm)
+    index = np.flatnonzero(many > 0)
+    if gap_mm == 0.0 or not len(index):
+        return paths
+    broken = chosen(paths, index)
+    laps = np.where(broken.closed, np.diff(broken.offsets), 0)
+    world = np.eye(4) if page_from_world is None else page_from_world
+    start, end, stroke = _dash_ends(many[index], length[index], broken.closed, dash_mm, gap_mm)
+    parts = _between(unrolled(broken, np.zeros_like(laps), laps), stroke, start, end, world)
+    whole = chosen(paths, many == 0)
+    order = np.argsort(np.concatenate((np.flatnonzero(many == 0), index[stroke])), kind="stable")
+    return chosen(concatenated((whole, parts)), order)
+
+
+def _lengths(paths: Paths) -> Floats:
+    """The length of each stroke in mm, the closing segment included."""
+    closing = paths.closed & (np.diff(paths.offsets) > 0)
+    line = unrolled(paths, np.zeros(len(paths), dtype=np.intp), closing.astype(np.intp))
+    along = _arc_length(line)
+    filled = np.diff(line.offsets) > 0
+    length = np.zeros(len(paths))
+    length[filled] = along[line.offsets[1:][filled] - 1] - along[line.offsets[:-1][filled]]
+    return length
+
+
+def _arc_length(paths: Paths) -> Floats:
+    """How far each point lies along its stroke, plus the lengths of all strokes before it."""
+    steps = np.zeros(len(paths.points))
+    steps[1:] = np.hypot(*np.diff(paths.points, axis=0).T)
+    steps[paths.offsets[:-1][np.diff(paths.offsets) > 0]] = 0.0
+    return np.cumsum(steps)
+
+
+def _number_of_dashes(paths: Paths, length: Floats, dash_mm: float, gap_mm: float) -> Ints:
+    """How many dashes a stroke is broken into; 0 where it stays whole."""
+    open_ = np.rint((length + gap_mm) / (dash_mm + gap_mm))
+    loop = np.rint(length / (dash_mm + gap_mm))
+    count = np.where(paths.closed, loop, np.where(open_ >= 2.0, open_, 0.0))
+    return count.astype(np.intp)
+
+
+def _dash_ends(many: Ints, length: Floats, closed: Bools, dash_mm: float, gap_mm: float) -> tuple[Floats, Floats, Ints]:
+    """Where the dashes begin and end along their strokes, and whose they are."""
+    stroke = ragged.owner(many)
+    number = ragged.place(many)
+    gaps = np.where(closed, many, many - 1)
+    scale = length / (many * dash_mm + gaps * gap_mm)
+    # On a loop the pattern starts half a dash later and its last dash lies over the seam, half on the second lap.
+    shift = np.where(closed, 0.5 * dash_mm + gap_mm, 0.0)
+    start = (number * (dash_mm + gap_mm) + shift[stroke]) * scale[stroke]
+    end = start + dash_mm * scale[stroke]
+    last = ~closed[stroke] & (number == many[stroke] - 1)
+    return start, np.where(last, length[stroke], end), stroke
+
+
+def _between(paths: Paths, stroke: Ints, start: Floats, end: Floats, page_from_world: Floats) -> Paths:
+    """The parts of open strokes from one length along them to another."""
+    along = _arc_length(paths)
+    first_point, last_point = paths.offsets[:-1][stroke], paths.offsets[1:][stroke] - 1
+    base = along[first_point]
+    start, end = base + start, base + end
+    first = np.clip(np.searchsorted(along, start, side="right") - 1, first_point, last_point - 1)
+    last = np.clip(np.searchsorted(along, end, side="left") - 1, first, last_point - 1)
+    return sections(
+        paths, stroke, first, _fraction(along, first, start), last, _fraction(along, last, end), page_from_world
+    )
+
+
+def _fraction(along: Floats, segment: Ints, place: Floats) -> Floats:
+    run = along[segment + 1] - along[segment]
+    t = (place - along[segment]) / np.where(run > 0.0, run, 1.0)
+    return np.clip(t, 0.0, 1.0)

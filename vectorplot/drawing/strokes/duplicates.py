@@ -1,0 +1,205 @@
+"""Lines that lie on each other are drawn once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.drawing.drawing import Paths
+from vectorplot.drawing.strokes.neighbours import Keys, companions, overlapping_cells
+from vectorplot.drawing.strokes.paths import chosen, sections
+from vectorplot.exact import intervals
+from vectorplot.geometry import ragged
+
+CLOSE_OF_LENGTH = 1e-3
+"""A stroke is collinear with another only within this part of its length too: a short one has no direction else."""
+
+PAIRS_AT_ONCE = 1 << 18
+
+_SMALL = 6
+"""In crowds of up to this many, all pairs of boxes are compared first; most crowds are strokes one after the other."""
+
+_ROUNDS = 3
+"""How many of the best strokes of a crowd are tried on all the others before all pairs of it are looked at."""
+
+
+def without_duplicates(paths: Paths, rank: Ints, tolerance_mm: float, page_from_world: Floats | None = None) -> Paths:
+    """The same picture without the parts of strokes that lie on more important ones.
+
+    paths: straight strokes of two points; rank (m,): the smaller of two wins; of equal ones the longer, then the one
+    further left, so that the picture does not depend on the order of the strokes. Two strokes lie on each other where
+    they overlap and the shorter one's ends are within tolerance_mm (and a thousandth of its length) of the other's
+    line: lines that only run close together both stay. page_from_world (4,4) as in Drawing, by default a parallel
+    projection: points3d is divided where the page is. Strokes keep their order; what is no longer than tolerance_mm
+    is left out.
+    """
+    start, end = paths.points[::2], paths.points[1::2]
+    length = np.hypot(*(end - start).T)
+    long = length > tolerance_mm
+    if not long.all():
+        return without_duplicates(chosen(paths, long), rank[long], tolerance_mm, page_from_world)
+    owner, starts = nearly_collinear(start, end, tolerance_mm)
+    if not len(owner):
+        return paths
+    candidates, index = np.unique(owner, return_inverse=True)
+    ordered = candidates[_by_importance(start[candidates], end[candidates], length[candidates], rank[candidates])]
+    importance = np.zeros(len(candidates), dtype=np.intp)
+    importance[np.searchsorted(candidates, ordered)] = np.arange(len(ordered))
+    segments = _Segments(start[ordered], end[ordered], tolerance_mm)
+    dropped, loser, low, high = _covered(segments, importance[index], starts)
+    gap = np.zeros(len(paths))
+    gap[ordered] = tolerance_mm / segments.length
+    world = np.eye(4) if page_from_world is None else page_from_world
+    return _without(paths, ordered[dropped], ordered[loser], low, high, gap, world)
+
+
+def nearly_collinear(start: Floats, end: Floats, tolerance: float) -> tuple[Ints, Ints]:
+    """(owner, starts): groups of strokes from start to end (n,2), longer than the tolerance, some of which may lie on
+    each other; a group has the strokes owner[starts[k] : starts[k + 1]]. All that do lie on each other share one."""
+    length = np.hypot(*(end - start).T)
+    return _overlapping(start, end, *_crowds(start, end, length, tolerance), tolerance)
+
+
+def _without(
+    paths: Paths, dropped: Ints, loser: Ints, low: Floats, high: Floats, gap: Floats, page_from_world: Floats
+) -> Paths:
+    """The strokes without those that are dropped, and without the parts from low to high of losers."""
+    whole = np.ones(len(paths), dtype=np.bool_)
+    whole[dropped] = whole[loser] = False
+    if whole.all():
+        return paths
+    touched = np.unique(loser)
+    number, low, high = intervals.union(np.searchsorted(touched, loser), low, high, gap[touched])
+    part, low, high = intervals.complement(len(touched), number, low, high, gap[touched])
+    kept = np.flatnonzero(whole)
+    stroke = np.concatenate((kept, touched[part]))
+    t_low, t_high = np.concatenate((np.zeros(len(kept)), low)), np.concatenate((np.ones(len(kept)), high))
+    order = np.lexsort((t_low, stroke))
+    first = 2 * stroke[order]
+    return sections(paths, stroke[order], first, t_low[order], first, t_high[order], page_from_world)
+
+
+class _Segments:
+    """Straight strokes, the more important first."""
+
+    def __init__(self, start: Floats, end: Floats, tolerance: float) -> None:
+        self.start, self.end, self.tolerance = start, end, tolerance
+        along = end - start
+        self.length = np.hypot(along[:, 0], along[:, 1])
+        self.unit = along / self.length[:, None]
+
+    def overlaps(self, winner: Ints, loser: Ints) -> tuple[Bools, Floats, Floats]:
+        """Which pairs lie on each other, and from where to where (of each loser) they do."""
+        shorter = self.length[loser] <= self.length[winner]
+        short, long = np.where(shorter, loser, winner), np.where(shorter, winner, loser)
+        close = np.minimum(self.tolerance, CLOSE_OF_LENGTH * self.length[short])
+        origin, unit = self.start[long], self.unit[long]
+        collinear = np.ones(len(winner), dtype=np.bool_)
+        for end in (self.start[short], self.end[short]):
+            arm = end - origin
+            collinear &= np.abs(arm[:, 0] * unit[:, 1] - arm[:, 1] * unit[:, 0]) <= close
+        origin, unit, size = self.start[loser], self.unit[loser], self.length[loser]
+        places = [((end - origin) * unit).sum(axis=1) / size for end in (self.start[winner], self.end[winner])]
+        low, high = np.clip(np.minimum(*places), 0.0, 1.0), np.clip(np.maximum(*places), 0.0, 1.0)
+        return collinear & ((high - low) * size > self.tolerance), low, high
+
+
+def _by_importance(start: Floats, end: Floats, length: Floats, rank: Ints) -> Ints:
+    """The order of the strokes, the most important first; it depends on how they are given for equal ones only."""
+    swapped = (end[:, 0] < start[:, 0]) | ((end[:, 0] == start[:, 0]) & (end[:, 1] < start[:, 1]))
+    one, two = np.where(swapped[:, None], end, start), np.where(swapped[:, None], start, end)
+    return np.lexsort((two[:, 1], two[:, 0], one[:, 1], one[:, 0], -length, rank))
+
+
+def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> tuple[Ints, Ints]:
+    """(owner, starts): groups of strokes with nearly the same line at nearly the same place.
+
+    All that overlap share a group. The page is cut into strips across the main direction of a stroke; in each strip it
+    has a slope, and a height in the strip's middle. Strokes near 45 degrees have two main directions.
+    """
+    if len(length) < 2:
+        return np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp)
+    middle = (start.min(axis=0) + start.max(axis=0)) / 2.0
+    width = max(2.0 * float(length.mean()), float(length.max()) / 64.0)
+    # A stroke may be turned by this, and its line shifted by this in the middle of a strip it reaches.
+    turn = 4.2 * min(CLOSE_OF_LENGTH, tolerance / float(length.min()))
+    shift = 2.0 * tolerance + turn * width
+    keys: list[Keys] = []
+    owners = []
+    along = np.abs(end - start)
+    for axis in (0, 1):
+        which = np.flatnonzero(along[:, axis] >= (1.0 - 2.0 * turn) * along[:, 1 - axis])
+        main, cross = start[which, axis] - middle[axis], start[which, 1 - axis] - middle[1 - axis]
+        run = end[which, axis] - start[which, axis]
+        slope = (end[which, 1 - axis] - start[which, 1 - axis]) / run
+        strip = np.floor(np.minimum(main, main + run) / width)
+        count = (np.floor(np.maximum(main, main + run) / width) - strip).astype(np.intp) + 1
+        piece = ragged.owner(count)
+        number = strip[piece].astype(np.intp) + ragged.place(count)
+        height = cross[piece] + slope[piece] * ((number + 0.5) * width - main[piece])
+        key, entry = overlapping_cells(slope[piece], height, 2 * number + axis, (turn, shift))
+        keys.append(key)
+        owners.append(which[piece[entry]])
+    return companions(np.concatenate(keys), np.concatenate(owners))
+
+
+def _overlapping(start: Floats, end: Floats, owner: Ints, starts: Ints, tolerance: float) -> tuple[Ints, Ints]:
+    """The crowds in which some strokes may overlap."""
+    size = np.diff(starts)
+    run = ragged.owner(size)
+    low = np.minimum(start, end)[owner].T.copy()
+    high = np.maximum(start, end)[owner].T.copy()
+    calls = size > _SMALL
+    for lag in range(1, min(_SMALL, int(size.max(initial=1)))):
+        common = np.minimum(high[:, lag:], high[:, :-lag]) - np.maximum(low[:, lag:], low[:, :-lag])
+        touch = np.maximum(common[0], common[1]) > 0.5 * tolerance
+        touch &= np.minimum(common[0], common[1]) >= -2.0 * tolerance
+        calls[run[lag:][touch & (run[lag:] == run[:-lag])]] = True
+    return owner[calls[run]], ragged.offsets(size[calls])
+
+
+def _covered(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints, Floats, Floats]:
+    """Strokes that lie on more important ones: (k,) those wholly covered by a single one; (loser, low, high) parts.
+
+    owner: the strokes of the crowds, by importance.
+    """
+    run = ragged.owner(np.diff(starts))
+    order = np.lexsort((owner, run))
+    owner = owner[order]
+    dropped = np.zeros(len(segments.length), dtype=np.bool_)
+    for turn in range(_ROUNDS):
+        first = np.flatnonzero(np.concatenate(([True], run[1:] != run[:-1])))
+        size = np.diff(np.append(first, len(run)))
+        place = np.arange(len(run)) - np.repeat(first, size)
+        winner = owner[np.repeat(first + np.minimum(turn, size - 1), size)]
+        later = np.flatnonzero(place > turn)
+        over, low, high = segments.overlaps(winner[later], owner[later])
+        gap = segments.tolerance / segments.length[owner[later]]
+        dropped[owner[later[over & (low <= gap) & (high >= 1.0 - gap)]]] = True
+        alive = ~dropped[owner]
+        owner, run = owner[alive], run[alive]
+    parts = [(np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros(0))]
+    for winner, loser in pairs_in_crowds(owner, run):
+        over, low, high = segments.overlaps(winner, loser)
+        parts.append((loser[over], low[over], high[over]))
+    loser, low, high = (np.concatenate(column) for column in zip(*parts, strict=True))
+    return np.flatnonzero(dropped), loser, low, high
+
+
+def pairs_in_crowds(owner: Ints, run: Ints) -> Iterator[tuple[Ints, Ints]]:
+    """Blocks of all pairs of different strokes of a crowd, the more important first."""
+    if not len(run):
+        return
+    last = np.flatnonzero(np.concatenate((run[1:] != run[:-1], [True])))
+    following = last[np.cumsum(np.concatenate(([False], run[1:] != run[:-1])))] - np.arange(len(run))
+    total = np.cumsum(following)
+    cuts = np.searchsorted(total, np.arange(PAIRS_AT_ONCE, int(total[-1]), PAIRS_AT_ONCE)) + 1
+    edges = np.unique(np.concatenate(([0], cuts, [len(run)]))).tolist()
+    for low, high in pairwise(edges):
+        winner = np.repeat(np.arange(low, high), following[low:high])
+        loser = ragged.ranges(np.arange(low + 1, high + 1), following[low:high])
+        different = owner[winner] != owner[loser]
+        yield owner[winner[different]], owner[loser[different]]

@@ -1,0 +1,52 @@
+"""From pieces to what a pen draws: long strokes in a good order."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.drawing.drawing import Layer, Paths
+from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.placement import COINCIDENT_MM
+from vectorplot.drawing.strokes.curved_strokes import with_curves
+from vectorplot.drawing.strokes.dashes import dashed
+from vectorplot.drawing.strokes.join import joined
+from vectorplot.drawing.strokes.paths import chosen, concatenated
+from vectorplot.drawing.strokes.pen_order.order import pen_ordered
+from vectorplot.drawing.strokes.simplify import without_collinear_points
+from vectorplot.words import LineKind
+
+COLLINEAR_MM = 1e-4
+"""A point that is no further from the straight line between its neighbours is left out. So a stroke moves by less than
+a millionth of a picture on a sheet of paper: what is drawn stays as visible as it was found to be."""
+
+DASH_MM = (2.0, 1.0)
+"""Dash and gap of hidden lines."""
+
+
+def inked(
+    layers: tuple[Layer, ...], hidden: str, world: Floats, curve_tolerance_mm: float | None = None
+) -> tuple[Layer, ...]:
+    """Each layer's strokes joined, without collinear points, hidden ones dashed if asked for, in the order of the
+    pen; smooth ones as curves within curve_tolerance_mm, or as polylines where it is None. Filled polygons stay."""
+    found = []
+    for layer in layers:
+        strokes = tuple(_pen_strokes(paths, hidden, world) for paths in layer.strokes)
+        drawn = iter(strokes if curve_tolerance_mm is None else (with_curves(s, curve_tolerance_mm) for s in strokes))
+        marks = tuple(mark if isinstance(mark, Fills) else next(drawn) for mark in layer.marks)
+        found.append(replace(layer, marks=marks))
+    return tuple(found)
+
+
+def _pen_strokes(paths: Paths, hidden: str, world: Floats) -> Paths:
+    if not len(paths):
+        return paths
+    group = (paths.item * len(LineKind) + paths.kind) * (int(paths.hidden_by.max()) + 1) + paths.hidden_by
+    long = without_collinear_points(joined(paths, group, COINCIDENT_MM), COLLINEAR_MM)
+    if hidden == "dashed" and (long.hidden_by > 0).any():
+        behind = np.flatnonzero(long.hidden_by > 0)
+        dashes = dashed(chosen(long, behind), *DASH_MM, world)
+        long = concatenated((chosen(long, np.flatnonzero(long.hidden_by == 0)), dashes))
+    return pen_ordered(long)

@@ -1,0 +1,150 @@
+"""The order in which a pen draws strokes: little travel with the pen up."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.drawing.drawing import Paths
+from vectorplot.drawing.strokes.paths import chosen
+from vectorplot.drawing.strokes.pen_order.tour import greedy_tour
+from vectorplot.drawing.strokes.pen_order.tour_ends import Places
+from vectorplot.drawing.strokes.pen_order.tour_moves import shortened
+from vectorplot.geometry import ragged
+
+
+def pen_ordered(paths: Paths) -> Paths:
+    """The same strokes in an order, with directions and (closed ones) first points that make the pen's travel short.
+
+    The pen begins anywhere; the end of the tour nearer to the page's corner comes first. The result does not depend on
+    the order or the directions of the given strokes, except among strokes with equal ends.
+    Degenerate: strokes without points come last, as given.
+    Source: Bentley, Fast algorithms for geometric traveling salesman problems, ORSA J. Computing 4 (1992):
+    greedy matching, 2-opt, Or-opt with neighbour lists.
+    """
+    empty = np.diff(paths.offsets) == 0
+    paths = chosen(paths, np.concatenate((np.flatnonzero(~empty), np.flatnonzero(empty))))
+    many = int(len(paths) - empty.sum())
+    if many == 0:
+        return paths
+    spots = _spots(paths)
+    start = _canonical_starts(paths, spots)
+    rank, ends = _canonical_ends(paths, spots, start, many)
+    tour = greedy_tour(ends)
+    if np.any(paths.closed[:many]):
+        entry, start = _entered(paths, spots, start, rank, ends, tour)
+        ends = entry
+    tour = shortened(ends, tour)
+    if np.any(paths.closed[:many]):
+        ends, start = _entered(paths, spots, start, rank, ends, tour)
+    if abs(ends[tour[-1] ^ 1]) < abs(ends[tour[0]]):
+        tour = tour[::-1] ^ 1
+    return _drawn(paths, start, rank[tour >> 1], _reversed(paths, spots, rank, tour))
+
+
+def travel_mm(paths: Paths) -> float:
+    """The way of the pen while it is up, from the end of each stroke to the beginning of the next, in mm."""
+    drawn = np.diff(paths.offsets) > 0
+    first = paths.offsets[:-1][drawn]
+    last = np.where(paths.closed[drawn], first, paths.offsets[1:][drawn] - 1)
+    return float(np.hypot(*(paths.points[first[1:]] - paths.points[last[:-1]]).T).sum())
+
+
+# Canonical numbering ---------------------------------------------------------------------------------------------
+
+
+def _spots(paths: Paths) -> Places:
+    spots: Places = np.ascontiguousarray(paths.points, dtype=np.float64).view(np.complex128).ravel()
+    return spots
+
+
+def _canonical_starts(paths: Paths, spots: Places) -> Ints:
+    """Where each stroke begins, as a place in it: its leftmost point for a closed one, 0 for an open one."""
+    start = np.zeros(len(paths), dtype=np.intp)
+    loops = np.flatnonzero(paths.closed & (np.diff(paths.offsets) > 1))
+    if len(loops):
+        first, counts = paths.offsets[:-1][loops], np.diff(paths.offsets)[loops]
+        index = ragged.ranges(first, counts)
+        start[loops] = _least(spots[index].real, spots[index].imag, counts)
+    return start
+
+
+def _least(value: Floats, tie: Floats, counts: Ints) -> Ints:
+    """The place in each run of the least value, the least tie among equal values."""
+    begin = ragged.starts(counts)
+    run = ragged.owner(counts)
+    at = np.flatnonzero(value == np.minimum.reduceat(value, begin)[run])
+    at = at[np.lexsort((tie[at], run[at]))]
+    place: Ints = at[np.searchsorted(run[at], np.arange(len(counts)))] - begin
+    return place
+
+
+def _canonical_ends(paths: Paths, spots: Places, start: Ints, many: int) -> tuple[Ints, Places]:
+    """Strokes sorted by where they are; and the places of their two ends, the lesser one first."""
+    first, last = _given_ends(paths, spots, start)
+    a, b = np.minimum(first, last)[:many], np.maximum(first, last)[:many]
+    rank: Ints = np.lexsort((b.imag, b.real, a.imag, a.real))
+    return rank, np.stack((a[rank], b[rank]), axis=1).ravel()
+
+
+def _given_ends(paths: Paths, spots: Places, start: Ints) -> tuple[Places, Places]:
+    """The first and last place of each stroke; they agree for closed ones. 0 for strokes without points."""
+    spots = np.append(spots, 0.0)
+    first = paths.offsets[:-1] + start
+    return spots[first], spots[np.where(paths.closed, first, np.maximum(paths.offsets[1:] - 1, first))]
+
+
+def _reversed(paths: Paths, spots: Places, rank: Ints, tour: Ints) -> Bools:
+    """True where the tour draws a stroke against its given direction."""
+    first, last = _given_ends(paths, spots, np.zeros(len(paths), dtype=np.intp))
+    swapped = np.minimum(first, last) != first
+    stroke = rank[tour >> 1]
+    against: Bools = (swapped[stroke] != (tour & 1 == 1)) & ~paths.closed[stroke]
+    return against
+
+
+def _drawn(paths: Paths, start: Ints, order: Ints, against: Bools) -> Paths:
+    """The strokes in this order, some of them backwards, closed ones from their starts on; empty ones last."""
+    rest = np.arange(len(order), len(paths))
+    order = np.concatenate((order, rest))
+    against = np.concatenate((against, np.zeros(len(rest), dtype=np.bool_)))
+    counts = np.diff(paths.offsets)[order]
+    begin = np.where(against, counts - 1, start[order])
+    step = np.where(against, -1, 1)
+    local = ragged.place(counts) * np.repeat(step, counts) + np.repeat(begin, counts)
+    size = np.repeat(counts, counts)
+    local -= np.where(local >= size, size, 0)
+    index = np.repeat(paths.offsets[:-1][order], counts) + local
+    result = chosen(paths, order)
+    return replace(result, points=paths.points[index], points3d=paths.points3d[index])
+
+
+# Closed strokes ---------------------------------------------------------------------------------------------------
+
+
+def _entered(paths: Paths, spots: Places, start: Ints, rank: Ints, ends: Places, tour: Ints) -> tuple[Places, Ints]:
+    """Ends and starts with the closed strokes entered where the way from the stroke before to the next is shortest.
+
+    Every other stroke moves at a time, between neighbours that stay, so that each step shortens the way.
+    """
+    ends, start = ends.copy(), start.copy()
+    counts = np.diff(paths.offsets)
+    position = np.arange(len(tour))
+    loops = paths.closed[rank[tour >> 1]] & (len(tour) > 1)
+    for turn in (0, 1, 0, 1):
+        at = position[loops & (position % 2 == turn)]
+        if not len(at):
+            continue
+        stroke = rank[tour[at] >> 1]
+        before = ends[tour[np.maximum(at - 1, 0)] ^ 1]
+        after = ends[tour[np.minimum(at + 1, len(tour) - 1)]]
+        before, after = np.where(at == 0, after, before), np.where(at == len(tour) - 1, before, after)
+        many = counts[stroke]
+        spot = spots[ragged.ranges(paths.offsets[:-1][stroke], many)]
+        way = np.abs(spot - np.repeat(before, many)) + np.abs(spot - np.repeat(after, many))
+        start[stroke] = _least(way, spot.real, many)
+        entry = spots[paths.offsets[:-1][stroke] + start[stroke]]
+        ends[tour[at]] = ends[tour[at] ^ 1] = entry
+    return ends, start

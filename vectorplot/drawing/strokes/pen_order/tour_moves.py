@@ -1,0 +1,202 @@
+"""Moves that shorten a tour through strokes: runs of strokes to other gaps (Or-opt), stretches turned round (2-opt).
+
+A tour is laid out as its row: the ends as the pen meets them, between two ends that are nowhere (at no
+distance from anything). Gap g lies between row[2 g] and row[2 g + 1]; the neighbour across the gap of the end at
+place s is at s ^ 1. The stroke at position k is row[2 k + 1], row[2 k + 2]. Many moves are made at once; no two
+touch the same gap, so that each gains what it gains alone.
+
+Source: Bentley, Fast algorithms for geometric traveling salesman problems, ORSA J. Computing 4 (1992): 2-opt, Or-opt.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.drawing.strokes.pen_order.tour_ends import Places, extent, neighbours
+from vectorplot.geometry import ragged
+
+# So many of the ends near an end are tried as its neighbours.
+_NEAREST = 10
+# A run of strokes that moves as one has at most this many.
+_LONGEST_RUN = 3
+# Stretches longer than this turn round only where no shorter one does.
+_LONGEST_STRETCH = 1000
+# Turning costs no more than so many passes over the tour in a round.
+_PASSES = 20
+# Rounds; shorter tours get more.
+_ROUNDS = 6
+_MORE_ROUNDS = 40000
+# Gains below this part of the extent are rounding.
+_ZERO = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class _Row:
+    """A tour in its row. spots: where the ends are, the last one nowhere; gap: the lengths of the gaps; near (p,) and
+    to (p,): indices in the row of two ends that are apart (p,) from each other, less than the gap of the first one."""
+
+    spots: Places
+    tour: Ints
+    row: Ints
+    gap: Floats
+    near: Ints
+    to: Ints
+    apart: Floats
+
+    def between(self, s: Ints, t: Ints) -> Floats:
+        """The distances of the ends at these indices in the row."""
+        # fmax passes the number where the other is not one.
+        apart: Floats = np.fmax(np.abs(self.spots[self.row[s]] - self.spots[self.row[t]]), 0.0)
+        return apart
+
+
+def shortened(ends: Places, tour: Ints) -> Ints:
+    """The tour after rounds of moves that shorten it."""
+    if len(tour) < 3:
+        return tour
+    zero = _ZERO * extent(ends)
+    near, apart = _neighbours(ends)
+    everything = awake = np.arange(len(ends))
+    for _ in range(_ROUNDS + _MORE_ROUNDS // len(tour)):
+        moved, tried = _runs_moved(_row(ends, tour, near, apart, awake), zero)
+        turned, tried_too = _stretches_turned(_row(ends, moved, near, apart, awake), zero)
+        # Only where something changed, or a move was put off, is there something to gain in the next round.
+        changed = _partners(turned) != _partners(tour)
+        changed[tried] = changed[tried_too] = True
+        looked_at, awake, tour = awake, np.flatnonzero(changed), turned
+        if not len(awake):
+            if len(looked_at) == len(everything):
+                break
+            awake = everything
+    return tour
+
+
+def _partners(tour: Ints) -> Ints:
+    """For every end the one across its gap, -1 for none."""
+    partner = np.full(2 * len(tour), -1, dtype=np.intp)
+    partner[tour[1:]], partner[tour[:-1] ^ 1] = tour[:-1] ^ 1, tour[1:]
+    return partner
+
+
+def _row(ends: Places, tour: Ints, near: Ints, apart: Floats, awake: Ints) -> _Row:
+    nowhere = len(ends)
+    row = np.full(nowhere + 2, nowhere, dtype=np.intp)
+    row[1:-1:2], row[2:-1:2] = tour, tour ^ 1
+    place = np.empty(nowhere, dtype=np.intp)
+    place[row[1:-1]] = np.arange(1, nowhere + 1)
+    spots = np.append(ends, complex(np.nan, np.nan))
+    gap = np.fmax(np.abs(spots[row[0::2]] - spots[row[1::2]]), 0.0)
+    # A gap of no length has nothing to gain.
+    awake = awake[gap[place[awake] >> 1] > 0.0]
+    apart = apart[awake]
+    which = np.flatnonzero(apart < gap[place[awake] >> 1][:, None])
+    end = awake[which // apart.shape[1]]
+    return _Row(spots, tour, row, gap, place[end], place[near[awake].ravel()[which]], apart.ravel()[which])
+
+
+def _neighbours(ends: Places) -> tuple[Ints, Floats]:
+    """For every end the nearest ends of other strokes, among some near it, and how far they are."""
+    near = np.sort(neighbours(ends), axis=1)
+    apart = np.abs(ends[near] - ends[:, None])
+    apart[near >> 1 == (np.arange(len(ends)) >> 1)[:, None]] = np.inf
+    apart[:, 1:][near[:, 1:] == near[:, :-1]] = np.inf
+    if near.shape[1] <= _NEAREST:
+        return near, apart
+    nearest = np.argpartition(apart, _NEAREST - 1, axis=1)[:, :_NEAREST]
+    return np.take_along_axis(near, nearest, axis=1), np.take_along_axis(apart, nearest, axis=1)
+
+
+def _stretches_turned(at: _Row, zero: float) -> tuple[Ints, Ints]:
+    """The tour with stretches turned round (2-opt): two ends on the same side of their gaps are joined instead. And the
+    ends that would gain."""
+    same = (at.near ^ at.to) & 1 == 0
+    s, t = at.near[same], at.to[same]
+    gain = at.gap[s >> 1] + at.gap[t >> 1] - at.apart[same] - at.between(s ^ 1, t ^ 1)
+    good = gain > zero
+    s, t, gain = s[good], t[good], gain[good]
+    low, high = np.minimum(s, t) >> 1, np.maximum(s, t) >> 1
+    kept = _undisputed(low, high, gain, len(at.gap))
+    low, high = low[kept], high[kept]
+    position = ragged.ranges(low, high - low)
+    tour = at.tour.copy()
+    tour[position] = tour[np.repeat(low + high - 1, high - low) - position] ^ 1
+    return tour, at.row[s]
+
+
+def _undisputed(low: Ints, high: Ints, gain: Floats, size: int) -> Ints:
+    """The stretches, from gap low to gap high, of greatest gain among all that they overlap; they do not overlap."""
+    by_gain = np.argsort(gain, kind="stable")
+    best = by_gain[-1:]
+    by_gain = by_gain[(high - low)[by_gain] < _LONGEST_STRETCH]
+    # The best ones, as many as cost no more than some passes over the tour.
+    counts = (high - low + 1)[by_gain]
+    affordable = np.cumsum(counts[::-1])[::-1] <= _PASSES * size
+    by_gain, counts = by_gain[affordable], counts[affordable]
+    if not len(by_gain):
+        return best
+    owner = np.zeros(size, dtype=np.intp)
+    claimed = ragged.ranges(low[by_gain], counts)
+    move = ragged.owner(counts)
+    owner[claimed] = move  # the last one stays
+    return by_gain[np.minimum.reduceat(owner[claimed] == move, ragged.starts(counts))]
+
+
+def _runs_moved(at: _Row, zero: float) -> tuple[Ints, Ints]:
+    """The tour with runs of few strokes put into other gaps, either way round (Or-opt). And the ends that would
+    gain."""
+    moves = [_run_moves(at, length, zero) for length in range(1, min(_LONGEST_RUN, len(at.tour) - 1) + 1)]
+    first, length, into, backwards, gain, tried = (np.concatenate(column) for column in zip(*moves, strict=True))
+    by_gain = np.argsort(gain, kind="stable")
+    first, length, into, backwards = (column[by_gain] for column in (first, length, into, backwards))
+    # A move claims the gaps around and in its run, and the one that it goes to, which comes last in its row.
+    claims = np.minimum(first[:, None] + np.arange(_LONGEST_RUN + 2), (first + length)[:, None])
+    claims[:, -1] = into
+    owner = np.zeros(len(at.gap), dtype=np.intp)
+    number = np.repeat(np.arange(len(first)), claims.shape[1])
+    owner[claims.ravel()] = number  # the last one stays
+    won = np.all(owner[claims] == np.arange(len(first))[:, None], axis=1)
+    first, length, into, backwards = (column[won] for column in (first, length, into, backwards))
+    return _with_runs_moved(at.tour, first, length, into, backwards), tried
+
+
+def _with_runs_moved(tour: Ints, first: Ints, length: Ints, into: Ints, backwards: Bools) -> Ints:
+    position, rank = ragged.ranges(first, length), ragged.place(length)
+    turned = np.repeat(backwards, length)
+    size = _LONGEST_RUN + 1
+    key = np.arange(1, len(tour) + 1) * size
+    # Between the keys of the strokes on both sides of the gap.
+    key[position] = np.repeat(into * size + 1, length) + np.where(turned, np.repeat(length, length) - 1 - rank, rank)
+    tour = tour.copy()
+    tour[position[turned]] ^= 1
+    return tour[np.argsort(key, kind="stable")]
+
+
+def _run_moves(at: _Row, length: int, zero: float) -> tuple[Ints, Ints, Ints, Bools, Floats, Ints]:
+    """Moves of runs of one length: first position, length, gap it goes to, whether it turns round, gain, and the end.
+
+    One end of the run, its head, comes next to an end that is near to it.
+    """
+    from_front = at.near & 1 == 1
+    first = np.where(from_front, (at.near - 1) >> 1, (at.near >> 1) - length)
+    into = at.to >> 1
+    fits = (first >= 0) & (first + length < len(at.gap)) & ((into < first) | (into > first + length))
+    from_front, first, into = from_front[fits], first[fits], into[fits]
+    head, to, apart = at.near[fits], at.to[fits], at.apart[fits]
+    front, rear = 2 * first + 1, 2 * (first + length)
+    freed = at.gap[first] + at.gap[first + length] - at.between(front - 1, rear + 1)
+    gain = freed - apart - at.between(np.where(from_front, rear, front), to ^ 1) + at.gap[into]
+    # After an end on the left of its gap the run begins with its head; before one on the right it ends with it.
+    backwards = (to & 1 == 0) != from_front
+    good = gain > zero
+    first = first[good]
+    return (
+        first,
+        np.full(len(first), length, dtype=np.intp),
+        into[good],
+        backwards[good],
+        gain[good],
+        at.row[head[good]],
+    )

@@ -1,0 +1,1 @@
+"""Polygons that lie on faces."""

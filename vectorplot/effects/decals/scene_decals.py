@@ -1,0 +1,69 @@
+"""The polygons that lie on the faces of a scene: shadows with their borders, patterns, light by way of mirrors."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from vectorplot.arrays import Bools
+from vectorplot.drawing.fills import FillKind
+from vectorplot.effects.decals.decal_polygons import Decals, joined_decals
+from vectorplot.scene.scene import Light, Scene
+from vectorplot.scene.view import View
+from vectorplot.shading.light.face_shades import face_shades, view_lights
+from vectorplot.shading.light.painted_colours import Lighting
+from vectorplot.visibility.projected_faces import ProjectedFaces
+
+
+def scene_shadows(
+    view: View, lights: Sequence[Light], projected: ProjectedFaces, aura: float, receivers: Bools | None = None
+) -> Decals:
+    """The shadows of opaque items, of every grade, with soft borders of some width in the image; receivers (f,): the
+    faces that they may fall on (None: all)."""
+    from vectorplot.effects.shadows.shadow_borders import shadow_borders
+    from vectorplot.effects.shadows.shadow_decals import cast_shadows
+    from vectorplot.effects.shadows.shadow_grades import graded, shadow_decals_of
+
+    single = cast_shadows(view, lights, receivers=receivers, projected=projected)
+    cells = graded(view, single)
+    dark = shadow_decals_of(cells, FillKind.SHADOW)
+    return dark if aura == 0.0 else joined_decals(dark, shadow_borders(view, single, cells, aura))
+
+
+def scene_mirror_light(
+    scene: Scene, view: View, projected: ProjectedFaces, lighting: Lighting, shadows: Decals
+) -> tuple[Decals, tuple[Light, ...]]:
+    """Where light falls by way of mirrors, and the doubles of lights that it comes from, in the view."""
+    from vectorplot.effects.decals.pattern_decals import patterns_in_shadows
+    from vectorplot.effects.decals.united_decals import united_decals
+    from vectorplot.effects.mirrors.mirror_lights import light_doubles, mirror_light
+    from vectorplot.effects.mirrors.reflections import mirror_faces, mirrors_of
+
+    mirrors = mirrors_of(view, mirror_faces(scene, view))
+    doubles = light_doubles(view, mirrors, scene.lights)
+    lit = mirror_light(view, mirrors, doubles, projected)
+    # Many small shadows on a face make few regions, each of which has to be cut with each part of the light.
+    shadows = united_decals(view, shadows)
+    nowhere = np.zeros(view.face_count, dtype=np.bool_)
+    lights = tuple(double.light for double in doubles)
+    return patterns_in_shadows(view, lit, shadows, nowhere, len(scene.lights)), view_lights(
+        view, lights
+    ) if lights else ()
+
+
+def scene_patterns(scene: Scene, view: View, lighting: Lighting, shadows: Decals) -> Decals:
+    """The patterns of all items, dark where shadows fall on them."""
+    from vectorplot.effects.decals.pattern_decals import pattern_decals
+
+    return shadowed_patterns(scene, view, lighting, pattern_decals(scene, view), shadows)
+
+
+def shadowed_patterns(scene: Scene, view: View, lighting: Lighting, patterns: Decals, shadows: Decals) -> Decals:
+    """Patterns on faces of a view, dark where shadows fall on them."""
+    from vectorplot.effects.decals.pattern_decals import patterns_in_shadows
+
+    found = face_shades(view, lighting.items, lighting.lights)
+    lights = len(scene.lights)
+    dark: Bools = np.asarray(found.backlit.all(axis=0) & (lights > 0), dtype=np.bool_)
+    return patterns_in_shadows(view, patterns, shadows, dark, lights)

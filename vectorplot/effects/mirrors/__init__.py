@@ -1,0 +1,1 @@
+"""What mirrors show, and the light they throw."""

@@ -1,0 +1,1 @@
+"""Exact shadows, as polygons on faces."""

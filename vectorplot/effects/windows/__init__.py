@@ -1,0 +1,1 @@
+"""Polygons seen through others."""

@@ -1,0 +1,1 @@
+"""Lines on implicit surfaces, and triangles that stand for them."""

@@ -1,0 +1,156 @@
+"""The triangles around a curve on a mesh, cut finer where their corners leave open what the curve does inside."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.meshes.level_segments import split_at_middles
+
+REACH = 2.0
+"""How often further than a triangle is wide the curve may be for the triangle to be looked at."""
+
+ALIGNED = 0.2
+"""Cosine between the slopes at the corners of a triangle and their sum above which the curve is a single arc there."""
+
+LEVELS = 16
+"""How often triangles are cut at most."""
+
+STUBBORN = 3
+"""How often a triangle at a singular point of the surface is cut: there slopes never agree."""
+
+
+@dataclass(frozen=True, eq=False)
+class Nodes:
+    """Points with a condition: points (n,3); fixed (n,3): coordinates that stay as they are; values (n,) and slopes
+    (n,3) of the condition; gradients (n,3) of the function whose zeros the surface is."""
+
+    points: Floats
+    fixed: Bools
+    values: Floats
+    slopes: Floats
+    gradients: Floats
+
+    def joined(self, more: Nodes) -> Nodes:
+        """These and more, numbered on."""
+        return Nodes(
+            np.concatenate([self.points, more.points]),
+            np.concatenate([self.fixed, more.fixed]),
+            np.concatenate([self.values, more.values]),
+            np.concatenate([self.slopes, more.slopes]),
+            np.concatenate([self.gradients, more.gradients]),
+        )
+
+    def chosen(self, which: Ints) -> Nodes:
+        """Some of them."""
+        return Nodes(
+            self.points[which], self.fixed[which], self.values[which], self.slopes[which], self.gradients[which]
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Band:
+    """Triangles (t,3) of nodes around a curve; source (t,): the one of the mesh each belongs to; open (k,): those that
+    leave several arcs possible still, at the finest resolution; singular (s,): those at singular points of the surface,
+    where no resolution tells more; complete: whether no more triangles were called for than were allowed."""
+
+    nodes: Nodes
+    triangles: Ints
+    source: Ints
+    open: Ints
+    singular: Ints
+    complete: bool
+
+
+def curve_band(
+    nodes: Nodes,
+    triangles: Ints,
+    middles: Callable[[Floats, Floats, Bools], Nodes],
+    tangential: Callable[[Floats, Ints], Floats],
+    *,
+    finest: float,
+    most: int,
+) -> Band:
+    """The band of triangles (t,3) that the curve on which values vanish can reach.
+
+    Where slopes at the corners of a triangle point different ways, and values are small enough that they could vanish
+    inside, it is cut until its sides are shorter than finest, or there are more than most of them; or STUBBORN times if
+    it stays at a singular point of the surface. middles(starts, ends, fixed) makes nodes between the ends
+    of sides; tangential(slopes (k,3,3) at corners, source (k,)) are the parts of slopes in the surface.
+    """
+    source = np.arange(len(triangles))
+    reached = _reached(nodes, triangles, tangential(nodes.slopes[triangles], source), REACH)
+    triangles, source = triangles[reached], source[reached]
+    used, corners = np.unique(triangles, return_inverse=True)
+    nodes, triangles = nodes.chosen(used), corners.reshape(-1, 3)
+    stuck = np.zeros(len(triangles), dtype=np.intp)
+    complete = True
+    for level in range(LEVELS + 1):
+        slopes = tangential(nodes.slopes[triangles], source)
+        unclear = ~_aligned(slopes) | _grazes_border(nodes, triangles, slopes)
+        odd = _reached(nodes, triangles, slopes, 1.0) & unclear
+        stuck = np.where(_at_singular_points(nodes, triangles), stuck + 1, 0)
+        goes_on = odd & (_widths(nodes, triangles) > finest) & (stuck <= STUBBORN)
+        complete = len(triangles) + 3 * int(goes_on.sum()) <= most
+        if not goes_on.any() or not complete or level == LEVELS:
+            break
+        split = split_at_middles(triangles, goes_on, len(nodes.points))
+        ends = nodes.points[split.low], nodes.points[split.high]
+        fixed = nodes.fixed[split.low] & nodes.fixed[split.high]
+        nodes = nodes.joined(middles(*ends, fixed))
+        triangles, source, stuck = split.triangles, source[split.parent], stuck[split.parent]
+    singular = odd & (stuck > STUBBORN)
+    return Band(nodes, triangles, source, np.flatnonzero(odd & ~singular), np.flatnonzero(singular), complete)
+
+
+def _at_singular_points(nodes: Nodes, triangles: Ints) -> Bools:
+    """(t,) triangles at whose corners gradients differ by more than the smallest of them is long: the finer a triangle
+    on a regular surface is, the less do they differ; beside a singular point they do on triangles of all sizes."""
+    g = nodes.gradients[triangles]
+    least = (g * g).sum(axis=2).min(axis=1)
+    apart = g - np.roll(g, 1, axis=1)
+    return np.asarray(least < (apart * apart).sum(axis=2).max(axis=1), dtype=np.bool_)
+
+
+def _reached(nodes: Nodes, triangles: Ints, slopes: Floats, factor: float) -> Bools:
+    """(t,) triangles in which the values could vanish, by their slopes at the corners; not where they are zero at all
+    corners: that is an area."""
+    w = nodes.values[triangles]
+    steepest = np.sqrt(np.nanmax(np.nan_to_num((slopes * slopes).sum(axis=2)), axis=1))
+    near = np.abs(w).min(axis=1) <= factor * steepest * _widths(nodes, triangles)
+    changes = (w < 0.0).any(axis=1) & ~(w < 0.0).all(axis=1)
+    return np.asarray((near | changes) & ~np.isnan(w).any(axis=1) & (w != 0.0).any(axis=1))
+
+
+def _aligned(slopes: Floats) -> Bools:
+    """(t,) triangles at whose corners the slopes (t,3,3) point much the same way; those without slopes too."""
+    total = slopes.sum(axis=1)
+    along = np.einsum("tij,tj->ti", slopes, total)
+    sizes = np.sqrt((slopes * slopes).sum(axis=2) * (total * total).sum(axis=1)[:, None])
+    return np.asarray(((along > ALIGNED * sizes) | np.isnan(along)).all(axis=1))
+
+
+def _grazes_border(nodes: Nodes, triangles: Ints, slopes: Floats) -> Bools:
+    """(t,) triangles with a side on the border along which the values first fall towards zero and then rise: between
+    corners of one sign the curve could cross it twice."""
+    result = np.zeros(len(triangles), dtype=np.bool_)
+    for a, b in ((0, 1), (1, 2), (2, 0)):
+        i, j = triangles[:, a], triangles[:, b]
+        w0, w1 = nodes.values[i], nodes.values[j]
+        along = nodes.points[j] - nodes.points[i]
+        from_a, from_b = (slopes[:, a] * along).sum(axis=1) * w0, -(slopes[:, b] * along).sum(axis=1) * w1
+        falls = (from_a < 0.0) & (from_b < 0.0) & (w0 * w1 > 0.0)
+        # Where both fall less than they are high, the curve through both line elements stays above zero.
+        low = (-from_a > w0 * w0) | (-from_b > w1 * w1)
+        result |= falls & low & (nodes.fixed[i] & nodes.fixed[j]).any(axis=1)
+    return result
+
+
+def _widths(nodes: Nodes, triangles: Ints) -> Floats:
+    """(t,) longest sides."""
+    a, b, c = (nodes.points[triangles[:, k]] for k in range(3))
+    squares = [((p - q) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))]
+    return np.asarray(np.sqrt(np.maximum.reduce(squares)))

@@ -1,0 +1,306 @@
+"""Curves on implicit surfaces: contours and their cusps, isophotes, sections, borders."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.curves.parameters import vector
+from vectorplot.errors import InputError
+from vectorplot.features.implicit.implicit_conditions import (
+    ImplicitCentralContour,
+    ImplicitIsophote,
+    ImplicitParallelContour,
+    ImplicitPointIsophote,
+    MeetsImplicit,
+    MeetsPlane,
+    SpatialCondition,
+    sight_line_bending,
+)
+from vectorplot.features.implicit.implicit_refinement import curve_in_space, refined_chords
+from vectorplot.features.implicit.implicit_tracing import (
+    FLAT,
+    ImplicitCurves,
+    ImplicitTracing,
+    all_curves,
+    box_sides,
+    curves_in_space,
+    curves_of_lines,
+    mesh_of,
+    no_curves,
+)
+from vectorplot.features.zeros.zero_crossings import bracketed_zeros
+from vectorplot.geometry import ragged
+from vectorplot.geometry.budget import unresolved
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.outline import concat
+from vectorplot.geometry.repair.winding import edge_uses
+from vectorplot.geometry.vectors import normalize
+from vectorplot.surfaces.surface import ImplicitSurface
+
+DEFAULT = ImplicitTracing()
+
+
+def implicit_contour(surface: ImplicitSurface, eye: ArrayLike, *, tracing: ImplicitTracing = DEFAULT) -> ImplicitCurves:
+    """The points x of an implicit surface with N.(x - eye) = 0, N the unit gradient of F.
+
+    eye (3,). Seen from where F > 0 the side that is turned away from the eye is on the left.
+    Errors: InputError for an eye that is not three finite numbers.
+    Degenerate: a flat surface whose plane contains the eye has no contour, and a doubt says so. Contours run into
+    singular points of the surface (the apex of a cone). What lies behind the eye is traced too.
+    Source: Glaeser, section 8.4, equations 25 to 27.
+    """
+    place = vector("contour: eye", eye)
+    condition = ImplicitCentralContour(surface, place)
+    return curves_in_space(surface, condition, size=_farthest(surface, place), tracing=tracing)
+
+
+def implicit_parallel_contour(
+    surface: ImplicitSurface, direction: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
+) -> ImplicitCurves:
+    """The points of an implicit surface with N.d = 0, N the unit gradient of F: seen along d it turns away there.
+
+    direction (3,), of any length, towards the eye. Seen from where F > 0 the side with N.d > 0 is on the left.
+    Errors: InputError for a direction without length. Degenerate: as for `implicit_contour`.
+    """
+    return curves_in_space(surface, ImplicitParallelContour(surface, direction), size=1.0, tracing=tracing)
+
+
+def implicit_contour_in_view(
+    surface: ImplicitSurface, camera: Camera, *, tracing: ImplicitTracing = DEFAULT
+) -> ImplicitCurves:
+    """The contour of an implicit surface as a camera sees it, by central or parallel projection."""
+    if camera.parallel:
+        return implicit_parallel_contour(surface, camera.direction, tracing=tracing)
+    return implicit_contour(surface, camera.eye, tracing=tracing)
+
+
+def implicit_isophotes(
+    surface: ImplicitSurface, light: ArrayLike, cosines: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
+) -> ImplicitCurves:
+    """The curves N.l = c in parallel light, for each c of cosines (k,): N the unit gradient of F, l the light.
+
+    light (3,), of any length, points towards the light. The curves have c as level; seen from where F > 0 the brighter
+    side is on the left.
+    Errors: InputError for a light without length, cosines not within -1 and 1.
+    Degenerate: a flat part at just that angle gives no lines, and a doubt; c = 1 gives isolated points.
+    Source: Glaeser, section 8.4, equation 28.
+    """
+    return _family(surface, lambda c: (ImplicitIsophote(surface, light, c), 1.0), _cosines(cosines), tracing)
+
+
+def implicit_point_light_isophotes(
+    surface: ImplicitSurface, light: ArrayLike, cosines: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
+) -> ImplicitCurves:
+    """The curves N.l = c in the light of a point (3,), for each c of cosines (k,): l from the surface to the light.
+
+    Otherwise as `implicit_isophotes`.
+    """
+    return _family(surface, lambda c: (ImplicitPointIsophote(surface, light, c), 1.0), _cosines(cosines), tracing)
+
+
+def implicit_intersection(
+    surface: ImplicitSurface, other: ImplicitSurface, *, tracing: ImplicitTracing = DEFAULT
+) -> ImplicitCurves:
+    """The curves in which two implicit surfaces meet, within the box of the first; F of the other is positive on the
+    left, seen from where F of the first is.
+
+    Degenerate: surfaces that touch in a point give an isolated one; that coincide in an area, a doubt.
+    Source: Glaeser, section 8.4, equation 29.
+    """
+    tracing = _meshed(surface, tracing)
+    mesh = tracing.mesh
+    if mesh is None or not mesh.face_count:
+        return no_curves()
+    long = np.linalg.norm(other.gradients(mesh.vertices), axis=1)
+    slope = float(np.quantile(long[np.isfinite(long)], 0.95)) if np.isfinite(long).any() else 0.0
+    size = slope * float(np.ptp(np.asarray(surface.box), axis=0).max())
+    return curves_in_space(surface, MeetsImplicit(other), size=size or 1.0, tracing=tracing)
+
+
+def implicit_plane_sections(
+    surface: ImplicitSurface, normal: ArrayLike, offsets: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
+) -> ImplicitCurves:
+    """The sections of an implicit surface with the parallel planes n.x = d, for each d of offsets (k,), n the unit
+    normal (3,). The curves have d as level; seen from where F > 0, the side the normal points to is on the left.
+
+    Errors: InputError for a normal without length, offsets that are not finite.
+    Degenerate: as for `implicit_intersection`.
+    """
+    levels = np.atleast_1d(np.asarray(offsets, dtype=np.float64))
+    if levels.ndim != 1 or not np.isfinite(levels).all():
+        raise InputError("plane sections: offsets must be finite numbers")
+    n = normalize(vector("plane sections: normal", normal))
+    size = float(np.ptp(np.asarray(surface.box), axis=0).max())
+    return _family(surface, lambda d: (MeetsPlane(n, d), size), levels, tracing)
+
+
+def implicit_level_lines(
+    surface: ImplicitSurface, heights: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
+) -> ImplicitCurves:
+    """The curves of an implicit surface at each of the heights (k,): `implicit_plane_sections` with z up."""
+    return implicit_plane_sections(surface, (0.0, 0.0, 1.0), heights, tracing=tracing)
+
+
+def implicit_borders(surface: ImplicitSurface, *, tracing: ImplicitTracing = DEFAULT) -> ImplicitCurves:
+    """Where an implicit surface ends: its curves on the sides of its box, cut at the edges of the box, and the rims of
+    its holes. The surface is on the left, seen from where F > 0.
+
+    Rims of holes, where F is not finite, are known to a cell of the lattice only, and a doubt says so.
+    """
+    tracing = _meshed(surface, tracing)
+    mesh = tracing.mesh
+    if mesh is None or not mesh.face_count:
+        return no_curves()
+    uses = edge_uses(mesh)
+    corner = uses.corner[uses.first[uses.count == 1]]
+    a, b = mesh.corners[corner], mesh.corners[mesh.next_corner[corner]]
+    sides = box_sides(surface, mesh.vertices)
+    common = sides[a] & sides[b]
+    families = [
+        _border(surface, mesh.vertices, a, b, axis, np.flatnonzero(common[:, axis]), tracing) for axis in range(3)
+    ]
+    rims = np.flatnonzero(~common.any(axis=1))
+    if len(rims):
+        families.append(_rims(mesh.vertices, a[rims], b[rims]))
+    return all_curves(families)
+
+
+def implicit_contour_cusps(surface: ImplicitSurface, eye: ArrayLike, curves: ImplicitCurves) -> tuple[Floats, Ints]:
+    """The points (k,3) of a contour where its image has a cusp: the line of sight is an asymptotic direction there; and
+    for each the position (k,) in curves.points of the point before it.
+
+    eye (3,); curves: the contour for it. Refined to 1e-12 of the extent.
+    Degenerate: where the line of sight is asymptotic all along the contour (on cones and cylinders), there is no cusp.
+    """
+    place = vector("contour: eye", eye)
+    far = _farthest(surface, place)
+    return _cusps(surface, ImplicitCentralContour(surface, place), far, lambda x: place - x, curves)
+
+
+def implicit_parallel_contour_cusps(
+    surface: ImplicitSurface, direction: ArrayLike, curves: ImplicitCurves
+) -> tuple[Floats, Ints]:
+    """As `implicit_contour_cusps`, for an eye at infinity in a direction (3,)."""
+    d = normalize(vector("contour: direction", direction))
+    return _cusps(surface, ImplicitParallelContour(surface, d), 1.0, lambda x: np.broadcast_to(d, x.shape), curves)
+
+
+def with_points(curves: ImplicitCurves, points: Floats, after: Ints) -> ImplicitCurves:
+    """The curves with points (k,3) put in, each after the point at position after (k,) in curves.points."""
+    counts = np.bincount(np.searchsorted(curves.offsets, after, side="right") - 1, minlength=len(curves))
+    offsets = curves.offsets + ragged.offsets(counts)
+    return replace(curves, points=np.insert(curves.points, after + 1, points, axis=0), offsets=offsets.astype(np.intp))
+
+
+def _meshed(surface: ImplicitSurface, tracing: ImplicitTracing) -> ImplicitTracing:
+    """The tracing with the surface polygonised."""
+    return replace(tracing, mesh=mesh_of(surface, tracing)[0])
+
+
+def _family(
+    surface: ImplicitSurface,
+    condition: Callable[[float], tuple[SpatialCondition, float]],
+    levels: Floats,
+    tracing: ImplicitTracing,
+) -> ImplicitCurves:
+    """The curves of each level, on one mesh."""
+    mesh, doubts = mesh_of(surface, tracing)
+    tracing = replace(tracing, mesh=mesh)
+    families = []
+    for level in levels.tolist():
+        one, size = condition(level)
+        families.append(curves_in_space(surface, one, size=size, tracing=tracing, level=level))
+    return all_curves([no_curves(doubts), *families])
+
+
+def _farthest(surface: ImplicitSurface, place: Floats) -> float:
+    """The largest distance of a place from points of the box."""
+    low, high = np.asarray(surface.box, dtype=np.float64)
+    return float(np.linalg.norm(np.maximum(np.abs(low - place), np.abs(high - place))))
+
+
+def _cosines(cosines: ArrayLike) -> Floats:
+    levels = np.atleast_1d(np.asarray(cosines, dtype=np.float64))
+    if levels.ndim != 1 or not (np.abs(levels) <= 1.0).all():
+        raise InputError("isophotes: cosines must lie between -1 and 1")
+    return levels
+
+
+def _border(
+    surface: ImplicitSurface, vertices: Floats, a: Ints, b: Ints, axis: int, chosen: Ints, tracing: ImplicitTracing
+) -> ImplicitCurves:
+    """The borders on the two sides of the box across an axis, from the edges a, b (e,) that are chosen."""
+    box = np.asarray(surface.box, dtype=np.float64)
+    extent = float(np.ptp(box, axis=0).max())
+    families = []
+    for side in (0, 1):
+        here = chosen[vertices[a[chosen], axis] == box[side, axis]]
+        branches = concat(np.stack([a[here], b[here]], axis=1))
+        if not len(branches):
+            continue
+        parts = [
+            np.append(branches[k], branches[k][:1]) if branches.closed[k] else branches[k] for k in range(len(branches))
+        ]
+        points = vertices[np.concatenate(parts)]
+        last = np.zeros(len(points), dtype=np.bool_)
+        last[np.cumsum([len(part) for part in parts]) - 1] = True
+        plane = MeetsPlane(np.eye(3)[axis], float(box[side, axis]))
+        curve = curve_in_space(surface, plane, extent)
+        tolerance = 1e-3 * extent if tracing.tolerance is None else tracing.tolerance
+        most = tracing.budget.points
+        points, last, unsure, enough = refined_chords(curve, points, last, tolerance, tracing.picture, most)
+        points[:, axis] = box[side, axis]
+        texts = [
+            (unsure > 0, f"{unsure} chords of a border could not be refined"),
+            (not enough, unresolved("borders are off by more than the tolerance")),
+        ]
+        doubts = tuple(text for said, text in texts if said)
+        families.append(curves_of_lines(points, last, branches.closed, doubts=doubts))
+    return all_curves(families)
+
+
+def _rims(vertices: Floats, a: Ints, b: Ints) -> ImplicitCurves:
+    """The rims of holes, as they are in the mesh."""
+    branches = concat(np.stack([a, b], axis=1))
+    none, doubt = np.zeros((0, 3)), "the rim of a hole of an implicit surface is known to a cell only"
+    return ImplicitCurves(
+        vertices[branches.points], branches.offsets, branches.closed, np.zeros(len(branches)), none, none, (doubt,)
+    )
+
+
+def _cusps(
+    surface: ImplicitSurface,
+    condition: SpatialCondition,
+    scale: float,
+    way: Callable[[Floats], Floats],
+    curves: ImplicitCurves,
+) -> tuple[Floats, Ints]:
+    """Cusps from the changes of sign of the bending along the line of sight, between two points of a contour."""
+    after = np.arange(1, len(curves.points) + 1)
+    after[curves.offsets[1:] - 1] = np.where(curves.closed, curves.offsets[:-1], curves.offsets[1:] - 1)
+
+    def bending(x: Floats) -> Floats:
+        with np.errstate(all="ignore"):
+            return sight_line_bending(surface, x, way(x))
+
+    at = bending(curves.points)
+    known = np.isfinite(at)
+    size = np.abs(at[known]).max(initial=0.0)
+    changes = known & known[after] & ((at < 0.0) != (at[after] < 0.0))
+    before = np.flatnonzero(changes & (np.maximum(np.abs(at), np.abs(at[after])) > FLAT * size))
+    a, b = curves.points[before], curves.points[after[before]]
+    curve = curve_in_space(surface, condition, scale)
+    reach = np.linalg.norm(b - a, axis=1)
+
+    def place(t: Floats, which: Ints) -> Floats:
+        return curve.onto(a[which] + t[:, None] * (b - a)[which], reach[which])[0]
+
+    w0, w1 = at[before], at[after[before]]
+    small = np.full(len(before), 1e-15 * size)
+    t, _ = bracketed_zeros(lambda t, which: bending(place(t, which)), w0, w1, w0 / (w0 - w1), small)
+    return place(t, np.arange(len(before))), before

@@ -1,0 +1,290 @@
+"""Curves on implicit surfaces where a condition holds: found on a mesh, every point refined on both equations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.errors import InputError
+from vectorplot.features.implicit.curve_band import Band, Nodes, curve_band
+from vectorplot.features.implicit.implicit_conditions import SpatialCondition
+from vectorplot.features.implicit.implicit_folds import without_folds
+from vectorplot.features.implicit.implicit_nodes import joined_at_nodes, special_points
+from vectorplot.features.implicit.implicit_refinement import CurveInSpace, Picture, curve_in_space, refined_chords
+from vectorplot.features.implicit.polygonize import onto_surface, settled_mesh
+from vectorplot.features.meshes.level_segments import level_segments
+from vectorplot.geometry import ragged
+from vectorplot.geometry.budget import USUAL, Budget, unresolved
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.outline import concat
+from vectorplot.surfaces.surface import ImplicitSurface
+
+FLAT = 1e-9
+"""Part of the size of a condition that user functions may be wrong by: all over a triangle, it is zero."""
+
+THINNED = 0.3
+"""Part of the width of triangles that crossings on their sides may follow one another in: nearer ones add nothing."""
+
+DOT = 1e-7
+"""Part of the extent below which a closed curve is a point."""
+
+
+@dataclass(frozen=True, eq=False)
+class ImplicitTracing:
+    """How curves on an implicit surface are traced.
+
+    cells: along the longest side of the box, of the lattice on which the surface is polygonised. mesh: the surface
+    polygonised already (see `settled_mesh`), for several families of curves. resolution: the part of the box down to
+    which triangles are cut where the curve is not clear; closed curves smaller than that may be missed.
+    tolerance: points are put in until chords stay within this distance of the true curve; None: a thousandth of the
+    extent of the surface. picture: takes points (k,3) to where the tolerance is measured, (k,2) or (k,3), for example
+    millimetres on a page; without it in space. budget: how much work it may be.
+    """
+
+    cells: int = 48
+    mesh: Mesh | None = None
+    resolution: float = 1e-3
+    tolerance: float | None = None
+    picture: Picture | None = None
+    budget: Budget = USUAL
+
+
+@dataclass(frozen=True, eq=False)
+class ImplicitCurves:
+    """Polylines on an implicit surface.
+
+    points (n,3); offsets (m+1,): curve i has the points offsets[i] to offsets[i+1]; closed (m,): the last point joins
+    the first, which is not repeated. Seen from where F > 0 the condition is positive on the left. levels (m,): the
+    level a curve of a family belongs to; otherwise 0.
+    isolated (i,3): single points that satisfy the condition; nodes (k,3): where curves cross.
+    doubts: a sentence for each thing that could not be decided.
+    """
+
+    points: Floats
+    offsets: Ints
+    closed: Bools
+    levels: Floats
+    isolated: Floats
+    nodes: Floats
+    doubts: tuple[str, ...]
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __getitem__(self, curve: int) -> Floats:
+        """(k,3) the points of a curve; a closed one ends with its first point."""
+        own = self.points[self.offsets[curve] : self.offsets[curve + 1]]
+        return np.concatenate([own, own[:1]]) if self.closed[curve] else own
+
+
+def all_curves(families: Sequence[ImplicitCurves]) -> ImplicitCurves:
+    """All the curves in one; a doubt that several of them have is said once."""
+    families = [no_curves(), *families]
+    counts = np.concatenate([np.diff(c.offsets) for c in families])
+    return ImplicitCurves(
+        np.concatenate([c.points for c in families]),
+        ragged.offsets(counts),
+        np.concatenate([c.closed for c in families]),
+        np.concatenate([c.levels for c in families]),
+        np.concatenate([c.isolated for c in families]),
+        np.concatenate([c.nodes for c in families]),
+        tuple(dict.fromkeys(text for c in families for text in c.doubts)),
+    )
+
+
+def no_curves(doubts: tuple[str, ...] = ()) -> ImplicitCurves:
+    """No curve at all."""
+    flags, none = np.zeros(0, dtype=np.bool_), np.zeros((0, 3))
+    return ImplicitCurves(none, np.zeros(1, dtype=np.intp), flags, np.zeros(0), none, none, doubts)
+
+
+def mesh_of(surface: ImplicitSurface, tracing: ImplicitTracing) -> tuple[Mesh, tuple[str, ...]]:
+    """The surface polygonised, and what is doubtful about that."""
+    return (tracing.mesh, ()) if tracing.mesh is not None else settled_mesh(surface, tracing.cells)
+
+
+def curves_in_space(
+    surface: ImplicitSurface,
+    condition: SpatialCondition,
+    *,
+    size: float,
+    tracing: ImplicitTracing,
+    level: float = 0.0,
+) -> ImplicitCurves:
+    """The curves of an implicit surface on which a condition g is zero, each point refined on F and g to 1e-12.
+
+    size: how large g is where it is far from zero. Where g is below FLAT of its size all over a triangle, values as
+    small as that count as zero everywhere, so that an area where g is zero is not filled with lines.
+    Errors: InputError for a resolution or tolerance that is not positive.
+    """
+    _check(tracing)
+    mesh, doubts = mesh_of(surface, tracing)
+    if not mesh.face_count:
+        return no_curves(doubts)
+    curve = curve_in_space(surface, condition, size)
+    extent = curve.extent
+    nodes, area = _nodes(curve, mesh)
+    if area:
+        doubts += ("the condition holds all over a part of the surface: no lines there",)
+    band = curve_band(
+        nodes,
+        mesh.corners.reshape(-1, 3),
+        lambda starts, ends, fixed: _middles(curve, starts, ends, fixed, area),
+        lambda slopes, source: slopes,
+        finest=tracing.resolution * extent,
+        most=tracing.budget.triangles,
+    )
+    if not band.complete:
+        doubts += (unresolved("a curve on an implicit surface is finer than its triangles"),)
+    if len(band.singular):
+        doubts += ("the gradient vanishes along lines: curves are known to a hundredth of the box there",)
+    special = special_points(curve, mesh, band)
+    points, pairs, spans = _crossings(curve, band)
+    tolerance = 1e-3 * extent if tracing.tolerance is None else tracing.tolerance
+    lines, last, closed, dots = _polylines(points, pairs, spans, DOT * extent)
+    lines, last, closed = without_folds(lines, last, closed)
+    lines, last, closed = joined_at_nodes(lines, last, closed, special)
+    lines, last, unsure, enough = refined_chords(curve, lines, last, tolerance, tracing.picture, tracing.budget.points)
+    if not enough:
+        doubts += (unresolved("curves of an implicit surface are off by more than the tolerance"),)
+    if unsure:
+        doubts += (f"{unsure} chords of a curve on an implicit surface could not be refined",)
+    if len(special.unclear):
+        doubts += (f"{len(special.unclear)} places where a curve on an implicit surface is finer than the resolution",)
+    isolated = np.concatenate([special.isolated, dots[_apart(dots, special.isolated, 1e-4 * extent)]])
+    found = curves_of_lines(lines, last, closed, level=level, doubts=doubts)
+    return replace(found, isolated=isolated, nodes=special.nodes)
+
+
+def _check(tracing: ImplicitTracing) -> None:
+    if not 0.0 < tracing.resolution < np.inf:
+        raise InputError(f"tracing: resolution {tracing.resolution:g} must be positive")
+    if tracing.tolerance is not None and not 0.0 < tracing.tolerance < np.inf:
+        raise InputError(f"tracing: tolerance {tracing.tolerance:g} must be positive")
+
+
+def box_sides(surface: ImplicitSurface, points: Floats) -> Bools:
+    """(n,3) coordinates of points that are those of the sides of the box, to the last bit."""
+    low, high = np.asarray(surface.box, dtype=np.float64)
+    return np.asarray((points == low) | (points == high), dtype=np.bool_)
+
+
+def _nodes(curve: CurveInSpace, mesh: Mesh) -> tuple[Nodes, bool]:
+    """The vertices with the condition, and whether it holds in some area."""
+    points = mesh.vertices
+    w = curve.values(points)
+    small = np.asarray((np.abs(w) <= FLAT * curve.size)[mesh.corners.reshape(-1, 3)].all(axis=1))
+    area = bool(small.any()) and _is_area(curve, mesh, small)
+    near = np.abs(w) <= _slack(curve, area)
+    fixed = box_sides(curve.surface, points)
+    return Nodes(points, fixed, np.where(near, 0.0, w), *_slopes_and_gradients(curve, points)), area
+
+
+def _slopes_and_gradients(curve: CurveInSpace, points: Floats) -> tuple[Floats, Floats]:
+    """(n,3) gradients of the condition along the surface, and those of F; zero where they are not finite."""
+    with np.errstate(all="ignore"):
+        gradients = np.nan_to_num(curve.surface.gradients(points), posinf=0.0, neginf=0.0)
+    return curve.slopes(points)[1], gradients
+
+
+def _is_area(curve: CurveInSpace, mesh: Mesh, small: Bools) -> bool:
+    """Whether triangles at whose corners the condition holds are no mere slivers: it holds in their middles too."""
+    triangles = mesh.corners.reshape(-1, 3)[small]
+    a, b, c = (mesh.vertices[triangles[:, k]] for k in range(3))
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    middle = (a + b + c) / 3.0
+    on, arrived = onto_surface(curve.surface, middle, reach=float(np.sqrt(area.max())))
+    wide = area > 1e-3 * float(np.median(np.linalg.norm(mesh.area_vectors, axis=1)))
+    return bool((wide & arrived & (np.abs(curve.values(on)) <= FLAT * curve.size)).any())
+
+
+def _slack(curve: CurveInSpace, area: bool) -> float:
+    """What values count as zero."""
+    return FLAT * curve.size if area else 4.0 * float(np.finfo(np.float64).eps) * curve.size
+
+
+def _middles(curve: CurveInSpace, starts: Floats, ends: Floats, fixed: Bools, area: bool) -> Nodes:
+    """New nodes between old ones, on the surface."""
+    reach = np.linalg.norm(ends - starts, axis=1) / 2.0
+    on = onto_surface(curve.surface, (starts + ends) / 2.0, reach=reach, fixed=fixed)[0]
+    w = curve.values(on)
+    return Nodes(on, fixed, np.where(np.abs(w) <= _slack(curve, area), 0.0, w), *_slopes_and_gradients(curve, on))
+
+
+def _crossings(curve: CurveInSpace, band: Band) -> tuple[Floats, Ints, Floats]:
+    """Points (k,3) of the curve on sides of triangles; pairs (s,2) of them that follow one another, the condition
+    positive on the left; and the widths (k,) of the triangles there."""
+    nodes = band.nodes
+    found = level_segments(band.triangles, nodes.values)
+    a, b = nodes.points[found.low], nodes.points[found.high]
+    w0, w1 = nodes.values[found.low], nodes.values[found.high]
+    fixed = nodes.fixed[found.low] & nodes.fixed[found.high]
+    reach = np.linalg.norm(b - a, axis=1)
+    start = a + (w0 / (w0 - w1))[:, None] * (b - a)
+    points, on = curve.onto(start, reach, fixed)
+    failed = np.flatnonzero(~on)
+    if len(failed):
+        slow, on[failed] = curve.between(a[failed], b[failed], fixed[failed])
+        again, better = curve.onto(slow, 0.1 * reach[failed], fixed[failed])
+        points[failed] = np.where(better[:, None], again, slow)
+    spans = np.zeros(len(points))
+    triangle = nodes.points[band.triangles[found.triangle]]
+    wide = np.linalg.norm(triangle - np.roll(triangle, 1, axis=1), axis=2).max(axis=1, initial=0.0)
+    for side in (0, 1):
+        np.maximum.at(spans, found.pairs[:, side], wide)
+    return points, found.pairs[on[found.pairs].all(axis=1)], spans
+
+
+def _polylines(points: Floats, pairs: Ints, spans: Floats, dot: float) -> tuple[Floats, Bools, Bools, Floats]:
+    """Polylines from segments, thinned: points (p,3), last (p,) of them, closed (m,): the first is repeated; and points
+    (k,3) that closed curves without extent shrank to."""
+    branches = concat(pairs)
+    if not len(branches):
+        return np.zeros((0, 3)), np.zeros(0, dtype=np.bool_), np.zeros(0, dtype=np.bool_), np.zeros((0, 3))
+    sizes = np.diff(branches.offsets) + branches.closed
+    starts = ragged.offsets(sizes)
+    line = ragged.owner(sizes)
+    place = np.arange(starts[-1]) - starts[line]
+    place[branches.closed[line] & (place == sizes[line] - 1)] = 0
+    index = branches.points[branches.offsets[line] + place]
+    own, width = points[index], spans[index]
+    gap = np.linalg.norm(np.diff(own, axis=0, prepend=own[:1]), axis=1)
+    gap[starts[:-1]] = 0.0
+    length = np.add.reduceat(gap, starts[:-1])
+    step = np.floor(np.cumsum(gap / width) / THINNED)
+    kept = np.diff(step, prepend=-1.0) > 0.0
+    # The last point stays, and the one before it goes if it is too near.
+    ends = starts[1:] - 1
+    kept[starts[:-1]] = kept[ends] = True
+    few = np.add.reduceat(kept, starts[:-1]) < 8
+    kept |= few[line] & ((gap > 0.0) | (place == 0))
+    before = ends - 1
+    kept[before] &= few | (gap[ends] > 0.5 * THINNED * width[ends])
+    kept[starts[:-1]] = True
+    real = length > dot
+    last = np.zeros(len(own), dtype=np.bool_)
+    last[ends] = True
+    kept &= real[line]
+    return own[kept], last[kept], branches.closed[real], own[starts[:-1]][~real]
+
+
+def _apart(points: Floats, others: Floats, distance: float) -> Ints:
+    """Indices of the points (k,3) further than a distance from all others."""
+    if not len(points) or not len(others):
+        return np.arange(len(points))
+    gaps = np.linalg.norm(points[:, None] - others[None], axis=2).min(axis=1)
+    return np.flatnonzero(gaps > distance)
+
+
+def curves_of_lines(
+    points: Floats, last: Bools, closed: Bools, *, level: float = 0.0, doubts: tuple[str, ...] = ()
+) -> ImplicitCurves:
+    """The curves of polylines: points (p,3), last (p,) of them, closed (m,): the first point is repeated at the end."""
+    line = np.cumsum(np.concatenate([[0], last]))[:-1]
+    kept = ~(last & closed[line])
+    offsets = ragged.offsets(np.bincount(line[kept], minlength=len(closed)))
+    none = np.zeros((0, 3))
+    return ImplicitCurves(points[kept], offsets, closed, np.full(len(closed), level), none, none, doubts)

@@ -1,0 +1,249 @@
+"""Implicit surfaces as meshes, every vertex on the true surface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.errors import InputError
+from vectorplot.features.zeros.zero_crossings import bracketed_zeros
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.repair.weld import close_points
+from vectorplot.geometry.repair.winding import components, edge_uses
+from vectorplot.surfaces.surface import ImplicitSurface
+
+MOST_CELLS = 1 << 24
+"""Cells of the lattice at most: their values take 200 MB."""
+
+SLAB = 1 << 18
+"""Points at which F is evaluated at once."""
+
+RESIDUAL = 1e-13
+"""Part of the extent of the box that vertices lie off the surface at most, to first order."""
+
+FALLS = 1e-3
+"""Part of the values beside a change of sign below which F must come there; at a pole or a jump it does not."""
+
+MERGED = 1e-6
+"""Part of a cell below which vertices are one."""
+
+SIDE_ULPS = 8.0
+"""Rounding steps of the largest coordinate that a vertex on a side of the box may be off it."""
+
+ROUNDS = 12
+"""Steps of Newton's method for the vertices inside cells."""
+
+FINEST = 192
+"""Cells along the longest side to which a lattice is refined to settle how a surface hangs together."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Lattice:
+    """Points evenly spread over a box: low, high (3,) its corners; counts (3,) cells along each side."""
+
+    low: Floats
+    high: Floats
+    counts: Ints
+
+    @property
+    def cell(self) -> Floats:
+        """(3,) sides of a cell."""
+        return np.asarray((self.high - self.low) / self.counts)
+
+    def points(self, places: Floats | Ints) -> Floats:
+        """(..., 3) points at places counted in cells; those on the sides of the box lie there to the last bit."""
+        t = places / self.counts
+        return np.asarray(
+            np.where(t < 0.5, self.low + t * (self.high - self.low), self.high - (1 - t) * (self.high - self.low))
+        )
+
+    def values(self, surface: ImplicitSurface) -> Floats:
+        """F (cx+1, cy+1, cz+1) at all points; NaN where it is not finite."""
+        x, y, z = (np.arange(count + 1, dtype=np.float64) for count in self.counts)
+        result = np.empty((len(x), len(y), len(z)))
+        step = max(1, SLAB // (len(y) * len(z)))
+        for first in range(0, len(x), step):
+            places = np.stack(np.meshgrid(x[first : first + step], y, z, indexing="ij"), axis=-1)
+            result[first : first + step] = checked_values(surface, self.points(places))
+        result[~np.isfinite(result)] = np.nan
+        return result
+
+
+def polygonized(surface: ImplicitSurface, cells: int = 64) -> Mesh:
+    """The surface F = 0 within its box as triangles, counter-clockwise seen from where F > 0.
+
+    cells: of the cubic lattice along the longest side of the box. Vertices lie on the edges of its cells, on the
+    surface to 1e-13 of the extent or what rounding leaves; where it leaves the box, on the sides of the box exactly.
+    Parts of the surface smaller than a cell, and sheets closer than that, may be missed or joined.
+    Errors: InputError for fewer than two cells, more than MOST_CELLS in all, values of the wrong shape.
+    Degenerate: F of one sign gives a mesh without faces. Cells at a corner of which F is not finite are holes. A change
+    of sign at a pole or a jump of F is no surface. Triangles may be very thin.
+    Source: Lorensen and Cline (1987); Lewiner and others (2003) for the cells that could be joined in two ways.
+    """
+    lattice = _lattice(surface, cells)
+    w = lattice.values(surface)
+    if not ((w > 0.0).any() and (w <= 0.0).any()):
+        return _empty()
+    places, triangles = _marched(w)
+    triangles = triangles[_in_whole_cells(w, places, triangles)]
+    vertices, on = _on_surface(surface, lattice, w, places)
+    triangles = triangles[on[triangles].all(axis=1)]
+    return _compact(lattice, vertices, triangles)
+
+
+def settled_mesh(surface: ImplicitSurface, cells: int = 64) -> tuple[Mesh, tuple[str, ...]]:
+    """The surface polygonised so finely that halving the cells last did not change how it hangs together: the number
+    of its parts and their holes; and a sentence where that could not be reached.
+
+    Errors: as for `polygonized`.
+    """
+    coarse, fine = polygonized(surface, max(2, cells // 2)), polygonized(surface, cells)
+    while _connection(coarse) != _connection(fine):
+        cells *= 2
+        if cells > FINEST:
+            return fine, ("implicit surface: finer cells still change how it hangs together (a singular point?)",)
+        coarse, fine = fine, polygonized(surface, cells)
+    return fine, ()
+
+
+def checked_values(surface: ImplicitSurface, points: Floats) -> Floats:
+    """F (...) at points (...,3). Errors: InputError for values of another shape."""
+    with np.errstate(all="ignore"):
+        w = np.asarray(surface.values(points), dtype=np.float64)
+    if w.shape != points.shape[:-1]:
+        raise InputError(f"F of {points[..., 0].size} points has the shape {w.shape}: expected one value for each")
+    return w
+
+
+def _lattice(surface: ImplicitSurface, cells: int) -> _Lattice:
+    if cells < 2:
+        raise InputError(f"polygonize: {cells} cells: at least 2")
+    low, high = np.asarray(surface.box, dtype=np.float64)
+    size = high - low
+    counts = np.maximum(2.0, np.ceil(min(cells, MOST_CELLS) * size / size.max() - 1e-9))
+    if cells > MOST_CELLS or counts.prod() > MOST_CELLS:
+        raise InputError(f"polygonize: {cells} cells along the longest side: more than {MOST_CELLS} in all")
+    return _Lattice(low, high, counts.astype(np.intp))
+
+
+def _marched(w: Floats) -> tuple[Floats, Ints]:
+    """Vertices (n,3) counted in cells and triangles (t,3) of the surface where the values w change their sign."""
+    from skimage import measure
+
+    size = np.abs(w)
+    # Single precision must keep every sign.
+    scale = float(np.nanmedian(size[size > 0.0])) if (size > 0.0).any() else 1.0
+    volume = np.sign(w) * np.where(size > 0.0, np.clip(size / scale, 1e-30, 1e30), 0.0)
+    march: Any = measure.marching_cubes
+    single = np.nan_to_num(volume, nan=1.0).astype(np.float32)
+    places, triangles, _, _ = march(single, 0.0, gradient_direction="descent")
+    return places.astype(np.float64), triangles.astype(np.intp)
+
+
+def _in_whole_cells(w: Floats, places: Floats, triangles: Ints) -> Bools:
+    """(t,) triangles in cells at all corners of which F is finite."""
+    hole = np.isnan(w)
+    if not hole.any():
+        return np.ones(len(triangles), dtype=np.bool_)
+    for axis in range(3):
+        pair = np.moveaxis(hole, axis, 0)
+        hole = np.moveaxis(pair[1:] | pair[:-1], 0, axis)
+    cell = np.floor(places[triangles].mean(axis=1)).astype(np.intp)
+    i, j, k = np.minimum(cell, np.array(hole.shape) - 1).T
+    return np.asarray(~hole[i, j, k], dtype=np.bool_)
+
+
+def _on_surface(surface: ImplicitSurface, lattice: _Lattice, w: Floats, places: Floats) -> tuple[Floats, Bools]:
+    """(n,3) the vertices moved onto F = 0, and (n,) which of them are zeros of F indeed."""
+    low, high = np.floor(places).astype(np.intp), np.ceil(places).astype(np.intp)
+    w0, w1 = w[tuple(low.T)], w[tuple(high.T)]
+    along = ((low != high).sum(axis=1) == 1) & ((w0 < 0.0) != (w1 < 0.0))
+    points, on = lattice.points(places), np.zeros(len(places), dtype=np.bool_)
+    edge = np.flatnonzero(along)
+    points[edge], on[edge] = _on_edges(surface, lattice, low[edge], high[edge], w0[edge], w1[edge])
+    rest = np.flatnonzero(~along)
+    fixed = (places[rest] == 0.0) | (places[rest] == lattice.counts)
+    reach = float(lattice.cell.max())
+    moved, arrived = onto_surface(surface, points[rest], fixed=fixed, reach=reach)
+    points[rest], on[rest] = np.clip(moved, lattice.low, lattice.high), arrived
+    return points, on
+
+
+def _on_edges(
+    surface: ImplicitSurface, lattice: _Lattice, low: Ints, high: Ints, w0: Floats, w1: Floats
+) -> tuple[Floats, Bools]:
+    """Zeros (k,3) of F between neighbours on the lattice where it has the values w0, w1 (k,), and which are genuine."""
+
+    def at(t: Floats, which: Ints) -> Floats:
+        return checked_values(surface, lattice.points(low[which] + t[:, None] * (high - low)[which]))
+
+    change, extent = np.abs(w1 - w0), float((lattice.high - lattice.low).max())
+    digits = float(np.spacing(np.abs(np.stack([lattice.low, lattice.high])).max()))
+    small = change * RESIDUAL * extent / float(lattice.cell.max())
+    t, rest = bracketed_zeros(at, w0, w1, w0 / (w0 - w1), small)
+    exact = (w0 == 0.0) | (w1 == 0.0)
+    t = np.where(w0 == 0.0, 0.0, np.where(w1 == 0.0, 1.0, t))
+    rounding = 8.0 * change * digits / float(lattice.cell.min())
+    falls = np.abs(rest) <= FALLS * np.minimum(np.abs(w0), np.abs(w1)) + small + rounding
+    return lattice.points(low + t[:, None] * (high - low)), np.asarray(exact | falls, dtype=np.bool_)
+
+
+def onto_surface(
+    surface: ImplicitSurface, points: Floats, *, reach: float | Floats, fixed: Bools | None = None
+) -> tuple[Floats, Bools]:
+    """Points (n,3) moved along the gradient onto F = 0, not further than reach (or (n,)), and which of them got there.
+
+    fixed (n,3): coordinates that stay as they are.
+    """
+    x, arrived = points.copy(), np.zeros(len(points), dtype=np.bool_)
+    far = np.broadcast_to(np.asarray(reach, dtype=np.float64), len(points))
+    active: Ints = np.arange(len(points))
+    enough = RESIDUAL * float(np.ptp(np.asarray(surface.box), axis=0).max())
+    for _ in range(ROUNDS):
+        if not len(active):
+            break
+        with np.errstate(all="ignore"):
+            slope = surface.gradients(x[active])
+            if fixed is not None:
+                slope = np.where(fixed[active], 0.0, slope)
+            length = np.linalg.norm(slope, axis=1)
+            w = checked_values(surface, x[active])
+            step = np.where(w == 0.0, 0.0, w / length)
+            way = np.where(w[:, None] == 0.0, 0.0, slope / length[:, None])
+        usable = np.isfinite(step)
+        x[active[usable]] -= (np.clip(step, -far[active], far[active])[:, None] * way)[usable]
+        digits = 4.0 * np.spacing(np.abs(points[active]).max(axis=1))
+        arrived[active] = usable & (np.abs(step) <= np.maximum(enough, digits))
+        active = active[usable & ~arrived[active]]
+    arrived &= np.linalg.norm(x - points, axis=1) <= 2.0 * far
+    return np.where(arrived[:, None], x, points), arrived
+
+
+def _compact(lattice: _Lattice, vertices: Floats, triangles: Ints) -> Mesh:
+    """The mesh with vertices closer than MERGED made one, without what that leaves of triangles; of such vertices one
+    that lies on most sides of the box stays."""
+    digits = SIDE_ULPS * np.spacing(np.abs(np.stack([lattice.low, lattice.high])).max())
+    below, above = vertices - lattice.low <= digits, lattice.high - vertices <= digits
+    vertices = np.where(below, lattice.low, np.where(above, lattice.high, vertices))
+    order = np.argsort(-(below | above).sum(axis=1), kind="stable")
+    heads = np.empty_like(order)
+    heads[order] = order[close_points(vertices[order], MERGED * float(lattice.cell.min()))]
+    triangles = heads[triangles]
+    a, b, c = triangles.T
+    triangles = triangles[(a != b) & (b != c) & (c != a)]
+    used, corners = np.unique(triangles, return_inverse=True)
+    return Mesh.from_triangles(vertices[used], corners.reshape(-1, 3)) if len(used) else _empty()
+
+
+def _empty() -> Mesh:
+    return Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.intp))
+
+
+def _connection(mesh: Mesh) -> tuple[int, int, int]:
+    """Parts of a mesh, its Euler characteristic, and edges with more than two faces: 0 or 1 for some."""
+    uses = edge_uses(mesh)
+    parts = components(mesh, uses)[0]
+    return parts, len(mesh.vertices) - len(uses.first) + mesh.face_count, int((uses.count > 2).any())

@@ -1,0 +1,1 @@
+"""Where surfaces meet each other, meshes and themselves."""

@@ -1,0 +1,218 @@
+"""Where two sheets touch, or nearly do: the height of one above the other is stationary there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.intersections.sheets import Sheet
+from vectorplot.features.intersections.triangle_pairs import overlapping_in_cells
+from vectorplot.geometry.repair.weld import close_points
+from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
+
+NEAREST = 4
+"""Triangles of the other sheet from which the contact of a triangle is looked for."""
+
+STEPS = 25
+"""Newton steps towards a contact."""
+
+FLAT = 1e-5
+"""A relative curvature below this part of the other one, or of one by the extent, counts as zero."""
+
+DRIFT = 3.0
+"""Cells that a contact may lie from where it was looked for."""
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts:
+    """Places (k,d) on both sheets above one another, with parallel tangent planes.
+
+    points (k,3); frames (k,3,3): the two directions of principal relative curvature, and the normal; heights (k,) of
+    the first sheet above the second; bends (k,2): second derivatives of the height in these directions, 0 if they are
+    rounding; cells (k,): the size of the triangles there.
+    """
+
+    one: Floats
+    two: Floats
+    points: Floats
+    frames: Floats
+    heights: Floats
+    bends: Floats
+    cells: Floats
+
+    def of(self, which: Ints | Bools) -> Contacts:
+        """Some of them."""
+        return Contacts(*(getattr(self, f.name)[which] for f in fields(self)))
+
+    def __len__(self) -> int:
+        return len(self.one)
+
+
+def contacts(one: Sheet, two: Sheet, *, same: bool = False) -> Contacts:
+    """The contacts near which triangles of both sheets are near and nearly parallel, each once.
+
+    same: both sheets are one; triangles that share a corner have no contact.
+    """
+    i, j = _near_pairs(one, two, same)
+    found = _stationary(one, two, i, j, same)
+    if not len(found):
+        return found
+    group = close_points(found.points, 1e-3 * float(np.median(found.cells)))
+    return found.of(np.unique(group, return_index=True)[1])
+
+
+def zero_height(one: Sheet, two: Sheet) -> float:
+    """The height below which sheets touch."""
+    (size, large), (other_size, other_large) = one.size, two.size
+    return max(ZERO_OF_EXTENT * min(size, other_size), 16.0 * ROUNDING * max(large, other_large))
+
+
+@dataclass(frozen=True, eq=False)
+class _Middles:
+    """Of the triangles of a sheet: places and points in their middles, normals and the cosine and sine of the angle
+    they spread over, boxes (3,t) around the true surface."""
+
+    places: Floats
+    points: Floats
+    normals: Floats
+    spread: Floats
+    low: Floats
+    high: Floats
+
+
+def _middles(sheet: Sheet) -> _Middles:
+    own = sheet.tessellation
+    corners = own.points[own.triangles]
+    places = own.places.mean(axis=1)
+    sides = 0.5 * (own.places + np.roll(own.places, -1, axis=1))
+    between = 0.5 * (corners + np.roll(corners, -1, axis=1))
+    points = sheet.points(places)
+    count, dimension = len(places), places.shape[1]
+    with np.errstate(invalid="ignore"):
+        off = np.linalg.norm(sheet.points(sides.reshape(-1, dimension)).reshape(count, 3, 3) - between, axis=2)
+        sag = np.fmax(np.fmax.reduce(off, axis=1), np.linalg.norm(points - corners.mean(axis=1), axis=1))
+    sag = 1.5 * np.nan_to_num(sag)
+    normals = sheet.normals(places)
+    around = sheet.normals(own.places.reshape(-1, dimension)).reshape(count, 3, 3)
+    cosine = np.abs((around * normals[:, None]).sum(axis=2)).min(axis=1, initial=1.0)
+    low, high = own.boxes
+    return _Middles(places, points, normals, np.arccos(np.clip(cosine, 0.0, 1.0)), low - sag, high + sag)
+
+
+def _near_pairs(one: Sheet, two: Sheet, same: bool) -> tuple[Ints, Ints]:
+    """Pairs of triangles between which there may be a contact."""
+    a = _middles(one)
+    b = a if same else _middles(two)
+    cells = one.tessellation.cells, two.tessellation.cells
+    i, j = overlapping_in_cells((a.low, a.high, cells[0]), (b.low, b.high, cells[1]))
+    if same:
+        i, j = i[i < j], j[i < j]
+        apart = one.cells_apart(a.places[i], a.places[j]) > DRIFT
+        i, j = i[apart], j[apart]
+    cosine = np.abs((a.normals[i] * b.normals[j]).sum(axis=1))
+    near = cosine >= np.cos(np.minimum(a.spread[i] + b.spread[j] + 0.05, 0.5 * np.pi))
+    i, j = i[near], j[near]
+    if not len(i):
+        return i, j
+    distance = np.linalg.norm(a.points[i] - b.points[j], axis=1)
+    order = np.lexsort((distance, i))
+    i, j = i[order], j[order]
+    first = np.flatnonzero(np.concatenate([[True], i[1:] != i[:-1]]))
+    rank = np.arange(len(i)) - np.repeat(first, np.diff(np.append(first, len(i))))
+    return i[rank < NEAREST], j[rank < NEAREST]
+
+
+def _stationary(one: Sheet, two: Sheet, i: Ints, j: Ints, same: bool) -> Contacts:
+    """The contacts that Newton's method finds from the middles of pairs of triangles."""
+    start_a = one.tessellation.places[i].mean(axis=1)
+    start_b = two.tessellation.places[j].mean(axis=1)
+    a, b = start_a.copy(), start_b.copy()
+    low, high = one.tessellation.boxes
+    cells = np.linalg.norm(high - low, axis=0)[i]
+    arrived = np.zeros(len(a), dtype=np.bool_)
+    active = np.arange(len(a))
+    for _ in range(STEPS):
+        if not len(active):
+            break
+        near = _Pass.between(one, two, a[active], b[active])
+        steps, length = near.steps()
+        arrived[active] = length <= 1e-7 * cells[active]
+        go = np.flatnonzero(np.isfinite(steps).all(axis=(0, 2)) & (length <= 20.0 * cells[active]))
+        active, steps = active[go], steps[:, go]
+        a[active], b[active] = one.moved(a[active], steps[0]), two.moved(b[active], steps[1])
+        drifted = one.cells_apart(a[active], start_a[active]) > DRIFT
+        active = active[~drifted & ~(arrived[active] & (length[go] <= 1e-10 * cells[active]))]
+    good = arrived & (one.cells_apart(a, start_a) <= DRIFT) & (two.cells_apart(b, start_b) <= DRIFT)
+    if same:
+        good &= one.cells_apart(a, b) > 1.0
+    a, b, cells = a[good], b[good], cells[good]
+    last = _Pass.between(one, two, a, b)
+    bends, frames = last.principal(max(one.size[0], two.size[0]))
+    middle = 0.5 * (last.p + last.q)
+    found = Contacts(a, b, middle, frames, ((last.p - last.q) * last.frames[:, 2]).sum(axis=1), bends, cells)
+    return found.of(np.isfinite(found.heights) & np.isfinite(frames).all(axis=(1, 2)))
+
+
+@dataclass(frozen=True, eq=False)
+class _Pass:
+    """Two sheets above one another: points p, q (k,3), frames (k,3,3) with their mean normal last, slopes (2,k,2) and
+    second derivatives (2,k,2,2) of their heights."""
+
+    p: Floats
+    q: Floats
+    frames: Floats
+    slopes: Floats
+    bends: Floats
+
+    @staticmethod
+    def between(one: Sheet, two: Sheet, a: Floats, b: Floats) -> _Pass:
+        """The sheets at these places."""
+        n, m = one.normals(a), two.normals(b)
+        m = np.where((n * m).sum(axis=1, keepdims=True) < 0.0, -m, m)
+        with np.errstate(all="ignore"):
+            mean = (n + m) / np.linalg.norm(n + m, axis=1, keepdims=True)
+            # The axis that the normal is furthest from starts the frame.
+            least = np.eye(3)[np.abs(mean).argmin(axis=1)]
+            first = np.cross(mean, least)
+            first /= np.linalg.norm(first, axis=1, keepdims=True)
+        frames = np.stack([first, np.cross(mean, first), mean], axis=1)
+        with np.errstate(all="ignore"):
+            slopes = np.stack(
+                [-np.einsum("kij,kj->ki", frames[:, :2], x) / (x * mean).sum(axis=1)[:, None] for x in (n, m)]
+            )
+        bends = np.stack([one.bends(a, frames), two.bends(b, frames)])
+        return _Pass(one.points(a), two.points(b), frames, slopes, bends)
+
+    def steps(self) -> tuple[Floats, Floats]:
+        """(2,k,3) the way of both points to where the height is stationary, as of parabolas; its length (k,)."""
+        axes = self.frames[:, :2]
+        half = 0.5 * np.einsum("kij,kj->ki", axes, self.q - self.p)
+        # Both sheets seen from the point between: the first lies at -half, the second at +half.
+        slope = self.slopes[0] - self.slopes[1] + np.einsum("kij,kj->ki", self.bends[0] + self.bends[1], half)
+        bend = self.bends[0] - self.bends[1]
+        good = np.isfinite(bend).all(axis=(1, 2))
+        size, turned = np.linalg.eigh(np.where(good[:, None, None], bend, 0.0))
+        steep = np.abs(size) > FLAT * np.abs(self.bends).max(axis=(0, 2, 3), initial=0.0)[:, None]
+        along = np.einsum("kji,kj->ki", turned, slope)
+        with np.errstate(all="ignore"):
+            x = -np.einsum("kij,kj->ki", turned, np.where(steep, along / np.where(steep, size, 1.0), 0.0))
+        result = []
+        for sign, own in ((1.0, self.slopes[0]), (-1.0, self.slopes[1])):
+            way = x + sign * half
+            result.append(np.einsum("kij,ki->kj", axes, way) + (own * way).sum(axis=1)[:, None] * self.frames[:, 2])
+        steps = np.where(good[None, :, None], np.stack(result), np.nan)
+        return steps, np.asarray(np.fmax(np.linalg.norm(x, axis=1), np.linalg.norm(half, axis=1)))
+
+    def principal(self, extent: float) -> tuple[Floats, Floats]:
+        """Second derivatives (k,2) of the height difference along its principal directions, and frames (k,3,3) of
+        these directions and the normal."""
+        bend = self.bends[0] - self.bends[1]
+        good = np.isfinite(bend).all(axis=(1, 2)) & np.isfinite(self.frames).all(axis=(1, 2))
+        size, turned = np.linalg.eigh(np.where(good[:, None, None], bend, 0.0))
+        directions = np.einsum("kji,kjc->kic", turned, self.frames[:, :2])
+        least = FLAT * np.maximum(np.abs(self.bends).max(axis=(0, 2, 3), initial=0.0), 1.0 / max(extent, 1e-300))
+        size = np.where(np.abs(size) > least[:, None], size, 0.0)
+        frames = np.concatenate([directions, self.frames[:, 2:]], axis=1)
+        return size, np.where(good[:, None, None], frames, np.nan)

@@ -1,0 +1,195 @@
+"""Curves that lie on two sheets at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.intersections.meeting_points import in_planes, meetings
+from vectorplot.features.intersections.sheets import Sheet
+from vectorplot.features.parametric.curve_tracing import Picture
+from vectorplot.features.zeros.zero_refinement import MISSED, PROBES
+
+ROUNDS = 20
+"""How often chords are cut at most."""
+
+MOST_POINTS = 1 << 21
+"""Points of all curves at most: a tolerance that asks for more is not kept."""
+
+STRAYED = 0.75
+"""How many chords a point between two others may lie off the chord."""
+
+
+@dataclass(frozen=True, eq=False)
+class DoubleCurves:
+    """Polylines on two surfaces, or on two sheets of one: each point known by its parameters on both, and in space.
+
+    points (n,3); one, two (n,2) parameters: along a curve they run on over seams, beyond the domain; offsets (m+1,):
+    curve i has the points offsets[i] to offsets[i+1]; closed (m,): the last point joins the first, which is not
+    repeated. Where a surface meets itself one and two may have changed their roles when a closed curve is back at its
+    start (a Klein bottle), and they are equal where a curve ends in a pinch point or a swallowtail.
+    nodes (k,3): points where curves cross because the surfaces touch there; isolated (i,3): points where they touch and
+    no curve passes; touching (t,3): points of lines along which they touch.
+    doubts: a sentence for each thing that could not be decided.
+    """
+
+    points: Floats
+    one: Floats
+    two: Floats
+    offsets: Ints
+    closed: Bools
+    nodes: Floats
+    isolated: Floats
+    touching: Floats
+    doubts: tuple[str, ...]
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __getitem__(self, curve: int) -> Floats:
+        """(k,3) the points of a curve; a closed one ends with its first point."""
+        own = self.points[self.offsets[curve] : self.offsets[curve + 1]]
+        return np.concatenate([own, own[:1]]) if self.closed[curve] else own
+
+
+def no_double_curves(doubts: tuple[str, ...] = ()) -> DoubleCurves:
+    """No curve at all."""
+    space, pairs = np.zeros((0, 3)), np.zeros((0, 2))
+    return DoubleCurves(
+        space, pairs, pairs, np.zeros(1, dtype=np.intp), np.zeros(0, dtype=np.bool_), space, space, space, doubts
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """A curve on its way to being one: places (k,d) on both sheets; a closed one repeats its first point, in whatever
+    roles and periods it is back there."""
+
+    one: Floats
+    two: Floats
+    closed: bool = False
+
+    def __len__(self) -> int:
+        return len(self.one)
+
+    def reversed(self) -> Course:
+        """The other way round."""
+        return Course(_backwards(self.one), _backwards(self.two), self.closed)
+
+    def exchanged(self) -> Course:
+        """With the roles of the two sheets exchanged; both are of one shape."""
+        return Course(self.two, self.one, self.closed)
+
+    def part(self, first: int, last: int) -> Course:
+        """The points from first to before last, open."""
+        return Course(self.one[first:last], self.two[first:last])
+
+
+def _backwards(places: Floats) -> Floats:
+    """Places in the opposite order; a face belongs to the segment that starts at a place on a mesh."""
+    result = places[::-1].copy()
+    if places.shape[1] > 3 and len(places) > 1:
+        result[:-1, 3] = result[1:, 3]
+    return result
+
+
+def followed(one: Sheet, two: Sheet, first: Course, second: Course) -> Course:
+    """The second course after the first, its places as many periods on as they have to be."""
+    if not len(first) or not len(second):
+        return second if not len(first) else first
+    parts = []
+    for sheet, a, b in ((one, first.one, second.one), (two, first.two, second.two)):
+        start = sheet.aligned(b[:1], a[-1:])
+        parts.append(np.concatenate([a, b + (start - b[:1])]))
+    return Course(parts[0], parts[1])
+
+
+def starting_at(one: Sheet, two: Sheet, course: Course, first: int) -> Course:
+    """A closed course that comes back in the roles it began with, beginning at another of its points."""
+    whole = followed(one, two, course.part(first, len(course)), course.part(1, first + 1))
+    return Course(whole.one, whole.two, True)
+
+
+@dataclass(frozen=True, eq=False)
+class Courses:
+    """All courses one after the other: places on both sheets; last (n,): the point is the last of its course."""
+
+    one: Floats
+    two: Floats
+    last: Bools
+
+
+def put_together(courses: list[Course], dimensions: tuple[int, int]) -> Courses:
+    """The courses as one, of places with these numbers of coordinates."""
+    empty = [np.zeros((0, d)) for d in dimensions]
+    last = [np.arange(len(c)) == len(c) - 1 for c in courses]
+    return Courses(
+        np.concatenate([empty[0], *(c.one for c in courses)]),
+        np.concatenate([empty[1], *(c.two for c in courses)]),
+        np.concatenate([np.zeros(0, dtype=np.bool_), *last]),
+    )
+
+
+def refined(
+    one: Sheet, two: Sheet, courses: Courses, *, zero: float, tolerance: float, picture: Picture | None
+) -> tuple[Courses, int]:
+    """The courses with points of both sheets put in where chords deviate from the curve by more than the tolerance,
+    measured in the picture, and the number of chords beside which no curve was found."""
+    a, b, last = courses.one, courses.two, courses.last
+    open_, unsure = ~last, 0
+    for _ in range(ROUNDS):
+        first = np.flatnonzero(open_)
+        if not len(first) or len(a) > MOST_POINTS:
+            break
+        probes = [_between(one, two, a, b, first, part, zero) for part in PROBES]
+        found = probes[0][2] & probes[1][2]
+        ends = [_seen(one, x, picture) for x in (a[first], a[first + 1])]
+        seen = [_seen(one, p[0], picture) for p in probes]
+        away = np.fmax(*(_distances(ends[0], ends[1], p) for p in seen))
+        bad = away > MISSED * tolerance
+        long = np.sqrt(((ends[1] - ends[0]) ** 2).sum(axis=1)) > tolerance
+        unsure += int((long & ~found).sum())
+        split = bad & found
+        at = np.repeat(first[split] + 1, 2)
+        open_[:] = False
+        open_[first[split]] = True
+        a = np.insert(a, at, np.stack([p[0][split] for p in probes], axis=1).reshape(-1, a.shape[1]), axis=0)
+        b = np.insert(b, at, np.stack([p[1][split] for p in probes], axis=1).reshape(-1, b.shape[1]), axis=0)
+        last, open_ = np.insert(last, at, False), np.insert(open_, at, True)
+    return Courses(a, b, last), unsure
+
+
+def _between(
+    one: Sheet, two: Sheet, a: Floats, b: Floats, first: Ints, part: float, zero: float
+) -> tuple[Floats, Floats, Bools]:
+    """Places on both sheets in the plane across the chord at a part of it, and whether the curve is there."""
+    start, end = one.points(a[first]), one.points(a[first + 1])
+    chord, point = end - start, start + part * (end - start)
+    at_one, at_two = (x[first] + part * (x[first + 1] - x[first]) for x in (a, b))
+    for x, at in ((a, at_one), (b, at_two)):
+        # The fourth coordinate of a place on a mesh is no length.
+        at[:, 2:] = np.where(np.arange(2, x.shape[1]) == 3, x[first, 2:], at[:, 2:])
+    length = np.sqrt((chord * chord).sum(axis=1, keepdims=True))
+    with np.errstate(all="ignore"):
+        normal = np.where(length > 0.0, chord / length, 0.0)
+    there = meetings(one, two, at_one, at_two, in_planes(normal, point), zero)
+    off = one.points(there.one) - point
+    near = np.sqrt((off * off).sum(axis=1)) <= STRAYED * length[:, 0]
+    return there.one, there.two, np.asarray(there.met & near & (length[:, 0] > 0.0))
+
+
+def _seen(sheet: Sheet, places: Floats, picture: Picture | None) -> Floats:
+    points = sheet.points(places)
+    return points if picture is None else np.asarray(picture(points), dtype=np.float64)
+
+
+def _distances(a: Floats, b: Floats, p: Floats) -> Floats:
+    """(k,) distances of points p from segments from a to b; zero where one of them is not finite."""
+    chord, arm = b - a, p - a
+    with np.errstate(invalid="ignore"):
+        square = (chord * chord).sum(axis=1)
+        t = np.clip((arm * chord).sum(axis=1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+        away = arm - t[:, None] * chord
+        return np.asarray(np.nan_to_num(np.sqrt((away * away).sum(axis=1))))

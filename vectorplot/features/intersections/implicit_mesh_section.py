@@ -1,0 +1,160 @@
+"""Where an implicit surface meets the faces of a mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.implicit.implicit_tracing import ImplicitCurves, ImplicitTracing, box_sides, mesh_of, no_curves
+from vectorplot.features.intersections.contacts import contacts
+from vectorplot.features.intersections.sheets import MeshSheet
+from vectorplot.features.intersections.surface_intersection import doubts_about, joined, repeats_dropped
+from vectorplot.features.intersections.triangle_pairs import overlapping_triangles, piercings
+from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.features.tessellation import FREE, Tessellation, edges_of
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import dot
+from vectorplot.surfaces.implicit_function import hessians
+from vectorplot.surfaces.surface import ImplicitSurface
+
+DEFAULT = ImplicitTracing()
+
+ROUNDS = 3
+"""Newton steps onto the surface, from places that are off it by no more than triangles are."""
+
+
+@dataclass(frozen=True, eq=False)
+class ImplicitPatch:
+    """An implicit surface within its box as a sheet of `features.sheets`: places are its points; rails 0, 1, 2 the
+    sides of the box across x, y and z. mesh: the surface polygonised."""
+
+    surface: ImplicitSurface
+    mesh: Mesh
+
+    @cached_property
+    def tessellation(self) -> Tessellation:
+        """The triangles of the mesh."""
+        points, triangles = self.mesh.vertices, self.mesh.corners.reshape(-1, 3)
+        edges, sides, uses = edges_of(triangles, len(points))
+        border = np.asarray(uses == 1, dtype=np.bool_)
+        sides_of = box_sides(self.surface, points)
+        common: Bools = sides_of[edges[:, 0]] & sides_of[edges[:, 1]]
+        rails = np.where(border & common.any(axis=1), common.argmax(axis=1), FREE)
+        return Tessellation(
+            points, triangles, points[triangles], np.arange(len(triangles)), edges, sides, rails, border
+        )
+
+    @cached_property
+    def size(self) -> tuple[float, float]:
+        """The diagonal of the box around the mesh, and its largest coordinate."""
+        points = self.mesh.vertices
+        return float(np.linalg.norm(np.ptp(points, axis=0))), float(np.abs(points).max())
+
+    @cached_property
+    def cell(self) -> float:
+        """How large triangles are."""
+        low, high = self.tessellation.boxes
+        return float(np.median(np.linalg.norm(high - low, axis=0)))
+
+    def points(self, places: Floats) -> Floats:
+        """(k,3) the places, those a little off the surface brought onto it."""
+        return self._onto(places)
+
+    def normals(self, places: Floats) -> Floats:
+        """(k,3) unit gradients; NaN at singular points."""
+        with np.errstate(all="ignore"):
+            slopes = self.surface.gradients(places)
+            return np.asarray(slopes / np.linalg.norm(slopes, axis=-1, keepdims=True))
+
+    def moved(self, places: Floats, steps: Floats) -> Floats:
+        """(k,3) places moved along the surface, not out of the box."""
+        return self._onto(places + steps)
+
+    def along_rails(self, places: Floats, rails: Ints) -> Floats:
+        """(k,3) directions of the curves on the sides of the box."""
+        return np.cross(self.normals(places), np.eye(3)[rails])
+
+    def on_rails(self, places: Floats, rails: Ints) -> Floats:
+        """(k,3) places put onto their sides of the box."""
+        low, high = np.asarray(self.surface.box, dtype=np.float64)
+        side = np.where(places - low < high - places, low, high)
+        return np.where(rails[:, None] == np.arange(3), side, places)
+
+    def bends(self, places: Floats, frames: Floats) -> Floats:
+        """(k,2,2) second derivatives of the height above the first two axes of frames (k,3,3), along the third."""
+        with np.errstate(all="ignore"):
+            slope = np.einsum("kij,kj->ki", frames, self.surface.gradients(places))
+            bend = np.einsum("kij,kjl,kml->kim", frames, hessians(self.surface, places), frames)
+            # The height h of F(x, y, h) = 0: its derivatives by x and y, and of these once more.
+            rise = -slope[:, :2] / slope[:, 2:]
+            lift = np.concatenate([np.broadcast_to(np.eye(2), (len(places), 2, 2)), rise[:, :, None]], axis=2)
+            return np.asarray(-np.einsum("kij,kjl,kml->kim", lift, bend, lift) / slope[:, 2, None, None])
+
+    def aligned(self, places: Floats, others: Floats) -> Floats:
+        """The places."""
+        return places
+
+    def cells_apart(self, places: Floats, others: Floats) -> Floats:
+        """(k,) distances, in sizes of triangles."""
+        return np.asarray(np.linalg.norm(places - others, axis=-1) / self.cell)
+
+    def _onto(self, points: Floats) -> Floats:
+        """(k,3) points of the box on the surface; those beyond a side of the box stay in it."""
+        low, high = np.asarray(self.surface.box, dtype=np.float64)
+        x = np.clip(points, low, high)
+        held = (x == low) | (x == high)
+        with np.errstate(all="ignore"):
+            for _ in range(ROUNDS):
+                slopes = np.where(held, 0.0, self.surface.gradients(x))
+                back = (self.surface.values(x) / dot(slopes, slopes))[:, None] * slopes
+                x = np.clip(x - np.where(np.isfinite(back), back, 0.0), low, high)
+        return x
+
+
+@dataclass(frozen=True, eq=False)
+class ImplicitMeshSection:
+    """curves: on the surface; normals (n,3): the unit normal of the face of the mesh in which the segment from every
+    point to the next runs; the last point of an open curve has that of the segment before."""
+
+    curves: ImplicitCurves
+    normals: Floats
+
+    def __len__(self) -> int:
+        return len(self.curves)
+
+
+def implicit_mesh_section(
+    surface: ImplicitSurface, mesh: Mesh, *, tracing: ImplicitTracing = DEFAULT
+) -> ImplicitMeshSection:
+    """The curves in which an implicit surface meets the faces of a mesh, within its box.
+
+    In a face a curve is the section of the surface with the plane of the face; it goes on over edges, and every edge it
+    crosses has a point of it. Faces that are not present are left out.
+    Errors: as for `polygonized`.
+    Degenerate: a face that only touches the surface gives an isolated point; one that lies in it a doubt.
+    Source: Glaeser, section 8.4 (face-face sections).
+    """
+    own, doubts = mesh_of(surface, tracing)
+    two = MeshSheet(mesh)
+    if not own.face_count or not len(two.faces):
+        return ImplicitMeshSection(no_curves(doubts), np.zeros((0, 3)))
+    one = ImplicitPatch(surface, own)
+    found = piercings(one.tessellation, two.tessellation, overlapping_triangles(one.tessellation, two.tessellation))
+    # What happens where a plane goes on beside its face has nothing to do with the face.
+    touching = contacts(one, two)
+    plain = Tracing(tolerance=tracing.tolerance, picture=tracing.picture)
+    all_ = joined(one, two, found, touching.of(two.holds(touching.two)), plain, same=False)
+    kept, offsets, closed = repeats_dropped(all_)
+    curves = ImplicitCurves(
+        one.points(all_.points.one[kept]),
+        offsets,
+        closed,
+        np.zeros(len(closed)),
+        all_.isolated.points,
+        all_.nodes.points,
+        (*doubts, *doubts_about(all_)),
+    )
+    return ImplicitMeshSection(curves, two.normals(all_.points.two[kept]))

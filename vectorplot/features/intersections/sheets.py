@@ -1,0 +1,320 @@
+"""Sheets: shapes whose intersections are looked for, known by places, tangent planes and a tessellation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.parametric.curve_tracing import extent, wrapped
+from vectorplot.features.tessellation import FREE, Tessellation, edges_of, surface_tessellation
+from vectorplot.geometry import ragged
+from vectorplot.geometry.convex.convex_faces import convex_faces
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+from vectorplot.geometry.vectors import cross
+from vectorplot.surfaces.normals import unit_normals
+from vectorplot.surfaces.surface import Surface
+
+LONGEST_STEP = 2.0
+"""Cells that a parameter is moved by at most in one step."""
+
+LONGEST_PART = 0.125
+"""Part of the domain that a parameter may be moved by all the same: near a pole that is not far."""
+
+
+class Sheet(Protocol):
+    """A shape on which places (k,d) are points. All functions take many places at once."""
+
+    @property
+    def tessellation(self) -> Tessellation:
+        """Triangles near the shape, with the places of their corners."""
+        ...
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """The diagonal of the box around it, and its largest coordinate."""
+        ...
+
+    def points(self, places: Floats) -> Floats:
+        """(k,3) points; NaN in holes."""
+        ...
+
+    def normals(self, places: Floats) -> Floats:
+        """(k,3) unit normals; NaN where there is none."""
+        ...
+
+    def moved(self, places: Floats, steps: Floats) -> Floats:
+        """(k,d) places moved by steps (k,3) in their tangent planes, to first order; never over a border."""
+        ...
+
+    def along_rails(self, places: Floats, rails: Ints) -> Floats:
+        """(k,3) directions of the lines that rails (k,) name, at places on them."""
+        ...
+
+    def on_rails(self, places: Floats, rails: Ints) -> Floats:
+        """(k,d) places put on their rails, FREE ones left alone, where rounding took them off."""
+        ...
+
+    def bends(self, places: Floats, frames: Floats) -> Floats:
+        """(k,2,2) second derivatives of the height above the first two axes of frames (k,3,3), along the third."""
+        ...
+
+    def aligned(self, places: Floats, others: Floats) -> Floats:
+        """(k,d) the same places, as many whole periods on as brings them nearest to other places (k,d)."""
+        ...
+
+    def cells_apart(self, places: Floats, others: Floats) -> Floats:
+        """(k,) how many cells lie between places and others, the short way round."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceSheet:
+    """A parametrised surface, tessellated by columns times rows cells; places are (u, v), beyond seams too."""
+
+    surface: Surface
+    columns: int
+    rows: int
+
+    @cached_property
+    def tessellation(self) -> Tessellation:
+        """As `surface_tessellation` makes it."""
+        return surface_tessellation(self.surface, self.columns, self.rows)
+
+    @cached_property
+    def size(self) -> tuple[float, float]:
+        """The diagonal of the box around it, and its largest coordinate."""
+        return extent(self.surface)
+
+    @cached_property
+    def cell(self) -> Floats:
+        """(2,) the size of a cell in u and v."""
+        return np.asarray(self.surface.domain.size, dtype=np.float64) / (self.columns, self.rows)
+
+    def points(self, places: Floats) -> Floats:
+        """(k,3) points; NaN in holes."""
+        return self.surface.points(*self.home(places))
+
+    def normals(self, places: Floats) -> Floats:
+        """(k,3) unit normals."""
+        return unit_normals(self.surface, *self.home(places))
+
+    def moved(self, places: Floats, steps: Floats) -> Floats:
+        """(k,2) places moved; a direction in which the surface stands still is not moved in."""
+        along_u, along_v = self.surface.partials(*self.home(places))
+        long_u, long_v = (np.sqrt((a * a).sum(axis=1)) for a in (along_u, along_v))
+        with np.errstate(all="ignore"):
+            a, b = along_u / long_u[:, None], along_v / long_v[:, None]
+            a, b = (np.where(np.isfinite(x), x, 0.0) for x in (a, b))
+            cosine, by_a, by_b = (a * b).sum(axis=1), (a * steps).sum(axis=1), (b * steps).sum(axis=1)
+            sine = np.maximum(1.0 - cosine * cosine, 1e-14)
+            change = np.stack([(by_a - cosine * by_b) / sine / long_u, (by_b - cosine * by_a) / sine / long_v], axis=1)
+        change = np.where(np.isfinite(change), change, 0.0)
+        # Each parameter by itself: near a pole one of them runs far while the other hardly moves.
+        longest = np.maximum(LONGEST_STEP * self.cell, LONGEST_PART * np.asarray(self.surface.domain.size))
+        return self._inside(places + np.clip(change, -longest, longest))
+
+    def along_rails(self, places: Floats, rails: Ints) -> Floats:
+        """(k,3) derivatives by the other parameter than the one that rails (k,), 0 or 1, keep."""
+        along_u, along_v = self.surface.partials(*self.home(places))
+        return np.where((rails == 0)[:, None], along_v, along_u)
+
+    def on_rails(self, places: Floats, rails: Ints) -> Floats:
+        """(k,2) places whose parameter that does not change on its rail is an end of the domain exactly."""
+        domain, result = self.surface.domain, places.copy()
+        ends = ((domain.u_start, domain.u_end), (domain.v_start, domain.v_end))
+        for axis in (0, 1):
+            x, (low, high) = places[:, axis], ends[axis]
+            result[:, axis] = np.where(rails == axis, np.where(x - low < high - x, low, high), x)
+        return result
+
+    def bends(self, places: Floats, frames: Floats) -> Floats:
+        """(k,2,2) second derivatives of the height above the first two axes of frames (k,3,3), along the third."""
+        at = self.home(places)
+        along_u, along_v = self.surface.partials(*at)
+        uu, uv, vv = self.surface.second_partials(*at)
+        with np.errstate(all="ignore"):
+            product = cross(along_u, along_v)
+            height = product / (product * frames[:, 2]).sum(axis=1, keepdims=True)
+            bend = np.stack([(d * height).sum(axis=1) for d in (uu, uv, uv, vv)], axis=1).reshape(-1, 2, 2)
+            flat = np.stack([np.einsum("kij,kj->ki", frames[:, :2], d) for d in (along_u, along_v)], axis=2)
+            inverse = _inverse(flat)
+            return np.asarray(np.einsum("kji,kjl,klm->kim", inverse, bend, inverse))
+
+    def aligned(self, places: Floats, others: Floats) -> Floats:
+        """(k,2) the same places, as many whole periods on as brings them nearest to other places."""
+        return np.asarray(others + self._between(places, others))
+
+    def cells_apart(self, places: Floats, others: Floats) -> Floats:
+        """(k,) the larger number of cells in u and in v, the short way round."""
+        return np.asarray(np.abs(self._between(places, others) / self.cell).max(axis=-1, initial=0.0))
+
+    def home(self, places: Floats) -> tuple[Floats, Floats]:
+        """u and v (k,) within the domain."""
+        return wrapped(self.surface.domain, places[..., 0], places[..., 1])
+
+    def _between(self, places: Floats, others: Floats) -> Floats:
+        domain, d = self.surface.domain, places - others
+        turns = np.where((domain.closed_u, domain.closed_v), np.round(d / domain.size), 0.0)
+        return np.asarray(d - turns * domain.size)
+
+    def _inside(self, places: Floats) -> Floats:
+        domain = self.surface.domain
+        closed = np.array([domain.closed_u, domain.closed_v])
+        low = np.where(closed, -np.inf, (domain.u_start, domain.v_start))
+        high = np.where(closed, np.inf, (domain.u_end, domain.v_end))
+        return np.clip(places, low, high)
+
+
+@dataclass(frozen=True, eq=False)
+class MeshSheet:
+    """The faces of a mesh; places are x, y, z and the number of a triangle. Faces that are not planar and convex are
+    cut into triangles; a planar face has one plane."""
+
+    mesh: Mesh
+
+    @cached_property
+    def size(self) -> tuple[float, float]:
+        """The diagonal of the box around it, and its largest coordinate."""
+        vertices = self.mesh.vertices
+        if not len(vertices):
+            return 0.0, 0.0
+        return float(np.linalg.norm(np.ptp(vertices, axis=0))), float(np.abs(vertices).max())
+
+    @cached_property
+    def faces(self) -> Ints:
+        """(t,) the face of the mesh that every triangle belongs to."""
+        return self._cut[1]
+
+    @cached_property
+    def tessellation(self) -> Tessellation:
+        """The triangles. Rails are the numbers of edges, of those between faces; diagonals are free."""
+        triangles, faces = self._cut
+        points = self.mesh.vertices
+        edges, sides, uses = edges_of(triangles, len(points))
+        low, high = np.full(len(edges), len(faces)), np.full(len(edges), -1)
+        np.minimum.at(low, sides.ravel(), np.repeat(faces, 3))
+        np.maximum.at(high, sides.ravel(), np.repeat(faces, 3))
+        bent = np.zeros(len(edges), dtype=np.bool_)
+        bent[sides.ravel()] = np.repeat(self._is_bent, 3)
+        inner = (low == high) & (uses == 2) & ~bent
+        places = np.concatenate(
+            [points[triangles], np.broadcast_to(np.arange(len(faces))[:, None, None], (len(faces), 3, 1))], axis=2
+        )
+        rails = np.where(inner, FREE, np.arange(len(edges)))
+        return Tessellation(points, triangles, places, np.arange(len(faces)), edges, sides, rails, uses == 1)
+
+    @cached_property
+    def edge_uses(self) -> Ints:
+        """(e,) how many triangles every edge of the tessellation has."""
+        return edges_of(self._cut[0], len(self.mesh.vertices))[2]
+
+    def points(self, places: Floats) -> Floats:
+        """(k,3) points."""
+        return places[..., :3]
+
+    def normals(self, places: Floats) -> Floats:
+        """(k,3) normals of the planes of the triangles."""
+        return np.asarray(self._planes[0][_triangle(places)])
+
+    def moved(self, places: Floats, steps: Floats) -> Floats:
+        """(k,4) places moved, and put into the plane of their triangle."""
+        triangle = _triangle(places)
+        normal, origin = (x[triangle] for x in self._planes)
+        points = places[:, :3] + steps
+        points = points - ((points - origin) * normal).sum(axis=1, keepdims=True) * normal
+        return np.concatenate([points, places[:, 3:]], axis=1)
+
+    def along_rails(self, places: Floats, rails: Ints) -> Floats:
+        """(k,3) directions of edges."""
+        ends = self.mesh.vertices[self.tessellation.edges[rails]]
+        return np.asarray(ends[:, 1] - ends[:, 0])
+
+    def on_rails(self, places: Floats, rails: Ints) -> Floats:
+        """The places: edges are met to rounding."""
+        return places
+
+    def holds(self, places: Floats) -> Bools:
+        """(k,) places within their face, its border included, not beside it in its plane."""
+        triangle, own = _triangle(places), self.tessellation
+        normal = self._planes[0][triangle]
+        by_face = np.argsort(self.faces, kind="stable")
+        first = np.searchsorted(self.faces[by_face], self.faces[triangle])
+        count = np.searchsorted(self.faces[by_face], self.faces[triangle], side="right") - first
+        inside = np.zeros(len(places), dtype=np.bool_)
+        # A face has few triangles: each pass looks at one more of every face.
+        for step in range(int(count.max(initial=0))):
+            corners = own.points[own.triangles[by_face[first + np.minimum(step, count - 1)]]]
+            sides = np.roll(corners, -1, axis=1) - corners
+            heights = (cross(sides, places[:, None, :3] - corners) * normal[:, None]).sum(axis=2)
+            zero = ZERO_OF_EXTENT * self.size[0] * np.linalg.norm(sides, axis=2)
+            inside |= (heights >= -zero).all(axis=1) | (heights <= zero).all(axis=1)
+        return inside
+
+    def bends(self, places: Floats, frames: Floats) -> Floats:
+        """(k,2,2) zeros: faces are flat."""
+        return np.zeros((len(places), 2, 2))
+
+    def aligned(self, places: Floats, others: Floats) -> Floats:
+        """The places."""
+        return places
+
+    def cells_apart(self, places: Floats, others: Floats) -> Floats:
+        """(k,) distances, measured by the boxes of the triangles the others lie on."""
+        low, high = self.tessellation.boxes
+        size = np.linalg.norm(high - low, axis=0)[_triangle(others)]
+        return np.asarray(np.linalg.norm(places[..., :3] - others[..., :3], axis=-1) / size)
+
+    @cached_property
+    def _cut(self) -> tuple[Ints, Ints]:
+        """Triangles (t,3) with an area, and the faces (t,) they come from."""
+        mesh = self.mesh
+        parts = convex_faces(mesh.vertices.T, mesh.corners, mesh.offsets, ZERO_OF_EXTENT * self.size[0])
+        sizes = np.diff(parts.offsets) - 2
+        part = ragged.owner(sizes)
+        step = ragged.place(sizes)
+        first = parts.offsets[part]
+        triangles = parts.corners[np.stack([first, first + step + 1, first + step + 2], axis=1)]
+        face = parts.source[part]
+        a, b, c = (mesh.vertices[triangles[:, k]] for k in range(3))
+        good = (cross(b - a, c - a) != 0.0).any(axis=1)
+        if mesh.present is not None:
+            good &= mesh.present[face]
+        return triangles[good], face[good]
+
+    @cached_property
+    def _is_bent(self) -> Bools:
+        """(t,) triangles of faces that are not planar."""
+        triangles, faces = self._cut
+        origin = self.mesh.vertices[self.mesh.corners[self.mesh.offsets[faces]]]
+        arms = self.mesh.vertices[triangles] - origin[:, None]
+        off = np.abs((arms * self.mesh.face_normals[faces][:, None]).sum(axis=2)).max(axis=1, initial=0.0)
+        bent = np.zeros(self.mesh.face_count, dtype=np.bool_)
+        bent[faces[off > ZERO_OF_EXTENT * self.size[0]]] = True
+        return np.asarray(bent[faces])
+
+    @cached_property
+    def _planes(self) -> tuple[Floats, Floats]:
+        """Unit normals and points (t,3) of the planes: of the face where it is planar, else of the triangle."""
+        triangles, faces = self._cut
+        a, b, c = (self.mesh.vertices[triangles[:, k]] for k in range(3))
+        own = cross(b - a, c - a)
+        own /= np.linalg.norm(own, axis=1, keepdims=True)
+        origin = self.mesh.vertices[self.mesh.corners[self.mesh.offsets[faces]]]
+        bent = self._is_bent[:, None]
+        return np.where(bent, own, self.mesh.face_normals[faces]), np.where(bent, a, origin)
+
+
+def _triangle(places: Floats) -> Ints:
+    """The triangle that a place on a mesh names; weighted means of one number are that number but for rounding."""
+    return np.asarray(np.rint(places[..., 3]), dtype=np.intp)
+
+
+def _inverse(matrices: Floats) -> Floats:
+    """(k,2,2) inverses; not finite where there is none."""
+    (a, b), (c, d) = matrices[:, 0].T, matrices[:, 1].T
+    return np.asarray(np.stack([d, -b, -c, a], axis=1).reshape(-1, 2, 2) / (a * d - b * c)[:, None, None])

@@ -1,0 +1,168 @@
+"""Curves that lie in the faces of a mesh, and how they come from values at its vertices."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.curves.bezier.fit import fitted_paths
+from vectorplot.curves.bezier.paths import BezierPaths
+from vectorplot.features.meshes.level_segments import level_segments
+from vectorplot.geometry import ragged
+from vectorplot.geometry.convex.convex_faces import convex_faces
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.outline import concat
+from vectorplot.geometry.strokes import Strokes
+from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
+from vectorplot.words import LineKind
+
+NO_FACE = -1
+
+
+@dataclass(frozen=True, eq=False)
+class MeshCurves:
+    """Polylines in the faces of a mesh.
+
+    points (n,3); offsets (m+1,): curve i has the points offsets[i] to offsets[i+1]; closed (m,): the last point joins
+    the first, which is not repeated. faces (n,): the face in which the segment from each point to the next lies,
+    NO_FACE at the end of an open curve. levels (m,): the level a curve of a family belongs to. Seen from outside the
+    side of larger values is on the left.
+    """
+
+    points: Floats
+    offsets: Ints
+    closed: Bools
+    faces: Ints
+    levels: Floats
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __getitem__(self, curve: int) -> Floats:
+        """(k,3) the points of a curve; a closed one ends with its first point."""
+        own = self.points[self.offsets[curve] : self.offsets[curve + 1]]
+        return np.concatenate([own, own[:1]]) if self.closed[curve] else own
+
+    def strokes(self, kind: LineKind, item: int = 0) -> Strokes:
+        """The curves as strokes, closed ones with their first point repeated."""
+        parts = [self[k] for k in range(len(self))]
+        ends = ragged.offsets([len(part) for part in parts])
+        points = np.concatenate([np.zeros((0, 3)), *parts])
+        return Strokes(points, ends, np.full(len(self), int(kind)), np.full(len(self), item))
+
+    def smooth(self, tolerance: float) -> BezierPaths:
+        """Smooth paths through the curves, within a tolerance. Source: Glaeser, section 9.3."""
+        return fitted_paths(self.points, self.offsets, self.closed, tolerance=tolerance)
+
+
+def all_mesh_curves(families: Sequence[MeshCurves]) -> MeshCurves:
+    """All the curves in one."""
+    none = np.zeros(0, dtype=np.intp)
+    empty = MeshCurves(np.zeros((0, 3)), np.zeros(1, dtype=np.intp), none.astype(np.bool_), none, np.zeros(0))
+    families = [empty, *families]
+    counts = np.concatenate([np.diff(c.offsets) for c in families])
+    return MeshCurves(
+        np.concatenate([c.points for c in families]),
+        ragged.offsets(counts),
+        np.concatenate([c.closed for c in families]),
+        np.concatenate([c.faces for c in families]),
+        np.concatenate([c.levels for c in families]),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class FaceTriangles:
+    """The faces of a mesh as triangles (t,3) of its vertices; face (t,): the one each is a part of; centre (3,) of the
+    mesh, extent, and rounding: what the coordinates are wrong by."""
+
+    mesh: Mesh
+    triangles: Ints
+    face: Ints
+    centre: Floats
+    extent: float
+    rounding: float
+
+
+def face_triangles(mesh: Mesh) -> FaceTriangles:
+    """The triangles of the faces that are present; polygons that are not convex are cut so that none folds over."""
+    low, high = mesh.bounds
+    extent = float((high - low).max())
+    faces = convex_faces(mesh.vertices.T, mesh.corners, mesh.offsets, ZERO_OF_EXTENT * extent)
+    fans, of = ragged.fans(faces.offsets)
+    triangles, face = faces.corners[fans], faces.source[of]
+    if mesh.present is not None:
+        triangles, face = triangles[mesh.present[face]], face[mesh.present[face]]
+    rounding = ROUNDING * float(np.abs(mesh.bounds).max())
+    return FaceTriangles(mesh, triangles, face, (low + high) / 2.0, extent, rounding)
+
+
+def curves_of_values(faces: FaceTriangles, values: Floats, level: float) -> MeshCurves:
+    """The curves across faces on which values (v,) at the vertices, linear in every triangle, are zero.
+
+    Zero counts as positive: a curve through a vertex has it as a point, once; along an edge it is met once; around a
+    face where the values are zero it is drawn if they are negative beyond.
+    """
+    found = level_segments(faces.triangles, values)
+    a, b = faces.mesh.vertices[found.low], faces.mesh.vertices[found.high]
+    w0, w1 = values[found.low], values[found.high]
+    t = (w0 / (w0 - w1))[:, None]
+    points = np.where(t < 0.5, a + t * (b - a), b - (w1 / (w1 - w0))[:, None] * (b - a))
+    return joined_segments(points, found.pairs, faces.face[found.triangle], level)
+
+
+def joined_segments(points: Floats, pairs: Ints, face: Ints, level: float) -> MeshCurves:
+    """Polylines from segments between points (k,3): pairs (s,2) of them in faces (s,); points that repeat the one
+    before them are left out, and curves that are nothing but one point."""
+    branches = concat(pairs)
+    if not len(branches):
+        return all_mesh_curves([])
+    sizes = np.diff(branches.offsets)
+    line = ragged.owner(sizes)
+    last = branches.offsets[1:] - 1
+    after = np.append(branches.points[1:], 0)
+    after[last] = branches.points[branches.offsets[:-1]]
+    faces = _faces_between(branches.points, after, pairs, face, len(points))
+    faces[last[~branches.closed]] = NO_FACE
+    own = points[branches.points]
+    # A segment without length goes, and its first point with it; at the end of an open curve its second.
+    still = (own == points[after]).all(axis=1)
+    still[last[~branches.closed]] = False
+    kept = ~still
+    counts = np.bincount(line[kept], minlength=len(sizes))
+    real = counts > 1
+    kept &= real[line]
+    offsets = ragged.offsets(counts[real])
+    return MeshCurves(own[kept], offsets, branches.closed[real], faces[kept], np.full(int(real.sum()), level))
+
+
+def without_inner(curves: MeshCurves, extent: float) -> MeshCurves:
+    """The curves without the points between two segments in one face that go straight on there; without those of
+    which less than two points are left."""
+    if not len(curves):
+        return curves
+    sizes = np.diff(curves.offsets)
+    line = ragged.owner(sizes)
+    before, after = ragged.preceding(curves.offsets), ragged.following(curves.offsets)
+    here, chord = curves.points, curves.points[after] - curves.points[before]
+    on = np.einsum("ij,ij->i", here - curves.points[before], curves.points[after] - here) > 0.0
+    length = np.maximum(np.linalg.norm(chord, axis=1), np.finfo(float).tiny)
+    aside = np.linalg.norm(np.cross(here - curves.points[before], chord), axis=1) / length
+    straight = on & (aside <= ZERO_OF_EXTENT * extent)
+    kept = ~(straight & (curves.faces == curves.faces[before]) & (curves.faces != NO_FACE))
+    counts = np.bincount(line[kept], minlength=len(sizes))
+    real = counts > 1
+    kept &= real[line]
+    offsets = ragged.offsets(counts[real])
+    return MeshCurves(here[kept], offsets, curves.closed[real], curves.faces[kept], curves.levels[real])
+
+
+def _faces_between(start: Ints, end: Ints, pairs: Ints, face: Ints, count: int) -> Ints:
+    """(n,) the face of the segment between points start and end (n,); any where there is none."""
+    key = np.minimum(pairs[:, 0], pairs[:, 1]) * count + np.maximum(pairs[:, 0], pairs[:, 1])
+    order = np.argsort(key, kind="stable")
+    wanted = np.minimum(start, end) * count + np.maximum(start, end)
+    place = np.minimum(np.searchsorted(key[order], wanted), len(key) - 1)
+    return np.asarray(face[order][place], dtype=np.intp)

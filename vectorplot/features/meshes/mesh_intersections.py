@@ -1,0 +1,260 @@
+"""Where faces of different shapes, or of different parts of one, pierce each other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.meshes.edges import Faces, unit_normals
+from vectorplot.geometry import ragged
+
+PAIRS_AT_ONCE = 1 << 18
+"""Pairs of faces handled at once."""
+
+AXIS_SHIFT = 16.0
+"""Coordinates stay below this; pairs of parts are kept apart on a sweep's axis by multiples of it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Intersections:
+    """Segments in which two faces meet: start and end (3,n), and the two faces (n,)."""
+
+    start: Floats
+    end: Floats
+    one: Ints
+    two: Ints
+
+
+def face_intersections(faces: Faces, part: Ints, tolerance: float) -> Intersections:
+    """The segments in which convex faces of different parts meet.
+
+    part (f,): faces with the same number are not compared. A face that only touches the other's plane with an edge
+    counts, one that lies in it does not. A distance below tolerance is zero.
+    Source: Glaeser, section 1.3, equations 21 and 22; errata G1-01 to G1-03.
+    """
+    none = np.zeros((3, 0))
+    found = [Intersections(none, none, np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
+    one, two = _pairs_of_faces(faces, part, tolerance)
+    for first in range(0, len(one), PAIRS_AT_ONCE):
+        found.append(_meet(faces, one[first : first + PAIRS_AT_ONCE], two[first : first + PAIRS_AT_ONCE], tolerance))
+    start, end = (np.concatenate([getattr(f, name) for f in found], axis=1) for name in ("start", "end"))
+    one, two = (np.concatenate([getattr(f, name) for f in found]) for name in ("one", "two"))
+    kept = _first_of_equal(start, end, tolerance)
+    return Intersections(start[:, kept], end[:, kept], one[kept], two[kept])
+
+
+def _first_of_equal(start: Floats, end: Floats, tolerance: float) -> Ints:
+    """The segments of which no earlier one is the same: many faces may meet in one edge."""
+    steps = np.round(np.concatenate([start + end, np.abs(end - start)]) / (8.0 * tolerance)).T
+    return np.asarray(np.sort(np.unique(steps, axis=0, return_index=True)[1]), dtype=np.intp)
+
+
+def _pairs_of_faces(faces: Faces, part: Ints, tolerance: float) -> tuple[Ints, Ints]:
+    """Pairs of faces of different parts whose boxes overlap."""
+    none = np.zeros(0, dtype=np.intp)
+    parts = int(part.max(initial=-1)) + 1
+    if parts < 2:
+        return none, none
+    low, high = _part_boxes(faces, part, parts)
+    low, high = low - tolerance, high + tolerance
+    a, b = overlapping_boxes(low, high, low, high)
+    a, b = a[a < b], b[a < b]
+    meeting = np.zeros(parts, dtype=np.bool_)
+    meeting[a], meeting[b] = True, True
+    face = np.flatnonzero(meeting[part])
+    if not len(face):
+        return none, none
+    one, two = _within_pairs(*_boxes(faces, face, tolerance), part[face], (a, b), low, high)
+    return face[one], face[two]
+
+
+def _part_boxes(faces: Faces, part: Ints, parts: int) -> tuple[Floats, Floats]:
+    """Smallest and largest coordinates (3,p) of every part."""
+    owner = np.full(faces.points.shape[1], -1, dtype=np.intp)
+    owner[faces.corners] = np.repeat(part, np.diff(faces.offsets))
+    used = np.flatnonzero(owner >= 0)
+    low, high = np.full((3, parts), np.inf), np.full((3, parts), -np.inf)
+    for axis in range(3):
+        np.minimum.at(low[axis], owner[used], faces.points[axis, used])
+        np.maximum.at(high[axis], owner[used], faces.points[axis, used])
+    return low, high
+
+
+def _boxes(faces: Faces, which: Ints, tolerance: float) -> tuple[Floats, Floats]:
+    """Smallest and largest coordinates (3,n) of some faces, widened by the tolerance."""
+    position, _, starts = _corners_of(faces, which)
+    at_corner = faces.points[:, faces.corners[position]]
+    return np.minimum.reduceat(at_corner, starts, axis=1) - tolerance, np.maximum.reduceat(
+        at_corner, starts, axis=1
+    ) + tolerance
+
+
+def _within_pairs(
+    low: Floats, high: Floats, part: Ints, pairs: tuple[Ints, Ints], part_low: Floats, part_high: Floats
+) -> tuple[Ints, Ints]:
+    """Pairs of faces with overlapping boxes (3,n), one of each part of a pair of parts."""
+    a, b = pairs
+    by_part = np.argsort(part, kind="stable")
+    first = np.searchsorted(part[by_part], np.arange(part_low.shape[1] + 1))
+    common_low, common_high = np.maximum(part_low[:, a], part_low[:, b]), np.minimum(part_high[:, a], part_high[:, b])
+    sides = []
+    for which in (a, b):
+        size = first[which + 1] - first[which]
+        pair = ragged.owner(size)
+        face = by_part[np.arange(len(pair)) - np.repeat(ragged.starts(size) - first[which], size)]
+        near = (low[:, face] <= common_high[:, pair]).all(axis=0) & (high[:, face] >= common_low[:, pair]).all(axis=0)
+        sides.append((pair[near], face[near]))
+    # Faces of different pairs are kept apart by a shift on one axis: so one sweep serves all pairs.
+    boxes = [
+        [np.concatenate([ends[:1, face] + AXIS_SHIFT * pair, ends[1:, face]]) for ends in (low, high)]
+        for pair, face in sides
+    ]
+    one, two = overlapping_boxes(*boxes[0], *boxes[1])
+    return sides[0][1][one], sides[1][1][two]
+
+
+def overlapping_boxes(low: Floats, high: Floats, other_low: Floats, other_high: Floats) -> tuple[Ints, Ints]:
+    """All (i, j) whose boxes overlap: box i of the first kind (3,n), box j of the second (3,m).
+
+    Sweeps along the axis on which the fewest intervals overlap: of two that do, one begins within the other.
+    """
+    totals = [
+        _starting_within(low[k], high[k], np.sort(other_low[k]), "left")[1].sum()
+        + _starting_within(other_low[k], other_high[k], np.sort(low[k]), "right")[1].sum()
+        for k in range(3)
+    ]
+    axis = int(np.argmin(totals))
+    i, j = _sweep(axis, low, high, other_low, other_high, "left")
+    more_j, more_i = _sweep(axis, other_low, other_high, low, high, "right")
+    return np.concatenate([i, more_i]), np.concatenate([j, more_j])
+
+
+def _starting_within(low: Floats, high: Floats, starts: Floats, side: Literal["left", "right"]) -> tuple[Ints, Ints]:
+    """For every interval the first of the sorted starts in it, and how many there are; side right: beyond its low
+    end."""
+    begin = np.searchsorted(starts, low, side=side)
+    return begin, np.maximum(np.searchsorted(starts, high, side="right") - begin, 0)
+
+
+def _sweep(
+    axis: int, low: Floats, high: Floats, other_low: Floats, other_high: Floats, side: Literal["left", "right"]
+) -> tuple[Ints, Ints]:
+    """Pairs (i, j) of overlapping boxes of which j begins within i on the axis."""
+    order = np.argsort(other_low[axis], kind="stable")
+    begin, count = _starting_within(low[axis], high[axis], other_low[axis][order], side)
+    rest = [k for k in range(3) if k != axis]
+    found = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
+    cuts = np.searchsorted(np.cumsum(count), np.arange(PAIRS_AT_ONCE, int(count.sum()), PAIRS_AT_ONCE)) + 1
+    edges = np.unique(np.concatenate([[0], cuts, [len(count)]]))
+    for first, last in pairwise(edges.tolist()):
+        size = count[first:last]
+        i = np.repeat(np.arange(first, last), size)
+        j = order[ragged.place(size) + begin[i]]
+        keep = np.ones(len(i), dtype=np.bool_)
+        for k in rest:
+            keep &= (low[k, i] <= other_high[k, j]) & (high[k, i] >= other_low[k, j])
+        found.append((i[keep], j[keep]))
+    return np.concatenate([f[0] for f in found]), np.concatenate([f[1] for f in found])
+
+
+def _meet(faces: Faces, one: Ints, two: Ints, tolerance: float) -> Intersections:
+    """The segments of these pairs of faces that do meet: the first face cut by the second's plane, then clipped by the
+    second's edges."""
+    normal_one, normal_two = unit_normals(faces, one), unit_normals(faces, two)
+    origin_one, origin_two = (faces.points[:, faces.corners[faces.offsets[f]]] for f in (one, two))
+    across = np.cross(normal_one, normal_two, axis=0)
+    meet = _reaches_over(faces, two, normal_one, origin_one, tolerance) & ((across * across).sum(axis=0) > 0.0)
+    some = np.flatnonzero(meet)
+    kept = some[_reaches_over(faces, one[some], normal_two[:, some], origin_two[:, some], tolerance)]
+    one, two, across = one[kept], two[kept], across[:, kept]
+    start, end, cuts = _cut_by_plane(faces, one, normal_two[:, kept], origin_two[:, kept], across, tolerance)
+    kept_two = normal_two[:, kept][:, cuts]
+    one, two, start, end = one[cuts], two[cuts], start[:, cuts], end[:, cuts]
+    low, high = _clip_by_edges(faces, two, kept_two, start, end, tolerance)
+    length = np.sqrt(((end - start) ** 2).sum(axis=0))
+    met = np.flatnonzero((high - low) * length > tolerance)
+    along = (end - start)[:, met]
+    return Intersections(start[:, met] + low[met] * along, start[:, met] + high[met] * along, one[met], two[met])
+
+
+def _corners_of(faces: Faces, which: Ints) -> tuple[Ints, Ints, Ints]:
+    """Positions of all corners of some faces (repeats allowed), which of them each belongs to, and where each
+    starts."""
+    size = faces.offsets[which + 1] - faces.offsets[which]
+    starts = ragged.starts(size)
+    owner = ragged.owner(size)
+    return np.arange(len(owner)) - (starts - faces.offsets[which])[owner], owner, starts
+
+
+def _heights(
+    faces: Faces, which: Ints, normal: Floats, origin: Floats, tolerance: float
+) -> tuple[Floats, Ints, Ints, Ints]:
+    """Distances of the corners of some faces from planes, snapped to zero, with _corners_of."""
+    position, owner, starts = _corners_of(faces, which)
+    arm = faces.points[:, faces.corners[position]] - origin[:, owner]
+    height = (arm * normal[:, owner]).sum(axis=0)
+    height[np.abs(height) <= tolerance] = 0.0
+    return height, position, owner, starts
+
+
+def _reaches_over(faces: Faces, which: Ints, normal: Floats, origin: Floats, tolerance: float) -> Bools:
+    """Which faces reach both sides of a plane, or have an edge in it without lying in it."""
+    if not len(which):
+        return np.zeros(0, dtype=np.bool_)
+    height, _, _, starts = _heights(faces, which, normal, origin, tolerance)
+    low, high = np.minimum.reduceat(height, starts), np.maximum.reduceat(height, starts)
+    in_plane = np.add.reduceat((height == 0.0).astype(np.intp), starts)
+    return np.asarray((low < 0.0) & (high > 0.0) | (in_plane > 1) & (low < high), dtype=np.bool_)
+
+
+def _cut_by_plane(
+    faces: Faces, which: Ints, normal: Floats, origin: Floats, across: Floats, tolerance: float
+) -> tuple[Floats, Floats, Bools]:
+    """Where planes cut faces: ends (3,n) of the cuts, and which faces are cut at more than a point."""
+    if not len(which):
+        return np.zeros((3, 0)), np.zeros((3, 0)), np.zeros(0, dtype=np.bool_)
+    height, position, owner, starts = _heights(faces, which, normal, origin, tolerance)
+    here = faces.points[:, faces.corners[position]]
+    after = faces.after(position) - position + np.arange(len(position))
+    step = np.where(
+        height * height[after] < 0.0, height / np.where(height == height[after], 1.0, height - height[after]), 0.0
+    )
+    on_plane = here + step * (here[:, after] - here)
+    along = (on_plane * across[:, owner]).sum(axis=0)
+    hit = (height == 0.0) | (height * height[after] < 0.0)
+    first, last = np.where(hit, along, np.inf), np.where(hit, along, -np.inf)
+    low, high = np.minimum.reduceat(first, starts), np.maximum.reduceat(last, starts)
+    some = low < high
+    start, end = np.zeros_like(across), np.zeros_like(across)
+    for extreme, value, into in ((low, first, start), (high, last, end)):
+        at = np.flatnonzero(value == extreme[owner])
+        into[:, owner[at]] = on_plane[:, at]
+    lowest, highest = np.minimum.reduceat(height, starts), np.maximum.reduceat(height, starts)
+    return start, end, np.asarray(some & (lowest < highest), dtype=np.bool_)
+
+
+def _clip_by_edges(
+    faces: Faces, which: Ints, normal: Floats, start: Floats, end: Floats, tolerance: float
+) -> tuple[Floats, Floats]:
+    """Parameters between which segments lying in the planes of faces are inside them."""
+    low, high = np.zeros(len(which)), np.ones(len(which))
+    size = faces.offsets[which + 1] - faces.offsets[which]
+    for step in range(int(size.max(initial=0))):
+        position = faces.offsets[which] + np.minimum(step, size - 1)
+        a = faces.points[:, faces.corners[position]]
+        side = faces.points[:, faces.corners[faces.after(position)]] - a
+        inward = np.cross(normal, side, axis=0)
+        inward /= np.maximum(np.sqrt((inward * inward).sum(axis=0)), np.finfo(float).tiny)
+        at_start, at_end = ((inward * (p - a)).sum(axis=0) for p in (start, end))
+        at_start[np.abs(at_start) <= tolerance] = 0.0
+        at_end[np.abs(at_end) <= tolerance] = 0.0
+        crossing = at_start * at_end < 0.0
+        where = at_start / np.where(crossing, at_start - at_end, 1.0)
+        low = np.where(crossing & (at_end > 0.0), np.maximum(low, where), low)
+        high = np.where(crossing & (at_start > 0.0), np.minimum(high, where), high)
+        high = np.where((at_start < 0.0) & (at_end <= 0.0) | (at_start <= 0.0) & (at_end < 0.0), -1.0, high)
+    return low, high

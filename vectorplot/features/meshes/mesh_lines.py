@@ -1,0 +1,169 @@
+"""Smooth lines on meshes: plane sections, level lines, isophotes and contours across faces and along edges."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Floats
+from vectorplot.curves.parameters import vector
+from vectorplot.errors import InputError
+from vectorplot.features.meshes.mesh_curves import (
+    FaceTriangles,
+    MeshCurves,
+    all_mesh_curves,
+    curves_of_values,
+    face_triangles,
+    joined_segments,
+    without_inner,
+)
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.repair.adjacency import face_barycentres
+from vectorplot.geometry.repair.winding import edge_uses
+from vectorplot.geometry.vectors import normalize
+
+
+def mesh_plane_sections(mesh: Mesh, normal: ArrayLike, offsets: ArrayLike) -> MeshCurves:
+    """The sections of a mesh with the parallel planes n.x = d, for each d of offsets (k,), n the unit normal (3,).
+
+    Face by face: every point lies on an edge (or the fold of a polygon that is not plane) and in the plane. The
+    curves have d as level; they close where the mesh does.
+    Errors: InputError for a normal without length, offsets that are not finite.
+    Degenerate: a vertex in the plane counts as above it. A face in the plane gives its outline where the mesh goes on
+    below.
+    Source: Glaeser, section 9.3, example 3, figure 7.
+    """
+    n = normalize(vector("plane sections: normal", normal))
+    levels = _finite("plane sections: offsets", offsets)
+    faces = face_triangles(mesh)
+    height = (mesh.vertices - faces.centre) @ n
+    middle = float(faces.centre @ n)
+    families = []
+    for d in levels.tolist():
+        found = curves_of_values(faces, _snapped(height - (d - middle), faces.rounding), d)
+        families.append(without_inner(found, faces.extent))
+    return all_mesh_curves(families)
+
+
+def mesh_level_lines(mesh: Mesh, heights: ArrayLike) -> MeshCurves:
+    """The sections of a mesh at each of the heights (k,): `mesh_plane_sections` with z up."""
+    return mesh_plane_sections(mesh, (0.0, 0.0, 1.0), heights)
+
+
+def mesh_isophotes(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurves:
+    """The curves across the faces of a mesh on which N.l = c in parallel light (3,), for each c of cosines (k,).
+
+    N.l is taken from average normals at the vertices and linear in every triangle: on a mesh of a smooth surface the
+    curves come near the true isophotes; across creases they mean little. The curves have c as level.
+    Errors: InputError for a light without length, cosines not within -1 and 1.
+    Source: Glaeser, section 9.3, example 2.
+    """
+    towards = normalize(vector("isophotes: light", light))
+    return _across_faces(mesh, lambda points, normals: np.asarray(normals @ towards), _cosines(cosines))
+
+
+def mesh_point_light_isophotes(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurves:
+    """As `mesh_isophotes`, in the light of a point (3,)."""
+    lamp = vector("isophotes: light", light)
+    return _across_faces(mesh, lambda points, normals: _towards(points, lamp, normals), _cosines(cosines))
+
+
+def mesh_isophote_edges(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurves:
+    """The edges of a mesh between lighter and darker faces: N.l of the face on the left is at least c, on the right
+    below; in parallel light (3,), for each c of cosines (k,).
+
+    Errors: as for `mesh_isophotes`. Degenerate: edges that do not have two faces are none.
+    Source: Glaeser, section 9.3, example 2.
+    """
+    towards = normalize(vector("isophotes: light", light))
+    return _along_edges(mesh, np.asarray(mesh.face_normals @ towards), _cosines(cosines))
+
+
+def mesh_point_light_isophote_edges(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurves:
+    """As `mesh_isophote_edges`, in the light of a point (3,), seen from the middles of the faces."""
+    lamp = vector("isophotes: light", light)
+    return _along_edges(mesh, _towards(face_barycentres(mesh), lamp, mesh.face_normals), _cosines(cosines))
+
+
+def mesh_contour_across_faces(mesh: Mesh, eye: ArrayLike) -> MeshCurves:
+    """The curves across the faces of a mesh on which N.(eye - x) = 0, N from average normals at the vertices.
+
+    eye (3,). On a mesh of a smooth surface a smooth line near the true contour, where the contour along edges goes to
+    and fro; but visibility on the mesh itself changes along edges.
+    Errors: InputError for an eye that is not three finite numbers. Source: Glaeser, section 9.3, example 1.
+    """
+    place = vector("contour: eye", eye)
+    return _across_faces(mesh, lambda points, normals: _towards(points, place, normals), np.zeros(1))
+
+
+def mesh_parallel_contour_across_faces(mesh: Mesh, direction: ArrayLike) -> MeshCurves:
+    """As `mesh_contour_across_faces`, for an eye at infinity in a direction (3,)."""
+    d = normalize(vector("contour: direction", direction))
+    return _across_faces(mesh, lambda points, normals: np.asarray(normals @ d), np.zeros(1))
+
+
+def vertex_normals(mesh: Mesh) -> Floats:
+    """(v,3) average normals at the vertices, of length one: of the faces there, each weighted with its angle.
+
+    Degenerate: zero where the faces at a vertex cancel out, and at vertices without a face.
+    """
+    corner, following = mesh.corners, mesh.next_corner
+    before = np.empty_like(following)
+    before[following] = np.arange(len(following))
+    here = mesh.vertices[corner]
+    out, back = mesh.vertices[corner[following]] - here, mesh.vertices[corner[before]] - here
+    angle = np.arctan2(np.linalg.norm(np.cross(out, back), axis=1), (out * back).sum(axis=1))
+    weighted = mesh.face_normals[mesh.corner_face] * angle[:, None]
+    total = np.stack([np.bincount(corner, weighted[:, k], len(mesh.vertices)) for k in range(3)], axis=1)
+    length = np.linalg.norm(total, axis=1, keepdims=True)
+    return np.asarray(total / np.where(length > 1e-9, length, np.inf))
+
+
+def _across_faces(mesh: Mesh, cosine: Callable[[Floats, Floats], Floats], levels: Floats) -> MeshCurves:
+    faces: FaceTriangles = face_triangles(mesh)
+    normals = vertex_normals(mesh)
+    w = np.where(normals.any(axis=1), cosine(mesh.vertices, normals), np.nan)
+    rounding = 4.0 * float(np.finfo(np.float64).eps)
+    return all_mesh_curves([curves_of_values(faces, _snapped(w - c, rounding), c) for c in levels.tolist()])
+
+
+def _along_edges(mesh: Mesh, cosine: Floats, levels: Floats) -> MeshCurves:
+    uses = edge_uses(mesh)
+    pair = uses.first[uses.count == 2]
+    corner = uses.corner[np.stack([pair, pair + 1], axis=1)]
+    families = []
+    for c in levels.tolist():
+        light = cosine[mesh.corner_face[corner]] >= c
+        chosen = corner[light[:, 0] != light[:, 1]]
+        # The way round the lighter face has it on the left.
+        lighter = chosen[light[light[:, 0] != light[:, 1]]]
+        pairs = np.stack([mesh.corners[lighter], mesh.corners[mesh.next_corner[lighter]]], axis=1)
+        families.append(joined_segments(mesh.vertices, pairs, mesh.corner_face[lighter], c))
+    return all_mesh_curves(families)
+
+
+def _towards(points: Floats, place: Floats, normals: Floats) -> Floats:
+    """(n,) cosines between normals and the ways to a place; NaN at the place itself."""
+    way = place - points
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.asarray((way * normals).sum(axis=1) / np.linalg.norm(way, axis=1))
+
+
+def _snapped(values: Floats, rounding: float) -> Floats:
+    return np.where(np.abs(values) <= rounding, 0.0, values)
+
+
+def _finite(name: str, values: ArrayLike) -> Floats:
+    levels = np.atleast_1d(np.asarray(values, dtype=np.float64))
+    if levels.ndim != 1 or not np.isfinite(levels).all():
+        raise InputError(f"{name} must be finite numbers")
+    return levels
+
+
+def _cosines(cosines: ArrayLike) -> Floats:
+    levels = _finite("isophotes: cosines", cosines)
+    if not (np.abs(levels) <= 1.0).all():
+        raise InputError("isophotes: cosines must lie between -1 and 1")
+    return levels

@@ -1,0 +1,54 @@
+"""The contour of a surface: where it turns away from the eye."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.curves.parameters import vector
+from vectorplot.features.parametric.conditions import CentralContour, ParallelContour
+from vectorplot.features.parametric.curve_tracing import VALUE_ROUNDING, Tracing, curves_where_zero, samples
+from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.surfaces.surface import Surface
+
+DEFAULT = Tracing()
+
+
+def contour(surface: Surface, eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
+    """The points x of a surface with n.(x - eye) = 0, n the unit normal: seen from the eye, it turns away there.
+
+    eye (3,). Along a curve the side whose normal points away from the eye is on the left, in u and v.
+    Errors: InputError for an eye that is not three finite numbers.
+    Degenerate: a flat surface whose plane contains the eye has no contour, and a doubt says so. At a singular line
+    (the apex of a double cone) the normal jumps: that is no contour. What lies behind the eye is traced too.
+    Source: Glaeser, section 8.4, equations 25 to 27, figures 13 and 14.
+    """
+    centre = vector("contour: eye", eye)
+    points = samples(surface)[2]
+    if not len(points):
+        return no_curves()
+    size = float(np.linalg.norm(points - centre, axis=1).max())
+    large = float(np.abs(points).max() + np.abs(centre).max())
+    condition = CentralContour(surface, centre)
+    return curves_where_zero(surface, condition, size=size, rounding=VALUE_ROUNDING * large, tracing=tracing)
+
+
+def parallel_contour(surface: Surface, direction: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
+    """The points of a surface with n.d = 0, n the unit normal: seen along the direction d, it turns away there.
+
+    direction (3,), of any length, towards the eye. Along a curve the side whose normal points towards the eye is on the
+    left, in u and v.
+    Errors: InputError for a direction without length.
+    Degenerate: a surface all seen edge-on (a cylinder along its axis) has no contour, and a doubt says so.
+    Source: Glaeser, section 8.4, equation 27 for an eye at infinity.
+    """
+    condition = ParallelContour(surface, direction)
+    return curves_where_zero(surface, condition, size=1.0, rounding=VALUE_ROUNDING, tracing=tracing)
+
+
+def contour_in_view(surface: Surface, camera: Camera, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
+    """The contour of a surface as a camera sees it, by central or parallel projection."""
+    if camera.parallel:
+        return parallel_contour(surface, camera.direction, tracing=tracing)
+    return contour(surface, camera.eye, tracing=tracing)

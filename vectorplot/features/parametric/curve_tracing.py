@@ -1,0 +1,145 @@
+"""Curves on a surface where a condition holds: traced, led through poles, measured in space or on a page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.features.parametric.conditions import Condition
+from vectorplot.features.parametric.poles import through_poles
+from vectorplot.features.parametric.surface_curves import SurfaceCurves
+from vectorplot.features.zeros.zero_manifold import zero_manifold_of_f_uv
+from vectorplot.geometry.budget import USUAL, Budget
+from vectorplot.surfaces.surface import Domain, Surface
+
+Picture = Callable[[Floats], Floats]
+
+FLAT = 1e-9
+"""Part of the size of a condition that differences of user functions may be wrong by: all over a cell, it is zero."""
+
+VALUE_ROUNDING = 4.0 * float(np.finfo(np.float64).eps)
+"""Part of the largest of its terms that the value of a condition is wrong by."""
+
+TURN = 0.0137
+"""Part of a closed direction by which the grid is turned."""
+
+
+@dataclass(frozen=True)
+class Tracing:
+    """How curves on a surface are traced.
+
+    columns, rows: cells of the grid. resolution: the part of the domain down to which cells are subdivided.
+    tolerance: points are put in until chords stay within this distance of the true curve; None: a thousandth of the
+    extent of the surface. picture: takes points (k,3) to where the tolerance is measured, (k,2) or (k,3), for example
+    millimetres on a page; without it in space. budget: how much work it may be.
+    """
+
+    columns: int = 47
+    rows: int = 45
+    resolution: float = 1e-3
+    tolerance: float | None = None
+    picture: Picture | None = None
+    budget: Budget = USUAL
+
+
+def extent(surface: Surface) -> tuple[float, float]:
+    """The diagonal of the box around points of the surface, and their largest coordinate."""
+    points = samples(surface)[2]
+    if not len(points):
+        return 0.0, 0.0
+    return float(np.linalg.norm(np.ptp(points, axis=0))), float(np.abs(points).max())
+
+
+def samples(surface: Surface) -> tuple[Floats, Floats, Floats]:
+    """Parameters u, v (k,) on a coarse grid, and the points (k,3) there; none in holes."""
+    u, v = (a.ravel() for a in np.meshgrid(*surface.domain.grid(16, 16), indexing="ij"))
+    points = surface.points(u, v)
+    good = np.isfinite(points).all(axis=1)
+    return u[good], v[good], points[good]
+
+
+def wrapped(domain: Domain, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+    """The parameters moved by whole periods into the domain, in its closed directions."""
+    width, height = domain.size
+    if domain.closed_u:
+        u = u - np.floor((u - domain.u_start) / width) * width
+    if domain.closed_v:
+        v = v - np.floor((v - domain.v_start) / height) * height
+    return u, v
+
+
+def curves_where_zero(
+    surface: Surface,
+    condition: Condition,
+    *,
+    size: float,
+    rounding: float,
+    tracing: Tracing,
+    level: float = 0.0,
+) -> SurfaceCurves:
+    """The curves on a surface along which a condition f(u, v) = 0 holds.
+
+    size: how large f is where it is far from zero; rounding: the error that f is computed with: smaller values count as
+    zero. Where f is below FLAT of its size all over a cell of the grid, values as small as that count as zero
+    everywhere, so that an area where f is zero is not filled with lines.
+    Errors: InputError for a grid that is too coarse.
+    """
+    domain = surface.domain
+    u, v = (a.ravel() for a in np.meshgrid(*domain.grid(tracing.columns, tracing.rows), indexing="ij"))
+    on_grid = np.asarray(condition.values(u, v), dtype=np.float64)
+    small = (np.abs(on_grid) <= FLAT * size).reshape(tracing.columns + 1, tracing.rows + 1)
+    flat = (small[1:, 1:] & small[1:, :-1] & small[:-1, 1:] & small[:-1, :-1]).any()
+    noise = max(rounding, FLAT * size if flat else 0.0)
+
+    def snapped(u: Floats, v: Floats) -> Floats:
+        w = np.asarray(condition.values(*wrapped(domain, u, v)), dtype=np.float64)
+        return np.where(np.abs(w) <= noise, 0.0, w)
+
+    def space(u: Floats, v: Floats) -> Floats:
+        points = surface.points(*wrapped(domain, u, v))
+        return points if tracing.picture is None else tracing.picture(points)
+
+    tolerance = 1e-3 * extent(surface)[0] if tracing.tolerance is None else tracing.tolerance
+    found = zero_manifold_of_f_uv(
+        snapped,
+        _turned(domain),
+        columns=tracing.columns,
+        rows=tracing.rows,
+        gradient=lambda u, v: condition.slopes(*wrapped(domain, u, v)),
+        resolution=tracing.resolution,
+        positions=space,
+        tolerance=tolerance or None,
+        budget=tracing.budget,
+    )
+    curves = through_poles(surface, found)
+    own = curves.points
+    return SurfaceCurves(
+        own[:, 0],
+        own[:, 1],
+        surface.points(*wrapped(domain, own[:, 0], own[:, 1])),
+        curves.offsets,
+        curves.closed,
+        curves.turns,
+        np.full(len(curves.closed), level),
+        _at_home(domain, curves.isolated),
+        _at_home(domain, curves.nodes),
+        _at_home(domain, curves.touching),
+        curves.doubts,
+    )
+
+
+def _turned(domain: Domain) -> Domain:
+    """The domain, in closed directions from another start: symmetric surfaces then have no nodes at grid points."""
+    u = TURN * domain.size[0] if domain.closed_u else 0.0
+    v = TURN * domain.size[1] if domain.closed_v else 0.0
+    return replace(
+        domain, u_start=domain.u_start + u, u_end=domain.u_end + u, v_start=domain.v_start + v, v_end=domain.v_end + v
+    )
+
+
+def _at_home(domain: Domain, points: Floats) -> Floats:
+    """(k,2) the parameters within the domain."""
+    return np.stack(wrapped(domain, points[:, 0], points[:, 1]), axis=1)

@@ -1,0 +1,275 @@
+"""The cusps of apparent contours: where the line of sight touches the contour itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.parametric.conditions import Contour
+from vectorplot.features.parametric.curve_tracing import wrapped
+from vectorplot.features.parametric.surface_curves import SurfaceCurves, with_points
+from vectorplot.geometry.vectors import dot, normalize
+from vectorplot.surfaces.normals import unit_normals
+from vectorplot.surfaces.surface import Domain
+
+STEP = 2.0**-16
+"""Part of the domain that a difference of curvatures spans: only the speed of Newton's method depends on it."""
+
+LEVEL = 1e-9
+"""Part of the largest curvature along a contour below which one is rounding."""
+
+NEAR = 0.5
+"""Part of a smallest curvature among points down to which the parabola through it and its neighbours must come, for
+two cusps to be looked for there."""
+
+BESIDE = 1e-9
+"""So many lengths of a piece beyond its end count as the end."""
+
+PARTS = 8
+"""Parts of a piece of a curve among whose ends the least curvature is looked for."""
+
+ROUNDS = 6
+"""How often that is done around the least one found."""
+
+
+@dataclass(frozen=True, eq=False)
+class Cusps:
+    """u, v (k,): parameters, running on with those of the curves; after (k,): positions of the points of the curves
+    that come before them; in the order along the curves."""
+
+    u: Floats
+    v: Floats
+    after: Ints
+
+
+def sight_curvatures(contour: Contour, u: Floats, v: Floats) -> Floats:
+    """(...,) normal curvatures of the surface along the line of sight: a^2 L + 2 a b M + b^2 N, where the unit vector
+    to the eye has the tangential part a x_u + b x_v, and L, M, N are the parts of the second partials along the unit
+    normal.
+
+    On the contour the sight is tangential. Zero: it is an asymptotic direction there.
+    Degenerate: NaN at poles.
+    """
+    surface = contour.surface
+    along_u, along_v = surface.partials(u, v)
+    uu, uv, vv = surface.second_partials(u, v)
+    normal = unit_normals(surface, u, v)
+    sight = normalize(contour.sights(u, v))
+    e, f, g = dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)
+    p, q = dot(sight, along_u), dot(sight, along_v)
+    # Close to a pole the partials say as little as in it.
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        area = e * g - f * f
+        a, b = (g * p - f * q) / area, (e * q - f * p) / area
+        return np.asarray(a * a * dot(normal, uu) + 2.0 * a * b * dot(normal, uv) + b * b * dot(normal, vv))
+
+
+def contour_cusps(contour: Contour, curves: SurfaceCurves) -> Cusps:
+    """The cusps of a contour that was traced as curves: where its image turns back, since the line of sight touches it.
+
+    Each is a common zero of the contour's condition and of `sight_curvatures`, by Newton's method from a change of sign
+    along the curves, to rounding. Two cusps between neighbouring points of a curve are found where the curvatures
+    of the points around lead there.
+    Degenerate: where the sight is an asymptotic direction all along a contour (a ruling seen along itself) none is
+    given; nor is one that lies in a pole.
+    """
+    domain = contour.surface.domain
+    pieces = _changing(contour, curves)
+    at, found = _by_newton(contour, pieces)
+    lost = np.flatnonzero(~found)
+    if len(lost):
+        at[lost] = _by_bisection(contour, pieces.chosen(lost))
+    first, size = np.stack([curves.u, curves.v], axis=1)[pieces.after], np.array(domain.size)
+    along = ((at - first) / size * (pieces.end - pieces.start) / size).sum(axis=1)
+    order = np.lexsort((along, pieces.after))
+    return Cusps(at[order, 0], at[order, 1], pieces.after[order])
+
+
+def contour_with_cusps(contour: Contour, curves: SurfaceCurves) -> tuple[SurfaceCurves, Ints]:
+    """The curves of a contour with its cusps among their points, and (k,) the positions of the cusps."""
+    cusps = contour_cusps(contour, curves)
+    points = contour.surface.points(*wrapped(contour.surface.domain, cusps.u, cusps.v))
+    return with_points(curves, cusps.after, cusps.u, cusps.v, points)
+
+
+@dataclass(frozen=True, eq=False)
+class _Pieces:
+    """Pieces of curves: parameters start, end (k,2) and curvatures low, high (k,) there; after (k,): the last point of
+    the curves before them."""
+
+    start: Floats
+    end: Floats
+    low: Floats
+    high: Floats
+    after: Ints
+
+    def chosen(self, which: Ints) -> _Pieces:
+        """Those at some positions."""
+        return _Pieces(self.start[which], self.end[which], self.low[which], self.high[which], self.after[which])
+
+
+def _changing(contour: Contour, curves: SurfaceCurves) -> _Pieces:
+    """The pieces along which the curvature changes its sign."""
+    pieces = _segments(contour, curves)
+    sizes = np.abs(np.stack([pieces.low, pieces.high]))
+    flat = LEVEL * np.nanmax(sizes, initial=0.0)
+    doubtful = pieces.chosen(np.flatnonzero(_may_dip(contour.surface.domain, curves, pieces)))
+    change = ((pieces.low < 0.0) != (pieces.high < 0.0)) & (sizes.max(axis=0) > flat)
+    plain = pieces.chosen(np.flatnonzero(change))
+    if not len(doubtful.after):
+        return plain
+    cut = _cut_at_least(contour, doubtful)
+    fine = cut.chosen(np.flatnonzero(cut.low * cut.high < 0.0))
+    names = ("start", "end", "low", "high", "after")
+    return _Pieces(*(np.concatenate([getattr(plain, name), getattr(fine, name)]) for name in names))
+
+
+def _segments(contour: Contour, curves: SurfaceCurves) -> _Pieces:
+    """The pieces between neighbouring points, without those that stay at a pole."""
+    domain = contour.surface.domain
+    first = np.arange(len(curves.u))
+    second, last = first + 1, curves.offsets[1:] - 1
+    second[last] = curves.offsets[:-1]
+    periods = np.zeros((len(first), 2))
+    periods[last] = curves.turns
+    real = np.ones(len(first), dtype=np.bool_)
+    real[last] = curves.closed
+    at = np.stack([curves.u, curves.v], axis=1)
+    start, end = at[first], at[second] + periods * np.array(domain.size)
+    curvature = _curvatures(contour, at)
+    low, high = curvature[first], curvature[second]
+    for ends, own, other in ((low, start, end), (high, end, start)):
+        # Right beside a pole there is a curvature.
+        pole = np.isnan(ends)
+        ends[pole] = _curvatures(contour, (own + 1e-3 * (other - own))[pole])
+    real &= np.isfinite(low) & np.isfinite(high)
+    return _Pieces(start, end, low, high, first).chosen(np.flatnonzero(real))
+
+
+def _may_dip(domain: Domain, curves: SurfaceCurves, pieces: _Pieces) -> Bools:
+    """(k,) pieces along which the curvature has one sign at both ends and may have the other between: a parabola
+    through three points in a row comes near zero."""
+    second = pieces.after + 1
+    curve = np.searchsorted(curves.offsets, second)
+    back = curves.offsets[curve] == second
+    second[back] = curves.offsets[curve[back] - 1]
+    following = np.searchsorted(pieces.after, second)
+    with_next = np.flatnonzero(np.isin(second, pieces.after))
+    following = following[with_next]
+    size = np.array(domain.size)
+    first, last = (np.linalg.norm((pieces.end[k] - pieces.start[k]) / size, axis=1) for k in (with_next, following))
+    before, middle, after = pieces.low[with_next], pieces.high[with_next], pieces.high[following]
+    sign = np.sign(middle)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        down, up = (middle - before) / first * sign, (after - middle) / last * sign
+        bend = (up - down) / (first + last)
+        slope = (down * last + up * first) / (first + last)
+        least, place = np.abs(middle) - slope * slope / (4.0 * bend), -slope / (2.0 * bend)
+    dips = (before * sign > 0.0) & (after * sign > 0.0) & (bend > 0.0) & (-first <= place) & (place <= last)
+    dips &= least <= NEAR * np.abs(middle)
+    found = np.zeros(len(pieces.after), dtype=np.bool_)
+    found[with_next[dips]] = found[following[dips]] = True
+    return found & (pieces.low * pieces.high > 0.0)
+
+
+def _cut_at_least(contour: Contour, pieces: _Pieces) -> _Pieces:
+    """The pieces cut in two where, on the contour beside them, the curvature is least or has changed its sign."""
+    sign = np.sign(pieces.low)
+    low, high = np.zeros(len(sign)), np.ones(len(sign))
+    each = np.arange(len(sign))
+    for _ in range(ROUNDS):
+        t = low + np.linspace(0.0, 1.0, PARTS + 1)[:, None] * (high - low)
+        at = pieces.start + t[..., None] * (pieces.end - pieces.start)
+        at = _onto(contour, at.reshape(-1, 2)).reshape(at.shape)
+        curvature = _curvatures(contour, at.reshape(-1, 2)).reshape(t.shape)
+        least = np.argmin(np.where(np.isfinite(curvature), curvature * sign, np.inf), axis=0)
+        low, high = t[np.maximum(least - 1, 0), each], t[np.minimum(least + 1, PARTS), each]
+    cut, between = at[least, each], curvature[least, each]
+    return _Pieces(
+        np.concatenate([pieces.start, cut]),
+        np.concatenate([cut, pieces.end]),
+        np.concatenate([pieces.low, between]),
+        np.concatenate([between, pieces.high]),
+        np.tile(pieces.after, 2),
+    )
+
+
+def _curvatures(contour: Contour, at: Floats) -> Floats:
+    """(k,) curvatures along the sight at parameters (k,2) that run on over seams."""
+    return sight_curvatures(contour, *wrapped(contour.surface.domain, at[:, 0], at[:, 1]))
+
+
+def _onto(contour: Contour, at: Floats) -> Floats:
+    """(k,2) parameters moved onto the contour, along the gradient of its condition."""
+    domain = contour.surface.domain
+    size = np.array(domain.size)
+    for _ in range(4):
+        u, v = wrapped(domain, at[:, 0], at[:, 1])
+        slopes = np.stack(contour.slopes(u, v), axis=1) * size
+        square = (slopes * slopes).sum(axis=1)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            step = (contour.values(u, v) / square)[:, None] * slopes
+        at = _inside(domain, at - np.where(np.isfinite(step), step, 0.0) * size)
+    return at
+
+
+def _inside(domain: Domain, at: Floats) -> Floats:
+    """(k,2) parameters, not beyond open borders."""
+    u, v = at[:, 0], at[:, 1]
+    u = u if domain.closed_u else np.clip(u, domain.u_start, domain.u_end)
+    v = v if domain.closed_v else np.clip(v, domain.v_start, domain.v_end)
+    return np.stack([u, v], axis=1)
+
+
+def _by_newton(contour: Contour, pieces: _Pieces) -> tuple[Floats, Bools]:
+    """(k,2) parameters where condition and curvature are both zero, and which of them were found in their piece."""
+    domain = contour.surface.domain
+    size = np.array(domain.size)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        part = (pieces.low / (pieces.low - pieces.high))[:, None]
+    start = pieces.start + np.where(np.isfinite(part), part, 0.5) * (pieces.end - pieces.start)
+    at, length = start.copy(), np.full(len(start), np.inf)
+    for _ in range(12 if len(start) else 0):
+        u, v = wrapped(domain, at[:, 0], at[:, 1])
+        f, g = contour.values(u, v), _curvatures(contour, at)
+        f_u, f_v = (slope * side for slope, side in zip(contour.slopes(u, v), size, strict=True))
+        g_u, g_v = _curvature_slopes(contour, at)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            det = f_u * g_v - f_v * g_u
+            step = np.stack([(g_v * f - f_v * g) / det, (f_u * g - g_u * f) / det], axis=1)
+        step = np.where(np.isfinite(step), step, 0.0)
+        length = np.where(np.isfinite(det) & (det != 0.0), np.abs(step).max(axis=1), np.inf)
+        at = _inside(domain, at - step * size)
+        if (length <= 1e-15).all():
+            break
+    # The root beside a piece is that of its neighbour.
+    way = (pieces.end - pieces.start) / size
+    square = (way * way).sum(axis=1)
+    along = ((at - pieces.start) / size * way).sum(axis=1)
+    own = (along >= -BESIDE * square) & (along <= (1.0 + BESIDE) * square)
+    near = np.abs((at - start) / size).max(axis=1, initial=0.0) <= np.abs(way).max(axis=1, initial=0.0) + 1e-12
+    return at, np.asarray((length <= 1e-7) & own & near, dtype=np.bool_)
+
+
+def _curvature_slopes(contour: Contour, at: Floats) -> tuple[Floats, Floats]:
+    """(k,) derivatives of the curvature along the sight, for parameters of which the domain spans one."""
+    domain, slopes = contour.surface.domain, []
+    for step in np.diag(STEP * np.array(domain.size)):
+        low, high = _inside(domain, at - step), _inside(domain, at + step)
+        span = ((high - low) / np.array(domain.size)).sum(axis=1)
+        slopes.append((_curvatures(contour, high) - _curvatures(contour, low)) / span)
+    return slopes[0], slopes[1]
+
+
+def _by_bisection(contour: Contour, pieces: _Pieces) -> Floats:
+    """(k,2) parameters where the curvature changes its sign along pieces, slow and sure."""
+    low, high = np.zeros(len(pieces.after)), np.ones(len(pieces.after))
+    at = pieces.start
+    for _ in range(50):
+        t = (low + high) / 2.0
+        at = _onto(contour, pieces.start + t[:, None] * (pieces.end - pieces.start))
+        same = (_curvatures(contour, at) < 0.0) == (pieces.low < 0.0)
+        low, high = np.where(same, t, low), np.where(same, high, t)
+    return at

@@ -1,0 +1,65 @@
+"""Isophotes: lines of equal illumination on a surface."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.curves.parameters import vector
+from vectorplot.errors import InputError
+from vectorplot.features.parametric.conditions import Isophote, PointIsophote
+from vectorplot.features.parametric.curve_tracing import VALUE_ROUNDING, Tracing, curves_where_zero, samples
+from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
+from vectorplot.surfaces.surface import Surface
+
+DEFAULT = Tracing()
+
+
+def isophotes(surface: Surface, light: ArrayLike, cosines: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
+    """The curves n.l = c in parallel light, for each c of cosines (k,): n the unit normal x_u cross x_v, l the light.
+
+    light (3,), of any length, points towards the light. The curves have c as level; the brighter side is on the left,
+    in u and v. Of a surface whose normals point inwards (see Torus) take -c for what is lit from outside.
+    Errors: InputError for a light without length, cosines not within -1 and 1.
+    Degenerate: a flat part at just that angle gives no lines, and a doubt; c = 1 gives the isolated points that face
+    the light.
+    Source: Glaeser, section 8.4, equation 28, figure 15.
+    """
+    return _isophotes(surface, [Isophote(surface, light, c) for c in _levels(cosines)], VALUE_ROUNDING, tracing)
+
+
+def point_light_isophotes(
+    surface: Surface, light: ArrayLike, cosines: ArrayLike, *, tracing: Tracing = DEFAULT
+) -> SurfaceCurves:
+    """The curves n.l = c in the light of a point, for each c of cosines (k,): l from the surface to the light.
+
+    light (3,): where it stands. Otherwise as `isophotes`.
+    Degenerate: a light on the surface: the curves end there.
+    """
+    lamp, levels = vector("isophotes: light", light), _levels(cosines)
+    points = samples(surface)[2]
+    if not len(points):
+        return no_curves()
+    nearest = float(np.linalg.norm(points - lamp, axis=1).min()) or np.inf
+    rounding = VALUE_ROUNDING * max(1.0, min(float(np.abs(points).max() + np.abs(lamp).max()) / nearest, 1e6))
+    return _isophotes(surface, [PointIsophote(surface, lamp, c) for c in levels], rounding, tracing)
+
+
+def _levels(cosines: ArrayLike) -> list[float]:
+    levels = np.atleast_1d(np.asarray(cosines, dtype=np.float64))
+    if levels.ndim != 1:
+        raise InputError("isophotes: cosines must be numbers in a row")
+    return [float(c) for c in levels]
+
+
+def _isophotes(
+    surface: Surface, conditions: Sequence[Isophote | PointIsophote], rounding: float, tracing: Tracing
+) -> SurfaceCurves:
+    return together(
+        [
+            curves_where_zero(surface, f, size=1.0, rounding=rounding, tracing=tracing, level=f.cosine)
+            for f in conditions
+        ]
+    )

@@ -1,0 +1,84 @@
+"""Sections of a surface: with implicit surfaces, with families of planes, level lines."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.features.parametric.conditions import ImplicitSection, PlaneSection
+from vectorplot.features.parametric.curve_tracing import VALUE_ROUNDING, Tracing, curves_where_zero, extent, samples
+from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
+from vectorplot.surfaces.surface import ImplicitSurface, Surface
+
+DEFAULT = Tracing()
+
+
+def intersection(surface: Surface, other: ImplicitSurface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
+    """The curves of a surface on which F of an implicit surface is zero; F > 0 on the left, in u and v.
+
+    F is taken wherever the surface is, inside the box of the implicit surface and outside.
+    Degenerate: surfaces that touch in a point give an isolated point and an InputWarning; along a line, touching; that
+    coincide in an area, a doubt.
+    Source: Glaeser, section 8.4, equation 29, figure 16.
+    """
+    points = samples(surface)[2]
+    if not len(points):
+        return no_curves()
+    long = np.linalg.norm(other.gradients(points), axis=1)
+    slope = float(np.quantile(long[np.isfinite(long)], 0.95)) if np.isfinite(long).any() else 0.0
+    size, large = extent(surface)
+
+    curves = curves_where_zero(
+        surface,
+        ImplicitSection(surface, other),
+        size=slope * size,
+        rounding=VALUE_ROUNDING * slope * large,
+        tracing=tracing,
+    )
+    return _warned(curves)
+
+
+def plane_sections(
+    surface: Surface, normal: ArrayLike, offsets: ArrayLike, *, tracing: Tracing = DEFAULT
+) -> SurfaceCurves:
+    """The sections of a surface with the parallel planes n.x = d, for each d of offsets (k,), n the unit normal.
+
+    normal (3,), of any length. The curves have d as level; the side the normal points to is on the left, in u and v.
+    Errors: InputError for a normal without length, offsets that are not finite.
+    Degenerate: as for `intersection`.
+    """
+    levels = np.atleast_1d(np.asarray(offsets, dtype=np.float64))
+    if levels.ndim != 1:
+        raise InputError("plane sections: offsets must be numbers in a row")
+    size, large = extent(surface)
+    return together(
+        [
+            _warned(
+                curves_where_zero(
+                    surface,
+                    plane,
+                    size=size,
+                    rounding=VALUE_ROUNDING * (large + abs(plane.offset)),
+                    tracing=tracing,
+                    level=plane.offset,
+                )
+            )
+            for plane in [PlaneSection(surface, normal, float(d)) for d in levels]
+        ]
+    )
+
+
+def level_lines(surface: Surface, heights: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
+    """The curves of a surface at each of the heights (k,), with the height as level: `plane_sections` with z up."""
+    return plane_sections(surface, (0.0, 0.0, 1.0), heights, tracing=tracing)
+
+
+def _warned(curves: SurfaceCurves) -> SurfaceCurves:
+    if len(curves.isolated):
+        count = len(curves.isolated)
+        where = "a single point" if count == 1 else f"{count} single points"
+        warnings.warn(f"section: the surfaces touch in {where}", InputWarning, stacklevel=3)
+    return curves

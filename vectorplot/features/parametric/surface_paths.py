@@ -1,0 +1,132 @@
+"""Curves u(t), v(t) on a parametrised surface."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats
+from vectorplot.features.parametric.curve_tracing import Tracing, extent, wrapped
+from vectorplot.features.parametric.parameter_lines import DEFAULT, MISSED, PROBES
+from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
+from vectorplot.surfaces.surface import Surface
+
+FIRST_POINTS = 65
+"""A path is looked at in so many places before it is divided where it bends."""
+
+ROUNDS = 16
+"""So many times chords are divided at most: by three each time."""
+
+HALVINGS = 50
+"""So often the parameter where a path leaves the surface is halved."""
+
+BACK = 1e-9
+"""A path that comes back to within this part of the surface's size is closed."""
+
+
+def surface_path(
+    surface: Surface, path: Callable[[Floats], Floats], start: float, end: float, *, tracing: Tracing = DEFAULT
+) -> SurfaceCurves:
+    """The curve on a surface whose parameters are path(t): (n,2), u and v, for t (n,) from start to end.
+
+    It may run over the seams of a closed surface, any number of times; where it leaves an open one, or comes to a hole,
+    it is interrupted. Of tracing, tolerance and picture count: chords stay within the tolerance, in picture where there
+    is one. A path that comes back to its start, up to whole periods, is closed.
+    Degenerate: a path that is a single point is none. Source: Glaeser, section 8.2, equation 9.
+    """
+    size = extent(surface)[0]
+    if size == 0.0:
+        return no_curves()
+    t = _refined(surface, path, _without_gaps(surface, path, np.linspace(start, end, FIRST_POINTS)), tracing, size)
+    good: Bools = np.asarray(np.isfinite(_points(surface, path, t)).all(axis=1))
+    ends = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(np.int8)))
+    runs = [t[low:high] for low, high in ends.reshape(-1, 2).tolist() if high > low + 1]
+    return together([_run(surface, path, run, size) for run in runs])
+
+
+def _run(surface: Surface, path: Callable[[Floats], Floats], t: Floats, size: float) -> SurfaceCurves:
+    """One piece of a path without holes."""
+    u, v = path(t).T
+    points = surface.points(*wrapped(surface.domain, u, v))
+    if np.ptp(points, axis=0).max() <= BACK * size:
+        return no_curves()
+    domain = surface.domain
+    way = np.array([u[-1] - u[0], v[-1] - v[0]]) / domain.size
+    turns = np.rint(way).astype(np.intp) * (domain.closed_u, domain.closed_v)
+    closed = bool(np.abs(points[-1] - points[0]).max() <= BACK * size and np.abs(way - turns).max() <= BACK)
+    kept = slice(0, len(t) - closed)
+    none = np.zeros((0, 2))
+    return SurfaceCurves(
+        u[kept],
+        v[kept],
+        points[kept],
+        np.array([0, len(t) - closed]),
+        np.array([closed]),
+        (turns if closed else np.zeros(2, dtype=np.intp))[None, :],
+        np.zeros(1),
+        none,
+        none,
+        none,
+        (),
+    )
+
+
+def _points(surface: Surface, path: Callable[[Floats], Floats], t: Floats) -> Floats:
+    """(n,3) points of the path, NaN where it is not on the surface."""
+    places, domain = path(t), surface.domain
+    u, v = wrapped(domain, places[:, 0], places[:, 1])
+    inside: Bools = np.isfinite(u) & np.isfinite(v)
+    for value, low, high in ((u, domain.u_start, domain.u_end), (v, domain.v_start, domain.v_end)):
+        slack = BACK * (high - low)
+        inside &= (value >= low - slack) & (value <= high + slack)
+    points = np.full((len(t), 3), np.nan)
+    points[inside] = surface.points(u[inside], v[inside])
+    return points
+
+
+def _without_gaps(surface: Surface, path: Callable[[Floats], Floats], t: Floats) -> Floats:
+    """The parameters, and those where the path leaves the surface or comes back to it."""
+    good: Bools = np.asarray(np.isfinite(_points(surface, path, t)).all(axis=1))
+    change = np.flatnonzero(good[1:] != good[:-1])
+    on = np.where(good[change], t[change], t[change + 1])
+    off = np.where(good[change], t[change + 1], t[change])
+    for _ in range(HALVINGS):
+        middle = 0.5 * (on + off)
+        there = np.isfinite(_points(surface, path, middle)).all(axis=1)
+        on, off = np.where(there, middle, on), np.where(there, off, middle)
+    return np.unique(np.concatenate([t, on, off]))
+
+
+def _refined(surface: Surface, path: Callable[[Floats], Floats], t: Floats, tracing: Tracing, size: float) -> Floats:
+    """The parameters with more of them until chords stay within the tolerance."""
+    tolerance = 1e-3 * size if tracing.tolerance is None else tracing.tolerance
+
+    def places(t: Floats) -> Floats:
+        points = _points(surface, path, t)
+        return points if tracing.picture is None else tracing.picture(points)
+
+    open_ = np.ones(len(t) - 1, dtype=np.bool_)
+    for _ in range(ROUNDS if tolerance > 0.0 else 0):
+        first = np.flatnonzero(open_)
+        if not len(first):
+            break
+        start, way = t[first], np.diff(t)[first]
+        a, b = places(start), places(start + way)
+        with np.errstate(invalid="ignore"):
+            bad = np.fmax(*(_off(a, b, places(start + part * way)) for part in PROBES)) > MISSED * tolerance
+        split = first[bad]
+        new = (start[bad][:, None] + np.array(PROBES) * way[bad][:, None]).ravel()
+        open_[:] = False
+        open_[split] = True
+        at = np.repeat(split + 1, 2)
+        t, open_ = np.insert(t, at, new), np.insert(open_, at, True)
+    return t
+
+
+def _off(a: Floats, b: Floats, p: Floats) -> Floats:
+    """(k,) distances of points p from segments from a to b; NaN where one of them is."""
+    chord, arm = b - a, p - a
+    square = (chord * chord).sum(axis=1)
+    share = np.clip((arm * chord).sum(axis=1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+    return np.asarray(np.linalg.norm(arm - share[:, None] * chord, axis=1))

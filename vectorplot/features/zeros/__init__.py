@@ -1,0 +1,1 @@
+"""Zero manifolds: where a function of two parameters vanishes."""

@@ -1,0 +1,58 @@
+"""Areas in which a curve f(u, v) = 0 turns more often than the smallest cells can tell: nothing of it is kept there."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.features.zeros.zero_cells import Cells, Subdivision
+from vectorplot.features.zeros.zero_segments import Segments
+
+REACH = 3
+"""A tangle has no square smaller than this many cells to each side of one: about a double point of a curve, or along a
+line that it touches, fewer stay odd."""
+
+
+def without_tangles(subdivision: Subdivision, traced: Segments) -> tuple[Subdivision, Segments, float]:
+    """The subdivision without the odd cells of tangles, the segments without those inside them, and the part of the
+    domain that tangles cover.
+
+    A tangle is the opening of the odd cells of the last level by a square. Across seams it does not go on.
+    Source: Serra, Image Analysis and Mathematical Morphology, 1982, chapter II (opening).
+    """
+    lattice, odd = subdivision.lattice, subdivision.odd
+    columns, rows = lattice.columns << lattice.levels, lattice.rows << lattice.levels
+    # A margin of cells on all sides: no run of cells goes over into the next column.
+    m, n = columns + 2 * REACH, rows + 2 * REACH
+    core = _eroded(np.unique((odd.i + REACH) * n + odd.j + REACH))
+    core = _turned(_eroded(_turned(core, n, m)), m, n)
+    if not len(core):
+        return subdivision, traced, 0.0
+    tangle = _turned(_dilated(_turned(_dilated(core), n, m)), m, n)
+    i, j = np.divmod(tangle, n)
+    tangle = (i - REACH) * rows + j - REACH
+    kept = ~np.isin(odd.i * rows + odd.j, tangle)
+    part: Floats = (traced.points[traced.pairs].mean(axis=1) - lattice.field.start) / lattice.field.size
+    at = np.clip((part * (columns, rows)).astype(np.intp), 0, (columns - 1, rows - 1))
+    inside = np.isin(at[:, 0] * rows + at[:, 1], tangle)
+    subdivision = replace(subdivision, odd=Cells(odd.i[kept], odd.j[kept]))
+    return subdivision, replace(traced, pairs=traced.pairs[~inside]), len(tangle) / (columns * rows)
+
+
+def _eroded(keys: Ints) -> Ints:
+    """Those of ascending numbers (k,) whose neighbours up to REACH are all there."""
+    width = 2 * REACH
+    return keys[REACH:-REACH][keys[width:] - keys[:-width] == width] if len(keys) > width else keys[:0]
+
+
+def _dilated(keys: Ints) -> Ints:
+    """The numbers (k,) and their neighbours up to REACH, ascending."""
+    return np.unique(keys[:, None] + np.arange(-REACH, REACH + 1))
+
+
+def _turned(keys: Ints, rows: int, columns: int) -> Ints:
+    """The numbers i rows + j of cells as j columns + i, ascending."""
+    i, j = np.divmod(keys, rows)
+    return np.sort(j * columns + i)

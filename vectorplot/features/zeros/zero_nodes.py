@@ -1,0 +1,225 @@
+"""Where a curve f(u, v) = 0 crosses itself, touches itself or is a point: f and its gradient are both zero."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.zeros.scalar_field import ScalarField
+from vectorplot.geometry import ragged
+from vectorplot.geometry.repair.weld import close_points
+
+FLAT = 1e-4
+"""A curvature of f below this part of the other one counts as zero."""
+
+NODE_RADIUS = 2.0
+"""Smallest cells around a node in which its branches are replaced by straight pieces to the node."""
+
+WIDEST = 12.0
+"""Smallest cells that the radius of a node grows to where its branches enclose a small angle: between them, nearer to
+the node, there are too few lattice points to tell them apart."""
+
+BENT = 0.1
+"""Part of the curvature at the start of a search below which that at its end shows a node of more than two branches."""
+
+MOST_ALONE = 16
+"""More flat double points than this are a line of them."""
+
+
+@dataclass(frozen=True, eq=False)
+class DoublePoints:
+    """points (k,2) where f and its gradient vanish; flat (k,): f has no curvature in some direction there, as along a
+    line where f touches zero, or in a cusp. radii (k,): smallest cells within which branches are not told apart.
+    ovals (o,2): middles of closed branches smaller than a cell."""
+
+    points: Floats
+    flat: Bools
+    radii: Floats
+    ovals: Floats
+
+
+def double_points(field: ScalarField, starts: Floats, cell: Floats, zero: float, noise: float) -> DoublePoints:
+    """The double points near starts (k,2), found by Newton on the gradient.
+
+    cell (2,) is the size of the cells that the starts are the middles of; values up to zero count as zero; points
+    around which values up to noise fill a whole sector lie in or at an area where f is zero, and are none.
+    """
+    if not len(starts):
+        none = np.zeros(0)
+        return DoublePoints(starts, none > 0.0, none, starts)
+    points, curvature, bent = _critical(field, starts, cell)
+    away = np.abs((points - starts) / cell).max(axis=1, initial=0.0)
+    with np.errstate(invalid="ignore"):
+        w, least = field.values(points), np.abs(curvature).min(axis=1)
+        good = (away <= 3.0) & (np.abs(w) <= zero) & np.isfinite(curvature).all(axis=1)
+        # A hollow that dips below zero, or a hill that rises above it, within less than a cell.
+        dips = (curvature * w[:, None] < 0.0).all(axis=1) & (2.0 * np.abs(w) < least)
+    ovals = points[(away <= 3.0) & (np.abs(w) > zero) & dips]
+    good &= ~_in_area(field, points, cell, noise)
+    points, curvature, bent = points[good], curvature[good], bent[good]
+    size = np.sort(np.abs(curvature), axis=1)
+    flat = size[:, 0] <= FLAT * size[:, 1]
+    many = (size[:, 1] <= BENT * bent) & ~flat
+    kept = _singled(field, points, cell, flat | many, flat.sum() > MOST_ALONE)
+    return DoublePoints(points[kept], np.asarray(flat[kept], dtype=np.bool_), _radii(curvature[kept]), ovals)
+
+
+def _singled(field: ScalarField, points: Floats, cell: Floats, slow: Bools, line: bool) -> Ints:
+    """Positions of points (k,2), one of each; along a line of flat ones many."""
+    first = _apart(field, points, cell, 0.05)
+    if line:
+        return first
+    # Newton comes to a flat point, and to one of many branches, slowly and from several sides.
+    slow = slow[first]
+    kept = first[slow][_apart(field, points[first[slow]], cell, 1.0)]
+    return np.sort(np.concatenate([first[~slow], kept]))
+
+
+def _radii(curvature: Floats) -> Floats:
+    """(k,) cells around nodes of principal curvatures (k,2) within which two branches are not told apart."""
+    size = np.sort(np.abs(curvature), axis=1)
+    crossing = (curvature[:, 0] * curvature[:, 1] < 0.0) & (size[:, 0] > FLAT * size[:, 1])
+    # Half the angle between the branches has the tangent sqrt(size0 / size1) or its inverse.
+    with np.errstate(invalid="ignore", divide="ignore"):
+        sine = np.sqrt(size[:, 0] / (size[:, 0] + size[:, 1]))
+        radii = np.clip(1.0 / sine, NODE_RADIUS, WIDEST)
+    return np.where(crossing, radii, NODE_RADIUS)
+
+
+def _apart(field: ScalarField, points: Floats, cell: Floats, cells: float) -> Ints:
+    """Positions of points that are further apart than a number of cells: the first of each cluster."""
+    group = close_points(np.pad(_around(field, points) / cell, ((0, 0), (0, 1))), cells)
+    return np.unique(group, return_index=True)[1]
+
+
+def _in_area(field: ScalarField, points: Floats, cell: Floats, noise: float) -> Bools:
+    """(k,) whether f is zero in three or more of eight places around points; off the axes, where nodes have zeros."""
+    angle = 0.4142 + np.arange(8) * np.pi / 4.0
+    ring = points[:, None] + np.stack([np.cos(angle), np.sin(angle)], axis=1) * cell
+    w = field.values(ring.reshape(-1, 2)).reshape(-1, 8)
+    return np.asarray((np.abs(w) <= noise).sum(axis=1) >= 3, dtype=np.bool_)
+
+
+def _around(field: ScalarField, points: Floats) -> Floats:
+    """Points wrapped into the domain, those at the end of a closed direction at its start."""
+    at = field.wrapped(points) - field.start
+    for axis in (0, 1):
+        if field.closed[axis]:
+            at[:, axis] = np.where(at[:, axis] > field.size[axis] * (1.0 - 1e-9), 0.0, at[:, axis])
+    return at
+
+
+def _critical(field: ScalarField, starts: Floats, cell: Floats) -> tuple[Floats, Floats, Floats]:
+    """Points where the gradient vanishes, the two principal curvatures of f there, and the larger one at the starts,
+    all in units of cells."""
+    points, curvature = starts.copy(), np.full((len(starts), 2), np.nan)
+    bent = np.full(len(starts), np.nan)
+    active = np.arange(len(starts))
+    for _ in range(60):
+        if not len(active):
+            break
+        g = field.gradients(points[active]) * cell
+        h = field.hessians(points[active]) * np.outer(cell, cell)
+        sound = np.isfinite(g).all(axis=1) & np.isfinite(h).all(axis=(1, 2))
+        active, g, h = active[sound], g[sound], h[sound]
+        bend, axes = np.linalg.eigh(h)
+        curvature[active] = bend
+        bent[active] = np.where(np.isnan(bent[active]), np.abs(bend).max(axis=1, initial=0.0), bent[active])
+        # Along a flat direction there is nothing to solve for, and the difference quotients are noise.
+        steep = np.abs(bend) > 1e-6 * np.abs(bend).max(axis=1, initial=0.0)[:, None]
+        along = np.einsum("kji,kj->ki", axes, g)
+        step = -np.einsum("kij,kj->ki", axes, np.where(steep, along / np.where(steep, bend, 1.0), 0.0))
+        length = np.sqrt((step * step).sum(axis=1))
+        step /= np.maximum(length, 1.0)[:, None]
+        points[active] = np.clip(
+            points[active] + step * cell,
+            np.where(field.closed, -np.inf, field.low),
+            np.where(field.closed, np.inf, field.high),
+        )
+        strayed = np.abs((points[active] - starts[active]) / cell).max(axis=1, initial=0.0) > 4.0
+        active = active[(length > 1e-9) & ~strayed]
+    return points, curvature, bent
+
+
+@dataclass(frozen=True, eq=False)
+class Joined:
+    """points (p,2) and segments (s,2) of a curve whose branches meet in nodes; meets (k,): how many branches end at
+    each double point."""
+
+    points: Floats
+    segments: Ints
+    meets: Ints
+
+
+def joined_at_nodes(field: ScalarField, points: Floats, segments: Ints, nodes: Floats, reach: Floats) -> Joined:
+    """The curve with its branches led through nodes (k,2): what lies within reach (k,2) of one is dropped, and the
+    ends left over are joined to the node.
+
+    Ends that are opposite in the cyclic order around a node are joined to each other, so that branches go straight on.
+    """
+    if not len(nodes):
+        return Joined(points, segments, np.zeros(0, dtype=np.intp))
+    inside = _node_around(field, points, nodes, reach)
+    at_node = inside[segments]
+    broken = (at_node[:, 0] < 0) != (at_node[:, 1] < 0)
+    outer = np.where(at_node[broken, 0] < 0, 0, 1)
+    row = np.arange(len(outer))
+    end, node = segments[broken][row, outer], at_node[broken][row, 1 - outer]
+    d = _difference(field, points[end], nodes[node]) / reach[node]
+    order = np.lexsort((np.arctan2(d[:, 1], d[:, 0]), node))
+    end, node, outer = end[order], node[order], outer[order]
+    meets = np.bincount(node, minlength=len(nodes))
+    rank = np.arange(len(node)) - ragged.starts(meets)[node]
+    # Each pair of opposite ends has a copy of the node to itself.
+    copies = (meets + 1) // 2
+    copy = len(points) + ragged.starts(copies)[node] + rank % np.maximum(copies[node], 1)
+    new = np.where((outer == 0)[:, None], np.stack([end, copy], axis=1), np.stack([copy, end], axis=1))
+    kept = segments[(at_node < 0).all(axis=1)]
+    return Joined(
+        np.concatenate([points, np.repeat(nodes, copies, axis=0)]), np.concatenate([kept, new]), np.asarray(meets)
+    )
+
+
+def _node_around(field: ScalarField, points: Floats, nodes: Floats, reach: Floats) -> Ints:
+    """(p,) the node within whose reach a point lies, the last of several, or -1."""
+    inside = np.full(len(points), -1)
+    node, point = within(field, points, nodes, reach)
+    np.maximum.at(inside, point, node)
+    return inside
+
+
+def within(field: ScalarField, points: Floats, centres: Floats, reach: Floats) -> tuple[Ints, Ints]:
+    """Pairs of a centre and a point (p,2) in the ellipse about it with the half axes reach (k,2), seams or not."""
+    if not len(centres) or not len(points):
+        return np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp)
+    at = field.wrapped(points)
+    order = np.argsort(at[:, 0], kind="stable")
+    low, high = (field.wrapped(centres)[:, 0] + sign * reach[:, 0] for sign in (-1.0, 1.0))
+    pairs = []
+    for turn in (-1.0, 0.0, 1.0) if field.closed[0] else (0.0,):
+        first, last = (np.searchsorted(at[order, 0], x + turn * field.size[0]) for x in (low, high))
+        # One place more: the bounds are rounded.
+        last = np.minimum(last + 1, len(order))
+        count = np.maximum(last - first, 0)
+        centre = ragged.owner(count)
+        place = ragged.place(count) + first[centre]
+        pairs.append((centre, order[place]))
+    centre, point = (np.concatenate([pair[k] for pair in pairs]) for k in (0, 1))
+    d = _difference(field, points[point], centres[centre]) / reach[centre]
+    near = (d * d).sum(axis=1) <= 1.0
+    return centre[near], point[near]
+
+
+def without_points_near(field: ScalarField, centres: Floats, points: Floats, reach: Floats) -> Bools:
+    """(k,) centres (k,2) with none of the points (p,2) in the ellipse with the half axes reach (2,) or (k,2)."""
+    free = np.ones(len(centres), dtype=np.bool_)
+    free[within(field, points, centres, np.broadcast_to(reach, centres.shape))[0]] = False
+    return free
+
+
+def _difference(field: ScalarField, points: Floats, origin: Floats) -> Floats:
+    """Points minus origin, the short way round in closed directions."""
+    d = points - origin
+    return np.asarray(d - np.where(field.closed, np.round(d / field.size), 0.0) * field.size)

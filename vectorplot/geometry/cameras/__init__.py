@@ -1,0 +1,1 @@
+"""Cameras: how a point of the world comes into the picture."""

@@ -1,0 +1,175 @@
+"""Where one looks from, and how: central and parallel projection alike."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.errors import InputError
+from vectorplot.geometry.cameras.lens import field_of_vision_deg
+from vectorplot.geometry.rotations import euler_angles, rotation_x, rotation_z
+
+Point = tuple[float, float, float]
+
+VIEWS: dict[str, tuple[Point, Point]] = {
+    "front": ((0.0, -1.0, 0.0), (0.0, 0.0, 1.0)),
+    "back": ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+    "left": ((-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    "right": ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    "top": ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
+    "bottom": ((0.0, 0.0, -1.0), (0.0, -1.0, 0.0)),
+    "iso": ((1.0, -1.0, 1.0), (0.0, 0.0, 1.0)),
+}
+"""Main views: direction from the target to the eye, and the direction that is up in the picture."""
+
+
+@dataclass(frozen=True)
+class Camera:
+    """An eye, the target it looks at, and the projection.
+
+    up: a direction that is up in the picture; without it z is up (straight from above or below: as if the eye stood on
+    the positive x-axis). twist_deg turns the camera about its principal ray, on top of either. fov_deg: the full
+    angle over the picture height. parallel: rays parallel to eye - target; height is then the height of the picture in
+    world units (None: as the central projection from this eye would have in the plane through the target). near, far:
+    how far from the eye, along the line to the target, what is seen begins and ends (None: all before the eye).
+    Errors: InputError for an eye in the target, an up vector along the view, a field of vision outside 0 to 180
+    degrees, a height that is not positive, planes that leave nothing, and numbers that are not finite.
+    Source: Glaeser, section 2.1, equations 1 to 5; the twist is his tau.
+    """
+
+    eye: Point
+    target: Point = (0.0, 0.0, 0.0)
+    up: Point | None = None
+    twist_deg: float = 0.0
+    fov_deg: float = 30.0
+    parallel: bool = False
+    height: float | None = None
+    near: float | None = None
+    far: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("eye", "target", "up"):
+            value = getattr(self, name)
+            if value is not None:
+                point = tuple(float(x) for x in value)
+                if len(point) != 3 or not all(np.isfinite(point)):
+                    raise InputError(f"camera: {name} must be three finite numbers")
+                object.__setattr__(self, name, point)
+        if not np.isfinite(self.twist_deg):
+            raise InputError("camera: twist must be a finite number of degrees")
+        if not 0.0 < self.fov_deg < 180.0:
+            raise InputError(f"camera: field of vision {self.fov_deg:g} must lie between 0 and 180 degrees")
+        if self.height is not None and not 0.0 < self.height < np.inf:
+            raise InputError(f"camera: height {self.height:g} must be positive and finite")
+        for name in ("near", "far"):
+            depth = getattr(self, name)
+            if depth is not None and not 0.0 < depth < np.inf:
+                raise InputError(f"camera: {name} {depth:g} must be positive and finite")
+        if self.near is not None and self.far is not None and not self.near < self.far:
+            raise InputError(f"camera: near {self.near:g} must be less than far {self.far:g}")
+        if self.eye == self.target or not self.distance > 0.0:
+            raise InputError("camera: the eye is in the target")
+        if self.up is not None:
+            length = float(np.linalg.norm(self.up))
+            across = np.linalg.norm(np.cross(self.up, self.direction))
+            if not across > 1e-9 * length:
+                raise InputError("camera: the up vector lies along the view")
+
+    @cached_property
+    def distance(self) -> float:
+        """From the eye to the target, in world units."""
+        return math.dist(self.eye, self.target)
+
+    @cached_property
+    def direction(self) -> Floats:
+        """(3,) unit vector from the target to the eye."""
+        ray = np.subtract(self.eye, self.target)
+        ray = ray / np.abs(ray).max()
+        return np.asarray(ray / np.linalg.norm(ray), dtype=np.float64)
+
+    @cached_property
+    def axes(self) -> Floats:
+        """(3,3) rows: right, up, and back towards the eye, unit vectors in world coordinates; right-handed."""
+        back = self.direction
+        if self.up is not None:
+            right = np.cross(self.up, back)
+        elif np.hypot(back[0], back[1]) <= 1e-15:
+            right = np.array([0.0, 1.0, 0.0])
+        else:
+            right = np.array([-back[1], back[0], 0.0])
+        right = right / np.linalg.norm(right)
+        upward = np.cross(back, right)
+        angle = np.radians(self.twist_deg)
+        cos, sin = np.cos(angle), np.sin(angle)
+        return np.array([cos * right + sin * upward, cos * upward - sin * right, back])
+
+    @property
+    def picture_height(self) -> float:
+        """Height of the picture in world units, in the plane through the target that faces the eye."""
+        if self.parallel and self.height is not None:
+            return self.height
+        return 2.0 * self.distance * float(np.tan(np.radians(self.fov_deg) / 2.0))
+
+    @property
+    def euler_angles(self) -> tuple[float, float, float]:
+        """The angles alpha, beta, gamma in radians: the twist, from the zenith, a quarter turn more than the azimuth.
+
+        With an up vector that is not vertical alpha is the twist that does the same. The rows of axes are
+        Z(alpha) X(beta) Z(gamma). Source: Glaeser, section 2.1, equations 1 to 3 and 10; erratum G2-01.
+        """
+        return euler_angles(self.axes)
+
+    @classmethod
+    def from_euler(
+        cls,
+        distance: float,
+        alpha: float,
+        beta: float,
+        gamma: float,
+        target: Point = (0.0, 0.0, 0.0),
+        *,
+        fov_deg: float = 30.0,
+        parallel: bool = False,
+        height: float | None = None,
+    ) -> Camera:
+        """The camera that sees what a camera at (0, 0, distance) sees of a scene turned by alpha about z, beta about
+        x and gamma about z, with its target in the origin. Angles in radians, any numbers.
+
+        Source: Glaeser, section 2.1, equations 9 and 10.
+        """
+        if not (0.0 < distance < np.inf and np.isfinite((alpha, beta, gamma)).all()):
+            raise InputError("camera: distance and angles must be finite numbers, the distance positive")
+        axes = rotation_z(alpha) @ rotation_x(beta) @ rotation_z(gamma)
+        x, y, z = (float(t) + distance * float(w) for t, w in zip(target, axes[2], strict=True))
+        # Near the zenith the eye's azimuth has no digits: there the up vector says how the picture stands.
+        upright = float(np.hypot(axes[2, 0], axes[2, 1])) < 1e-6
+        up = (float(axes[1, 0]), float(axes[1, 1]), float(axes[1, 2])) if upright else None
+        twist = 0.0 if upright else float(np.degrees(euler_angles(axes)[0]))
+        return cls((x, y, z), target, up, twist, fov_deg, parallel, height)
+
+    @classmethod
+    def from_focal_length(
+        cls, focal_length_mm: float, eye: Point, target: Point = (0.0, 0.0, 0.0), *, twist_deg: float = 0.0
+    ) -> Camera:
+        """The camera with the field of vision of a miniature camera (24 x 36 mm) with this lens.
+
+        Source: Glaeser, section 2.2, table; erratum G2-15.
+        """
+        return cls(eye, target, twist_deg=twist_deg, fov_deg=field_of_vision_deg(focal_length_mm))
+
+    @classmethod
+    def view(cls, name: str, target: Point = (0.0, 0.0, 0.0), distance: float = 1.0) -> Camera:
+        """A main view (front, back, left, right, top, bottom) or iso: a parallel projection.
+
+        Source: Glaeser, section 2.1 and appendix A.3, keys 1 to 6.
+        """
+        if name not in VIEWS:
+            raise InputError(f"view {name!r}: expected one of {', '.join(VIEWS)}")
+        direction, up = VIEWS[name]
+        ray = np.array(direction) * (distance / np.linalg.norm(direction))
+        eye = (target[0] + ray[0], target[1] + ray[1], target[2] + ray[2])
+        return cls(eye=eye, target=target, up=up, parallel=True)

@@ -1,0 +1,230 @@
+"""World, screen and light systems: one type for all, central and parallel projection alike.
+
+In a system the eye (or the lamp) stands on the positive z-axis at a distance d, the target is the origin, and the image
+plane is z = 0. Depth z is the signed distance from it, larger = closer to the eye. Points are rows.
+Source: Glaeser, sections 2.1 to 2.4.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Bools, Floats
+from vectorplot.errors import InputError
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.rotations import look_rotation
+from vectorplot.geometry.tolerance import INFINITE
+from vectorplot.geometry.vectors import length
+
+
+def project(points: ArrayLike, distance: float) -> Floats:
+    """T1: the points (..., 3) of a system with their images for x and y, and their depth z.
+
+    Not linear: straight edges bend. Good for an infinite distance too (then nothing changes).
+    Errors: InputError for points on or behind the neutral plane z = d: clip them first.
+    Source: Glaeser, sections 2.1, equations 6 to 8, and 2.3, equations 15 and 16.
+    """
+    p = np.asarray(points, dtype=np.float64)
+    images = p.copy()
+    images[..., :2] *= _scale(p, distance)
+    return images
+
+
+def unproject(images: ArrayLike, distance: float) -> Floats:
+    """The inverse of T1: points (..., 3) from their images and depths."""
+    p = np.asarray(images, dtype=np.float64)
+    points = p.copy()
+    points[..., :2] /= _scale(p, distance)
+    return points
+
+
+def collineate(points: ArrayLike, distance: float, factor: float | None = None) -> Floats:
+    """T2: the points (..., 3) with their images for x and y and the depth z* = k lambda z, lambda = d / (d - z).
+
+    Linear: planes go to planes, and z* keeps the order of z. factor: k, without it 1 / d, so that z* = z / (d - z). The
+    image plane stays fixed for every k; the centre of the collineation is (0, 0, d (1 - k)) (erratum G2-04).
+    Degenerate: at an infinite distance lambda is 1, and k must be given, or is 1.
+    Errors: InputError for points on or behind the neutral plane. Source: Glaeser, section 2.3, equations 17 to 21.
+    """
+    p = np.asarray(points, dtype=np.float64)
+    scale = np.ones(3) * _scale(p, distance)
+    scale[..., 2] *= _factor(distance, factor)
+    return np.asarray(p * scale)
+
+
+def uncollineate(images: ArrayLike, distance: float, factor: float | None = None) -> Floats:
+    """The inverse of T2: points (..., 3) from their images and depths z*. Source: Glaeser, section 2.3, equation 22."""
+    p = np.asarray(images, dtype=np.float64)
+    # z* = k d z / (d - z), hence 1 / lambda = k d / (k d + z*).
+    k = _factor(distance, factor)
+    shrink = np.ones(p.shape[:-1]) if distance == INFINITE else k * distance / (k * distance + p[..., 2])
+    return np.asarray(p * shrink[..., None] / np.array([1.0, 1.0, k]))
+
+
+def depth_of(star: ArrayLike, distance: float) -> Floats:
+    """The depths z (...) of T2 depths z* (...): d z* / (1 + z*). Source: Glaeser, section 2.3, equation 22."""
+    s = np.asarray(star, dtype=np.float64)
+    return np.asarray(distance * s / (1.0 + s))
+
+
+def _factor(distance: float, factor: float | None) -> float:
+    if factor is None:
+        return 1.0 if distance == INFINITE else 1.0 / distance
+    if factor == 0.0:
+        raise InputError("a collineation with factor 0 flattens space")
+    return factor
+
+
+def _scale(points: Floats, distance: float) -> Floats:
+    """(..., 1) lambda = d / (d - z)."""
+    if distance == INFINITE:
+        return np.ones((*points.shape[:-1], 1))
+    gap = distance - points[..., 2:]
+    if not np.all(gap > 0.0):
+        raise InputError(f"{int((~(gap > 0.0)).sum())} points lie on or behind the neutral plane: clip them first")
+    return np.asarray(distance / gap)
+
+
+@dataclass(frozen=True)
+class PixelWindow:
+    """A window of width x height pixels. pixel_ratio: what a unit upwards is in pixels against one to the right;
+    about -1 where rows count downwards."""
+
+    width: float
+    height: float
+    pixel_ratio: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not (0.0 < self.width < np.inf and 0.0 < self.height < np.inf and 0.0 < abs(self.pixel_ratio) < np.inf):
+            raise InputError(f"a window of {self.width:g} x {self.height:g} pixels shows nothing")
+
+    def normalized(self, pixels: ArrayLike) -> Floats:
+        """Normalised device coordinates (..., 2): 0 to 1 from left to right and from the bottom to the top of the
+        picture.
+
+        Source: Glaeser, section 2.3, equation 13, with the correction of erratum G2-02.
+        """
+        p = np.asarray(pixels, dtype=np.float64)[..., :2]
+        half = np.array([self.width, self.height]) / 2.0
+        return np.asarray(0.5 + (p - half) / (2.0 * half * np.array([1.0, np.sign(self.pixel_ratio)])))
+
+
+@dataclass(frozen=True, eq=False)
+class CoordinateSystem:
+    """Coordinates of space as the world, a screen or a lamp has them: image x and y, and depth z.
+
+    target (3,): the origin; rotation (3, 3): carries world directions, as rows, into the system; distance: of the
+    centre of projection, infinite for a parallel one; scale (2,), middle (2,): pixel = middle + scale * image.
+    The world itself is the parallel projection along z: world().
+    """
+
+    target: Floats
+    rotation: Floats
+    distance: float = INFINITE
+    scale: tuple[float, float] = (1.0, 1.0)
+    middle: tuple[float, float] = (0.0, 0.0)
+
+    @classmethod
+    def world(cls) -> CoordinateSystem:
+        """The world's own system, in which nothing changes."""
+        return cls(np.zeros(3), np.eye(3))
+
+    @classmethod
+    def of_image(cls, camera: Camera) -> CoordinateSystem:
+        """A camera's system, in which images are measured in world units in the image plane."""
+        return cls(np.array(camera.target), camera.axes.T, INFINITE if camera.parallel else camera.distance)
+
+    @classmethod
+    def of_screen(cls, camera: Camera, window: PixelWindow, enlarge: float = 1.0) -> CoordinateSystem:
+        """A camera's system, in which images are measured in pixels: the field of vision fills the window's height.
+
+        enlarge: a zoom about the middle that leaves the field of vision, and so the perspective, as it is.
+        Source: Glaeser, sections 2.3, equations 11 to 14, and 2.4; errata G2-02, G2-03, G2-06.
+        """
+        if not 0.0 < enlarge < np.inf:
+            raise InputError(f"an enlargement by {enlarge:g} leaves no picture")
+        across = enlarge * window.height / camera.picture_height
+        distance = INFINITE if camera.parallel else camera.distance
+        scale = (across, across * window.pixel_ratio)
+        middle = (window.width / 2.0, window.height / 2.0)
+        return cls(np.array(camera.target), camera.axes.T, distance, scale, middle)
+
+    @classmethod
+    def of_light(cls, position: ArrayLike, target: ArrayLike = (0.0, 0.0, 0.0)) -> CoordinateSystem:
+        """The system of a lamp at a position (3,): a camera without twist, whose images are shadows in the plane
+        through the target. Errors: InputError for a lamp in the target. Source: Glaeser, section 2.4."""
+        ray = np.asarray(position, dtype=np.float64) - np.asarray(target, dtype=np.float64)
+        return cls(np.asarray(target, dtype=np.float64), look_rotation(ray), float(length(ray)))
+
+    @classmethod
+    def of_parallel_light(cls, direction: ArrayLike, target: ArrayLike = (0.0, 0.0, 0.0)) -> CoordinateSystem:
+        """The system of parallel rays that come from a direction (3,), such as sunlight."""
+        return cls(np.asarray(target, dtype=np.float64), look_rotation(direction))
+
+    @property
+    def inverse_rotation(self) -> Floats:
+        """(3, 3) from the system to the world; its rows are right, up and back."""
+        return self.rotation.T
+
+    @property
+    def centre(self) -> Floats:
+        """(3,) where the eye or lamp is, in the world. Errors: InputError for a parallel projection."""
+        if self.distance == INFINITE:
+            raise InputError("the centre of a parallel projection is infinitely far away")
+        return np.asarray(self.target + self.distance * self.rotation[:, 2])
+
+    def rotated(self, points: ArrayLike) -> Floats:
+        """World points (..., 3) with the target as the origin and the eye on the z-axis, not yet projected."""
+        return np.asarray((np.asarray(points, dtype=np.float64) - self.target) @ self.rotation)
+
+    def forbidden(self, points: ArrayLike) -> Bools:
+        """(...) which world points (..., 3) lie on or behind the neutral plane through the eye: they have no image."""
+        return np.asarray(self.rotated(points)[..., 2] >= self.distance)
+
+    def from_world(self, points: ArrayLike) -> Floats:
+        """World points (..., 3) in this system. Errors: InputError for forbidden points: clip them first.
+
+        Source: Glaeser, section 2.4 (world to screen, world to light).
+        """
+        images = project(self.rotated(points), self.distance)
+        images[..., :2] = np.array(self.middle) + images[..., :2] * np.array(self.scale)
+        return images
+
+    def to_world(self, points: ArrayLike) -> Floats:
+        """Points (..., 3) of this system in the world."""
+        images = np.array(points, dtype=np.float64)
+        images[..., :2] = (images[..., :2] - np.array(self.middle)) / np.array(self.scale)
+        return np.asarray(unproject(images, self.distance) @ self.rotation.T + self.target)
+
+    def homogeneous(self, points: ArrayLike) -> Floats:
+        """World points (..., 3) after T2, in homogeneous coordinates (..., 4) of pixels x, y and depth z*; the last
+        component is positive in front of the neutral plane. Every point has them, forbidden ones too: clip here.
+
+        The depth is z / (d - z); in a parallel projection z itself.
+        """
+        right, up, back = self.rotation.T
+        sunk = np.zeros(3) if self.distance == INFINITE else back / self.distance
+        (x, y), (across, upward) = self.middle, self.scale
+        depth = back if self.distance == INFINITE else sunk
+        # One product of matrices: millions of points pass here.
+        rows = np.stack([across * right - x * sunk, upward * up - y * sunk, depth, -sunk], axis=1)
+        result = (np.asarray(points, dtype=np.float64) - self.target) @ rows
+        result += (x, y, 0.0, 1.0)
+        return np.asarray(result)
+
+
+def switched(points: ArrayLike, source: CoordinateSystem, target: CoordinateSystem) -> Floats:
+    """Points (..., 3) of one system in another, such as from the screen to a lamp. Source: Glaeser, section 2.4."""
+    return target.from_world(source.to_world(points))
+
+
+def with_target_as_origin(target: ArrayLike, *pools: ArrayLike) -> tuple[Floats, ...]:
+    """The pools of points (..., 3), centres of projection among them, moved so that the target is the origin.
+
+    Source: Glaeser, section 2.4.
+    """
+    centre = np.asarray(target, dtype=np.float64)
+    return tuple(np.asarray(np.asarray(pool, dtype=np.float64) - centre) for pool in pools)

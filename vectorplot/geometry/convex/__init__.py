@@ -1,0 +1,1 @@
+"""Convex polygons and bodies: clipped, cut, merged and told apart."""

@@ -1,0 +1,1 @@
+"""Meshes as they come, made sound: welded, wound alike, without what has no area."""

@@ -1,0 +1,1 @@
+"""Formulas in files: parsed and differentiated, never evaluated as code."""

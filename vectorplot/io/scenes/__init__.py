@@ -1,0 +1,1 @@
+"""The scene language: read and written."""

@@ -1,0 +1,64 @@
+"""Surfaces and curves given by formulas in a scene file, with the exact derivatives of the formulas."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from vectorplot.arrays import Floats
+from vectorplot.curves.function import FunctionCurve, curve_of_function
+from vectorplot.io.expressions.expression import Expression
+from vectorplot.surfaces.function import FunctionSurface, surface_of_function
+from vectorplot.surfaces.graph import Graph, PolarGraph, graph, graph_over_disc
+from vectorplot.surfaces.implicit_function import ImplicitFunction, implicit_of_function
+from vectorplot.surfaces.regions import Disc
+from vectorplot.surfaces.surface import Domain
+
+
+@dataclass(frozen=True)
+class Formulas:
+    """One formula, or several that are the components of a vector, all in the same variables, as one function."""
+
+    expressions: tuple[Expression, ...]
+
+    def __call__(self, *parameters: Any) -> Any:
+        """The values at arrays of parameters, in the order of the variables."""
+        values = dict(zip(self.expressions[0].variables, parameters, strict=True))
+        results = tuple(expression(**values) for expression in self.expressions)
+        return results if len(results) > 1 else results[0]
+
+    def derivative(self, variable: str) -> Formulas:
+        """The derivatives of all components."""
+        return Formulas(tuple(expression.derivative(variable) for expression in self.expressions))
+
+    def gradient(self) -> Formulas:
+        """The derivatives of a single formula by all its variables."""
+        (expression,) = self.expressions
+        return Formulas(tuple(expression.derivative(variable) for variable in expression.variables))
+
+
+def formula_curve(formulas: Formulas, start: float, end: float, *, closed: bool) -> FunctionCurve:
+    """The curve of three formulas in t."""
+    return curve_of_function(formulas, start, end, closed=closed, derivative=formulas.derivative("t"))
+
+
+def formula_surface(formulas: Formulas, domain: Domain) -> FunctionSurface:
+    """The surface of three formulas in u and v."""
+    by_u, by_v = formulas.derivative("u"), formulas.derivative("v")
+    second = (by_u.derivative("u"), by_u.derivative("v"), by_v.derivative("v"))
+    return surface_of_function(formulas, domain, partials=(by_u, by_v), second_partials=second)
+
+
+def formula_graph(formulas: Formulas, domain: Domain) -> Graph:
+    """The graph of a formula in x and y above a rectangle."""
+    return graph(formulas, domain, slopes=(formulas.derivative("x"), formulas.derivative("y")))
+
+
+def formula_graph_over_disc(formulas: Formulas, disc: Disc, *, hole: float) -> PolarGraph:
+    """The graph of a formula in x and y above a disc."""
+    return graph_over_disc(formulas, disc, hole=hole, slopes=(formulas.derivative("x"), formulas.derivative("y")))
+
+
+def formula_implicit(formulas: Formulas, box: Floats) -> ImplicitFunction:
+    """The surface on which a formula in x, y and z is zero, within a box (2,3)."""
+    return implicit_of_function(formulas, box, gradient=formulas.gradient())

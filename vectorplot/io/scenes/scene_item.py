@@ -1,0 +1,284 @@
+"""One item of a scene file: what the file says about it, gathered word by word, and the item made of it."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Collection, Sequence
+
+import numpy as np
+
+from vectorplot.curves.curve import Curve
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.convex.intersect_polyhedra import intersection
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.repair.adjacency import mesh_edges
+from vectorplot.geometry.revolution import FULL_TURN, revolution
+from vectorplot.geometry.solids import (
+    BOTH_CAPS,
+    BOTTOM,
+    IDENTITY,
+    NOT_PLANAR,
+    TOP,
+    box,
+    has_convex_outline,
+    is_planar,
+    placed,
+    swept_polygon,
+    turned_outwards,
+)
+from vectorplot.io.scenes.scene_curves import CurveDraft
+from vectorplot.io.scenes.scene_placement import Placement
+from vectorplot.io.scenes.scene_words import Words
+from vectorplot.scene.scene import Item, Material, Pattern
+from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
+from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
+
+_NORMAL = Material()
+
+NEEDED = {
+    "vertices": ("vertices", "faces"),
+    "revolution": ("meridian", "order"),
+    "translation": ("base_points", "trans_vector"),
+    "box": ("lengths",),
+    "intersection": ("parts",),
+    "surface": ("surface",),
+    "curve": ("curve",),
+}
+"""What every kind of item cannot be without."""
+
+
+class Draft:
+    """What has been read about an item so far. Attributes of the class are what holds where the file is silent.
+
+    index, kind_index: the words that name it and its kind; owner: how messages about it begin.
+    """
+
+    colour: str | None = None
+    material: str | None = None
+    opacity: float | None = None
+    refraction = 1.0
+    form: str | None = None
+    kind: str | None = None
+    kind_index = 0
+    hollow = False
+    shown_caps: frozenset[str] = frozenset()
+    placement: Placement = IDENTITY
+    angle_deg = FULL_TURN
+    lengths: tuple[float, ...] | list[float] | None = None
+    order: int | None = None
+    meridian: list[list[float]] | None = None
+    base_points: list[list[float]] | None = None
+    trans_vector: list[float] | None = None
+    vertices: list[list[float]] | None = None
+    faces: list[list[int]] | None = None
+    edges: list[list[int]] | None = None
+    parts: tuple[str, ...] | None = None
+    removed: list[int] | None = None
+    lines: tuple[str, ...] | None = None
+    occludes: bool | None = None
+    group: str | None = None
+    surface: Surface | ImplicitSurface | None = None
+    curve: Curve | None = None
+    curves = CurveDraft()
+
+    def __init__(self, name: str, index: int) -> None:
+        self.name = name
+        self.index = index
+        self.owner = name + ": "
+        self.patterns: list[Pattern] = []
+
+    def missing(self) -> str | None:
+        """The first word that the item still needs, or None."""
+        if self.kind is None:
+            return "vertices"
+        return next((word for word in NEEDED[self.kind] if getattr(self, word) is None), None)
+
+    @property
+    def caps(self) -> Collection[str]:
+        """Which ends of a swept body are there."""
+        return self.shown_caps if self.hollow else BOTH_CAPS
+
+
+def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
+    """The item that a complete draft describes; parts: the shapes that an intersection is made of.
+
+    Errors: InputError with file, line and the item's name for anything that makes no shape.
+    """
+    shape: Mesh | Surface | ImplicitSurface | Curve
+    curves = NO_LINES
+    try:
+        if draft.surface is not None:
+            shape, curves = _surface(draft, draft.surface)
+        elif draft.curve is not None:
+            shape = _space_curve(draft, words, draft.curve)
+        else:
+            shape = _polyhedron(draft, words, parts)
+            if draft.curves:
+                from vectorplot.io.scenes.scene_surface import curves_of
+
+                curves = curves_of(draft.curves, shape, shape.bounds)
+    except InputError as error:
+        if error.file is not None:
+            raise
+        words.fail(draft.kind_index, draft.owner + error.cause)
+    return Item(
+        draft.name,
+        shape,
+        "gray" if draft.colour is None else draft.colour,
+        _material(draft),
+        tuple(draft.patterns),
+        draft.lines,
+        draft.occludes,
+        curves,
+        draft.group or "",
+    )
+
+
+def _surface(draft: Draft, surface: Surface | ImplicitSurface) -> tuple[Surface | ImplicitSurface, SurfaceLines]:
+    from vectorplot.io.scenes.scene_surface import checked_bounds, curves_of, placed_surface
+
+    _check_faceless(draft, "surface")
+    for word, given in (
+        ("smooth_lines", draft.curves.lines.smooth),
+        ("isophote_edges", draft.curves.lines.along_edges),
+    ):
+        if given:
+            raise InputError(f"'{word}' is for polyhedra only")
+    shape = placed_surface(surface, draft.placement)
+    if draft.curves.lines.paths and not is_parametrised(shape):
+        raise InputError("'surface_curve' is for surfaces with parameters u and v only")
+    return shape, curves_of(draft.curves, shape, checked_bounds(shape))
+
+
+def _space_curve(draft: Draft, words: Words, curve: Curve) -> Curve:
+    from vectorplot.io.scenes.scene_space_curve import placed_curve
+
+    _check_faceless(draft, "curve")
+    _check_lineless(draft, words)
+    return placed_curve(curve, draft.placement)
+
+
+def _check_faceless(draft: Draft, what: str) -> None:
+    if draft.removed is not None or draft.patterns:
+        raise InputError(f"a {what} has no faces for 'removed_faces' and 'patterns'")
+
+
+def _check_lineless(draft: Draft, words: Words) -> None:
+    if draft.curves:
+        words.fail(draft.curves.index, f"{draft.owner}'{words.words[draft.curves.index]}' is for surfaces only")
+
+
+def _check_unparametrised(draft: Draft, words: Words) -> None:
+    if draft.curves.lines.columns or draft.curves.lines.rows:
+        words.fail(draft.curves.index, f"{draft.owner}'parameter_lines' is for surfaces only")
+    if draft.curves.lines.paths:
+        words.fail(draft.curves.index, f"{draft.owner}'surface_curve' is for surfaces only")
+
+
+def _polyhedron(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    _check_unparametrised(draft, words)
+    mesh = _SHAPES[draft.kind or ""](draft, words, parts)
+    if draft.removed is not None:
+        mesh = _without_faces(mesh, draft.removed)
+    if draft.patterns:
+        _check_patterns(draft.patterns, mesh)
+    return mesh
+
+
+def _material(draft: Draft) -> Material:
+    if draft.material is None and draft.opacity is None and draft.refraction == 1.0:
+        return _NORMAL
+    return Material(draft.material or "normal", draft.opacity, draft.refraction)
+
+
+def _box(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    return box(draft.lengths or (), caps=draft.caps, placement=draft.placement)
+
+
+def _revolution(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    meridian = np.array(draft.meridian).T
+    body = revolution(meridian, draft.order or 0, angle_deg=draft.angle_deg, caps=draft.caps)
+    return placed(body, draft.placement)
+
+
+def _translation(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    base = np.array(draft.base_points).T
+    body = swept_polygon(base, np.array(draft.trans_vector), caps=draft.caps)
+    if not is_planar(base):
+        _warn(draft, words, NOT_PLANAR)
+    return placed(body, draft.placement)
+
+
+def _intersection(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    body = parts[0]
+    for part in parts[1:]:
+        body = intersection(body, part)
+    if not body.face_count:
+        raise InputError(f"{' and '.join(draft.parts or ())} have no volume in common")
+    return placed(body, draft.placement)
+
+
+def _general(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    """A polyhedron from its lists; turned outwards where it is convex and not called general."""
+    vertices = np.array(draft.vertices, dtype=np.float64).reshape(3, -1).T
+    for what, groups in (("face", draft.faces), ("edge", draft.edges)):
+        for number, group in enumerate(groups or (), 1):
+            if min(group) < 1 or max(group) > len(vertices):
+                bad = next(v for v in group if not 1 <= v <= len(vertices))
+                raise InputError(f"{what} {number} names vertex {bad}, there are {len(vertices)}, counted from 1")
+    mesh = Mesh.from_polygons(vertices, [[vertex - 1 for vertex in face] for face in draft.faces or ()])
+    if draft.edges is not None:
+        _check_edges(draft.edges, mesh)
+    if draft.form not in ("general", "concave"):
+        outwards = turned_outwards(mesh)
+        if has_convex_outline(outwards):
+            mesh = outwards
+        elif draft.form == "convex":
+            _warn(draft, words, "is not convex; its faces are taken as they are listed")
+    return placed(mesh, draft.placement)
+
+
+def _warn(draft: Draft, words: Words, cause: str) -> None:
+    line = words.line(draft.index)
+    warnings.warn(f"{words.name}:{line}: {draft.owner}{cause}", InputWarning, stacklevel=3)
+
+
+def _check_edges(edges: list[list[int]], mesh: Mesh) -> None:
+    """Every listed edge must be a side of a face."""
+    for number, edge in enumerate(edges, 1):
+        if len(edge) != 2 or edge[0] == edge[1]:
+            raise InputError(f"edge {number}: expected two different vertices")
+    count = len(mesh.vertices)
+    sides = mesh_edges(mesh) @ np.array([count, 1])
+    listed = np.sort(np.array(edges).reshape(-1, 2) - 1, axis=1) @ np.array([count, 1])
+    known = np.isin(listed, sides)
+    if not known.all():
+        first = int(np.argmin(known))
+        raise InputError(f"edge {first + 1} ({edges[first][0]} {edges[first][1]}) is no side of a face")
+
+
+def _without_faces(mesh: Mesh, removed: list[int]) -> Mesh:
+    present = np.ones(mesh.face_count, dtype=np.bool_) if mesh.present is None else mesh.present.copy()
+    for number in removed:
+        if not 1 <= number <= mesh.face_count:
+            raise InputError(f"removed_faces: there is no face {number}, faces run from 1 to {mesh.face_count}")
+        present[number - 1] = False
+    return Mesh(mesh.vertices, mesh.corners, mesh.offsets, present)
+
+
+def _check_patterns(patterns: Sequence[Pattern], mesh: Mesh) -> None:
+    for pattern in patterns:
+        if not 0 <= pattern.face < mesh.face_count:
+            cause = f"there is no face {pattern.face + 1}, faces run from 1 to {mesh.face_count}"
+            raise InputError(f"patterns, polygon {pattern.name}: {cause}")
+
+
+_SHAPES: dict[str, Callable[[Draft, Words, Sequence[Mesh]], Mesh]] = {
+    "box": _box,
+    "revolution": _revolution,
+    "translation": _translation,
+    "vertices": _general,
+    "intersection": _intersection,
+}
+
+CAP_WORDS = {"+bottom": BOTTOM, "+top": TOP}

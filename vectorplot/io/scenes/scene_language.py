@@ -1,0 +1,154 @@
+"""Scene files: the data-file language of docs/scene-language.md, read into a Scene."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import replace
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+
+from vectorplot.curves.curve import is_curve
+from vectorplot.errors import InputError, printable
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.io.scenes.scene_item import Draft, finished
+from vectorplot.io.scenes.scene_reader import ItemReader
+from vectorplot.io.scenes.scene_statements import read_camera, read_light, read_page
+from vectorplot.io.scenes.scene_words import SCENE_WORDS, Words
+from vectorplot.scene.extent import check_range
+from vectorplot.scene.scene import Item, Light, Scene
+
+MAX_FILE_BYTES = 64 << 20
+"""The largest scene file that is read."""
+
+MAX_ITEMS = 1_000_000
+"""The largest number of items in a scene file."""
+
+
+def read_scene(path: str | os.PathLike[str]) -> Scene:
+    """The scene that a file in the scene language describes.
+
+    Errors: InputError with file, line, item and the word expected. Source: Glaeser, chapter 3 and section 6.5.
+    """
+    name = printable(str(path))
+    file = Path(path)
+    try:
+        if file.stat().st_size > MAX_FILE_BYTES:
+            raise InputError(f"larger than {MAX_FILE_BYTES >> 20} MiB: this is no scene file", file=name)
+        text = file.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        raise InputError("not UTF-8: this is no scene file", file=name, line=line) from None
+    except (OSError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(getattr(error, "strerror", None) or "cannot be read", file=name) from None
+    return parse_scene(text, name)
+
+
+def parse_scene(text: str, name: str = "<text>") -> Scene:
+    """The scene that a text in the scene language describes; name: what messages call the text.
+
+    Errors: InputError with name, line, item and the word expected; an unknown colour is gray, with an InputWarning.
+    Degenerate: an empty text is an empty scene.
+    """
+    return _Reader(Words(text, name)).scene()
+
+
+class _Reader(ItemReader):
+    """Reads statements and items, and gathers them; parts: the places of items that an intersection is made of."""
+
+    def __init__(self, words: Words) -> None:
+        super().__init__(words)
+        self.items: list[Item] = []
+        self.parts: set[int] = set()
+        self.lights: list[Light] = []
+        self.settings = Scene(items=())
+        self.set: set[str] = set()
+        self.lit: list[tuple[int, Draft]] = []
+
+    def scene(self) -> Scene:
+        """All statements and items up to the end of the text."""
+        while word := self.words[self.at]:
+            if word in SCENE_WORDS:
+                self.statement(word)
+            else:
+                self.item()
+        numbers = {light.name: k for k, light in reversed(list(enumerate(self.lights)))} if self.lit else {}
+        for place, draft in self.lit:
+            self.items[place] = self.lit_item(self.items[place], draft, numbers)
+        self.check_range()
+        shown = [item for place, item in enumerate(self.items) if place not in self.parts] if self.parts else self.items
+        return replace(self.settings, items=tuple(shown), lights=tuple(self.lights))
+
+    def check_range(self) -> None:
+        """An InputError for polyhedra, as they stand in the scene, whose coordinates leave the range of numbers."""
+        bounds = [item.mesh.bounds for item in self.items if len(item.mesh.vertices)]
+        if not bounds:
+            return
+        low, high = np.array(bounds).transpose(1, 0, 2)
+        try:
+            check_range(np.stack([low.min(axis=0), high.max(axis=0)]))
+        except InputError as error:
+            raise InputError(error.cause, file=self.source.name) from None
+
+    def statement(self, word: str) -> None:
+        """camera, light, page, background or title, and what follows it."""
+        if word in self.set and word != "light":
+            self.fail(f"a second '{word}'")
+        self.set.add(word)
+        source, now = self.source, self.settings
+        if word == "camera":
+            camera, self.at = read_camera(source, self.at)
+            self.settings = replace(now, camera=camera)
+        elif word == "light":
+            light, self.at = read_light(source, self.at)
+            self.lights.append(light)
+        elif word == "page":
+            page, self.at = read_page(source, self.at)
+            self.settings = replace(now, page=page)
+        else:
+            self.at += 1
+            if word == "title":
+                if not self.words[self.at].startswith('"'):
+                    self.fail(f"expected a string in quotes after 'title', got {source.shown(self.at)}")
+                self.settings = replace(now, title=source.string(self.at))
+                self.at += 1
+            else:
+                self.settings = replace(now, background=self.colour("background"))
+
+    def item(self) -> None:
+        """An item, made of its draft."""
+        draft = self.draft()
+        parts: tuple[Mesh, ...] = ()
+        if draft.parts is not None:
+            places = [self.places[part] for part in draft.parts]
+            for place in places:
+                if not isinstance(self.items[place].shape, Mesh):
+                    name, what = self.items[place].name, "curve" if is_curve(self.items[place].shape) else "surface"
+                    self.source.fail(draft.kind_index, f"{draft.owner}{name} is a {what}: only solids are intersected")
+            parts = tuple(self.items[place].mesh for place in places)
+            self.parts.update(places)
+        if draft.curves.lit_index:
+            self.lit.append((len(self.items), draft))
+        self.places[draft.name] = len(self.items)
+        self.items.append(finished(draft, self.source, parts))
+        if len(self.items) > MAX_ITEMS:
+            self.source.fail(draft.index, f"{draft.owner}more than {MAX_ITEMS} items")
+
+    def lit_item(self, item: Item, draft: Draft, numbers: Mapping[str, int]) -> Item:
+        """An item with isophotes of the light that its draft names, or counts from 1; lights may come after items.
+
+        numbers: of the lights from 0, by their names."""
+        at = draft.curves.lit_index
+        name, count = self.source.string(at), len(self.lights)
+        if self.words[at].isdecimal() and len(name) <= len(str(count)) and 1 <= int(name) <= count:
+            index = int(name) - 1
+        elif name in numbers:
+            index = numbers[name]
+        else:
+            known = ", ".join(filter(None, islice(numbers, 10))) or f"{count} without names"
+            self.source.fail(at, f"{draft.owner}there is no light {self.source.shown(at)} (lights: {known})")
+        return replace(item, curves=replace(item.curves, light=index))

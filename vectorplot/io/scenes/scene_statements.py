@@ -1,0 +1,126 @@
+"""What a scene file says about the scene as a whole: camera, lights, page."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.cameras.camera import VIEWS, Camera
+from vectorplot.io.scenes.scene_words import Words
+from vectorplot.scene.paper import sheet_size
+from vectorplot.scene.scene import Light, Page
+from vectorplot.words import COLOURS, is_colour, nearest
+
+_CAMERA_POINTS = ("eye", "target", "up")
+_CAMERA_NUMBERS = {"twist": "twist_deg", "field_of_vision": "fov_deg", "height": "height", "near": "near", "far": "far"}
+_CAMERA_WORDS = (*_CAMERA_POINTS, *_CAMERA_NUMBERS, "parallel", "view")
+
+
+def read_camera(words: Words, at: int) -> tuple[Camera, int]:
+    """The camera that the words from ``camera`` on describe, and the word behind them."""
+    start = at
+    at += 1
+    given: dict[str, Any] = {}
+    view: str | None = None
+    while (word := words.words[at]) in _CAMERA_WORDS:
+        if word in _CAMERA_POINTS:
+            point, at = words.numbers(at + 1, 3, "camera: ", word)
+            given[word] = tuple(point)
+        elif word in _CAMERA_NUMBERS:
+            given[_CAMERA_NUMBERS[word]] = words.number(at + 1, "camera: ", word)
+            at += 2
+        elif word == "parallel":
+            given["parallel"] = True
+            at += 1
+        else:
+            view = words.words[at + 1]
+            if view not in VIEWS:
+                words.fail(at + 1, f"camera: expected a view ({', '.join(VIEWS)}), got {words.shown(at + 1)}")
+            at += 2
+    if "eye" not in given and view is None:
+        words.fail(at, f"camera: expected 'eye' (words: {', '.join(_CAMERA_WORDS)}), got {words.shown(at)}")
+    if "eye" in given and view is not None:
+        words.fail(start, "camera: 'eye' and 'view' exclude each other")
+    try:
+        if view is None:
+            return Camera(**given), at
+        main = Camera.view(view, target=given.pop("target", (0.0, 0.0, 0.0)))
+        return replace(main, **given), at
+    except InputError as error:
+        words.fail(start, error.cause)
+
+
+_LIGHT_WORDS = ("position", "direction", "intensity", "colour", "fading")
+
+
+def read_light(words: Words, at: int) -> tuple[Light, int]:
+    """The light that the words from ``light`` on describe, and the word behind them."""
+    start = at
+    at += 1
+    name, owner = "", "light: "
+    if words.words[at] not in (*_LIGHT_WORDS, ""):
+        name = words.string(at)
+        owner = f"light {name}: "
+        at += 1
+    place: tuple[float, float, float] | None = None
+    parallel = False
+    intensity: float | None = None
+    colour, fading = "white", False
+    while (word := words.words[at]) in _LIGHT_WORDS:
+        if word == "colour":
+            colour, at = _light_colour(words, at + 1, owner)
+            continue
+        if word == "fading":
+            fading, at = True, at + 1
+            continue
+        if word == "intensity":
+            intensity = words.number(at + 1, owner, word)
+            if not 0.0 <= intensity <= 1.0:
+                words.fail(at + 1, f"{owner}intensity {intensity:g} must lie between 0 and 1")
+            at += 2
+            continue
+        if place is not None:
+            words.fail(at, f"{owner}a second '{word}'")
+        (x, y, z), at = words.numbers(at + 1, 3, owner, word)
+        place, parallel = (x, y, z), word == "direction"
+        if parallel and not any(place):
+            words.fail(start, f"{owner}the direction is zero")
+    if place is None:
+        words.fail(at, f"{owner}expected 'position' or 'direction', got {words.shown(at)}")
+    if fading and parallel:
+        words.fail(start, f"{owner}parallel light does not fade")
+    return Light(place, parallel, intensity, name, colour, fading), at
+
+
+def _light_colour(words: Words, at: int, owner: str) -> tuple[str, int]:
+    """The colour at a word, a known one or one in quotes, and the word behind it."""
+    word = words.string(at)
+    if not is_colour(word):
+        near = nearest(word.lower(), COLOURS)
+        words.fail(at, f"{owner}expected a colour{f' (did you mean {near!r}?)' if near else ''}, got {words.shown(at)}")
+    return word, at + 1
+
+
+def read_page(words: Words, at: int) -> tuple[Page, int]:
+    """The page that the words from ``page`` on describe, and the word behind them."""
+    start = at
+    if not words.words[at + 1]:
+        words.fail(at + 1, "page: expected a size, got the end of the file")
+    try:
+        width, height = sheet_size(words.words[at + 1])
+        at += 2
+        margin: float | None = None
+        landscape = False
+        while (word := words.words[at]) in ("landscape", "margin"):
+            landscape |= word == "landscape"
+            at += 1
+            if word == "margin":
+                margin = words.number(at, "page: ", word)
+                at += 1
+        page = Page(width, height) if margin is None else Page(width, height, margin)
+        return (page.landscape if landscape else page), at
+    except InputError as error:
+        if error.file is not None:
+            raise
+        words.fail(start, error.cause)

@@ -1,0 +1,1 @@
+"""How light falls on faces, and which colours that makes."""

@@ -1,0 +1,147 @@
+"""How fine the triangles of smooth surfaces have to be, so that a picture shows none of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats
+from vectorplot.features.edge_splitting import NONE, Edges
+from vectorplot.features.facets import INSIDE, Allowed, off_chords, turning
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.extent import smooth_bounds
+from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.view import View, look
+from vectorplot.shading.light.face_shades import point_shades, view_eye, view_lights
+from vectorplot.shading.light.faceted import without_curved_mirror
+from vectorplot.shading.light.illumination import homogeneous_light, towards
+
+SHADE_ERROR = 2.0 / 255.0
+"""By how much of a palette shades along sides of triangles may be off."""
+
+DEEP, DEEP_IN_LIGHT = 40.0, 3.0
+"""By how many times the tolerance triangles may be off the surface where that can be seen from the eye only, along the
+sight rays: apart from outlines, borders and other items; fewer where borders of shadows show it."""
+
+TURN = np.radians(40.0)
+"""By so much normals may turn along a side at most, however little light there is to show it."""
+
+SHORTEST = 4.0
+"""Sides that are no longer than so many times the tolerance are fine enough."""
+
+
+@dataclass(frozen=True, eq=False)
+class PictureFineness:
+    """What a picture asks of the triangles of one item, as features.edge_splitting.Demand.
+
+    Its outlines, seen by the eye and by the lights, its borders, and what is near other items are within the tolerance
+    (where a narrow triangle beside an outline turns away, within five times of it); shades along sides within
+    SHADE_ERROR. Surfaces fold over where sight rays and light rays touch them: there outlines
+    and the borders of dark sides begin.
+
+    view: of the scene, its points being what it reaches; lights: in its coordinates, as of view_lights; casts: whether
+    they throw shadows; deep: by how many times the tolerance triangles may be off elsewhere; others (k,2,3): the boxes
+    of the other items that meet the item's, in the world.
+    """
+
+    view: View
+    item: Item
+    lights: tuple[Light, ...]
+    casts: bool
+    deep: float
+    others: Floats
+    allowed: Allowed
+
+    @property
+    def outlines(self) -> int:
+        """The folds of the eye, and of lights that throw shadows."""
+        return 1 + (len(self.lights) if self.casts else 0)
+
+    def folds(self, points: Floats, normals: Floats) -> Floats:
+        """(s,n) cosines between normals and rays to the eye and to the lights."""
+        places, ways = self._in_view(points, normals)
+        sources = [view_eye(self.view), *(homogeneous_light(light) for light in self.lights)]
+        return np.stack([np.einsum("ij,ij->i", ways, towards(places, source)) for source in sources])
+
+    def excess(self, edges: Edges) -> Floats:
+        """(k,n) as Demand."""
+        allowed = self.allowed(edges.at.points)
+        strict = (edges.fold != NONE) & (edges.fold < self.outlines) | self._among_others(edges.at.points)
+        far = off_chords(edges) / (INSIDE * allowed * np.where(strict, 1.0, self.deep))
+        found = np.maximum(np.maximum(far, self._shade_errors(edges) / SHADE_ERROR), turning(edges) / TURN)
+        return np.where(self._long(edges, allowed), found, 0.0)
+
+    def border_excess(self, edges: Edges) -> Floats:
+        """(k,n) as Demand."""
+        allowed = self.allowed(edges.at.points)
+        return np.where(self._long(edges, allowed), off_chords(edges) / (INSIDE * allowed), 0.0)
+
+    def _long(self, edges: Edges, allowed: Floats) -> Bools:
+        length = np.linalg.norm(edges.end.points - edges.start.points, axis=-1)
+        return np.asarray(length > SHORTEST * allowed, dtype=np.bool_)
+
+    def _among_others(self, points: Floats) -> Bools:
+        """(...,) whether points (..., 3) are in the box of another item."""
+        found = np.zeros(points.shape[:-1], dtype=np.bool_)
+        for low, high in self.others:
+            found |= ((points >= low) & (points <= high)).all(axis=-1)
+        return found
+
+    def _shade_errors(self, edges: Edges) -> Floats:
+        """(k,n) how far shades are from those between the shades of the ends of a side."""
+        nodes = np.concatenate((edges.start.points[None], edges.at.points, edges.end.points[None]))
+        normals = np.concatenate((edges.start.normals[None], edges.at.normals, edges.end.normals[None]))
+        # A side is seen from one side, that of its middle.
+        places, ways = self._in_view(nodes[2], normals[2])
+        away = np.einsum("ij,ij->i", ways, towards(places, view_eye(self.view))) < 0.0
+        normals = np.where(away[:, None], -normals, normals)
+        places, ways = self._in_view(nodes.reshape(-1, 3), normals.reshape(-1, 3))
+        item = np.zeros(len(places), dtype=np.intp)
+        found = point_shades(self.view, (self.item,), self.lights, places, np.nan_to_num(ways), item).total
+        shade = found.reshape(-1, *nodes.shape[:2])
+        between = (1.0 - edges.t) * shade[:, :1] + edges.t * shade[:, -1:]
+        return np.asarray(np.abs(shade[:, 1:-1] - between).max(axis=0))
+
+    def _in_view(self, points: Floats, normals: Floats) -> tuple[Floats, Floats]:
+        return self.view.points_of(points).T, normals @ self.view.axes.T
+
+
+def picture_fineness(scene: Scene, camera: Camera, casts: bool, allowed: Allowed) -> Callable[[int], PictureFineness]:
+    """What a picture of the scene asks of the triangles of its items, by their numbers. casts: whether its lights throw
+    shadows; allowed: how far triangles may be off outlines, so that it is the tolerance on the page."""
+    view = look(scene, camera)
+    low, high = scene.bounds
+    corners = np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, high, low)
+    view = replace(view, points=view.points_of(corners))
+    lights = view_lights(view, scene.lights)
+    deep = DEEP_IN_LIGHT if casts else DEEP
+    if any(item.material.is_mirror or item.material.refraction != 1.0 for item in scene.items):
+        # Mirrors and glass show items from elsewhere.
+        deep = 1.0
+    boxes = [_box(item) for item in scene.items]
+
+    def demand(number: int) -> PictureFineness:
+        others = [box for other, box in enumerate(boxes) if other != number and len(box)]
+        near = _meeting(np.array(others).reshape(-1, 2, 3), boxes[number])
+        item = without_curved_mirror(scene.items[number])
+        return PictureFineness(view, item, lights, casts, deep, near, allowed)
+
+    return demand
+
+
+def _meeting(boxes: Floats, box: Floats) -> Floats:
+    """(k,2,3) those of some boxes (n,2,3) that meet another one (2,3), each once; one without a point meets none."""
+    if not len(box):
+        return boxes[:0]
+    return np.unique(boxes[((boxes[:, 0] <= box[1]) & (boxes[:, 1] >= box[0])).all(axis=1)], axis=0)
+
+
+def _box(item: Item) -> Floats:
+    """(2,3) smallest and largest coordinates; (0,3) of an item without any."""
+    if not isinstance(item.shape, Mesh):
+        return smooth_bounds(item.shape)
+    points = item.shape.vertices
+    return np.array((points.min(axis=0), points.max(axis=0))) if len(points) else points

@@ -1,0 +1,125 @@
+"""The colours of painted polygons, corner by corner."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.scene.scene import Item, Light
+from vectorplot.scene.view import View
+from vectorplot.shading.light.face_shades import (
+    Shades,
+    decal_shades,
+    face_normals,
+    item_colours,
+    point_shades,
+    shows_inside,
+)
+from vectorplot.shading.light.flat_regions import plane_middles
+from vectorplot.shading.light.palettes import COLOUR_MAP, SIZE, Colours
+
+
+@dataclass(frozen=True, eq=False)
+class Lighting:
+    """What colours are made of: items and lights of the view, the latter as of view_lights; normals (3,c) at the
+    corners of the faces of the view, as of painted_normals; plane (f,) as of plane_numbers; size: shades of each
+    palette; doubles: of lights in mirrors, where such light falls."""
+
+    items: Sequence[Item]
+    lights: Sequence[Light]
+    normals: Floats
+    plane: Ints
+    size: int = SIZE
+    doubles: tuple[Light, ...] = ()
+
+
+def smooth_faces(view: View, normals: Floats) -> Bools:
+    """(f,) faces all corners of which have a normal of their own; normals (3,c)."""
+    if not view.face_count:
+        return np.zeros(0, dtype=np.bool_)
+    known: Bools = np.asarray(np.isfinite(normals).all(axis=0), dtype=np.bool_)
+    return np.asarray(np.logical_and.reduceat(known, view.offsets[:-1]), dtype=np.bool_)
+
+
+def corner_shades_of(view: View, lighting: Lighting, points: Floats, offsets: Ints, source: Ints) -> Shades:
+    """The shades at the corners (3,c), in the view, of polygons offsets (n+1,) that lie on faces source (n,).
+
+    A polygon on a plane has one shade, that of the middle of all faces in this plane; where faces have normals at their
+    corners each corner has its own.
+    Source: Glaeser, sections 4.5 and 8.5.
+    """
+    face = np.repeat(source, np.diff(offsets))
+    smooth = smooth_faces(view, lighting.normals)
+    flat, of = np.unique(source[~smooth[source]], return_inverse=True)
+    one = decal_shades(view, lighting.items, lighting.lights, plane_middles(view, lighting.plane)[:, flat], flat)
+    count = len(face)
+    found = Shades(
+        np.zeros((len(one.shares), count)),
+        np.zeros((len(one.shares), count)),
+        np.zeros((len(one.shares), count), dtype=np.bool_),
+        one.intensity,
+        np.zeros(count),
+    )
+    on_flat = np.flatnonzero(~smooth[face])
+    number = np.repeat(of.ravel(), np.diff(offsets)[~smooth[source]])
+    found.shares[:, on_flat], found.matt[:, on_flat] = one.shares[:, number], one.matt[:, number]
+    found.backlit[:, on_flat] = one.backlit[:, number]
+    found.cue[on_flat] = one.cue[number]
+    at = np.flatnonzero(smooth[face])
+    if not len(at):
+        return found
+    normals = _normals_on(view, lighting.normals, points[:, at], face[at])
+    inside = shows_inside(view)[face[at]]
+    turned = np.where(inside, -normals, normals)
+    own = point_shades(view, lighting.items, lighting.lights, points[:, at].T, turned.T, view.face_item[face[at]])
+    found.shares[:, at], found.matt[:, at] = own.shares, own.matt
+    found.backlit[:, at], found.cue[at] = own.backlit, own.cue
+    return found
+
+
+def colours_of(view: View, lighting: Lighting, source: Ints, shade: Floats) -> Colours:
+    """(n,3) the colours of points on faces (n,) at shades (n,) or (3,n): on smooth surfaces without steps."""
+    item = view.face_item[source]
+    found = item_colours(lighting.items, item, shade, lighting.size)
+    at = np.flatnonzero(smooth_faces(view, lighting.normals)[source])
+    if len(at):
+        found[at] = item_colours(lighting.items, item[at], shade[..., at], COLOUR_MAP)
+    return found
+
+
+def opacities(items: Sequence[Item]) -> Floats:
+    """(i,) how opaque items are, from 0 to 1."""
+    return np.array([item.material.opacity for item in items], dtype=np.float64)
+
+
+def _normals_on(view: View, normals: Floats, points: Floats, face: Ints) -> Floats:
+    """(3,n) unit normals at points (3,n) of faces (n,), between those at the corners of the triangle of the fan that
+    each lies in."""
+    first, size = view.offsets[face], view.face_sizes[face]
+    flat = face_normals(view)[:, face]
+    found, best = np.zeros((3, len(face))), np.full(len(face), -np.inf)
+    for step in range(1, int(size.max(initial=2)) - 1):
+        here = np.flatnonzero(size > step + 1)
+        corner = first[here] + np.array([[0], [step], [step + 1]])
+        weights = _weights(view.points[:, view.corners[corner]], points[:, here], flat[:, here])
+        inside = weights.min(axis=0)
+        better = inside > best[here]
+        best[here[better]] = inside[better]
+        share = np.clip(weights[:, better], 0.0, 1.0)
+        found[:, here[better]] = (share * normals[:, corner[:, better]]).sum(axis=1)
+    length = np.sqrt((found * found).sum(axis=0))
+    return np.asarray(np.where(length > 0.0, found / np.where(length > 0.0, length, 1.0), flat))
+
+
+def _weights(corners: Floats, points: Floats, normal: Floats) -> Floats:
+    """(3,n) the barycentric coordinates of points (3,n) in triangles (3,3,n): coordinates by corners by triangles."""
+    a, b, c = corners.transpose(1, 0, 2)
+    area = (np.cross(b - a, c - a, axis=0) * normal).sum(axis=0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        one = (np.cross(c - b, points - b, axis=0) * normal).sum(axis=0) / area
+        two = (np.cross(a - c, points - c, axis=0) * normal).sum(axis=0) / area
+    one, two = (np.nan_to_num(weight, nan=1.0 / 3.0, posinf=1.0 / 3.0, neginf=1.0 / 3.0) for weight in (one, two))
+    return np.stack([one, two, 1.0 - one - two])

@@ -1,0 +1,73 @@
+"""The normals that painted faces are shaded with: those of smooth surfaces, of meshes that stand for such, and of
+planes on which light varies; everything else has one shade."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.scene.scene import Item, Light
+from vectorplot.scene.view import View
+from vectorplot.shading.light.corner_normals import at_corners, view_normals
+from vectorplot.shading.light.face_shades import decal_shades, face_middles, face_normals
+from vectorplot.shading.light.illumination import REDUCED, shades
+from vectorplot.shading.light.palettes import SIZE
+
+FLAT_COSINE = 1.0 - 1e-8
+"""Of the angle between a normal and that of its face where the face is flat: less than a hundredth of a degree."""
+
+VARIED = 2.0 / SIZE
+"""By so much of a palette light varies on planes that are not shown in one shade: by two shades of a usual one."""
+
+
+def painted_normals(
+    view: View,
+    items: Sequence[Item],
+    lights: Sequence[Light],
+    given: Sequence[Floats | None],
+    plane: Ints,
+    crease_angle_deg: float,
+) -> Floats:
+    """(3,c) unit normals at the corners of the faces of a view, outwards; NaN at those of faces that have one shade.
+
+    lights: in the view's coordinates; given and crease angle as of view_normals: the same normals as in pictures of
+    pixels; plane (f,) as of plane_numbers: the faces of a region are shaded alike. Regions of one normal have one shade
+    unless the light on them varies by more than VARIED, as on a floor below a lamp.
+    """
+    found = at_corners(view, view_normals(view, given, crease_angle_deg))
+    own = face_normals(view)
+    of_corner = ragged.owner(view.face_sizes)
+    turned = (found * own[:, of_corner]).sum(axis=0) < FLAT_COSINE
+    turned &= (own != 0.0).any(axis=0)[of_corner]
+    count = int(plane.max(initial=-1)) + 1
+    round_ = np.zeros(count, dtype=np.bool_)
+    round_[plane[of_corner[turned]]] = True
+    true = np.array([normals is not None for normals in given], dtype=np.bool_)[view.face_item]
+    varied = _varied(view, items, lights, plane)[plane]
+    flat: Bools = np.asarray(~(round_[plane] | true), dtype=np.bool_)
+    found[:, (flat & ~varied)[of_corner]] = np.nan
+    plain = (flat & varied)[of_corner]
+    found[:, plain] = own[:, of_corner[plain]]
+    return found
+
+
+def _varied(view: View, items: Sequence[Item], lights: Sequence[Light], plane: Ints) -> Bools:
+    """(p,) the regions on which light varies, from corner to corner, middle to middle and along sides."""
+    corner = np.arange(len(view.corners))
+    of_corner = ragged.owner(view.face_sizes)
+    start, end = view.points[:, view.corners], view.points[:, view.corners[view.after(corner)]]
+    points = np.concatenate([start, (start + end) / 2.0, face_middles(view)], axis=1)
+    face = np.concatenate([of_corner, of_corner, np.arange(view.face_count)])
+    at = decal_shades(view, items, lights, points, face)
+    light = np.atleast_2d(shades(at.shares, at.intensity)) / REDUCED
+    count = int(plane.max(initial=-1)) + 1
+    spread = np.zeros(count)
+    for row in light:
+        low, high = np.full(count, np.inf), np.full(count, -np.inf)
+        np.minimum.at(low, plane[face], row)
+        np.maximum.at(high, plane[face], row)
+        spread = np.maximum(spread, high - low)
+    return np.asarray(spread > VARIED)

@@ -1,0 +1,45 @@
+"""A picture of pixels: what render gives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from vectorplot.errors import InputError
+from vectorplot.shading.raster.png import DPI, Bytes, png_bytes
+
+
+@dataclass(frozen=True, eq=False)
+class Image:
+    """pixels (rows, columns, 3) uint8: red, green and blue, row 0 on top; title: what it shows; dpi: the dots
+    per inch that its file says, those of drawings saved as pixels unless told otherwise.
+
+    Errors: InputError for other shapes or types.
+    """
+
+    pixels: Bytes
+    title: str = ""
+    dpi: float = DPI
+
+    def __post_init__(self) -> None:
+        if self.pixels.dtype != "uint8" or self.pixels.ndim != 3 or self.pixels.shape[2] != 3 or not self.pixels.size:
+            raise InputError(f"an image needs bytes of shape (rows, columns, 3), not {self.pixels.shape}")
+
+    def __repr__(self) -> str:
+        return f"<Image {self.title!r}: {self.columns} x {self.rows} pixels>"
+
+    @property
+    def columns(self) -> int:
+        """How many columns of pixels there are."""
+        return int(self.pixels.shape[1])
+
+    @property
+    def rows(self) -> int:
+        """How many rows of pixels there are."""
+        return int(self.pixels.shape[0])
+
+    def png(self) -> bytes:
+        """The picture as a PNG file. The same picture gives the same bytes."""
+        return png_bytes(self.pixels, dpi=self.dpi)
+
+    def _repr_png_(self) -> bytes:
+        return self.png()

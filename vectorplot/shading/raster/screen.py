@@ -1,0 +1,191 @@
+"""Triangles on the way to pixels: projected, cut at the near plane, with a depth that is larger the closer it is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.errors import InputError
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.cameras.projection import CoordinateSystem, PixelWindow
+from vectorplot.geometry.tolerance import INFINITE
+from vectorplot.shading.raster.coverage import GUARD_BAND
+
+NEAR = 1e-4
+"""The near plane, as a part of the distance between eye and image plane."""
+
+BORDER = 0.03
+"""Part of each side that a fitted picture leaves free."""
+
+WIDEST_SLOPE = float(np.tan(np.radians(60.0)))
+"""A picture is not fitted to what lies farther off the principal ray."""
+
+LARGEST_SIDE_PIXELS = 32767
+"""The limit of backends.cairo, well inside the guard band."""
+
+LARGEST_RASTER_PIXELS = 1 << 27
+"""1 GB of depths."""
+
+
+@dataclass(frozen=True, eq=False)
+class ScreenTriangles:
+    """Triangles in pixels, all of them in front of the near plane and inside the guard band.
+
+    points (p, 3): column, row and depth after T2 (z / (d - z), in a parallel projection z); corners (t, 3) into points;
+    source (t,): the triangle each is a part of; sheet (t,): the plane that it shares with others, -1 for none (None:
+    none shares any); slopes (3, k): the depth of each such plane at column 0 and row 0, and how it grows with these.
+    """
+
+    points: Floats
+    corners: Ints
+    source: Ints
+    sheet: Ints | None = None
+    slopes: Floats | None = None
+
+    def __len__(self) -> int:
+        return len(self.corners)
+
+
+@dataclass(frozen=True)
+class HalfSpace:
+    """Homogeneous points p (4,) with normal . p >= limit."""
+
+    normal: tuple[float, float, float, float]
+    limit: float = 0.0
+
+
+def raster_size(columns: int, rows: int) -> tuple[int, int]:
+    """The size, if there can be such a raster. Errors: InputError."""
+    if not (1 <= columns <= LARGEST_SIDE_PIXELS and 1 <= rows <= LARGEST_SIDE_PIXELS):
+        raise InputError(f"a raster of {columns} x {rows} pixels: sides must be 1 to {LARGEST_SIDE_PIXELS}")
+    if columns * rows > LARGEST_RASTER_PIXELS:
+        raise InputError(f"a raster of {columns} x {rows} pixels is too large")
+    return int(columns), int(rows)
+
+
+def raster_system(camera: Camera, columns: int, rows: int) -> CoordinateSystem:
+    """The camera's system in pixels with centres at integers and row 0 on top; the field of vision fills the height.
+
+    Errors: InputError for a raster too large or without pixels. Source: Glaeser, section 2.3; decision D-1.
+    """
+    raster_size(columns, rows)
+    system = CoordinateSystem.of_screen(camera, PixelWindow(columns, rows, -1.0))
+    return replace(system, middle=((columns - 1) / 2.0, (rows - 1) / 2.0))
+
+
+def fitted(system: CoordinateSystem, points: ArrayLike, columns: int, rows: int) -> CoordinateSystem:
+    """A system in pixels, enlarged and moved so that points (n, 3) fill the raster but for a border.
+
+    Degenerate: without points, and where one of them lies behind the eye or more than 60 degrees off the principal ray,
+    the system as it is; points in one place are moved to the middle only.
+    """
+    p = system.homogeneous(points)
+    if not len(p) or p[:, 3].min() < NEAR:
+        return system
+    image = p[:, :2] / p[:, 3:]
+    middle, scale = np.array(system.middle), np.array(system.scale)
+    # The principal ray meets the image plane at a distance from the eye that is known in its units.
+    if system.distance != INFINITE and (np.abs((image - middle) / scale).max() > WIDEST_SLOPE * system.distance):
+        return system
+    low, high = image.min(axis=0), image.max(axis=0)
+    room = np.array([columns, rows]) * (1.0 - 2.0 * BORDER)
+    extent = high - low
+    factor = min((r / e for r, e in zip(room.tolist(), extent.tolist(), strict=True) if e > 0.0), default=1.0)
+    centre = np.array([columns - 1, rows - 1]) / 2.0
+    x, y = (centre + factor * (middle - (low + high) / 2.0)).tolist()
+    return replace(system, scale=(factor * system.scale[0], factor * system.scale[1]), middle=(x, y))
+
+
+def front_facing(points: ArrayLike, corners: Ints, eye: ArrayLike) -> Bools:
+    """(t,) which triangles of points (n, 3) turn their outer side to the eye: (x, y, z, 1), or (x, y, z, 0) for rays
+    that run to the direction (x, y, z). The others, of closed bodies, may be skipped.
+
+    Source: Glaeser, sections 5.1 and 7.3.
+    """
+    p, e = np.asarray(points, dtype=np.float64), np.asarray(eye, dtype=np.float64)
+    a, b, c = (p[corners[:, k]] for k in range(3))
+    return np.asarray(np.einsum("ij,ij->i", np.cross(b - a, c - a), e[:3] - e[3] * a) > 0.0)
+
+
+def screen_triangles(
+    points: ArrayLike, corners: ArrayLike, *, near: float = NEAR, sides: Sequence[HalfSpace] = ()
+) -> ScreenTriangles:
+    """The triangles (t, 3) of homogeneous points (n, 4), as CoordinateSystem.homogeneous gives them, cut to what is
+    in front of the near plane, and dropped or cut where they leave the guard band.
+
+    A cut edge gets its new corner by the same arithmetic in all triangles that have it, so that no gap opens.
+    near: the smallest weight, 1 in the image plane and 0 at the eye; sides: what is outside of them is cut off first.
+    Errors: InputError for coordinates that are not finite, for corners out of range, for near <= 0.
+    Source: Glaeser, section 2.5 (Hodgman and Sutherland); erratum G2-09.
+    """
+    p, corners = _checked(points, corners)
+    if not 0.0 < near < np.inf:
+        raise InputError(f"a near plane at {near:g} shows nothing")
+    source = np.arange(len(corners), dtype=np.intp)
+    for side in sides:
+        p, corners, source = _kept(p, corners, source, p @ np.asarray(side.normal) - side.limit)
+    # The near plane first, then the sides of the guard band.
+    for axis, sign in ((3, 1.0), (0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)):
+        inside = p[:, 3] - near if axis == 3 else sign * p[:, axis] + GUARD_BAND * p[:, 3]
+        p, corners, source = _kept(p, corners, source, inside)
+    # Points that no triangle is left of may have no image.
+    seen = p[:, 3] >= near / 2.0
+    flat = p[:, :3] / np.where(seen, p[:, 3], 1.0)[:, None]
+    flat[~seen] = 0.0
+    # A new corner lies on the border up to rounding.
+    np.clip(flat[:, :2], -GUARD_BAND, GUARD_BAND, out=flat[:, :2])
+    return ScreenTriangles(flat, corners, source)
+
+
+def _checked(points: ArrayLike, corners: ArrayLike) -> tuple[Floats, Ints]:
+    p = np.asarray(points, dtype=np.float64).reshape(-1, 4)
+    t = np.asarray(corners, dtype=np.intp).reshape(-1, 3)
+    if not np.isfinite(p).all():
+        raise InputError("a point of a triangle has a coordinate that is not a finite number")
+    if len(t) and (t.min() < 0 or t.max() >= len(p)):
+        raise InputError(f"a triangle names point {int(t.max() if t.max() >= len(p) else t.min())} of {len(p)}")
+    return p, t
+
+
+def _kept(points: Floats, corners: Ints, source: Ints, inside: Floats) -> tuple[Floats, Ints, Ints]:
+    return _cut(points, corners, source, inside) if len(points) and inside.min() < 0.0 else (points, corners, source)
+
+
+def _cut(points: Floats, corners: Ints, source: Ints, inside: Floats) -> tuple[Floats, Ints, Ints]:
+    """The parts of triangles where inside (n,) is not negative, with new points behind the old ones."""
+    out = inside[corners] < 0.0
+    outside = out.sum(axis=1)
+    whole = outside == 0
+    pieces, owners, made = [corners[whole]], [source[whole]], [points]
+    first = len(points)
+    for number in (1, 2):
+        rows = np.flatnonzero(outside == number)
+        # The corner that differs from the other two comes first.
+        lone = np.argmax(out[rows] if number == 1 else ~out[rows], axis=1)
+        a, b, c = (corners[rows, (lone + k) % 3] for k in range(3))
+        new_b, new_c = (first + k * len(rows) + np.arange(len(rows)) for k in (0, 1))
+        made += [_crossing(points, a, b, inside), _crossing(points, a, c, inside)]
+        first += 2 * len(rows)
+        if number == 2:
+            pieces.append(np.stack([a, new_b, new_c], axis=1))
+            owners.append(source[rows])
+        else:
+            pieces += [np.stack([new_b, b, c], axis=1), np.stack([new_b, c, new_c], axis=1)]
+            owners += [source[rows], source[rows]]
+    return np.concatenate(made), np.concatenate(pieces), np.concatenate(owners)
+
+
+def _crossing(points: Floats, a: Ints, b: Ints, inside: Floats) -> Floats:
+    """(k, 4) where the edges ab meet the border, computed from the point with the smaller coordinates."""
+    p, q = points[a], points[b]
+    differs = p != q
+    axis = np.argmax(differs, axis=1)[:, None]
+    swap = (np.take_along_axis(p, axis, 1) > np.take_along_axis(q, axis, 1))[:, 0]
+    p, q = np.where(swap[:, None], q, p), np.where(swap[:, None], p, q)
+    low, high = np.where(swap, inside[b], inside[a]), np.where(swap, inside[a], inside[b])
+    share = low / (low - high)
+    return np.asarray(p + share[:, None] * (q - p))

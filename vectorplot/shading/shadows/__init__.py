@@ -1,0 +1,1 @@
+"""Shadow buffers and shadow maps."""

@@ -1,0 +1,131 @@
+"""Hyperboloids and elliptic paraboloids about the z-axis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Floats
+from vectorplot.curves.parameters import number, parameter_range, positive, vector
+from vectorplot.errors import InputError
+from vectorplot.surfaces.families.elliptic_sections import EllipticSections, Profile
+from vectorplot.surfaces.surface import Domain
+
+
+def _semi_axes(name: str, value: ArrayLike) -> Floats:
+    axes = vector(f"{name}: semi-axes", value)
+    if not (axes > 0.0).all():
+        raise InputError(f"{name}: semi-axes must be positive")
+    return axes
+
+
+@dataclass(frozen=True, eq=False)
+class Hyperboloid(EllipticSections):
+    """The hyperboloid of one sheet x^2/a^2 + y^2/b^2 - z^2/c^2 = 1 from height bottom to top; the waist is at 0.
+
+    (a p cos u, b p sin u, c sinh v) with p = cosh v. Normals point outwards.
+    Errors: InputError for semi-axes (3,) that are not positive.
+    """
+
+    semi_axes: ArrayLike = (1.0, 1.0, 1.0)
+    bottom: float = -1.0
+    top: float = 1.0
+    centre: ArrayLike = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "semi_axes", _semi_axes("hyperboloid", self.semi_axes))
+        object.__setattr__(self, "centre", vector("hyperboloid: centre", self.centre))
+        parameter_range("hyperboloid", self.bottom, self.top)
+
+    @property
+    def domain(self) -> Domain:
+        """Angle, and v where the height is c sinh v."""
+        c = np.asarray(self.semi_axes)[2]
+        return Domain(
+            0.0, 2.0 * np.pi, float(np.arcsinh(self.bottom / c)), float(np.arcsinh(self.top / c)), closed_u=True
+        )
+
+    def _ellipse(self) -> tuple[float, float]:
+        a, b, _ = np.asarray(self.semi_axes)
+        return float(a), float(b)
+
+    def _middle(self) -> Floats:
+        return np.asarray(self.centre)
+
+    def _profile(self, v: Floats) -> Profile:
+        c = float(np.asarray(self.semi_axes)[2])
+        cosh, sinh = np.cosh(v), np.sinh(v)
+        return (cosh, c * sinh), (sinh, c * cosh), (cosh, c * sinh)
+
+
+@dataclass(frozen=True, eq=False)
+class HyperboloidSheet(EllipticSections):
+    """The upper sheet of x^2/a^2 + y^2/b^2 - z^2/c^2 = -1, from its top point z = c up to the height top.
+
+    (a p cos u, b p sin u, c cosh v) with p = sinh v; v = 0 is a pole. Normals point out of the bowl, downwards.
+    Errors: InputError for semi-axes (3,) that are not positive, top <= c.
+    """
+
+    semi_axes: ArrayLike = (1.0, 1.0, 1.0)
+    top: float = 2.0
+    centre: ArrayLike = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "semi_axes", _semi_axes("hyperboloid", self.semi_axes))
+        object.__setattr__(self, "centre", vector("hyperboloid: centre", self.centre))
+        if not number("hyperboloid: top", self.top) > np.asarray(self.semi_axes)[2]:
+            raise InputError("hyperboloid: the top must be above the vertex")
+
+    @property
+    def domain(self) -> Domain:
+        """Angle, and v where the height is c cosh v."""
+        c = np.asarray(self.semi_axes)[2]
+        return Domain(0.0, 2.0 * np.pi, 0.0, float(np.arccosh(self.top / c)), closed_u=True)
+
+    def _ellipse(self) -> tuple[float, float]:
+        a, b, _ = np.asarray(self.semi_axes)
+        return float(a), float(b)
+
+    def _middle(self) -> Floats:
+        return np.asarray(self.centre)
+
+    def _profile(self, v: Floats) -> Profile:
+        c = float(np.asarray(self.semi_axes)[2])
+        cosh, sinh = np.cosh(v), np.sinh(v)
+        return (sinh, c * cosh), (cosh, c * sinh), (sinh, c * cosh)
+
+
+@dataclass(frozen=True, eq=False)
+class Paraboloid(EllipticSections):
+    """The elliptic paraboloid z = x^2/a^2 + y^2/b^2 up to the height top: (a v cos u, b v sin u, v^2).
+
+    v = 0 is a pole. Normals point outwards (down). Errors: InputError for a, b or top not positive.
+    """
+
+    a: float = 1.0
+    b: float = 1.0
+    top: float = 1.0
+    centre: ArrayLike = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        positive("paraboloid: a", self.a)
+        positive("paraboloid: b", self.b)
+        positive("paraboloid: top", self.top)
+        object.__setattr__(self, "centre", vector("paraboloid: centre", self.centre))
+
+    @property
+    def domain(self) -> Domain:
+        """Angle, and the root of the height."""
+        return Domain(0.0, 2.0 * np.pi, 0.0, float(np.sqrt(self.top)), closed_u=True)
+
+    def _ellipse(self) -> tuple[float, float]:
+        return self.a, self.b
+
+    def _middle(self) -> Floats:
+        return np.asarray(self.centre)
+
+    def _profile(self, v: Floats) -> Profile:
+        zero = np.zeros_like(v)
+        return (v, v * v), (zero + 1.0, 2.0 * v), (zero, zero + 2.0)

@@ -1,0 +1,57 @@
+"""Surfaces swept by a curve that moves; a line sweeps a ruled surface, a circle a tubular one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.curves.curve import Curve
+from vectorplot.curves.parameters import parameter_range
+from vectorplot.curves.second_derivatives import second_derivatives
+from vectorplot.surfaces.families.motions import Motion
+from vectorplot.surfaces.surface import Domain
+
+
+@dataclass(frozen=True, eq=False)
+class Swept:
+    """The points x(u, v) of a generating curve g(u) after a motion for the time v.
+
+    The domain closes in u where the curve is a loop, in v where the motion repeats. Derivatives are exact where the
+    curve's are. Errors: InputError for an empty range of v. Source: Glaeser, section 8.2.
+    """
+
+    generator: Curve
+    motion: Motion
+    start: float
+    end: float
+
+    def __post_init__(self) -> None:
+        parameter_range("surface", self.start, self.end)
+
+    @cached_property
+    def domain(self) -> Domain:
+        """u as on the generating curve, v from start to end."""
+        g = self.generator
+        repeats = self.motion.repeats(self.start, self.end)
+        return Domain(g.start, g.end, self.start, self.end, closed_u=g.closed, closed_v=repeats)
+
+    def points(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) points."""
+        return self.motion.moved(self.generator.points(u), 1.0, np.asarray(v))
+
+    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        """(..., 3) derivatives by u and by v."""
+        g, v = self.generator, np.asarray(v)
+        return self.motion.moved(g.tangents(u), 0.0, v), self.motion.velocities(g.points(u), 1.0, v)
+
+    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+        """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
+        g, v = self.generator, np.asarray(v)
+        return (
+            self.motion.moved(second_derivatives(g, u), 0.0, v),
+            self.motion.velocities(g.tangents(u), 0.0, v),
+            self.motion.accelerations(g.points(u), 1.0, v),
+        )

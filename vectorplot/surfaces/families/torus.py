@@ -1,0 +1,147 @@
+"""The torus: parametrised, and as two implicit equations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Floats
+from vectorplot.curves.parameters import positive, vector
+from vectorplot.surfaces.families.elliptic_sections import EllipticSections, Profile
+from vectorplot.surfaces.surface import Domain
+
+
+@dataclass(frozen=True, eq=False)
+class Torus(EllipticSections):
+    """((a - b cos v) cos u, (a - b cos v) sin u, b sin v): axis z, a the major and b the minor radius.
+
+    v = 0 is the inner equator, v = pi the outer one; the normals point into the tube. Closed both ways.
+    Degenerate: a < b, the spindle torus, meets its axis and itself there.
+    Errors: InputError for radii that are not positive. Source: Glaeser, section 8.3, equation 18; erratum G8-15.
+    """
+
+    major: float = 3.0
+    minor: float = 1.0
+    centre: ArrayLike = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        _check(self.major, self.minor)
+        object.__setattr__(self, "centre", vector("torus: centre", self.centre))
+
+    @property
+    def domain(self) -> Domain:
+        """Two angles."""
+        return Domain(0.0, 2.0 * np.pi, 0.0, 2.0 * np.pi, closed_u=True, closed_v=True)
+
+    def _ellipse(self) -> tuple[float, float]:
+        return 1.0, 1.0
+
+    def _middle(self) -> Floats:
+        return np.asarray(self.centre)
+
+    def _profile(self, v: Floats) -> Profile:
+        cosine, sine = self.minor * np.cos(v), self.minor * np.sin(v)
+        return (self.major - cosine, sine), (sine, cosine), (cosine, -sine)
+
+
+@dataclass(frozen=True, eq=False)
+class ImplicitTorus:
+    """F = (x^2 + y^2 + z^2 + a^2 - b^2)^2 - 4 a^2 (x^2 + y^2), negative inside the tube.
+
+    Errors: InputError for radii that are not positive. Source: Glaeser, section 8.3, equation 20.
+    """
+
+    major: float = 3.0
+    minor: float = 1.0
+    centre: ArrayLike = (0.0, 0.0, 0.0)
+    degree: ClassVar[int] = 4
+
+    def __post_init__(self) -> None:
+        _check(self.major, self.minor)
+        object.__setattr__(self, "centre", vector("torus: centre", self.centre))
+
+    @property
+    def box(self) -> Floats:
+        """(2,3) the torus, and a tenth of its tube around."""
+        return _box(self.major, self.minor, np.asarray(self.centre))
+
+    def values(self, points: Floats) -> Floats:
+        """(...,) F."""
+        p = points - np.asarray(self.centre)
+        return np.asarray(self._sum(p) ** 2 - 4.0 * self.major**2 * (p[..., :2] ** 2).sum(axis=-1))
+
+    def gradients(self, points: Floats) -> Floats:
+        """(..., 3) gradients."""
+        p = points - np.asarray(self.centre)
+        return np.asarray(4.0 * self._sum(p)[..., None] * p - 8.0 * self.major**2 * p * _LEVEL)
+
+    def hessians(self, points: Floats) -> Floats:
+        """(..., 3, 3) second derivatives."""
+        p = points - np.asarray(self.centre)
+        same = 4.0 * self._sum(p)[..., None, None] * np.eye(3) - 8.0 * self.major**2 * np.diag(_LEVEL)
+        return np.asarray(same + 8.0 * p[..., :, None] * p[..., None, :])
+
+    def _sum(self, p: Floats) -> Floats:
+        return np.asarray((p * p).sum(axis=-1) + (self.major - self.minor) * (self.major + self.minor))
+
+
+@dataclass(frozen=True, eq=False)
+class ImplicitTorusByDistance:
+    """F = (a - sqrt(x^2 + y^2))^2 + z^2 - b^2: squared distance from the middle circle, less b^2; not algebraic.
+
+    Degenerate: on the axis F has a ridge and the gradient no horizontal part; of a spindle torus (a < b) the lobe
+    about the axis is no zero of it.
+    Errors: InputError for radii that are not positive. Source: Glaeser, section 8.3, equation 19.
+    """
+
+    major: float = 3.0
+    minor: float = 1.0
+    centre: ArrayLike = (0.0, 0.0, 0.0)
+    degree: ClassVar[int | None] = None
+
+    def __post_init__(self) -> None:
+        _check(self.major, self.minor)
+        object.__setattr__(self, "centre", vector("torus: centre", self.centre))
+
+    @property
+    def box(self) -> Floats:
+        """(2,3) the torus, and a tenth of its tube around."""
+        return _box(self.major, self.minor, np.asarray(self.centre))
+
+    def values(self, points: Floats) -> Floats:
+        """(...,) F."""
+        p = points - np.asarray(self.centre)
+        return np.asarray((self.major - np.hypot(p[..., 0], p[..., 1])) ** 2 + p[..., 2] ** 2 - self.minor**2)
+
+    def gradients(self, points: Floats) -> Floats:
+        """(..., 3) gradients."""
+        p = points - np.asarray(self.centre)
+        across = np.hypot(p[..., 0], p[..., 1])
+        factor = np.where(across > 0.0, 1.0 - self.major / np.where(across > 0.0, across, 1.0), 0.0)
+        return np.asarray(2.0 * p * np.stack([factor, factor, np.ones_like(factor)], axis=-1))
+
+    def hessians(self, points: Floats) -> Floats:
+        """(..., 3, 3) second derivatives; on the axis, where there are none, those of z^2."""
+        p = points - np.asarray(self.centre)
+        level = p * _LEVEL
+        square = (level * level).sum(axis=-1)[..., None, None]
+        safe = np.where(square > 0.0, square, 1.0)
+        bent = level[..., :, None] * level[..., None, :] / safe - np.diag(_LEVEL)
+        same = np.where(square > 0.0, np.eye(3) + self.major / np.sqrt(safe) * bent, np.diag(1.0 - _LEVEL))
+        return np.asarray(2.0 * same)
+
+
+_LEVEL = np.array([1.0, 1.0, 0.0])
+
+
+def _check(major: float, minor: float) -> None:
+    positive("torus: major radius", major)
+    positive("torus: minor radius", minor)
+
+
+def _box(major: float, minor: float, centre: Floats) -> Floats:
+    half = np.array([major + 1.1 * minor, major + 1.1 * minor, 1.1 * minor])
+    return np.stack([centre - half, centre + half])

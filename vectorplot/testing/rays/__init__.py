@@ -1,0 +1,1 @@
+"""The oracle: what rays from the eye meet."""

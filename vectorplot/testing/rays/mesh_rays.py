@@ -1,0 +1,234 @@
+"""Sight rays from points to the eye, against every triangle of the scene.
+
+Slow and plain, and independent of the engine it checks. Trees and grids are replaced by two rounds of bounding spheres.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.scene import Scene
+from vectorplot.testing.rays.triangles import triangulated
+
+CONTACT = 1e-9
+"""A triangle no further from a point than this part of the scene's extent touches it, and does not hide it."""
+
+REACH = 1e-3
+"""Clearances are measured up to this part of the extent."""
+
+CHUNK = 1 << 18
+CLUSTER = 64
+
+
+@dataclass(frozen=True)
+class Rays:
+    """Sight rays: origin (n,3), unit direction to the eye (n,3), length (n,); whether the eye is at their end."""
+
+    origin: Floats
+    direction: Floats
+    length: Floats
+    ends_in_eye: bool
+
+
+@dataclass(frozen=True)
+class Solids:
+    """Simplexes (m,k,3), triangles or edges, of items (m,), in clusters of neighbours with bounding spheres."""
+
+    corners: Floats
+    item: Ints
+
+    def __len__(self) -> int:
+        return len(self.item)
+
+
+def sight_rays(camera: Camera, points: Floats, middle: Floats, size: float) -> Rays:
+    """The rays from the points to the eye in coordinates in which the scene fits into the unit cube about 0."""
+    origin = (points - middle) / size
+    # Beyond this every ray has left the scene, whose corners lie within 0.87 of its middle.
+    out = np.linalg.norm(origin, axis=1) + 1.0
+    if camera.parallel:
+        direction = np.subtract(camera.eye, camera.target) / camera.distance
+        return Rays(origin, np.broadcast_to(direction, origin.shape), out, False)
+    arm = (np.asarray(camera.eye) - points) / size
+    length = np.linalg.norm(arm, axis=1)
+    unit = arm / np.where(length > 0.0, length, 1.0)[:, None]
+    return Rays(origin, unit, np.minimum(length, out), True)
+
+
+def occluders(scene: Scene, middle: Floats, size: float, items: Sequence[int] | None) -> tuple[Solids, Solids]:
+    """The triangles and the edges of the faces that can hide something, in unit coordinates, near ones together."""
+    wanted = range(len(scene.items)) if items is None else items
+    owners = [index for index in wanted if scene.items[index].hides]
+    triangles, edges = [np.zeros((0, 3, 3))], [np.zeros((0, 2, 3))]
+    for index in owners:
+        mesh = scene.items[index].mesh
+        vertices = (mesh.vertices - middle) / size
+        triangles.append(vertices[triangulated(mesh)[0]])
+        edges.append(vertices[edges_of_faces(mesh)])
+    which = np.array(owners, dtype=np.intp)
+    return (
+        near_together(np.concatenate(triangles), np.repeat(which, [len(part) for part in triangles[1:]])),
+        near_together(np.concatenate(edges), np.repeat(which, [len(part) for part in edges[1:]])),
+    )
+
+
+def edges_of_faces(mesh: Mesh) -> Ints:
+    """(e,2) vertices of the edges of the faces that are there, each edge once."""
+    pairs = np.sort(np.stack([mesh.corners, mesh.corners[mesh.next_corner]], axis=1), axis=1)
+    if mesh.present is not None:
+        pairs = pairs[mesh.present[mesh.corner_face]]
+    many = max(len(mesh.vertices), 1)
+    key = np.unique(pairs[:, 0] * many + pairs[:, 1])
+    return np.stack(np.divmod(key, many), axis=1)
+
+
+def near_together(corners: Floats, item: Ints) -> Solids:
+    """The simplexes in the order of a space-filling curve through their middles."""
+    cell = np.clip(((corners.mean(axis=1) + 0.5) * 1024.0), 0.0, 1023.0).astype(np.int64)
+    code = np.zeros(len(item), dtype=np.int64)
+    for bit in range(10):
+        for axis in range(3):
+            code |= ((cell[:, axis] >> bit) & 1) << (3 * bit + axis)
+    order = np.argsort(code, kind="stable")
+    return Solids(corners[order], item[order])
+
+
+def near_pairs(rays: Rays, solids: Solids) -> Iterator[tuple[Ints, Ints]]:
+    """Pairs (ray, simplex) in portions; every pair that is no further apart than REACH is among them."""
+    centre = solids.corners.mean(axis=1)
+    radius = np.sqrt(((solids.corners - centre[:, None]) ** 2).sum(axis=2).max(axis=1, initial=0.0))
+    starts = np.arange(0, len(solids), CLUSTER)
+    if len(starts) == 0:
+        return
+    sizes = np.diff(np.append(starts, len(solids)))
+    low = np.minimum.reduceat(centre - radius[:, None], starts, axis=0)
+    high = np.maximum.reduceat(centre + radius[:, None], starts, axis=0)
+    cluster_centre, cluster_radius = (low + high) / 2.0, np.linalg.norm(high - low, axis=1) / 2.0
+    step = max(1, CHUNK // len(starts))
+    for begin in range(0, len(rays.length), step):
+        block = np.arange(begin, min(begin + step, len(rays.length)))
+        ray, cluster = np.divmod(np.arange(len(block) * len(starts)), len(starts))
+        ray = block[ray]
+        kept = near(rays, ray, cluster_centre[cluster], cluster_radius[cluster])
+        ray, cluster = ray[kept], cluster[kept]
+        for part in range(0, len(ray), CHUNK // CLUSTER):
+            some = slice(part, part + CHUNK // CLUSTER)
+            count = sizes[cluster[some]]
+            inner = ragged.place(count)
+            simplex = np.repeat(starts[cluster[some]], count) + inner
+            of_ray = np.repeat(ray[some], count)
+            kept = near(rays, of_ray, centre[simplex], radius[simplex])
+            yield of_ray[kept], simplex[kept]
+
+
+def near(rays: Rays, ray: Ints, centre: Floats, radius: Floats) -> Ints:
+    """Indices of the pairs whose ray comes nearer to the sphere than REACH."""
+    arm = centre - rays.origin[ray]
+    along = np.einsum("ij,ij->i", arm, rays.direction[ray])
+    foot = np.clip(along, 0.0, rays.length[ray])
+    square = np.einsum("ij,ij->i", arm, arm) - foot * (2.0 * along - foot)
+    return np.flatnonzero(square <= (radius + 2.0 * REACH) ** 2)
+
+
+def hits(rays: Rays, triangles: Solids, item_count: int) -> tuple[Ints, Floats]:
+    """How many items each ray meets, and the distance from its point to the nearest triangle on its line."""
+    clearance = np.full(len(rays.length), REACH)
+    met = [np.zeros(0, dtype=np.int64)]
+    for ray, index in near_pairs(rays, triangles):
+        a, b, c = (triangles.corners[index, k] for k in range(3))
+        origin, direction, length = rays.origin[ray], rays.direction[ray], rays.length[ray]
+        along = meeting(origin, direction, a, b, c)
+        on_line = np.isfinite(along)
+        ray, index, along, length = ray[on_line], index[on_line], along[on_line], length[on_line]
+        distance = distance_to_triangle(origin[on_line], a[on_line], b[on_line], c[on_line])
+        free = distance > CONTACT
+        np.minimum.at(clearance, ray[free], distance[free])
+        if rays.ends_in_eye:
+            np.minimum.at(clearance, ray[free], np.abs(length - along)[free])
+        hit = free & (along > 0.0) & (along < length)
+        met.append(ray[hit].astype(np.int64) * item_count + triangles.item[index[hit]])
+    once = np.unique(np.concatenate(met))
+    return np.bincount(once // max(item_count, 1), minlength=len(rays.length)), clearance
+
+
+def meeting(origin: Floats, direction: Floats, a: Floats, b: Floats, c: Floats) -> Floats:
+    """Signed distances along the lines to the closed triangles; NaN where they do not meet or are parallel."""
+    u, v = b - a, c - a
+    normal = np.cross(u, v)
+    length = np.linalg.norm(normal, axis=1)
+    slope = np.einsum("ij,ij->i", normal, direction)
+    crossing = np.abs(slope) > 1e-12 * length
+    safe = np.where(crossing, slope, 1.0)
+    arm = origin - a
+    along = -np.einsum("ij,ij->i", normal, arm) / safe
+    turned = np.cross(direction, arm)
+    # Barycentric coordinates of the meeting point, from the volumes that the line spans with the edges.
+    second = np.einsum("ij,ij->i", v, turned) / safe
+    third = -np.einsum("ij,ij->i", u, turned) / safe
+    inside = (second >= -1e-12) & (third >= -1e-12) & (second + third <= 1.0 + 1e-12)
+    return np.where(crossing & inside, along, np.nan)
+
+
+def distance_to_triangle(point: Floats, a: Floats, b: Floats, c: Floats) -> Floats:
+    """Distances of points from triangles, pair by pair."""
+    normal = np.cross(b - a, c - a)
+    length = np.linalg.norm(normal, axis=1)
+    height = np.einsum("ij,ij->i", normal, point - a) / np.where(length > 0.0, length, 1.0)
+    above = np.ones(len(point), dtype=np.bool_)
+    for start, end in ((a, b), (b, c), (c, a)):
+        above &= np.einsum("ij,ij->i", np.cross(end - start, point - start), normal) >= 0.0
+    border = np.minimum(distance_to_segment(point, a, b), distance_to_segment(point, b, c))
+    border = np.minimum(border, distance_to_segment(point, c, a))
+    return np.where(above & (length > 0.0), np.abs(height), border)
+
+
+def distance_to_segment(point: Floats, a: Floats, b: Floats) -> Floats:
+    """Distances of points from segments, pair by pair."""
+    edge, arm = b - a, point - a
+    square = np.einsum("ij,ij->i", edge, edge)
+    share = np.clip(np.einsum("ij,ij->i", arm, edge) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+    return np.asarray(np.linalg.norm(arm - share[:, None] * edge, axis=1))
+
+
+def edge_distances(rays: Rays, edges: Solids, own: Floats | None = None, off: Floats | None = None) -> Floats:
+    """(n,) distance from each ray to the nearest edge that its point does not touch, at most REACH.
+
+    own (n,): edges no further from the point than this do not count either; None: those that touch it. off (m,): how
+    far edges may be off; the distances are less by that, but no less than 0. None: they are exact.
+    """
+    touching = np.full(len(rays.length), CONTACT) if own is None else own
+    nearer = np.zeros(len(edges)) if off is None else off
+    # Edges beyond the reach are not looked at; they may be nearer than that.
+    clearance = np.full(len(rays.length), REACH - nearer.max(initial=0.0))
+    for ray, index in near_pairs(rays, edges):
+        start, end = edges.corners[index, 0], edges.corners[index, 1]
+        free = distance_to_segment(rays.origin[ray], start, end) > touching[ray]
+        ray, index, start, end = ray[free], index[free], start[free], end[free]
+        origin = rays.origin[ray]
+        tip = origin + rays.direction[ray] * rays.length[ray][:, None]
+        np.minimum.at(clearance, ray, distance_of_segments(origin, tip, start, end) - nearer[index])
+    return np.asarray(np.maximum(clearance, 0.0))
+
+
+def distance_of_segments(a: Floats, b: Floats, c: Floats, d: Floats) -> Floats:
+    """Distances of the segments ab from the segments cd, pair by pair."""
+    u, v, w = b - a, d - c, c - a
+    normal = np.cross(u, v)
+    square = np.einsum("ij,ij->i", normal, normal)
+    bound = np.einsum("ij,ij->i", u, u) * np.einsum("ij,ij->i", v, v)
+    askew = square > 1e-24 * bound
+    safe = np.where(askew, square, 1.0)
+    s = np.einsum("ij,ij->i", np.cross(w, v), normal) / safe
+    t = np.einsum("ij,ij->i", np.cross(w, u), normal) / safe
+    crossing = askew & (s >= 0.0) & (s <= 1.0) & (t >= 0.0) & (t <= 1.0)
+    inner = np.abs(np.einsum("ij,ij->i", w, normal)) / np.sqrt(safe)
+    ends = np.minimum(distance_to_segment(a, c, d), distance_to_segment(b, c, d))
+    ends = np.minimum(ends, np.minimum(distance_to_segment(c, a, b), distance_to_segment(d, a, b)))
+    return np.where(crossing, inner, ends)

@@ -1,0 +1,64 @@
+"""What hides a point, found by looking: a ray from the point to the eye."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.scene.scene import Scene
+from vectorplot.surfaces.surface import is_implicit, is_parametrised
+from vectorplot.testing.rays.implicit_rays import implicit_hides
+from vectorplot.testing.rays.mesh_rays import edge_distances, hits, occluders, sight_rays
+from vectorplot.testing.rays.surface_rays import surface_hides
+
+
+class Sight(NamedTuple):
+    """hidden_by (n,): how many items hide each point; clearance (n,): how sure that is, see visible_by_rays; on_contour
+    (n,): whether the point is one of the contour of a smooth surface, and judged as such."""
+
+    hidden_by: Ints
+    clearance: Floats
+    on_contour: Bools
+
+
+def visible_by_rays(scene: Scene, camera: Camera, points: ArrayLike, *, items: Sequence[int] | None = None) -> Sight:
+    """How many items hide each of the points (n,3) from the camera's eye, by brute force; 0: the point is visible.
+
+    An item counts once, however often it is met; a face or sheet that touches the point does not hide it, and neither
+    does one that is seen edge-on. Items that do not occlude and faces that are not present hide nothing; items: the
+    indices of those that may hide (None: all).
+
+    clearance is the distance, as a part of the scene's largest side and at most 0.001, from the ray to the nearest
+    edge of a face that the point does not touch, or from the point to a face on its ray that it does not touch; for
+    smooth surfaces contour and borders stand for the edges, less the error of looking, so that 0 means: not known.
+    Compare only where it is larger than the accuracy asked for: nearer, the answer turns on rounding. A point of a
+    contour must lie on it to about a millionth of the extent; another curve that passes a contour changes there, and
+    has no answer.
+    """
+    targets = np.asarray(points, dtype=np.float64).reshape(-1, 3)
+    bounds = scene.bounds
+    middle, size = bounds.mean(axis=0), float((bounds[1] - bounds[0]).max()) or 1.0
+    rays = sight_rays(camera, targets, middle, size)
+    triangles, edges = occluders(scene, middle, size, items)
+    hidden, clearance = hits(rays, triangles, len(scene.items))
+    clearance = np.minimum(clearance, edge_distances(rays, edges))
+    on_contour = np.zeros(len(targets), dtype=np.bool_)
+    eye = None if camera.parallel else (np.asarray(camera.eye) - middle) / size
+    for index in range(len(scene.items)) if items is None else items:
+        item = scene.items[index]
+        if not item.hides or not len(targets):
+            continue
+        if is_parametrised(item.shape):
+            found = surface_hides(item.shape, eye, rays, middle, size)
+        elif is_implicit(item.shape):
+            found = implicit_hides(item.shape, rays, middle, size)
+        else:
+            continue
+        hidden, clearance = hidden + found.hidden, np.minimum(clearance, found.clearance)
+        on_contour |= found.touched
+    return Sight(hidden, clearance, on_contour)

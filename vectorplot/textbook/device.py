@@ -1,0 +1,130 @@
+"""A screen that understands the handful of calls every graphics device has; each call gives the device after it.
+
+Source: Glaeser, section 4.2 and appendix B.1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Floats
+from vectorplot.errors import InputError
+from vectorplot.geometry.clipping import Polygons
+from vectorplot.textbook import framebuffer
+from vectorplot.textbook.framebuffer import Framebuffer
+
+
+@dataclass(frozen=True, eq=False)
+class Device:
+    """A device with two pages of colour numbers.
+
+    window: None while it is closed; colour: the number that is drawn with; position: where the next line starts, area:
+    the corners of the polygon that is being described, in pixels; keys: characters typed and not yet asked for; bells:
+    how often it has beeped.
+    Errors: InputError for drawing while the window is closed, for drawing on before a first move.
+    """
+
+    window: Framebuffer | None = None
+    colour: int = 0
+    position: Floats | None = None
+    area: tuple[Floats, ...] = ()
+    keys: str = ""
+    bells: int = 0
+
+    @property
+    def frame(self) -> Framebuffer:
+        """The open window's framebuffer."""
+        if self.window is None:
+            raise InputError("no window is open")
+        return self.window
+
+    def opened(self, columns: int, rows: int) -> Device:
+        """With an open window of so many pixels."""
+        return replace(self, window=Framebuffer.of_numbers(columns, rows))
+
+    def closed(self) -> Device:
+        """Without a window."""
+        return replace(self, window=None, position=None, area=())
+
+    def cleared(self, number: int) -> Device:
+        """With the drawn page in one colour."""
+        return replace(self, window=framebuffer.cleared(self.frame, number))
+
+    def swapped(self) -> Device:
+        """With the drawn page shown (double buffering)."""
+        return replace(self, window=framebuffer.swapped(self.frame))
+
+    def with_rgb(self, number: int, red: int, green: int, blue: int) -> Device:
+        """With a new colour, 0 to 255 each, under a number."""
+        return replace(self, window=framebuffer.with_colour(self.frame, number, red, green, blue))
+
+    def with_colour(self, number: int) -> Device:
+        """Drawing with a colour number from here on."""
+        if not 0 <= number <= 255:
+            raise InputError(f"colour number {number}: expected 0 to 255")
+        return replace(self, colour=int(number))
+
+    def pixel(self, column: int, row: int) -> int:
+        """The colour number on the drawn page."""
+        return int(framebuffer.pixel_colours(self.frame, [(column, row)])[0, 0])
+
+    def with_pixel(self, column: int, row: int) -> Device:
+        """With a pixel in the current colour."""
+        return replace(self, window=framebuffer.with_pixels(self.frame, [(column, row)], self.colour))
+
+    def moved(self, point: ArrayLike) -> Device:
+        """With the start of a polyline at a point (2 or more components, whole or not)."""
+        return replace(self, position=_plane(point))
+
+    def drawn(self, point: ArrayLike) -> Device:
+        """With a line from the current position to a point, which is the next position."""
+        start, end = self._start(), _plane(point)
+        return replace(self, window=framebuffer.with_lines(self.frame, [start], [end], self.colour), position=end)
+
+    def rubber_band(self, point: ArrayLike) -> Device:
+        """As drawn, but by exclusive or: the same again erases it."""
+        start, end = self._start(), _plane(point)
+        return replace(
+            self, window=framebuffer.with_rubber_bands(self.frame, [start], [end], self.colour), position=end
+        )
+
+    def moved_area(self, point: ArrayLike) -> Device:
+        """With the first corner of a polygon."""
+        return replace(self, area=(_plane(point),))
+
+    def drawn_area(self, point: ArrayLike) -> Device:
+        """With the next corner of the polygon."""
+        if not self.area:
+            raise InputError("an area needs a first corner")
+        return replace(self, area=(*self.area, _plane(point)))
+
+    def closed_area(self) -> Device:
+        """With the polygon filled in the current colour."""
+        if not self.area:
+            raise InputError("an area needs a first corner")
+        polygon = Polygons.of(np.stack(self.area))
+        return replace(self, window=framebuffer.with_polygons(self.frame, polygon, self.colour), area=())
+
+    def key_pressed(self) -> tuple[int, Device]:
+        """The code of the next character typed, 0 if there is none, and the device without it."""
+        return (ord(self.keys[0]) if self.keys else 0), replace(self, keys=self.keys[1:])
+
+    def beeped(self) -> Device:
+        """After an acoustic signal."""
+        return replace(self, bells=self.bells + 1)
+
+    def _start(self) -> Floats:
+        if self.position is None:
+            raise InputError("a line needs a start: move there first")
+        return self.position
+
+
+def _plane(point: ArrayLike) -> Floats:
+    """(2,) the first two components of a point."""
+    p = np.asarray(point, dtype=np.float64)
+    if p.ndim != 1 or len(p) < 2 or not np.isfinite(p).all():
+        raise InputError("a point needs two finite numbers")
+    return np.asarray(p[:2])

@@ -1,0 +1,190 @@
+"""A framebuffer: two pages of pixels, in colour numbers or in red, green and blue.
+
+Pixel centres are the integers, row 0 is on top. One page is shown while the other is drawn.
+Source: Glaeser, sections 4.2 and 4.6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.clipping import Polygons
+from vectorplot.shading.raster.pixel_lines import line_pixels, whole_pixels
+from vectorplot.shading.raster.png import Bytes, png_bytes
+from vectorplot.shading.raster.scan_lines import PolygonPixels, polygon_pixels, with_specks_grown
+from vectorplot.shading.raster.screen import raster_size
+
+Colour = int | tuple[int, int, int]
+"""A colour number, or for a framebuffer without a colour table red, green and blue, 0 to 255."""
+
+GRAYS = np.repeat(np.arange(256, dtype=np.uint8)[:, None], 3, axis=1)
+"""The colour table until colours are created: number n is a gray of brightness n."""
+
+
+@dataclass(frozen=True, eq=False)
+class Framebuffer:
+    """Two pages of pixels.
+
+    pages (2, rows, columns, k) uint8: k = 1 for numbers in colours (256, 3), k = 3 for red, green and blue (colours is
+    None then); shown: the page that is seen, the other one is drawn on.
+    """
+
+    pages: Bytes
+    colours: Bytes | None
+    shown: int = 0
+
+    @classmethod
+    def of_numbers(cls, columns: int, rows: int) -> Framebuffer:
+        """Pages of colour numbers, all 0. Errors: InputError for a raster too large or without pixels."""
+        columns, rows = raster_size(columns, rows)
+        return cls(np.zeros((2, rows, columns, 1), dtype=np.uint8), GRAYS)
+
+    @classmethod
+    def of_rgb(cls, columns: int, rows: int) -> Framebuffer:
+        """Pages of red, green and blue, all black. Errors: InputError for a raster too large or without pixels."""
+        columns, rows = raster_size(columns, rows)
+        return cls(np.zeros((2, rows, columns, 3), dtype=np.uint8), None)
+
+    @property
+    def rows(self) -> int:
+        """How many rows of pixels there are."""
+        return int(self.pages.shape[1])
+
+    @property
+    def columns(self) -> int:
+        """How many columns of pixels there are."""
+        return int(self.pages.shape[2])
+
+    @property
+    def drawn(self) -> int:
+        """The page that is drawn on."""
+        return 1 - self.shown
+
+    def picture(self, page: int | None = None) -> Bytes:
+        """(rows, columns, 3) red, green and blue of a page, of the one that is shown if none is named."""
+        pixels = self.pages[self.shown if page is None else page]
+        return np.asarray(pixels if self.colours is None else self.colours[pixels[..., 0]])
+
+    def png(self) -> bytes:
+        """The page that is shown as a PNG file."""
+        pixels = self.pages[self.shown]
+        return png_bytes(pixels) if self.colours is None else png_bytes(pixels[..., 0], self.colours)
+
+
+def with_colour(frame: Framebuffer, number: int, red: int, green: int, blue: int) -> Framebuffer:
+    """The framebuffer with another colour in its table, which all pixels of that number take at once.
+
+    Errors: InputError for numbers and components outside 0 to 255, and without a colour table.
+    """
+    if frame.colours is None or not 0 <= number <= 255 or not all(0 <= c <= 255 for c in (red, green, blue)):
+        raise InputError(f"colour {number}: {red}, {green}, {blue} does not fit into the colour table")
+    colours = frame.colours.copy()
+    colours[number] = red, green, blue
+    return replace(frame, colours=colours)
+
+
+def swapped(frame: Framebuffer) -> Framebuffer:
+    """The framebuffer with the drawn page shown, and the other one to be drawn on."""
+    return replace(frame, shown=frame.drawn)
+
+
+def cleared(frame: Framebuffer, colour: Colour) -> Framebuffer:
+    """The framebuffer with the drawn page in one colour."""
+    pages = frame.pages.copy()
+    pages[frame.drawn] = _bytes(frame, colour)
+    return replace(frame, pages=pages)
+
+
+def pixel_colours(frame: Framebuffer, points: ArrayLike) -> Bytes:
+    """(n, k) what stands on the drawn page at points (n, 2), column and row. Errors: InputError outside the raster."""
+    column, row = whole_pixels(points).T
+    if not ((column >= 0) & (column < frame.columns) & (row >= 0) & (row < frame.rows)).all():
+        raise InputError(f"a pixel lies outside the raster of {frame.columns} x {frame.rows}")
+    return np.asarray(frame.pages[frame.drawn, row, column])
+
+
+def with_pixels(frame: Framebuffer, points: ArrayLike, colours: ArrayLike) -> Framebuffer:
+    """The framebuffer with pixels at points (n, 2) in one colour or in n; those outside the raster are left out."""
+    column, row = whole_pixels(points).T
+    inside = np.flatnonzero((column >= 0) & (column < frame.columns) & (row >= 0) & (row < frame.rows))
+    pages = frame.pages.copy()
+    values = _many(frame, colours, len(column))
+    pages[frame.drawn, row[inside], column[inside]] = values[inside]
+    return replace(frame, pages=pages)
+
+
+def with_lines(frame: Framebuffer, start: ArrayLike, end: ArrayLike, colours: ArrayLike) -> Framebuffer:
+    """The framebuffer with lines (n, 2 or more) in one colour or in n; later lines lie over earlier ones."""
+    values = _many(frame, colours, len(np.atleast_2d(np.asarray(start))))
+    pages = frame.pages.copy()
+    for part in line_pixels(start, end, frame.columns, frame.rows):
+        pages[frame.drawn, part.row, part.column] = values[part.line]
+    return replace(frame, pages=pages)
+
+
+def with_rubber_bands(frame: Framebuffer, start: ArrayLike, end: ArrayLike, colour: Colour) -> Framebuffer:
+    """The framebuffer with lines drawn by exclusive or: drawn again they vanish, and what was there is back.
+
+    Source: Glaeser, section 4.6.
+    """
+    value = _bytes(frame, colour)
+    pages = frame.pages.copy()
+    page = pages[frame.drawn].reshape(-1, len(value))
+    for part in line_pixels(start, end, frame.columns, frame.rows):
+        # Bands that cross change a pixel twice.
+        odd = np.bincount(part.row * frame.columns + part.column, minlength=len(page)) % 2 == 1
+        page[odd] ^= value
+    return replace(frame, pages=pages)
+
+
+def with_polygons(frame: Framebuffer, polygons: Polygons, colours: ArrayLike) -> Framebuffer:
+    """The framebuffer with filled polygons in one colour or in n; later polygons lie over earlier ones.
+
+    Polygons with a common edge leave no gap and share no pixel; one that lies in a single pixel is drawn as that pixel.
+    Errors: InputError as polygon_pixels. Source: Glaeser, section 4.6, figure 7.
+    """
+    values = _many(frame, colours, len(polygons))
+    return _painted(frame, polygons, lambda found: values[found.polygon])
+
+
+def with_smooth_polygons(frame: Framebuffer, polygons: Polygons) -> Framebuffer:
+    """The framebuffer with polygons filled in shades that run linearly between their corners.
+
+    polygons: x, y, and as further columns the colour number, or red, green and blue; shades beyond 0 to 255
+    are cut off.
+    Source: Glaeser, section 4.6 (Gouraud shading); erratum G4-12.
+    """
+    if polygons.points.shape[1] - 2 != frame.pages.shape[3]:
+        raise InputError(f"the corners need {frame.pages.shape[3]} shades, not {polygons.points.shape[1] - 2}")
+    return _painted(frame, polygons, lambda found: np.clip(np.floor(found.values + 0.5), 0, 255).astype(np.uint8))
+
+
+def _painted(frame: Framebuffer, polygons: Polygons, shade: Callable[[PolygonPixels], Bytes]) -> Framebuffer:
+    pages = frame.pages.copy()
+    page = pages[frame.drawn].reshape(-1, frame.pages.shape[3])
+    for found in polygon_pixels(with_specks_grown(polygons), frame.columns, frame.rows):
+        page[found.pixel] = shade(found)
+    return replace(frame, pages=pages)
+
+
+def _bytes(frame: Framebuffer, colour: Colour) -> Bytes:
+    """(k,) a colour as the pages hold it."""
+    return np.asarray(_many(frame, colour, 1)[0])
+
+
+def _many(frame: Framebuffer, colours: ArrayLike, count: int) -> Bytes:
+    """(count, k) one colour, or count of them, as the pages hold them."""
+    c = np.asarray(colours)
+    k = frame.pages.shape[3]
+    if k == 1:
+        c = c[..., None] if c.ndim == 0 or c.shape[-1] != 1 or c.ndim == 1 else c
+    if c.dtype.kind not in "iu" or c.shape[-1:] != (k,) or c.ndim > 2 or (c.ndim == 2 and len(c) != count):
+        raise InputError(f"{count} colours of {k} whole numbers are needed")
+    if c.size and not (c.min() >= 0 and c.max() <= 255):
+        raise InputError("colours are numbers from 0 to 255")
+    return np.broadcast_to(c.astype(np.uint8), (count, k))

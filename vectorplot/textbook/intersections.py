@@ -1,0 +1,148 @@
+"""Where lines, planes, segments and convex polygons meet, in any orientation, many at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Bools, Floats
+from vectorplot.errors import InputError
+from vectorplot.geometry.tolerance import INFINITE, PARALLEL_SINE, ROUNDING, ZERO_OF_EXTENT
+from vectorplot.geometry.vectors import cross, dot, length, point_on_line
+from vectorplot.textbook.planes import Plane
+
+
+@dataclass(frozen=True, eq=False)
+class LineCut:
+    """Where lines are cut. point (..., k); parameter (...): how many directions from the line's first point; parallel
+    (...).
+
+    Degenerate: a line that lies in what should cut it is cut at its first point, parameter 0; one that never meets it
+    is cut infinitely far out. Both are flagged parallel.
+    """
+
+    point: Floats
+    parameter: Floats
+    parallel: Bools
+
+
+def line_and_plane(start: ArrayLike, direction: ArrayLike, plane: Plane) -> LineCut:
+    """The points where lines start + t * direction (..., 3) pierce planes.
+
+    Source: Glaeser, section 1.3, equation 16; erratum G1-03.
+    """
+    a, d = np.asarray(start, dtype=np.float64), np.asarray(direction, dtype=np.float64)
+    arm = plane.point - a
+    below, rise = dot(plane.normal, arm), dot(plane.normal, d)
+    size = length(plane.normal)
+    parallel = np.abs(rise) <= PARALLEL_SINE * size * length(d)
+    zero = np.maximum(ZERO_OF_EXTENT * length(arm), ROUNDING * np.maximum(np.abs(plane.point), np.abs(a)).max(axis=-1))
+    return _cut(a, d, below, rise, parallel, np.abs(below) <= zero * size)
+
+
+def line_and_line(a: ArrayLike, d: ArrayLike, b: ArrayLike, e: ArrayLike) -> LineCut:
+    """The points where lines a + t * d meet the coplanar lines b + s * e, in the plane or in space (..., 2 or 3).
+
+    In space the equation is read along d x e, so lines in any plane will do, upright ones too. Of two skew lines
+    it is the point of the first that is nearest to the second.
+    Source: Glaeser, section 1.3, equations 17 to 20; erratum G1-01.
+    """
+    a, d, b, e = (np.asarray(x, dtype=np.float64) for x in (a, d, b, e))
+    arm = b - a
+    across, normal = _products(arm, e, d)
+    squared = dot(normal, normal)
+    parallel = squared <= (PARALLEL_SINE * length(d) * length(e)) ** 2
+    off = length(_products(arm, d, d)[0])
+    noise = ROUNDING * np.maximum(np.abs(a), np.abs(b)).max(axis=-1)
+    same = off <= np.maximum(ZERO_OF_EXTENT * length(arm), noise) * length(d)
+    return _cut(a, d, dot(across, normal), squared, parallel, same)
+
+
+def _products(arm: Floats, e: Floats, d: Floats) -> tuple[Floats, Floats]:
+    """arm x e and d x e as vectors (..., 1 or 3)."""
+    first, second = cross(arm, e), cross(d, e)
+    return (first[..., None], second[..., None]) if e.shape[-1] == 2 else (first, second)
+
+
+def _cut(a: Floats, d: Floats, above: Floats, below: Floats, parallel: Bools, within: Bools) -> LineCut:
+    t = np.where(parallel, np.where(within, 0.0, INFINITE), above / np.where(parallel, 1.0, below))
+    a = np.broadcast_to(a, np.broadcast_shapes(a.shape, d.shape, (*t.shape, 1)))
+    # Infinity times a zero component is no number.
+    step = np.where(d == 0.0, 0.0, t[..., None] * np.where(d == 0.0, 1.0, d))
+    return LineCut(np.asarray(a + step), t, np.broadcast_to(parallel, t.shape))
+
+
+def segments(p1: ArrayLike, q1: ArrayLike, p2: ArrayLike, q2: ArrayLike) -> tuple[Floats, Floats, Bools]:
+    """The parameters t1 on P1 Q1 and t2 on P2 Q2 of the points where the lines of two segments meet, and whether they
+    do.
+
+    Points (..., 2 or 3). The segments themselves cross where both parameters lie in [0, 1]. Where the lines are
+    parallel, or identical, the flag is False and both parameters are infinite.
+    Source: Glaeser, section 1.3 (segments).
+    """
+    p1, q1, p2, q2 = (np.asarray(x, dtype=np.float64) for x in (p1, q1, p2, q2))
+    first = line_and_line(p1, q1 - p1, p2, q2 - p2)
+    second = line_and_line(p2, q2 - p2, p1, q1 - p1)
+    parallel = first.parallel | second.parallel
+    t1, t2 = (np.where(parallel, INFINITE, cut.parameter) for cut in (first, second))
+    return t1, t2, np.asarray(~parallel)
+
+
+def polygons_common_segment(first: ArrayLike, second: ArrayLike) -> tuple[Floats, Bools]:
+    """The segments in which planar convex polygons in space pierce each other: ends (..., 2, 3), and whether there is
+    one.
+
+    first (..., n, 3), second (..., m, 3): corners in either sense, leading axes are broadcast, so many pairs go at
+    once.
+    Degenerate: none for parallel or coplanar polygons, and for polygons that touch in a single point; an edge of
+    one that lies in the other counts. Ends where there is none are undefined numbers, but finite.
+    Errors: InputError for polygons of fewer than three corners.
+    Source: Glaeser, section 1.3, equations 21 and 22; errata G1-01, G1-02, G1-03.
+    """
+    p, q = np.asarray(first, dtype=np.float64), np.asarray(second, dtype=np.float64)
+    if p.shape[-2] < 3 or q.shape[-2] < 3:
+        raise InputError("a polygon needs three corners")
+    lead = np.broadcast_shapes(p.shape[:-2], q.shape[:-2])
+    p, q = (np.broadcast_to(x, (*lead, *x.shape[-2:])) for x in (p, q))
+    n, m = _area_vector(p), _area_vector(q)
+    along = cross(n, m)
+    flat = (length(n) == 0.0) | (length(m) == 0.0) | (length(along) <= PARALLEL_SINE * length(n) * length(m))
+    along = along / np.where(flat, 1.0, length(along))[..., None]
+    extent = np.maximum(np.ptp(p, axis=-2).max(axis=-1), np.ptp(q, axis=-2).max(axis=-1))
+    largest = np.maximum(np.abs(p).max(axis=(-1, -2)), np.abs(q).max(axis=(-1, -2)))
+    zero = np.maximum(ZERO_OF_EXTENT * extent, ROUNDING * largest)
+    origin = p[..., 0, :]
+    ends = [_trace(x, y, normal, along, origin, zero) for x, y, normal in ((p, q, m), (q, p, n))]
+    low, high = (np.stack([end[k] for end in ends], axis=-1) for k in (0, 1))
+    later, sooner = low.argmax(axis=-1), high.argmin(axis=-1)
+    exists = ~flat & (high.min(axis=-1) - low.max(axis=-1) > zero)
+    start = np.where((later == 0)[..., None], ends[0][2], ends[1][2])
+    stop = np.where((sooner == 0)[..., None], ends[0][3], ends[1][3])
+    return np.stack([start, stop], axis=-2), np.asarray(exists)
+
+
+def _area_vector(polygon: Floats) -> Floats:
+    arm = polygon - polygon[..., :1, :]
+    return np.asarray(np.cross(arm, np.roll(arm, -1, axis=-2)).sum(axis=-2))
+
+
+def _trace(
+    polygon: Floats, other: Floats, normal: Floats, along: Floats, origin: Floats, zero: Floats
+) -> tuple[Floats, Floats, Floats, Floats]:
+    """Where a polygon meets the plane of the other one: smallest and largest parameter along a direction, and the
+    points there; infinite parameters the wrong way round where it does not."""
+    unit = normal / np.where(length(normal) > 0.0, length(normal), 1.0)[..., None]
+    height = dot(polygon - other[..., :1, :], unit[..., None, :])
+    height = np.where(np.abs(height) <= zero[..., None], 0.0, height)
+    following = np.roll(height, -1, axis=-1)
+    crosses = height * following < 0.0
+    share = np.where(crosses, height / np.where(crosses, height - following, 1.0), 0.0)
+    points = point_on_line(polygon, np.roll(polygon, -1, axis=-2), share)
+    hit = crosses | (height == 0.0)
+    t = dot(points - origin[..., None, :], along[..., None, :])
+    low, high = np.where(hit, t, INFINITE), np.where(hit, t, -INFINITE)
+    first = np.take_along_axis(points, low.argmin(axis=-1)[..., None, None], axis=-2)[..., 0, :]
+    last = np.take_along_axis(points, high.argmax(axis=-1)[..., None, None], axis=-2)[..., 0, :]
+    return low.min(axis=-1), high.max(axis=-1), first, last

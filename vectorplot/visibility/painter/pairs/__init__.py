@@ -1,0 +1,1 @@
+"""Which of two faces or bodies is painted first."""

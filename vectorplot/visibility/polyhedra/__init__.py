@@ -1,0 +1,1 @@
+"""Hidden lines of straight edges behind faces and convex bodies."""

@@ -1,0 +1,257 @@
+"""Exact hidden lines: straight segments against convex occluders."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.exact import intervals
+from vectorplot.geometry import ragged
+from vectorplot.scene.view import View
+from vectorplot.visibility.polyhedra import grid as grids
+from vectorplot.visibility.polyhedra.cells import covered_cells, entered
+from vectorplot.visibility.polyhedra.grid import Floats32, Grid, Pieces
+from vectorplot.visibility.polyhedra.occluders import Occluders, face_occluders, joined, solid_occluders
+from vectorplot.visibility.polyhedra.pairs import Hits, Segments, clip_pairs
+from vectorplot.visibility.projected_faces import CHUNK, ProjectedFaces
+
+PAIRS_AT_ONCE = 1 << 17
+"""Pairs of a piece and an occluder handled at once."""
+
+MOST_SLABS, IN_SLAB = 24, 4000
+"""Occluders are tried front to back in slabs of equal number: hidden lines drop out early, near lines are not tried
+against what is far. Each slab costs a little: there are at most so many, for so many occluders and pieces each."""
+
+FEWEST_CELLS = 16.0
+"""The finest grid has at least so many cells along the longer side of the picture, however large the things in it."""
+
+SLIVER = 10.0
+"""Parts shorter than so many tolerances are none."""
+
+Progress = Callable[[float], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Visibility:
+    """Parts of segments: segment (k,), from parameter low to high (k,), and hidden_by (k,): by how many items each
+    part is hidden, 0 for visible ones. Ascending along each segment."""
+
+    segment: Ints
+    low: Floats
+    high: Floats
+    hidden_by: Ints
+
+    def __len__(self) -> int:
+        return len(self.segment)
+
+
+def visible_parts(
+    view: View, faces: ProjectedFaces, solid: Bools, segments: Segments, progress: Progress
+) -> Visibility:
+    """The visible parts of segments; solid (i,) as solid_items tells.
+
+    What lies on an occluder or on the border of its shadow is visible; a line along a border is hidden where both its
+    sides are. Parts below ten tolerances of the view are left out.
+    Source: Glaeser, section 7.2.
+    """
+    gap = _gaps(view, segments)
+    if not len(segments):
+        return Visibility(*intervals.complement(0, *_nothing(), gap), np.zeros(0, dtype=np.intp))
+    grid, pieces = _pieces(view, faces, segments)
+    occluders = _occluders(view, faces, solid, grid, grids.deepest(grid, pieces))
+    cover = covered_cells(view, grid, occluders)
+    covered = pieces.nearest > cover[pieces.row * grid.columns[0] + pieces.column]
+    zones = [
+        (
+            pieces.segment[covered],
+            pieces.low[covered],
+            pieces.high[covered],
+            np.zeros(int(covered.sum()), dtype=np.intp),
+        )
+    ]
+    pieces = pieces.some(~covered)
+    alive = np.ones(len(pieces), dtype=np.bool_)
+    slabs = min(max(min(len(occluders), len(pieces)) // IN_SLAB, 4), MOST_SLABS)
+    for piece, hits, _ in _all_hits(view, grid, segments, pieces, occluders, alive, slabs, progress):
+        of = piece[hits.pair]
+        zones.append((pieces.segment[of], hits.low, hits.high, hits.side))
+        whole = (hits.side == 0) & (hits.low <= pieces.low[of]) & (hits.high >= pieces.high[of])
+        alive[of[whole]] = False
+    segment, low, high, side = (np.concatenate(column) for column in zip(*zones, strict=True))
+    owner, low, high = _resolved(segment, low, high, side, gap)
+    long = high - low > gap[owner]
+    owner, low, high = intervals.complement(len(segments), owner[long], low[long], high[long], gap)
+    return Visibility(owner, low, high, np.zeros(len(owner), dtype=np.intp))
+
+
+def counted_parts(
+    view: View, faces: ProjectedFaces, solid: Bools, segments: Segments, progress: Progress
+) -> Visibility:
+    """All parts of segments with the number of items that hide each; an item that hides itself counts once.
+
+    The visible parts are those of visible_parts.
+    """
+    gap = _gaps(view, segments)
+    if not len(segments):
+        return Visibility(*_nothing(), np.zeros(0, dtype=np.intp))
+    grid, pieces = _pieces(view, faces, segments)
+    occluders = _occluders(view, faces, solid, grid, grids.deepest(grid, pieces))
+    alive = np.ones(len(pieces), dtype=np.bool_)
+    items = len(view.item_vertices)
+    found = [(np.zeros(0, dtype=np.intp), *_nothing()[1:], np.zeros(0, dtype=np.intp))]
+    for piece, hits, occluder in _all_hits(view, grid, segments, pieces, occluders, alive, 1, progress):
+        key = pieces.segment[piece[hits.pair]] * items + occluders.item[occluder[hits.pair]]
+        found.append((key, hits.low, hits.high, hits.side))
+    key, low, high, side = (np.concatenate(column) for column in zip(*found, strict=True))
+    parts = _by_item(key, low, high, side, items, gap)
+    owner, low, high, count = intervals.coverage(*parts)
+    long = high - low > gap[owner]
+    owner, low, high, count = owner[long], low[long], high[long], count[long]
+    hidden, hidden_low, hidden_high = intervals.union(owner, low, high, gap)
+    free = intervals.complement(len(segments), hidden, hidden_low, hidden_high, gap)
+    owner, low, high = (np.concatenate([a, b]) for a, b in zip((owner, low, high), free, strict=True))
+    count = np.concatenate([count, np.zeros(len(free[0]), dtype=np.intp)])
+    order = np.lexsort((low, owner))
+    return Visibility(owner[order], low[order], high[order], count[order])
+
+
+def _nothing() -> tuple[Ints, Floats, Floats]:
+    return np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros(0)
+
+
+def _gaps(view: View, segments: Segments) -> Floats:
+    """(n,) the parameter length of what is too short to count."""
+    along = segments.end - segments.start
+    length = np.sqrt((along * along).sum(axis=0))
+    return np.minimum(SLIVER * view.tolerance / np.where(length > 0.0, length, 1.0), 1.0)
+
+
+def _pieces(view: View, faces: ProjectedFaces, segments: Segments) -> tuple[Grid, Pieces]:
+    """The segments cut by a grid that suits them."""
+    start, end = view.image_of(segments.start), view.image_of(segments.end)
+    near, far = view.depth_of(segments.start), view.depth_of(segments.end)
+    low, high = np.minimum(start, end).min(axis=1), np.maximum(start, end).max(axis=1)
+    extent = np.float32(max(high - low))
+    sizes = np.minimum(np.maximum(faces.box[1] - faces.box[0], faces.box[3] - faces.box[2]), extent)
+    typical = min(float(np.median(sizes)), float(extent) / FEWEST_CELLS) if len(sizes) else float(extent)
+    cell = grids.cell_size(start, end, typical)
+    area = float(np.prod(high - low))
+    cell = max(cell, np.sqrt(area / (4.0 * (len(segments) + len(sizes)) + 1024.0)))
+    grid = Grid.over((low[0], high[0], low[1], high[1]), cell)
+    return grid, grids.cut(grid, start, end, near, far, view.eye is not None)
+
+
+def _occluders(view: View, faces: ProjectedFaces, solid: Bools, grid: Grid, deepest: Floats32) -> Occluders:
+    """Everything that could hide a piece: convex solids as such, of other items the faces that reach a piece's cell."""
+    hiding = view.occludes & ~solid
+    kept = [np.zeros(0, dtype=np.intp)]
+    for low in range(0, view.face_count, CHUNK):
+        block = slice(low, low + CHUNK)
+        near = grids.reaching(grid, deepest, faces.box[:, block], faces.nearest[block])
+        near &= (faces.facing[block] != 0) & hiding[view.face_item[block]]
+        kept.append(low + np.flatnonzero(near))
+    by_face = face_occluders(view, faces, np.concatenate(kept))
+    if not solid.any():
+        return by_face
+    return joined(by_face, solid_occluders(view, faces, np.flatnonzero(solid)))
+
+
+def _all_hits(
+    view: View,
+    grid: Grid,
+    segments: Segments,
+    pieces: Pieces,
+    occluders: Occluders,
+    alive: Bools,
+    slabs: int,
+    progress: Progress,
+) -> Iterator[tuple[Ints, Hits, Ints]]:
+    """Hidden zones of pieces, front to back, with the piece and the occluder of every pair.
+
+    Pieces that the caller marks as no longer alive are not tried again.
+    """
+    order = np.argsort(occluders.nearest, kind="stable")
+    left, right, bottom, top = occluders.box
+    boxes = _packed(np.stack([left, -right, bottom, -top]))
+    left, right, bottom, top = pieces.box
+    piece_boxes = _packed(np.stack([right, -left, top, -bottom]))
+    bounds = np.linspace(0, len(order), slabs + 1).astype(np.intp)
+    for begin, end in pairwise(bounds.tolist()):
+        if begin == end:
+            continue
+        slab = order[begin:end]
+        entries = entered(view, grid, occluders, slab)
+        for level in entries.levels():
+            which = np.flatnonzero(alive & (pieces.farthest > occluders.nearest[slab[0]]))
+            at = grid.numbers(pieces.column[which] >> level, pieces.row[which] >> level, level)
+            for piece, entry in _expanded(*entries.of(at), which):
+                occluder = entries.thing[entry]
+                close = np.flatnonzero(_overlapping(piece_boxes[piece], boxes[occluder]))
+                piece, occluder = piece[close], occluder[close]
+                close = np.flatnonzero((occluders.nearest[occluder] < pieces.farthest[piece]) & alive[piece])
+                piece, occluder = piece[close], occluder[close]
+                segment, low, high = pieces.segment[piece], pieces.low[piece], pieces.high[piece]
+                beyond = pieces.nearest[piece] > occluders.farthest[occluder]
+                yield piece, clip_pairs(view, segments, occluders, segment, occluder, low, high, beyond), occluder
+        progress(float(end) / len(order))
+
+
+def _expanded(begin: Ints, counts: Ints, which: Ints) -> Iterator[tuple[Ints, Ints]]:
+    """Blocks of (piece, entry) for every entry of the pieces' cells, counts of them from begin on."""
+    full = np.flatnonzero(counts)
+    begin, counts, which = begin[full], counts[full], which[full]
+    total = np.cumsum(counts)
+    cuts = np.searchsorted(total, np.arange(PAIRS_AT_ONCE, int(total[-1]) if len(total) else 0, PAIRS_AT_ONCE)) + 1
+    edges = np.unique(np.concatenate([[0], cuts, [len(counts)]]))
+    for low, high in pairwise(edges.tolist()):
+        size = counts[low:high]
+        owner = np.repeat(np.arange(low, high), size)
+        step = ragged.place(size)
+        yield which[owner], begin[owner] + step
+
+
+def _packed(box: Floats32) -> NDArray[np.complex128]:
+    """(n,) boxes (4,n), each packed into one value of 16 bytes: so the processor fetches it at once."""
+    return np.ascontiguousarray(box.T).view(np.complex128).ravel()
+
+
+def _overlapping(piece_box: NDArray[np.complex128], box: NDArray[np.complex128]) -> Bools:
+    """Which pairs of packed boxes overlap; the first ones as (right, -left, top, -bottom), the second ones as
+    (left, -right, bottom, -top)."""
+    below = box.view(np.float32) < piece_box.view(np.float32)
+    return np.asarray(below.view(np.uint32) == np.uint32(0x01010101), dtype=np.bool_)
+
+
+def _resolved(segment: Ints, low: Floats, high: Floats, side: Ints, gap: Floats) -> tuple[Ints, Floats, Floats]:
+    """Disjoint hidden zones; zones of one side count where they meet zones of the other."""
+    if not side.any():
+        return intervals.union(segment, low, high, gap)
+    halved = np.zeros(len(gap), dtype=np.bool_)
+    halved[segment[side != 0]] = True
+    some = halved[segment]
+    part = intervals.coverage(segment[some], low[some], high[some], side[some])[:3]
+    rest = (segment[~some], low[~some], high[~some])
+    owner, low, high = (np.concatenate(pair) for pair in zip(part, rest, strict=True))
+    return intervals.union(owner, low, high, gap)
+
+
+def _by_item(
+    key: Ints, low: Floats, high: Floats, side: Ints, items: int, gap: Floats
+) -> tuple[Ints, Floats, Floats, Ints]:
+    """Zones (segment, low, high, side), disjoint within each key = segment * items + item and side."""
+    unique, owner = np.unique(key, return_inverse=True)
+    segment = unique // items
+    halved = np.zeros(len(unique), dtype=np.bool_)
+    halved[owner[side != 0]] = True
+    both = ~halved[owner]
+    parts = []
+    for chosen, mark in ((both, 0), (~both & (side != -1), 1), (~both & (side != 1), -1)):
+        of, start, end = intervals.union(owner[chosen], low[chosen], high[chosen], gap[segment])
+        parts.append((segment[of], start, end, np.full(len(of), mark)))
+    merged = [np.concatenate(column) for column in zip(*parts, strict=True)]
+    return merged[0], merged[1], merged[2], merged[3]

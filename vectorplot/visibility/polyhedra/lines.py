@@ -1,0 +1,233 @@
+"""Every line of a scene that could be drawn, before anything hides it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.meshes.edges import Faces, mesh_edges
+from vectorplot.features.meshes.mesh_curves import MeshCurves
+from vectorplot.features.meshes.mesh_intersections import face_intersections
+from vectorplot.features.meshes.mesh_lines import (
+    mesh_isophote_edges,
+    mesh_isophotes,
+    mesh_plane_sections,
+    mesh_point_light_isophote_edges,
+    mesh_point_light_isophotes,
+)
+from vectorplot.features.meshes.patterns import pattern_outline
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.repair.winding import pieces_of_faces
+from vectorplot.scene.curve_light import curve_light
+from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.view import View
+from vectorplot.visibility.projected_faces import ProjectedFaces
+from vectorplot.words import LineKind
+
+if TYPE_CHECKING:
+    from vectorplot.visibility.smooth.chord_parts import ChordParts
+
+
+@dataclass(frozen=True, eq=False)
+class Lines:
+    """Straight lines in the view's coordinates: start and end (3,n), kind (n,) LineKind values, item (n,); side (n,):
+    1 or -1 for an outline, where its surface lies to the left or right of start -> end in the image, 0 for other
+    lines; smooth (n,): a chord of a smooth curve, both of its ends on it; behind (n,): how many smooth surfaces hide
+    all of it; chords: which parts of smooth curves they are, if some are."""
+
+    start: Floats
+    end: Floats
+    kind: Ints
+    item: Ints
+    side: Ints
+    smooth: Bools
+    behind: Ints
+    chords: ChordParts | None = None
+
+    def __len__(self) -> int:
+        return len(self.kind)
+
+    def some(self, which: Ints | Bools) -> Lines:
+        """Some of the lines."""
+        return Lines(
+            self.start[:, which],
+            self.end[:, which],
+            self.kind[which],
+            self.item[which],
+            self.side[which],
+            self.smooth[which],
+            self.behind[which],
+            self.chords.some(which) if self.chords else None,
+        )
+
+    def ends(self, view: View, which: Ints, low: Floats, high: Floats) -> tuple[Floats, Floats]:
+        """Both ends (3,k) of parts of lines, from low to high (k,) of those with the indices which (k,).
+
+        Where a part goes on to an end of its line it is exactly that; inside of a chord it is on the curve.
+        """
+        start, end = _divided(self.start[:, which], self.end[:, which], low, high)
+        if self.chords:
+            self.chords.some(which).cut(view, low, high, start, end)
+        return start, end
+
+    def cut(self, view: View, which: Ints, low: Floats, high: Floats) -> Lines:
+        """The same parts as lines."""
+        some = self.some(which)
+        start, end = _divided(some.start, some.end, low, high)
+        if not some.chords:
+            return replace(some, start=start, end=end)
+        begin, stop = some.chords.cut(view, low, high, start, end)
+        return replace(some, start=start, end=end, chords=replace(some.chords, begin=begin, end=stop))
+
+
+def _divided(start: Floats, end: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
+    """The points (3,k) at low and high (k,) of lines; exact at 0 and 1."""
+    along = end - start
+    return start + low * along, np.where(high < 1.0, start + high * along, end)
+
+
+def joined_lines(parts: Collection[Lines]) -> Lines:
+    """All lines of all parts, none of which has chords of smooth curves."""
+    return Lines(
+        np.concatenate([np.zeros((3, 0)), *(p.start for p in parts)], axis=1),
+        np.concatenate([np.zeros((3, 0)), *(p.end for p in parts)], axis=1),
+        np.concatenate([np.zeros(0, dtype=np.intp), *(p.kind for p in parts)]),
+        np.concatenate([np.zeros(0, dtype=np.intp), *(p.item for p in parts)]),
+        np.concatenate([np.zeros(0, dtype=np.intp), *(p.side for p in parts)]),
+        np.concatenate([np.zeros(0, dtype=np.bool_), *(p.smooth for p in parts)]),
+        np.concatenate([np.zeros(0, dtype=np.intp), *(p.behind for p in parts)]),
+    )
+
+
+def straight_lines(start: Floats, end: Floats, kind: Ints, item: Ints, side: Ints) -> Lines:
+    """Lines none of which is a chord of a curve, nor behind a smooth surface."""
+    return Lines(start, end, kind, item, side, np.zeros(len(kind), dtype=np.bool_), np.zeros(len(kind), dtype=np.intp))
+
+
+def wanted_kinds(scene: Scene, kinds: frozenset[LineKind]) -> list[tuple[frozenset[LineKind], Bools]]:
+    """The sets of kinds that items want, each with the items (i,) that want it: their own, or else those asked for."""
+    own = [kinds_of(item, kinds) for item in scene.items]
+    return [(one, np.array([other == one for other in own], dtype=np.bool_)) for one in dict.fromkeys(own)]
+
+
+def kinds_of(item: Item, kinds: frozenset[LineKind]) -> frozenset[LineKind]:
+    """The kinds to draw on an item: its own, or else those asked for."""
+    return kinds if item.lines is None else frozenset(map(LineKind.from_word, item.lines))
+
+
+def edge_lines(
+    scene: Scene, view: View, faces: ProjectedFaces, kinds: frozenset[LineKind], crease_angle_deg: float, backs: Bools
+) -> Lines:
+    """Contours, boundaries, creases and other edges of all items.
+
+    backs (i,): items whose edges between faces that all turn away are wanted too; of a closed solid they are hidden.
+    """
+    parts = []
+    for wanted, items in wanted_kinds(scene, kinds):
+        asked = all_faces = _faces(view, faces)
+        which = np.flatnonzero(items[view.face_item])
+        if len(which) < view.face_count:
+            asked = _some_faces(all_faces, which)
+        edges = mesh_edges(asked, wanted, crease_angle_deg)
+        item = view.face_item[which[edges.face]]
+        kept = edges.front | backs[item]
+        start, end = edges.start[kept], edges.end[kept]
+        ends = view.points[:, start], view.points[:, end]
+        parts.append(straight_lines(*ends, edges.kind[kept], item[kept], edges.side[kept]))
+    return joined_lines(parts)
+
+
+def _faces(view: View, faces: ProjectedFaces) -> Faces:
+    return Faces(view.points, view.corners, view.offsets, view.inner, faces.facing)
+
+
+def _some_faces(faces: Faces, which: Ints) -> Faces:
+    size = np.diff(faces.offsets)[which]
+    offsets = ragged.offsets(size)
+    shift = faces.offsets[which] - offsets[:-1]
+    position = np.arange(offsets[-1]) + np.repeat(shift, size)
+    return Faces(faces.points, faces.corners[position], offsets, faces.inner[position], faces.facing[which])
+
+
+def intersection_lines(
+    scene: Scene, view: View, faces: ProjectedFaces, kinds: frozenset[LineKind], solid: Bools
+) -> Lines:
+    """The segments in which different items, or parts of an item that do not hang together, pierce each other.
+
+    A segment belongs to the item, of those that want intersections, that comes first in the scene.
+    """
+    wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
+    if solid.all():
+        part = view.face_item
+    else:
+        part = pieces_of_faces(view.points.shape[1], view.corners, view.offsets)[1]
+    met = face_intersections(_faces(view, faces), part, view.tolerance)
+    one, two = view.face_item[met.one], view.face_item[met.two]
+    one, two = np.minimum(one, two), np.maximum(one, two)
+    kept = wants[one] | wants[two]
+    owner = np.where(wants[one], one, two)[kept]
+    kind = np.full(int(kept.sum()), int(LineKind.INTERSECTION))
+    return straight_lines(met.start[:, kept], met.end[:, kept], kind, owner, np.zeros_like(kind))
+
+
+def pattern_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines:
+    """The outlines of all patterns on faces that are present."""
+    starts, ends, items = [], [], []
+    for number, item in enumerate(scene.items):
+        if LineKind.PATTERN not in kinds_of(item, kinds):
+            continue
+        for pattern in item.patterns:
+            if item.mesh.present is None or item.mesh.present[pattern.face]:
+                outline = pattern_outline(item.mesh, pattern.face, pattern.points)
+                starts.append(outline)
+                ends.append(np.roll(outline, -1, axis=0))
+                items.append(np.full(len(outline), number))
+    start, end = (view.points_of(np.concatenate([np.zeros((0, 3)), *part])) for part in (starts, ends))
+    owner = np.concatenate([np.zeros(0, dtype=np.intp), *items])
+    return straight_lines(start, end, np.full(len(owner), int(LineKind.PATTERN)), owner, np.zeros_like(owner))
+
+
+def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines:
+    """The isophotes and plane sections that polyhedra ask for: they lie in the faces.
+
+    Errors: InputError, with the item's name, for a light that the scene does not have.
+    """
+    parts = []
+    for number, item in enumerate(scene.items):
+        wanted = kinds_of(item, kinds)
+        if isinstance(item.shape, Mesh) and item.shape.face_count:
+            if LineKind.ISOPHOTE in wanted and item.curves.isophotes:
+                found = _mesh_isophotes(scene, view, item)
+                parts.append(_lines_of_curves(view, found, LineKind.ISOPHOTE, number, item.curves.smooth))
+            if LineKind.SECTION in wanted:
+                for section in item.curves.sections:
+                    found = mesh_plane_sections(item.shape, section.normal, section.offsets)
+                    parts.append(_lines_of_curves(view, found, LineKind.SECTION, number, item.curves.smooth))
+    return joined_lines(parts)
+
+
+def _mesh_isophotes(scene: Scene, view: View, item: Item) -> MeshCurves:
+    light, cosines = curve_light(scene, view, item), item.curves.isophotes
+    if item.curves.along_edges:
+        trace = mesh_isophote_edges if light.parallel else mesh_point_light_isophote_edges
+    else:
+        trace = mesh_isophotes if light.parallel else mesh_point_light_isophotes
+    return trace(item.mesh, light.position, cosines)
+
+
+def _lines_of_curves(view: View, curves: MeshCurves, kind: LineKind, item: int, smooth: bool) -> Lines:
+    """The segments of curves; smooth: they are chords of smooth curves through their ends."""
+    points = view.points_of(curves.points)
+    after = np.arange(1, len(curves.points) + 1)
+    last = curves.offsets[1:] - 1
+    after[last] = np.where(curves.closed, curves.offsets[:-1], last)
+    begin = np.flatnonzero(after != np.arange(len(after)))
+    numbers = np.full(len(begin), item)
+    kinds = np.full(len(begin), int(kind))
+    lines = straight_lines(points[:, begin], points[:, after[begin]], kinds, numbers, np.zeros_like(numbers))
+    return replace(lines, smooth=np.full(len(begin), smooth))

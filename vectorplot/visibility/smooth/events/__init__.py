@@ -1,0 +1,1 @@
+"""Where the visibility of a curve may change."""

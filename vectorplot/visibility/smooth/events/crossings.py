@@ -1,0 +1,283 @@
+"""Where the images of curves cross those of folds and borders in front of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.vectors import dot
+from vectorplot.scene.view import View
+from vectorplot.visibility.smooth.blocks import Block, in_blocks
+from vectorplot.visibility.smooth.events.cubics import cubics
+from vectorplot.visibility.smooth.events.edge_sides import covered_sides, turn
+from vectorplot.visibility.smooth.events.events import Events, hopped, on_chord, once
+from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.sheets.sheet import Sheet
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+from vectorplot.words import LineKind
+
+if TYPE_CHECKING:
+    import shapely
+
+ROUNDS, HOPS = 8, 3
+"""Steps of Newton on one pair of chords; how often the pair may go over to neighbouring chords."""
+
+SETTLED = 1e-10
+"""Newton's next step after one of this part of a chord is rounding."""
+
+RESIDUAL = 1e-11
+"""How far the images of a crossing may be apart; the scene is about 1 large."""
+
+ULPS = 16.0
+"""So many times the rounding of points it may be too."""
+
+GAP = 1e-6
+"""An edge less than this in front of a curve is one that the curve touches."""
+
+FOLDS_GAP = 1e-3
+"""The same for two parts of one contour: on both sides of a cusp they are as close as rounding long before that."""
+
+RESIDUAL_OF_GAP = 1e-3
+"""Part of the cube of the gap that the residual of a crossing may be: two curves that touch come as close as they
+like, but not at a distance."""
+
+MODEL_RESIDUAL, MODEL_RESIDUAL_OF_GAP = 1e-6, 1e-3
+"""The same while the curves are replaced by cubic arcs, and as a part of the square of the gap: towards a place where
+two curves touch they come together like the square of what is left of the gap."""
+
+PARALLEL = 1e-6
+"""Sine of an angle below which a curve does not cross an edge but runs along it in the image."""
+
+NEAR_CUSPS = 0.1
+"""Part of the largest bending along an edge below which a cusp is near."""
+
+STARTS = ((0.2, 0.2), (0.2, 0.8), (0.8, 0.2), (0.8, 0.8))
+"""Parts of both chords at which the search for those begins."""
+
+NEAR_MISSES = 2.0
+"""Chords that pass at so many of their tolerances are tried too."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """Chords of curves and chords of edges, by the points at which they begin, and parts of them: all (k,)."""
+
+    chord: Ints
+    part: Floats
+    edge: Ints
+    edge_part: Floats
+
+    def some(self, which: Bools | Ints) -> Pairs:
+        """Some of the pairs."""
+        return Pairs(self.chord[which], self.part[which], self.edge[which], self.edge_part[which])
+
+
+def crossings(
+    view: View,
+    sheets: tuple[Sheet, ...],
+    curves: Curves,
+    edges: Curves,
+    edge_on: Bools,
+    tolerance: float,
+    allowed: int,
+) -> tuple[Events, tuple[int, ...]]:
+    """The events where curves pass behind edges: the folds (kind contour) and borders (boundary) of the sheets; and the
+    items of curves for which the budget's pairs, so many as are allowed, did not do.
+
+    edge_on (m,): curves that are contours; tolerance: how far chords are off their curves, in the image. Behind a fold
+    or cuspidal edge (crease) there are two sheets more or less, by the side to which the sheet turns; behind a border
+    one.
+    """
+    close, short = _close_pairs(view, sheets, curves, edges, tolerance, allowed)
+    pairs = _roughly_met(view, curves, edges, close)
+    for _ in range(HOPS):
+        pairs = _met(view, curves, edges, pairs)
+        chord, part = hopped(curves, pairs.chord, pairs.part)
+        edge, edge_part = hopped(edges, pairs.edge, pairs.edge_part)
+        moved = (chord != pairs.chord) | (edge != pairs.edge)
+        pairs = Pairs(chord, part, edge, edge_part)
+        if not moved.any():
+            break
+    inside, part = on_chord(pairs.part)
+    edge_inside, edge_part = on_chord(pairs.edge_part)
+    pairs = Pairs(pairs.chord, part, pairs.edge, edge_part).some(inside & edge_inside)
+    pairs = pairs.some(once(curves, pairs.chord, pairs.part, pairs.edge + pairs.edge_part))
+    return _events(view, sheets, curves, edges, edge_on, pairs), short
+
+
+def _close_pairs(
+    view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, tolerance: float, pairs: int
+) -> tuple[Pairs, tuple[int, ...]]:
+    """The pairs of chords that come close to each other in the image, the edge not behind, and where they do; and the
+    items of chords for which the budget's pairs did not do."""
+    one, two = _Boxes.of(view, curves), _Boxes.of(view, edges)
+    margin = NEAR_MISSES * tolerance
+    found, done = in_blocks(np.arange(len(one.chord)), pairs, lambda rows: _close(one, two, rows, margin))
+    short = tuple(np.unique(curves.item[curves.owner[one.chord[done:]]]).tolist())
+    near, far = (np.concatenate([np.zeros(0, dtype=np.intp), *(pair[k] for pair in found)]) for k in (0, 1))
+    part, edge_part = (np.concatenate([np.zeros(0), *(pair[k] for pair in found)]) for k in (2, 3))
+    # Near a cusp of an edge a curve may cross it twice close together: the search begins at several places.
+    own = curves.sheet[curves.owner[one.chord[near]]] == edges.sheet[edges.owner[two.chord[far]]]
+    again = np.flatnonzero(own & _near_cusps(view, sheets, edges)[two.chord[far]])
+    starts = [(np.arange(len(near)), part, edge_part)]
+    starts += [(again, np.full(len(again), a), np.full(len(again), b)) for a, b in STARTS]
+    which, part, edge_part = (np.concatenate(column) for column in zip(*starts, strict=True))
+    return Pairs(one.chord[near[which]], part, two.chord[far[which]], edge_part), short
+
+
+def _close(one: _Boxes, two: _Boxes, rows: Ints, margin: float) -> Block[tuple[Ints, Ints, Floats, Floats]]:
+    """Chords among rows (k,) and edges that come within a margin of each other, the edge not behind; and the parts of
+    both at which they do."""
+    near, far = one.some(rows).overlapping(two, margin)
+    looked, near = len(near), rows[near]
+    # A chord that runs away from the eye may be off its curve in depth by some part of its length.
+    not_behind = two.nearest[far] - (two.farthest - two.nearest)[far] <= (2.0 * one.farthest - one.nearest)[near]
+    near, far = near[not_behind], far[not_behind]
+    part, edge_part, apart = _approach(one.start[near], one.end[near], two.start[far], two.end[far])
+    close = np.flatnonzero(apart <= margin)
+    return Block((near[close], far[close], part[close], edge_part[close]), looked, len(close))
+
+
+def _near_cusps(view: View, sheets: tuple[Sheet, ...], edges: Curves) -> Bools:
+    """(n,) the points of folds at which the sheet bends little along the sight line."""
+    bend = np.full(len(edges.points), np.inf)
+    fold = edges.kind[edges.owner] == LineKind.CONTOUR
+    for number, sheet in enumerate(sheets):
+        at = np.flatnonzero(fold & (edges.sheet[edges.owner] == number))
+        bend[at] = np.abs(sheet.bends(edges.places[at], projection.sight(view, edges.points[at])))
+        if len(at):
+            bend[at] /= max(float(bend[at].max()), np.finfo(np.float64).tiny)
+    little = bend < NEAR_CUSPS
+    return np.asarray(little | np.append(little[1:], False))
+
+
+@dataclass(frozen=True, eq=False)
+class _Boxes:
+    """Chords in front of the eye: their numbers (c,), ends (c,2) in the image and depths."""
+
+    chord: Ints
+    start: Floats
+    end: Floats
+    nearest: Floats
+    farthest: Floats
+
+    @classmethod
+    def of(cls, view: View, curves: Curves) -> _Boxes:
+        image, depth = projection.image(view, curves.points), projection.depth(view, curves.points)
+        chord = curves.chords
+        long = (curves.points[chord] != curves.points[chord + 1]).any(axis=1)
+        chord = chord[long & (depth[chord] > view.near) & (depth[chord + 1] > view.near)]
+        a, b = depth[chord], depth[chord + 1]
+        return cls(chord, image[chord], image[chord + 1], np.minimum(a, b), np.maximum(a, b))
+
+    def some(self, which: Ints) -> _Boxes:
+        """Some of the chords."""
+        return _Boxes(self.chord[which], self.start[which], self.end[which], self.nearest[which], self.farthest[which])
+
+    @cached_property
+    def tree(self) -> shapely.STRtree:
+        """A tree over their boxes."""
+        import shapely
+
+        low, high = np.minimum(self.start, self.end), np.maximum(self.start, self.end)
+        return shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
+
+    def overlapping(self, other: _Boxes, margin: float) -> tuple[Ints, Ints]:
+        """The pairs of chords whose boxes, enlarged by a margin, overlap."""
+        import shapely
+
+        if not len(self.chord) or not len(other.chord):
+            return np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp)
+        low, high = np.minimum(self.start, self.end) - margin, np.maximum(self.start, self.end) + margin
+        near, far = other.tree.query(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
+        return np.asarray(near), np.asarray(far)
+
+
+def _approach(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Floats, Floats]:
+    """Parts (k,) of segments a b and c d (k,2) at which they cross or come closest, and their distance there."""
+    ab, cd, ac = b - a, d - c, c - a
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s, t = turn(ac, cd) / turn(ab, cd), turn(ac, ab) / turn(ab, cd)
+    s = np.clip(np.where(np.isfinite(s), s, 0.5), 0.0, 1.0)
+    t = np.clip(np.where(np.isfinite(t), t, 0.5), 0.0, 1.0)
+    for _ in range(2):
+        t = np.clip(dot(a + s[:, None] * ab - c, cd) / dot(cd, cd).clip(1e-300), 0.0, 1.0)
+        s = np.clip(dot(c + t[:, None] * cd - a, ab) / dot(ab, ab).clip(1e-300), 0.0, 1.0)
+    away = a + s[:, None] * ab - c - t[:, None] * cd
+    return s, t, np.sqrt(dot(away, away))
+
+
+def _roughly_met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
+    """The pairs at parts where cubic arcs close to the curves meet; those that do not, or only touch, are left out."""
+    chord, of_curve = np.unique(pairs.chord, return_inverse=True)
+    edge, of_edge = np.unique(pairs.edge, return_inverse=True)
+    one, two = cubics(view, curves, chord), cubics(view, edges, edge)
+    part, edge_part = pairs.part.copy(), pairs.edge_part.copy()
+    off = gap = np.full(len(part), np.inf)
+    for _ in range(ROUNDS):
+        (p, a), (q, b) = one.at(of_curve, part), two.at(of_edge, edge_part)
+        away = (q - p)[:, :2]
+        off, gap = np.sqrt(dot(away, away)), (p - q)[:, 2]
+        s, t = _step(away, a, b)
+        part, edge_part = np.clip(part + s, -0.5, 1.5), np.clip(edge_part + t, -0.5, 1.5)
+    met = np.flatnonzero((off <= np.minimum(MODEL_RESIDUAL, MODEL_RESIDUAL_OF_GAP * gap**2)) & (gap > 0.5 * GAP))
+    found = Pairs(pairs.chord, part, pairs.edge, edge_part).some(met)
+    return found.some(once(curves, found.chord, found.part, found.edge + found.edge_part))
+
+
+def _step(gap: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    """One step of Newton for points that move with velocities a and b (k,2) and are a gap (k,2) apart."""
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        s, t = turn(gap, b) / turn(a, b), turn(gap, a) / turn(a, b)
+    s, t = (np.clip(np.where(np.isfinite(x), x, 0.0), -0.7, 0.7) for x in (s, t))
+    return s, t
+
+
+def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
+    """The pairs at parts where the images meet; those that find no meeting are left out."""
+    part, edge_part = pairs.part.copy(), pairs.edge_part.copy()
+    off = np.full(len(part), np.inf)
+    active = np.arange(len(part))
+    for _ in range(ROUNDS):
+        if not len(active):
+            break
+        one, two = curves.at(pairs.chord[active], part[active]), edges.at(pairs.edge[active], edge_part[active])
+        gap = projection.image(view, two.points) - projection.image(view, one.points)
+        off[active] = np.sqrt(dot(gap, gap))
+        a, b = (projection.image_slopes(view, x.points, x.slopes) for x in (one, two))
+        s, t = _step(gap, a, b)
+        part[active] = np.clip(part[active] + s, -1.5, 2.5)
+        edge_part[active] = np.clip(edge_part[active] + t, -1.5, 2.5)
+        active = active[(np.abs(s) > SETTLED) | (np.abs(t) > SETTLED)]
+    # Beyond the chords' ends the search goes on with the neighbours, whatever the residual.
+    beyond = (part < 0.0) | (part > 1.0) | (edge_part < 0.0) | (edge_part > 1.0)
+    kept = (off <= 100.0 * max(RESIDUAL, ULPS * projection.rounding(view))) | (beyond & (off < np.inf))
+    return Pairs(pairs.chord, part, pairs.edge, edge_part).some(kept)
+
+
+def _events(
+    view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, edge_on: Bools, pairs: Pairs
+) -> Events:
+    """The crossings of the pairs that really are behind an edge."""
+    one, two = curves.at(pairs.chord, pairs.part), edges.at(pairs.edge, pairs.edge_part)
+    away = projection.image(view, two.points) - projection.image(view, one.points)
+    residual = np.sqrt(dot(away, away))
+    gap = projection.depth(view, one.points) - projection.depth(view, two.points)
+    curve, edge = curves.owner[pairs.chord], edges.owner[pairs.edge]
+    alike = edge_on[curve] & (curves.sheet[curve] == edges.sheet[edge]) & (edges.kind[edge] == LineKind.CONTOUR)
+    exact = max(RESIDUAL, ULPS * projection.rounding(view))
+    real = (gap > np.where(alike, FOLDS_GAP, GAP)) & (residual <= exact) & (residual <= RESIDUAL_OF_GAP * gap**3)
+    direction = projection.image_slopes(view, one.points, one.slopes)
+    along = projection.image_slopes(view, two.points, two.slopes)
+    real &= np.abs(turn(along, direction)) > PARALLEL * np.sqrt(dot(along, along) * dot(direction, direction))
+    pairs, points, places, edge = pairs.some(real), two.points[real], two.places[real], edge[real]
+    direction, along = direction[real], along[real]
+    kind = edges.kind[edge]
+    covered = covered_sides(view, sheets, edges.sheet[edge], kind, points, places, two.slopes[real])
+    step = np.where(kind == LineKind.BOUNDARY, 1, 2)
+    change = np.sign(turn(along, direction)).astype(np.intp) * covered * step
+    return Events(pairs.chord, pairs.part, edges.item[edge], change)

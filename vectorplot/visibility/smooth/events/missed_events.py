@@ -1,0 +1,99 @@
+"""Events that were not found: sight lines on both sides of a place disagree, and halving tells where."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.scene.view import View
+from vectorplot.visibility.smooth.events.events import Events
+from vectorplot.visibility.smooth.pieces import Counts, Pieces, samples_at
+from vectorplot.visibility.smooth.rays import counts_in_front
+from vectorplot.visibility.smooth.targets import Target
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+
+LOOKS = 16
+"""Parts of a suspicious piece at whose ends sight lines are taken."""
+
+HALVINGS = 40
+
+SHARE = 8
+"""The first sight lines and the halving get one in so many of the budget's pairs each: missed events are few."""
+
+
+def missed_events(
+    view: View,
+    targets: tuple[Target, ...],
+    curves: Curves,
+    edge_on: Bools,
+    pieces: Pieces,
+    counts: Counts,
+    items: int,
+    pairs: int,
+) -> tuple[Events, tuple[int, ...]]:
+    """Events inside pieces whose count does not follow from that of a neighbour by the changes between; and the items
+    for which the budget's pairs, a share for the first sight lines and one for halving, did not do.
+
+    Where a change alone was told wrongly nothing is found, and the sight lines of the pieces stand.
+    """
+    suspects = _suspects(pieces, counts)
+    begin = (pieces.begin_chord + pieces.begin_part)[suspects]
+    end = (pieces.end_chord + pieces.end_part)[suspects]
+    # Neither end is looked at: there the count changes.
+    shares = (np.arange(LOOKS) + 0.5) / LOOKS
+    at = (begin[:, None] + shares * (end - begin)[:, None]).ravel()
+    last = np.repeat(pieces.end_chord[suspects], LOOKS)
+    found, looked = _counts(view, targets, curves, edge_on, at, last, items, max(1, pairs // SHARE))
+    short = ~looked.all(axis=0)
+    found = found.reshape(len(suspects), LOOKS, items)
+    seen = looked.all(axis=1).reshape(len(suspects), LOOKS)
+    piece, look = np.nonzero((found[:, 1:] != found[:, :-1]).any(axis=2) & seen[:, 1:] & seen[:, :-1])
+    low, high = at.reshape(-1, LOOKS)[piece, look], at.reshape(-1, LOOKS)[piece, look + 1]
+    below, above = found[piece, look], found[piece, look + 1]
+    last = pieces.end_chord[suspects][piece]
+    row = np.arange(len(piece))
+    for _ in range(HALVINGS):
+        if not len(row):
+            break
+        middle = 0.5 * (low[row] + high[row])
+        counts_there, looked = _counts(
+            view, targets, curves, edge_on, middle, last[row], items, max(1, pairs // SHARE // HALVINGS)
+        )
+        short |= ~looked.all(axis=0)
+        # What the budget does not do for stays where it is.
+        on = np.flatnonzero(looked.all(axis=1))
+        same = (counts_there == below[row]).all(axis=1)
+        row, middle, same = row[on], middle[on], same[on]
+        low[row], high[row] = np.where(same, middle, low[row]), np.where(same, high[row], middle)
+    chord = np.minimum(low.astype(np.intp), last)
+    which, item = np.nonzero(above - below)
+    events = Events(chord[which], (low - chord)[which], item, (above - below)[which, item])
+    return events, tuple(np.flatnonzero(short).tolist())
+
+
+def _suspects(pieces: Pieces, counts: Counts) -> Ints:
+    """The pieces between two sight lines that do not agree, with those of the sight lines themselves."""
+    safe = np.flatnonzero(counts.safe)
+    level = counts.in_front - np.cumsum(pieces.change, axis=0)
+    before, after = safe[:-1], safe[1:]
+    wrong = (pieces.curve[before] == pieces.curve[after]) & (level[before] != level[after]).any(axis=1)
+    mark = np.zeros(len(pieces) + 1, dtype=np.intp)
+    np.add.at(mark, before[wrong], 1)
+    np.add.at(mark, after[wrong] + 1, -1)
+    return np.flatnonzero(np.cumsum(mark)[:-1] > 0)
+
+
+def _counts(
+    view: View,
+    targets: tuple[Target, ...],
+    curves: Curves,
+    edge_on: Bools,
+    at: Floats,
+    last: Ints,
+    items: int,
+    pairs: int,
+) -> tuple[Ints, Bools]:
+    """(k, items) sheets in front of places at (k,): the number of the chord and the part of it; and (k, items) whether
+    the budget's pairs did for them. last (k,): the last chord of the piece."""
+    chord = np.minimum(at.astype(np.intp), last)
+    return counts_in_front(view, targets, samples_at(curves, edge_on, chord, at - chord), items, pairs)

@@ -1,0 +1,1 @@
+"""Smooth surfaces as the second engine sees them."""

@@ -1,0 +1,204 @@
+"""Curves of one kind on one sheet: what is known of them between the points of their polylines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.features.implicit.implicit_conditions import SpatialCondition
+from vectorplot.features.parametric.conditions import Condition
+from vectorplot.geometry.vectors import dot
+from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
+from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
+
+ROUNDS, RENEWED = 8, 4
+"""Steps of Newton from a chord to its curve; the one at which slopes are computed anew."""
+
+SETTLED = 1e-9
+"""The step of Newton after one of this part of a chord is rounding."""
+
+FARTHEST = 0.5
+"""So many lengths of its chord a curve may be away from it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Chords:
+    """Chords of curves of one family: places, points and second places (k,3) at both of their ends; level (k,): of the
+    curves."""
+
+    places: tuple[Floats, Floats]
+    points: tuple[Floats, Floats]
+    second_places: tuple[Floats, Floats]
+    level: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Along:
+    """Points of curves: places and points (k,3); slopes (k,3): derivatives by the part of the chord; second_places
+    (k,3), none unless the curves lie on a second sheet."""
+
+    places: Floats
+    points: Floats
+    slopes: Floats
+    second_places: Floats = field(default_factory=lambda: np.zeros((0, 3)))
+
+
+class Family(Protocol):
+    """Curves of one kind on one sheet."""
+
+    @property
+    def sheet(self) -> int:
+        """The sheet they lie on, or -1."""
+        ...
+
+    @property
+    def second(self) -> int:
+        """Another sheet they lie on, or -1."""
+        ...
+
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The curves at a part (k,) of chords (k,)."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class StraightLines:
+    """Lines that are their own chords."""
+
+    sheet: int = -1
+    second: int = -1
+
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The curves at a part of their chords."""
+        start, end = chords.points
+        slopes = end - start
+        middle = start + part[:, None] * slopes
+        return Along(middle, middle, slopes)
+
+
+@dataclass(frozen=True, eq=False)
+class ParameterCurves:
+    """Curves that are straight in the parameters: parameter lines, borders; and, nearly, those known by points only."""
+
+    surface: ParametricSheet
+    sheet: int
+    second: int = -1
+
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The curves at a part of their chords."""
+        start, end = chords.places
+        way = end - start
+        at = start + part[:, None] * way
+        along_u, along_v = self.surface.partials(at)
+        return Along(at, self.surface.points(at), way[:, :1] * along_u + way[:, 1:2] * along_v)
+
+
+@dataclass(frozen=True, eq=False)
+class ConditionCurves:
+    """Curves of a parametrised surface along which a condition has the value of their level; it holds on the second
+    sheet, if there is one, whose places are points."""
+
+    surface: ParametricSheet
+    sheet: int
+    condition: Condition
+    second: int = -1
+
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The curves at a part of their chords: from the chord straight across to where the condition holds."""
+        size = np.array(self.surface.surface.domain.size)
+        start, end = chords.places
+        way = (end - start)[:, :2] / size
+        base = start[:, :2] / size + part[:, None] * way
+        across = np.stack([-way[:, 1], way[:, 0]], axis=1)
+        off = np.zeros(len(part))
+        for again in range(ROUNDS):
+            u, v = self.surface.parameters((base + off[:, None] * across) * size)
+            # The chord is close to the curve: the slopes on it do, unless that does not lead there.
+            if again in (0, RENEWED):
+                slopes = np.stack(self.condition.slopes(u, v), axis=1) * size
+            with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+                step = (self.condition.values(u, v) - chords.level) / (slopes * across).sum(axis=1)
+            step = np.clip(np.where(np.isfinite(step), step, 0.0), -FARTHEST, FARTHEST)
+            off = np.clip(off - step, -FARTHEST, FARTHEST)
+            if not (np.abs(step) > SETTLED).any():
+                break
+        at = base + off[:, None] * across
+        tangent = np.stack([-slopes[:, 1], slopes[:, 0]], axis=1)
+        forward = (tangent * way).sum(axis=1)
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            tangent = tangent * ((way * way).sum(axis=1) / forward)[:, None]
+        tangent = np.where(np.isfinite(tangent).all(axis=1)[:, None], tangent, way)
+        places_at = np.concatenate([at * size, np.zeros((len(at), 1))], axis=1)
+        along_u, along_v = self.surface.partials(places_at)
+        moved = tangent * size
+        points = self.surface.points(places_at)
+        second = points[: len(points) if self.second >= 0 else 0]
+        return Along(places_at, points, moved[:, :1] * along_u + moved[:, 1:] * along_v, second)
+
+
+@dataclass(frozen=True, eq=False)
+class SpatialCurves:
+    """Curves of an implicit surface along which a condition in space has the value of their level; it holds on the
+    second sheet, if there is one, whose places are points."""
+
+    surface: ImplicitSheet
+    sheet: int
+    condition: SpatialCondition
+    second: int = -1
+
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The curves at a part of their chords: in the plane across the chord to where surface and condition meet."""
+        start, end = chords.points
+        way = end - start
+        base = start + part[:, None] * way
+        farthest = FARTHEST * np.sqrt(dot(way, way))
+        off = np.zeros_like(base)
+        placed = self.surface.surface
+        with np.errstate(all="ignore"):
+            for again in range(ROUNDS):
+                at = base + off
+                if again in (0, RENEWED):
+                    one, two = placed.gradients(at), self.condition.gradients(at)
+                    across_one, across_two = np.cross(two, way), np.cross(way, one)
+                    volume = dot(one, across_one)
+                f, g = placed.values(at), self.condition.values(at) - chords.level
+                step = -(f[:, None] * across_one + g[:, None] * across_two) / volume[:, None]
+                step = no_longer(step, farthest)
+                off = no_longer(off + step, farthest)
+                if not (np.sqrt(dot(step, step)) > SETTLED * farthest).any():
+                    break
+            tangent = np.cross(one, two)
+            tangent = tangent * (dot(way, way) / dot(tangent, way))[:, None]
+        at = base + off
+        slopes = np.where(np.isfinite(tangent.sum(axis=1, keepdims=True)), tangent, way)
+        return Along(at, at, slopes, at[: len(at) if self.second >= 0 else 0])
+
+
+@dataclass(frozen=True, eq=False)
+class NearChords:
+    """Curves of an implicit surface known by points only: between these, what lies on the surface above the chord."""
+
+    surface: ImplicitSheet
+    sheet: int
+    second: int = -1
+
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The curves at a part of their chords."""
+        start, end = chords.points
+        way = end - start
+        at = start + part[:, None] * way
+        for _ in range(ROUNDS):
+            at = self.surface.points(at)
+        normal = self.surface.normals(at)
+        slopes = way - dot(way, normal)[:, None] * normal
+        return Along(at, at, np.where(np.isfinite(slopes), slopes, way))
+
+
+def no_longer(steps: Floats, longest: Floats) -> Floats:
+    """(k,3) the steps, those longer than this (k,) shortened; none where they are not finite."""
+    steps = np.where(np.isfinite(steps.sum(axis=1, keepdims=True)), steps, 0.0)
+    long = np.sqrt(dot(steps, steps))
+    return np.asarray(steps * np.minimum(1.0, longest / np.maximum(long, 1e-300))[:, None])

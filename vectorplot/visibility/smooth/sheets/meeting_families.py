@@ -1,0 +1,147 @@
+"""Curves in which a sheet meets another one, or the faces of a mesh: between their points they lie on both."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.features.parametric.conditions import Slopes
+from vectorplot.geometry.vectors import dot
+from vectorplot.visibility.smooth.sheets.family import (
+    FARTHEST,
+    ROUNDS,
+    SETTLED,
+    Along,
+    Chords,
+    ConditionCurves,
+    ParameterCurves,
+    SpatialCurves,
+    no_longer,
+)
+from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
+from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
+
+MISSED = 1e-6
+"""Where the sheets, or the last two steps, are still apart by this part of a chord the sheets do not cross, but touch,
+as in a pinch point: there the first one has to do."""
+
+
+@dataclass(frozen=True, eq=False)
+class SheetsMeet:
+    """Curves in which two parametrised sheets meet, or one meets itself."""
+
+    surface: ParametricSheet
+    sheet: int
+    other: ParametricSheet
+    second: int
+
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The curves at a part of their chords: in the plane across the chord to where both sheets are.
+
+        Newton's method: the point of that plane and of both tangent planes.
+        Source: as for `vectorplot.features.intersections.meeting_points.meetings`.
+        """
+        one, two, (start, end) = self.surface, self.other, chords.points
+        way = end - start
+        base, long = start + part[:, None] * way, np.sqrt(dot(way, way))
+        at, there = (a + part[:, None] * (b - a) for a, b in (chords.places, chords.second_places))
+        with np.errstate(all="ignore"):
+            for _ in range(ROUNDS):
+                p, q = one.points(at), two.points(there)
+                n, m = one.normals(at), two.normals(there)
+                across_n, across_m = np.cross(m, way), np.cross(way, n)
+                heights = dot(n, p - base)[:, None] * across_n + dot(m, q - base)[:, None] * across_m
+                aim = base + no_longer(heights / dot(n, across_n)[:, None], FARTHEST * long)
+                steps = [no_longer(aim - x, long) for x in (p, q)]
+                at = _finite(one.moved(at, steps[0]), at)
+                there = _finite(two.moved(there, steps[1]), there)
+                last = np.sqrt(np.fmax(dot(steps[0], steps[0]), dot(steps[1], steps[1])))
+                if not (last > SETTLED * long).any():
+                    break
+            tangent = np.cross(n, m)
+            tangent *= (dot(way, way) / dot(tangent, way))[:, None]
+        p, q = one.points(at), two.points(there)
+        roughly = ParameterCurves(one, self.sheet).between(chords, part)
+        met = (last <= MISSED * long) & (np.sqrt(dot(p - q, p - q)) <= MISSED * long)
+        a, b = chords.second_places
+        places, second = (
+            np.where(met[:, None], at, roughly.places),
+            np.where(met[:, None], there, a + part[:, None] * (b - a)),
+        )
+        slopes = np.where((met & np.isfinite(tangent).all(axis=1))[:, None], tangent, roughly.slopes)
+        return Along(places, np.where(met[:, None], p, roughly.points), slopes, second)
+
+
+@dataclass(frozen=True, eq=False)
+class FaceCurves:
+    """Curves of a parametrised surface in the faces of a mesh, the normals of which are their second places."""
+
+    surface: ParametricSheet
+    sheet: int
+    second: int = -1
+
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The curves at a part of their chords."""
+        normals, points = chords.second_places[0], chords.points[0]
+        faces = _PlaneSections(self.surface, normals, dot(points, normals))
+        return ConditionCurves(self.surface, self.sheet, faces).between(_level(chords), part)
+
+
+@dataclass(frozen=True, eq=False)
+class ImplicitFaceCurves:
+    """Curves of an implicit surface in the faces of a mesh, the normals of which are their second places."""
+
+    surface: ImplicitSheet
+    sheet: int
+    second: int = -1
+
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The curves at a part of their chords."""
+        normals, points = chords.second_places[0], chords.points[0]
+        faces = _Planes(normals, dot(points, normals))
+        return SpatialCurves(self.surface, self.sheet, faces).between(_level(chords), part)
+
+
+@dataclass(frozen=True, eq=False)
+class _Planes:
+    """Heights of points above planes of their own: normals (k,3), offsets (k,)."""
+
+    normals: Floats
+    offsets: Floats
+
+    def values(self, points: Floats) -> Floats:
+        """(k,) heights of points."""
+        return dot(points, self.normals) - self.offsets
+
+    def gradients(self, points: Floats) -> Floats:
+        """(k,3) the normals."""
+        return self.normals
+
+
+@dataclass(frozen=True, eq=False)
+class _PlaneSections:
+    """The same for points of a sheet."""
+
+    surface: ParametricSheet
+    normals: Floats
+    offsets: Floats
+
+    def values(self, u: Floats, v: Floats) -> Floats:
+        """(k,) heights of points."""
+        return dot(self.surface.surface.points(u, v), self.normals) - self.offsets
+
+    def slopes(self, u: Floats, v: Floats) -> Slopes:
+        """(k,) their derivatives by u and by v."""
+        along_u, along_v = self.surface.surface.partials(u, v)
+        return dot(along_u, self.normals), dot(along_v, self.normals)
+
+
+def _level(chords: Chords) -> Chords:
+    """The chords at level 0."""
+    return Chords(chords.places, chords.points, chords.second_places, np.zeros_like(chords.level))
+
+
+def _finite(places: Floats, else_: Floats) -> Floats:
+    return np.where(np.isfinite(places).all(axis=1, keepdims=True), places, else_)

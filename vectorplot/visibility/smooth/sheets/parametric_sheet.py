@@ -1,0 +1,237 @@
+"""Parametrised surfaces as sheets."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.parametric.curve_tracing import wrapped
+from vectorplot.geometry.vectors import cross, dot
+from vectorplot.surfaces.jumps import jumping_cells, jumps
+from vectorplot.surfaces.normals import unit_normals
+from vectorplot.surfaces.surface import Domain, Surface
+from vectorplot.visibility.smooth.sheets.sheet import solved
+
+FEWEST, MOST = 32, 512
+"""Cells of the tessellation in each direction, at least and at most."""
+
+MOST_CELLS = 1 << 17
+
+SAG = 2e-3
+"""The tessellation is made finer until its chords are no further from the sheet than this part of half the scene."""
+
+VAIN, MOST_VAIN = 0.8, 2
+"""Where finer cells leave more than the one of what chords are off, as where waves crowd towards a point, they are in
+vain; after so many times nothing finer is tried. At a vertical tangent they leave less."""
+
+LONGEST_STEP = 0.05
+"""Part of the domain that one step of Newton may go: a longer one leads anywhere."""
+
+BEYOND = 1e-9
+"""Part of the domain that a place may be outside of it."""
+
+
+@dataclass(frozen=True, eq=False)
+class ParametricSheet:
+    """A parametrised surface, already in the view's coordinates, and its tessellation; jumps: whether it has triangles
+    that were left out, because the surface jumps beneath them."""
+
+    surface: Surface
+    item: int
+    hides: bool
+    vertices: Floats
+    vertex_places: Floats
+    corners: Ints
+    sags: Floats
+    jumps: bool
+
+    def points(self, places: Floats) -> Floats:
+        """(k,3) points."""
+        return self.surface.points(*self.parameters(places))
+
+    def partials(self, places: Floats) -> tuple[Floats, Floats]:
+        """(k,3) derivatives by u and by v."""
+        return self.surface.partials(*self.parameters(places))
+
+    def normals(self, places: Floats) -> Floats:
+        """(k,3) unit normals; NaN at singular points."""
+        return unit_normals(self.surface, *self.parameters(places))
+
+    def bends(self, places: Floats, directions: Floats) -> Floats:
+        """(k,) normal parts of the accelerations along tangential directions; 0 at singular points."""
+        u, v = self.parameters(places)
+        along_u, along_v = self.surface.partials(u, v)
+        uu, uv, vv = self.surface.second_partials(u, v)
+        n = unit_normals(self.surface, u, v)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            a, b, _ = solved(along_u, along_v, n, directions).T
+            bend = dot(n, uu) * a * a + 2.0 * dot(n, uv) * a * b + dot(n, vv) * b * b
+        return np.where(np.isfinite(bend), bend, 0.0)
+
+    def moved(self, places: Floats, steps: Floats) -> Floats:
+        """(k,3) the places that small tangential steps lead to."""
+        u, v = self.parameters(places)
+        along_u, along_v = self.surface.partials(u, v)
+        step = solved(along_u, along_v, cross(along_u, along_v), steps)
+        step[:, 2] = 0.0
+        return places + step
+
+    def inwards(self, places: Floats) -> Floats:
+        """(k,3) tangents into the sheet at places on its border; 0 elsewhere."""
+        domain = self.surface.domain
+        along_u, along_v = self.partials(places)
+        inner = np.zeros_like(along_u)
+        for axis, closed, start, size, along in (
+            (0, domain.closed_u, domain.u_start, domain.size[0], along_u),
+            (1, domain.closed_v, domain.v_start, domain.size[1], along_v),
+        ):
+            if not closed:
+                part = (places[:, axis] - start) / size
+                inner += (part <= BEYOND)[:, None] * along - (part >= 1.0 - BEYOND)[:, None] * along
+        return inner
+
+    def turnings(self, places: Floats) -> Floats:
+        """(k,3) second derivatives along the direction in which the point stands still."""
+        u, v = self.parameters(places)
+        along_u, along_v = self.surface.partials(u, v)
+        uu, uv, vv = self.surface.second_partials(u, v)
+        # Both partials have one direction: that of a x_u + b x_v = 0, in proportion to the domain.
+        width, height = self.surface.domain.size
+        along_u, along_v = along_u * width, along_v * height
+        long = dot(along_u, along_u) >= dot(along_v, along_v)
+        product = dot(along_u, along_v)
+        a = np.where(long, -product, dot(along_v, along_v))
+        b = np.where(long, dot(along_u, along_u), -product)
+        a, b = (a * width)[:, None], (b * height)[:, None]
+        return np.asarray(uu * a * a + 2.0 * uv * a * b + vv * b * b)
+
+    def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats]:
+        """(k,) and (k,3) one Newton step for where lines meet the sheet."""
+        u, v = self.parameters(places)
+        along_u, along_v = self.surface.partials(u, v)
+        step = solved(along_u, along_v, -ways, points - self.surface.points(u, v))
+        t = np.where(np.isfinite(step[:, 2]), step[:, 2], np.nan)
+        step[:, 2] = 0.0
+        width, height = self.surface.domain.size
+        with np.errstate(invalid="ignore"):
+            long = np.maximum(np.abs(step[:, 0]) / width, np.abs(step[:, 1]) / height)
+            step *= np.minimum(1.0, LONGEST_STEP / np.maximum(long, 1e-300))[:, None]
+        return t, np.stack([u, v, np.zeros_like(u)], axis=1) + step
+
+    def apart(self, one: Floats, two: Floats) -> Floats:
+        """(k,) the larger of the distances in u and v, as parts of the domain."""
+        domain = self.surface.domain
+        du = np.abs(one[:, 0] - two[:, 0]) / domain.size[0]
+        dv = np.abs(one[:, 1] - two[:, 1]) / domain.size[1]
+        if domain.closed_u:
+            du = np.abs(du - np.round(du))
+        if domain.closed_v:
+            dv = np.abs(dv - np.round(dv))
+        return np.maximum(du, dv)
+
+    def on_sheet(self, places: Floats) -> Bools:
+        """(k,) whether places lie in the domain."""
+        domain = self.surface.domain
+        inside = np.isfinite(places).all(axis=1)
+        if not domain.closed_u:
+            part = (places[:, 0] - domain.u_start) / domain.size[0]
+            inside &= (part >= -BEYOND) & (part <= 1.0 + BEYOND)
+        if not domain.closed_v:
+            part = (places[:, 1] - domain.v_start) / domain.size[1]
+            inside &= (part >= -BEYOND) & (part <= 1.0 + BEYOND)
+        return np.asarray(inside)
+
+    def parameters(self, places: Floats) -> tuple[Floats, Floats]:
+        """(k,) u and v within the domain: a place beyond an open border is the border's."""
+        domain = self.surface.domain
+        u, v = wrapped(domain, places[:, 0], places[:, 1])
+        if not domain.closed_u:
+            u = np.clip(u, domain.u_start, domain.u_end)
+        if not domain.closed_v:
+            v = np.clip(v, domain.v_start, domain.v_end)
+        return u, v
+
+
+def parametric_sheet(surface: Surface, item: int, hides: bool) -> ParametricSheet:
+    """The sheet of a surface that is given in the view's coordinates.
+
+    Degenerate: triangles with a corner in a hole, and those beneath which the surface jumps, are left out.
+    """
+    columns, rows, sag = _fineness(surface)
+    u_line, v_line = surface.domain.grid(columns, rows)
+    u, v = (a.ravel() for a in np.meshgrid(u_line, v_line, indexing="ij"))
+    vertices = surface.points(u, v)
+    grid = vertices.reshape(columns + 1, rows + 1, 3)
+    torn = jumping_cells(surface, u_line, v_line, grid).ravel()
+    lower = (np.arange(columns)[:, None] * (rows + 1) + np.arange(rows)).ravel()
+    right, upper = lower + rows + 1, lower + 1
+    corners = np.concatenate([np.stack([lower, right, right + 1], 1), np.stack([lower, right + 1, upper], 1)])
+    whole: Bools = np.asarray(np.isfinite(vertices).all(axis=1))
+    kept = whole[corners].all(axis=1) & ~np.tile(torn, 2)
+    off = np.maximum(_cell_sags(grid), SAG) if sag > SAG else np.full((columns, rows), sag)
+    sags = np.tile(np.minimum(off, _around(grid)).ravel(), 2)[kept]
+    places = np.stack([u, v, np.zeros_like(u)], axis=1)
+    return ParametricSheet(surface, item, hides, vertices, places, corners[kept], sags, bool(torn.any()))
+
+
+def _fineness(surface: Surface) -> tuple[int, int, float]:
+    """Columns and rows of a tessellation that is close enough to the surface, and how close it is."""
+    columns = rows = FEWEST
+    best, vain = np.inf, 0
+    while True:
+        across, along = _sags(surface, surface.domain, columns, rows)
+        more_columns = across > SAG and 2 * columns <= MOST
+        more_rows = along > SAG and 2 * rows <= MOST
+        worst = max(across, along)
+        vain, best = vain + (worst > VAIN * best), min(best, worst)
+        if not (more_columns or more_rows) or columns * rows * 2 > MOST_CELLS or vain == MOST_VAIN:
+            return columns, rows, worst
+        columns, rows = columns << more_columns, rows << more_rows
+
+
+def _sags(surface: Surface, domain: Domain, columns: int, rows: int) -> tuple[float, float]:
+    """How far the middles of chords are off the surface, along u and along v; the worst of a thousand."""
+    u, v = domain.grid(2 * columns, 2 * rows)
+    places = np.stack(np.meshgrid(u, v[:: max(2, rows // 16)], indexing="ij"), axis=-1)
+    across = _sag(surface, places)
+    places = np.stack(np.meshgrid(u[:: max(2, columns // 16)], v, indexing="ij"), axis=-1)
+    return across, _sag(surface, np.swapaxes(places, 0, 1))
+
+
+def _sag(surface: Surface, places: Floats) -> float:
+    """How far every second of places (m,n,2) is off the chord between those beside it; where the surface jumps there
+    is no chord."""
+    points = surface.points(places[..., 0], places[..., 1])
+    off = points[1::2] - 0.5 * (points[:-1:2] + points[2::2])
+    long = np.nan_to_num(np.linalg.norm(off, axis=-1))
+    far = np.nonzero(long > SAG)
+    if len(far[0]):
+        long[far] *= ~jumps(surface, places[:-1:2][far], places[2::2][far])
+    return float(long.max(initial=0.0))
+
+
+def _around(points: Floats) -> Floats:
+    """(m-1,n-1) how large the largest is of each cell of a grid of points (m,n,3) and its neighbours: the surface is
+    not farther off, however much smaller cells are than elsewhere."""
+    with np.errstate(invalid="ignore"):
+        diagonal = [points[1:, 1:] - points[:-1, :-1], points[1:, :-1] - points[:-1, 1:]]
+    long = np.maximum(*(np.linalg.norm(way, axis=-1) for way in diagonal))
+    long[~np.isfinite(long)] = np.inf
+    padded = np.pad(long, 1, mode="edge")
+    one_way = np.maximum(np.maximum(padded[:-2], padded[1:-1]), padded[2:])
+    return np.asarray(np.maximum(np.maximum(one_way[:, :-2], one_way[:, 1:-1]), one_way[:, 2:]))
+
+
+def _cell_sags(points: Floats) -> Floats:
+    """(m-1,n-1) how far the surface may be off the cells of a grid of its points (m,n,3), by second differences in
+    them and their neighbours."""
+    with np.errstate(invalid="ignore"):
+        bent: Floats = np.zeros((len(points), points.shape[1]))
+        bent[1:-1] += np.nan_to_num(np.linalg.norm(points[2:] - 2.0 * points[1:-1] + points[:-2], axis=-1))
+        bent[:, 1:-1] += np.nan_to_num(np.linalg.norm(points[:, 2:] - 2.0 * points[:, 1:-1] + points[:, :-2], axis=-1))
+        twist = points[1:, 1:] - points[1:, :-1] - points[:-1, 1:] + points[:-1, :-1]
+    # Twice an eighth of the second difference: it grows towards a pole.
+    corners = [bent[a : a + len(bent) - 1, b : b + bent.shape[1] - 1] for a in (0, 1) for b in (0, 1)]
+    return np.asarray(0.25 * np.maximum.reduce(corners) + 0.25 * np.nan_to_num(np.linalg.norm(twist, axis=-1)))

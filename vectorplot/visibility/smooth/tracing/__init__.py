@@ -1,0 +1,1 @@
+"""The curves of a scene, before it is known what hides them."""

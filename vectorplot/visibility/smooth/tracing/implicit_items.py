@@ -1,0 +1,152 @@
+"""The curves of an item with an implicit surface as a view shows them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.features.implicit.implicit_conditions import (
+    ImplicitCentralContour,
+    ImplicitIsophote,
+    ImplicitParallelContour,
+    ImplicitPointIsophote,
+    MeetsPlane,
+    SpatialCondition,
+)
+from vectorplot.features.implicit.implicit_curves import (
+    implicit_borders,
+    implicit_contour,
+    implicit_isophotes,
+    implicit_parallel_contour,
+    implicit_plane_sections,
+    implicit_point_light_isophotes,
+)
+from vectorplot.features.implicit.implicit_tracing import ImplicitCurves, ImplicitTracing
+from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.geometry import ragged
+from vectorplot.scene.curve_light import curve_light
+from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.view import View
+from vectorplot.visibility.smooth.sheets.family import Family, NearChords, SpatialCurves
+from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+from vectorplot.words import LineKind
+
+Found = tuple[LineKind, Family, ImplicitCurves]
+
+
+def curves_of_implicit(
+    scene: Scene, view: View, sheet: ImplicitSheet, number: int, wanted: frozenset[LineKind], page_tracing: Tracing
+) -> tuple[list[Curves], tuple[str, ...]]:
+    """The curves of an item, each list entry of one kind, and doubts about them; contour and borders always, because
+    they hide.
+
+    page_tracing: its picture takes points of the view. Parameter lines there are none.
+    """
+    item, tracing = scene.items[sheet.item], tracing_in_world(sheet, page_tracing)
+    found: list[Found] = [_contour(view, sheet, number, tracing)]
+    if LineKind.ISOPHOTE in wanted and item.curves.isophotes:
+        found.append(_isophotes(scene, view, item, sheet, number, tracing))
+    if LineKind.SECTION in wanted:
+        found += _sections(view, item, sheet, number, tracing)
+    borders = implicit_borders(sheet.home, tracing=tracing)
+    parts = [as_spatial_curves(curves, kind, sheet, family) for kind, family, curves in found]
+    doubts = (*sheet.doubts, *(text for _, _, curves in found for text in curves.doubts), *borders.doubts)
+    return [*parts, *_borders(borders, sheet, number)], doubts
+
+
+def tracing_in_world(sheet: ImplicitSheet, tracing: Tracing) -> ImplicitTracing:
+    """The same tolerance in the same picture, for the surface of a sheet as it was given, on the mesh of the sheet."""
+    view, picture = sheet.view, tracing.picture
+
+    def image(points: Floats) -> Floats:
+        own = view.points_of(points).T
+        return own if picture is None else picture(own)
+
+    return ImplicitTracing(
+        mesh=sheet.mesh,
+        resolution=tracing.resolution,
+        tolerance=tracing.tolerance,
+        picture=image,
+        budget=tracing.budget,
+    )
+
+
+def as_spatial_curves(
+    found: ImplicitCurves, kind: LineKind, sheet: ImplicitSheet, family: Family, second_places: Floats | None = None
+) -> Curves:
+    """Curves of the world in the view's coordinates, closed ones led back to their first point; second_places (n,3) of
+    the points found, in the view's coordinates."""
+    view = sheet.view
+    counts = np.diff(found.offsets) + found.closed
+    offsets = ragged.offsets(counts)
+    index = ragged.ranges(found.offsets[:-1], counts)
+    index[offsets[1:][found.closed] - 1] = found.offsets[:-1][found.closed]
+    points = np.ascontiguousarray(view.points_of(found.points).T)[index]
+    return Curves(
+        points,
+        points,
+        np.full_like(points, np.nan) if second_places is None else second_places[index],
+        offsets,
+        found.closed,
+        np.full(len(found), int(kind)),
+        np.full(len(found), sheet.item, dtype=np.intp),
+        np.zeros(len(found), dtype=np.intp),
+        found.levels,
+        (family,),
+    )
+
+
+def _contour(view: View, sheet: ImplicitSheet, number: int, tracing: ImplicitTracing) -> Found:
+    condition: SpatialCondition
+    if view.eye is None:
+        condition = ImplicitParallelContour(sheet.surface, (0.0, 0.0, 1.0))
+        found = implicit_parallel_contour(sheet.home, view.axes[2], tracing=tracing)
+    else:
+        condition = ImplicitCentralContour(sheet.surface, view.eye)
+        found = implicit_contour(sheet.home, view.world_of(view.eye[:, None])[0], tracing=tracing)
+    return LineKind.CONTOUR, SpatialCurves(sheet, number, condition), found
+
+
+def _isophotes(
+    scene: Scene, view: View, item: Item, sheet: ImplicitSheet, number: int, tracing: ImplicitTracing
+) -> Found:
+    light, cosines = curve_light(scene, view, item), item.curves.isophotes
+    condition: SpatialCondition
+    if light.parallel:
+        condition = ImplicitIsophote(sheet.surface, view.axes @ np.asarray(light.position), 0.0)
+        found = implicit_isophotes(sheet.home, light.position, cosines, tracing=tracing)
+    else:
+        condition = ImplicitPointIsophote(sheet.surface, view.points_of(np.array([light.position]))[:, 0], 0.0)
+        found = implicit_point_light_isophotes(sheet.home, light.position, cosines, tracing=tracing)
+    return LineKind.ISOPHOTE, SpatialCurves(sheet, number, condition), found
+
+
+def _sections(view: View, item: Item, sheet: ImplicitSheet, number: int, tracing: ImplicitTracing) -> list[Found]:
+    result: list[Found] = []
+    for section in item.curves.sections:
+        normal = np.asarray(section.normal)
+        family = SpatialCurves(sheet, number, MeetsPlane(view.axes @ normal, 0.0))
+        found = implicit_plane_sections(sheet.home, normal, section.offsets, tracing=tracing)
+        offsets = (found.levels - view.centre @ normal) / view.scale
+        result.append((LineKind.SECTION, family, replace(found, levels=offsets)))
+    return result
+
+
+def _borders(found: ImplicitCurves, sheet: ImplicitSheet, number: int) -> list[Curves]:
+    """The borders, each with the plane of the side of the box that it lies on; the rims of holes lie on none."""
+    view, box = sheet.view, np.asarray(sheet.home.box, dtype=np.float64)
+    rims = as_spatial_curves(found, LineKind.BOUNDARY, sheet, NearChords(sheet, number))
+    left, result = np.ones(len(found), dtype=np.bool_), []
+    for axis in range(3):
+        normal = view.axes[:, axis]
+        for side in box[:, axis].tolist():
+            on = np.logical_and.reduceat(np.append(found.points[:, axis] == side, True), found.offsets[:-1])
+            here = np.flatnonzero(on & left)
+            left[here] = False
+            plane = MeetsPlane(normal, (side - float(view.centre[axis])) / view.scale)
+            own = as_spatial_curves(found, LineKind.BOUNDARY, sheet, SpatialCurves(sheet, number, plane))
+            result.append(own.some(here))
+    return [*result, rims.some(np.flatnonzero(left))]

@@ -1,0 +1,169 @@
+"""The curves in which smooth surfaces meet themselves, each other and polyhedra."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats
+from vectorplot.features.intersections.double_curves import DoubleCurves
+from vectorplot.features.intersections.mesh_section import mesh_section
+from vectorplot.features.intersections.self_intersection import self_intersections
+from vectorplot.features.intersections.surface_intersection import surface_intersection
+from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import View
+from vectorplot.surfaces.graph import is_graph
+from vectorplot.surfaces.surface import Domain
+from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
+from vectorplot.visibility.smooth.sheets.meeting_families import FaceCurves, SheetsMeet
+from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
+from vectorplot.visibility.smooth.tracing.implicit_meetings import (
+    implicit_with_implicit,
+    implicit_with_mesh,
+    parametrised_with_implicit,
+)
+from vectorplot.visibility.smooth.tracing.surface_curves import as_curves
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves, together
+from vectorplot.words import LineKind
+
+SmoothSheet = ParametricSheet | ImplicitSheet
+
+
+@dataclass(frozen=True, eq=False)
+class Meetings:
+    """The curves in which sheets meet; for each sheet (s,) whether it meets itself, or may; what could not be
+    decided."""
+
+    curves: Curves
+    meets_itself: Bools
+    doubts: tuple[str, ...]
+
+
+def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: Bools, tracing: Tracing) -> Meetings:
+    """All meetings of sheets of which one belongs to an item that wants intersections; wants (i,).
+
+    A curve belongs to the item, of those that want it, that comes first in the scene. A sheet whose meetings with
+    itself nobody wants may meet itself, unless it is a graph.
+    """
+    parts, doubts = [], []
+    itself = np.zeros(len(sheets), dtype=np.bool_)
+    boxes = [_box(sheet.vertices) for sheet in sheets]
+    for number, sheet in enumerate(sheets):
+        # Where an implicit surface meets itself its gradient vanishes; these lines are not looked for.
+        itself[number] = isinstance(sheet, ParametricSheet) and not is_graph(sheet.surface)
+        if itself[number] and wants[sheet.item] and isinstance(sheet, ParametricSheet):
+            found = self_intersections(sheet.surface, tracing=tracing)
+            itself[number] = len(found) > 0 or bool(found.doubts)
+            doubts += [f"{scene.items[sheet.item].name}: {text}" for text in found.doubts]
+            parts.append(_double(found, sheet, number, sheet, number, sheet.item))
+    for one, two in combinations(range(len(sheets)), 2):
+        items = [i for i in sorted((sheets[one].item, sheets[two].item)) if wants[i]]
+        if items and _overlap(boxes[one], boxes[two]):
+            part, unsure = _pair(sheets, one, two, items[0], tracing)
+            names = " and ".join(scene.items[sheets[k].item].name for k in (one, two))
+            doubts += [f"{names}: {text}" for text in unsure]
+            parts.append(part)
+    for other, item in enumerate(scene.items):
+        if not isinstance(item.shape, Mesh) or not item.shape.face_count:
+            continue
+        mesh = Mesh(view.points_of(item.shape.vertices).T, item.shape.corners, item.shape.offsets, item.shape.present)
+        for number, sheet in enumerate(sheets):
+            items = [i for i in sorted((sheet.item, other)) if wants[i]]
+            if items and _overlap(boxes[number], _box(mesh.vertices)):
+                part, unsure = _with_mesh(sheet, number, mesh, items[0], tracing)
+                doubts += [f"{scene.items[sheet.item].name} and {item.name}: {text}" for text in unsure]
+                parts.append(part)
+    return Meetings(together(parts), itself, tuple(doubts))
+
+
+def _pair(
+    sheets: tuple[SmoothSheet, ...], one: int, two: int, item: int, tracing: Tracing
+) -> tuple[Curves, tuple[str, ...]]:
+    """The curves of two sheets, given by their numbers."""
+    first, second = sheets[one], sheets[two]
+    if isinstance(first, ImplicitSheet):
+        if isinstance(second, ImplicitSheet):
+            return implicit_with_implicit(first, one, second, two, item, tracing)
+        return parametrised_with_implicit(second, two, first, one, item, tracing)
+    if isinstance(second, ImplicitSheet):
+        return parametrised_with_implicit(first, one, second, two, item, tracing)
+    found = surface_intersection(first.surface, second.surface, tracing=tracing)
+    return _double(found, first, one, second, two, item), found.doubts
+
+
+def _with_mesh(
+    sheet: SmoothSheet, number: int, mesh: Mesh, item: int, tracing: Tracing
+) -> tuple[Curves, tuple[str, ...]]:
+    """The curves of a sheet and a mesh in the view's coordinates."""
+    if isinstance(sheet, ImplicitSheet):
+        return implicit_with_mesh(sheet, number, mesh, item, tracing)
+    section = mesh_section(sheet.surface, mesh, tracing=tracing)
+    family, found = FaceCurves(sheet, number), section.curves
+    return as_curves(found, LineKind.INTERSECTION, item, family, section.normals), found.doubts
+
+
+def _box(points: Floats) -> Floats:
+    """(2,3) the box around points; empty without any."""
+    good = points[np.isfinite(points).all(axis=1)]
+    if not len(good):
+        return np.array([[np.inf] * 3, [-np.inf] * 3])
+    return np.stack([good.min(axis=0), good.max(axis=0)])
+
+
+def _overlap(one: Floats, two: Floats) -> bool:
+    """Whether boxes overlap, tessellations a little inside of them."""
+    if not (np.isfinite(one).all() and np.isfinite(two).all()):
+        return False
+    slack = 0.01 * float(np.ptp(one, axis=0).max() + np.ptp(two, axis=0).max())
+    return bool((one[0] <= two[1] + slack).all() and (two[0] <= one[1] + slack).all())
+
+
+def _double(
+    found: DoubleCurves, one: ParametricSheet, first: int, two: ParametricSheet, second: int, item: int
+) -> Curves:
+    """Curves on two sheets, closed ones led back to their first point in whatever roles and periods it is there."""
+    counts = np.diff(found.offsets) + found.closed
+    offsets = ragged.offsets(counts)
+    index = ragged.ranges(found.offsets[:-1], counts)
+    back = offsets[1:][found.closed] - 1
+    start = found.offsets[:-1][found.closed]
+    index[back] = start
+    places, others = _places(found.one)[index], _places(found.two)[index]
+    swaps = np.zeros(len(start), dtype=np.bool_)
+    if first == second:
+        kept = one.apart(places[back - 1], _places(found.one)[start])
+        swapped = one.apart(places[back - 1], _places(found.two)[start])
+        swaps = swapped < kept
+    ends = np.where(swaps[:, None], found.two[start], found.one[start])
+    other_ends = np.where(swaps[:, None], found.one[start], found.two[start])
+    places[back, :2] = _nearest(one.surface.domain, ends, places[back - 1, :2])
+    others[back, :2] = _nearest(two.surface.domain, other_ends, others[back - 1, :2])
+    many = len(found)
+    return Curves(
+        found.points[index],
+        places,
+        others,
+        offsets,
+        found.closed,
+        np.full(many, int(LineKind.INTERSECTION)),
+        np.full(many, item, dtype=np.intp),
+        np.zeros(many, dtype=np.intp),
+        np.zeros(many),
+        (SheetsMeet(one, first, two, second),),
+    )
+
+
+def _places(parameters: Floats) -> Floats:
+    return np.concatenate([parameters, np.zeros((len(parameters), 1))], axis=1)
+
+
+def _nearest(domain: Domain, parameters: Floats, to: Floats) -> Floats:
+    """(k,2) the same parameters as many whole periods on as brings them nearest to others."""
+    size = np.array(domain.size)
+    turns = np.where([domain.closed_u, domain.closed_v], np.round((to - parameters) / size), 0.0)
+    return np.asarray(parameters + turns * size)

@@ -1,0 +1,118 @@
+"""The curves of an item with a parametrised surface as a view shows them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.features.parametric.conditions import (
+    CentralContour,
+    Condition,
+    Isophote,
+    ParallelContour,
+    PlaneSection,
+    PointIsophote,
+)
+from vectorplot.features.parametric.contour import contour, parallel_contour
+from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.features.parametric.cusps import contour_with_cusps
+from vectorplot.features.parametric.isophotes import isophotes, point_light_isophotes
+from vectorplot.features.parametric.parameter_lines import borders, parameter_lines
+from vectorplot.features.parametric.sections import plane_sections
+from vectorplot.features.parametric.singular_lines import singular_lines
+from vectorplot.features.parametric.surface_curves import SurfaceCurves
+from vectorplot.features.parametric.surface_paths import surface_path
+from vectorplot.features.zeros.zero_manifold import JUMPS
+from vectorplot.scene.curve_light import curve_light
+from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.view import View
+from vectorplot.surfaces.placed import placed_once
+from vectorplot.surfaces.surface import Surface
+from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves
+from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet, parametric_sheet
+from vectorplot.visibility.smooth.tracing.surface_curves import as_curves
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+from vectorplot.words import LineKind
+
+Found = tuple[LineKind, ConditionCurves | ParameterCurves, SurfaceCurves]
+
+
+def sheet_of_parametrised(view: View, surface: Surface, item: int, hides: bool) -> ParametricSheet:
+    """The sheet of a surface of the world."""
+    placed = placed_once(surface, view.axes.T / view.scale, np.zeros(3), view.centre)
+    return parametric_sheet(placed, item, hides)
+
+
+def curves_of_parametrised(
+    scene: Scene, view: View, sheet: ParametricSheet, number: int, wanted: frozenset[LineKind], tracing: Tracing
+) -> tuple[list[Curves], tuple[str, ...]]:
+    """The curves of an item, each list entry of one kind, and doubts about them; contour, borders and cuspidal edges
+    always, because they hide."""
+    item = scene.items[sheet.item]
+    found = [*_edges(view, sheet, number, tracing), *_asked_for(scene, view, item, sheet, number, wanted, tracing)]
+    doubts = tuple(text for _, _, curves in found for text in curves.doubts)
+    if any(kind == LineKind.CREASE and (len(curves) or len(curves.isolated)) for kind, _, curves in found):
+        # At an apex or a cuspidal edge the normal jumps: that is known, and no doubt.
+        doubts = tuple(text for text in doubts if not text.startswith(JUMPS))
+    return [as_curves(curves, kind, sheet.item, family) for kind, family, curves in found], doubts
+
+
+def _edges(view: View, sheet: ParametricSheet, number: int, tracing: Tracing) -> list[Found]:
+    """Contour, borders and cuspidal edges."""
+    surface = sheet.surface
+    straight = ParameterCurves(sheet, number)
+    turn: Condition
+    if view.eye is None:
+        turn, found = ParallelContour(surface, (0.0, 0.0, 1.0)), parallel_contour(surface, (0, 0, 1), tracing=tracing)
+    else:
+        turn, found = CentralContour(surface, view.eye), contour(surface, view.eye, tracing=tracing)
+    found, _ = contour_with_cusps(turn, found)
+    return [
+        (LineKind.CONTOUR, ConditionCurves(sheet, number, turn), found),
+        (LineKind.BOUNDARY, straight, borders(surface, tracing=tracing)),
+        (LineKind.CREASE, straight, singular_lines(surface, tracing=tracing)),
+    ]
+
+
+def _asked_for(
+    scene: Scene,
+    view: View,
+    item: Item,
+    sheet: ParametricSheet,
+    number: int,
+    wanted: frozenset[LineKind],
+    tracing: Tracing,
+) -> list[Found]:
+    """Parameter lines, isophotes, sections and paths."""
+    surface, lines = sheet.surface, item.curves
+    result: list[Found] = []
+    if LineKind.PARAMETER in wanted and lines.columns + lines.rows > 0:
+        found = parameter_lines(surface, lines.columns, lines.rows, tracing=tracing)
+        result.append((LineKind.PARAMETER, ParameterCurves(sheet, number), found))
+    if LineKind.ISOPHOTE in wanted and lines.isophotes:
+        result.append(_isophotes(scene, view, item, sheet, number, tracing))
+    if LineKind.SECTION in wanted:
+        for section in lines.sections:
+            normal = view.axes @ np.asarray(section.normal)
+            offsets = (np.asarray(section.offsets) - view.centre @ np.asarray(section.normal)) / view.scale
+            plane = PlaneSection(surface, normal, 0.0)
+            found = plane_sections(surface, normal, offsets, tracing=tracing)
+            result.append((LineKind.SECTION, ConditionCurves(sheet, number, plane), found))
+    if LineKind.CURVE in wanted:
+        for path in lines.paths:
+            found = surface_path(surface, path.function.values, path.start, path.end, tracing=tracing)
+            result.append((LineKind.CURVE, ParameterCurves(sheet, number), found))
+    return result
+
+
+def _isophotes(scene: Scene, view: View, item: Item, sheet: ParametricSheet, number: int, tracing: Tracing) -> Found:
+    light, surface = curve_light(scene, view, item), sheet.surface
+    condition: Condition
+    if light.parallel:
+        towards = view.axes @ np.asarray(light.position)
+        condition = Isophote(surface, towards, 0.0)
+        found = isophotes(surface, towards, item.curves.isophotes, tracing=tracing)
+    else:
+        lamp = view.points_of(np.array([light.position]))[:, 0]
+        condition = PointIsophote(surface, lamp, 0.0)
+        found = point_light_isophotes(surface, lamp, item.curves.isophotes, tracing=tracing)
+    return LineKind.ISOPHOTE, ConditionCurves(sheet, number, condition), found

@@ -1,0 +1,156 @@
+"""Curves in space as items: sampled finely enough, and placed on the sheet on which they lie."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats
+from vectorplot.curves.curve import Curve
+from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.features.parametric.parameter_lines import MISSED, PROBES
+from vectorplot.geometry import ragged
+from vectorplot.geometry.vectors import dot
+from vectorplot.scene.view import View
+from vectorplot.visibility.smooth.sheets.family import Along, Chords
+from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
+from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+from vectorplot.words import LineKind
+
+FIRST_CHORDS = 64
+
+MOST_POINTS = 1 << 18
+"""A curve that is not within tolerance with so many points is drawn with these."""
+
+ON_SHEET = 1e-9
+"""A curve no point of which is farther from a sheet lies on it; the scene is about 1 large."""
+
+ROUNDS = 12
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceCurve:
+    """A curve in the view's coordinates; its places are (u, v, t): on the parametrised sheet that it lies on, if it
+    does, and its own parameter."""
+
+    view: View
+    curve: Curve
+    surface: SmoothSheet | None
+    sheet: int
+    second: int = -1
+
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The curve at a part of its chords."""
+        start, end = chords.places
+        at = start + part[:, None] * (end - start)
+        t = np.clip(at[:, 2], self.curve.start, self.curve.end)
+        here = self.view.points_of(self.curve.points(t)).T
+        slopes = self.curve.tangents(t) @ (self.view.axes / self.view.scale).T
+        if self.surface is not None:
+            at[:, :2] = _onto(self.surface, here, at)[0][:, :2]
+        return Along(at, here, slopes * (end - start)[:, 2:])
+
+
+def space_curve(view: View, curve: Curve, item: int, sheets: tuple[SmoothSheet, ...], tracing: Tracing) -> Curves:
+    """A curve in space as one polyline; where it is not finite it is interrupted.
+
+    A curve that lies on a parametrised sheet, all of it, is one of its curves: the sheet does not hide it from near.
+    """
+    t = _sampled(view, curve, tracing)
+    points = view.points_of(curve.points(t)).T
+    places = np.stack([np.zeros_like(t), np.zeros_like(t), t], axis=1)
+    good: Bools = np.asarray(np.isfinite(points).all(axis=1))
+    number, surface = -1, None
+    for other, sheet in enumerate(sheets):
+        if isinstance(sheet, ParametricSheet) and good.all():
+            found, off = _placed(sheet, points)
+            if off <= ON_SHEET:
+                number, surface = other, sheet
+                places[:, :2] = found
+                break
+    start = good & ~np.concatenate([[False], good[:-1]])
+    first, counts = np.flatnonzero(start), np.bincount(np.cumsum(start)[good] - 1, minlength=int(start.sum()))
+    long = counts > 1
+    kept = good & np.repeat(True, len(good))
+    kept[first[~long]] = False
+    many = int(long.sum())
+    return Curves(
+        points[kept],
+        places[kept],
+        np.full((int(kept.sum()), 3), np.nan),
+        ragged.offsets(counts[long]),
+        np.full(many, curve.closed and bool(good.all())),
+        np.full(many, int(LineKind.CURVE)),
+        np.full(many, item, dtype=np.intp),
+        np.zeros(many, dtype=np.intp),
+        np.zeros(many),
+        (SpaceCurve(view, curve, surface, number),),
+    )
+
+
+def _sampled(view: View, curve: Curve, tracing: Tracing) -> Floats:
+    """(k,) parameters between which chords are within tolerance."""
+    picture = tracing.picture or (lambda points: points)
+
+    def images(t: Floats) -> Floats:
+        return picture(view.points_of(curve.points(t)).T)
+
+    t = np.linspace(curve.start, curve.end, FIRST_CHORDS + 1)
+    open_ = np.ones(FIRST_CHORDS, dtype=np.bool_)
+    while open_.any() and len(t) < MOST_POINTS:
+        first = np.flatnonzero(open_)
+        low, high = t[first], t[first + 1]
+        a, b = images(low), images(high)
+        probes = [images(low + p * (high - low)) for p in PROBES]
+        off = np.fmax(*(_distance(a, b, p) for p in probes))
+        bad = first[off > MISSED * (tracing.tolerance or np.inf)]
+        middle = 0.5 * (t[bad] + t[bad + 1])
+        # Both halves of a chord that was cut are looked at again.
+        open_ = np.zeros(len(open_), dtype=np.bool_)
+        open_[bad] = True
+        open_ = np.insert(open_, bad + 1, True)
+        t = np.insert(t, bad + 1, middle)
+    return t
+
+
+def _distance(a: Floats, b: Floats, p: Floats) -> Floats:
+    """(k,) distances of points from segments a b; NaN where one of them is not finite."""
+    chord, arm = b - a, p - a
+    square = dot(chord, chord)
+    part = np.clip(dot(arm, chord) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+    return np.asarray(np.linalg.norm(arm - part[:, None] * chord, axis=1))
+
+
+def _placed(sheet: ParametricSheet, points: Floats) -> tuple[Floats, float]:
+    """(k,2) parameters of the nearest points of a sheet, running on over seams, and the largest distance from it."""
+    from scipy.spatial import cKDTree
+
+    finite = np.flatnonzero(np.isfinite(sheet.vertices).all(axis=1))
+    if not len(finite):
+        return np.zeros((len(points), 2)), np.inf
+    distance, nearest = cKDTree(sheet.vertices[finite]).query(points)
+    side = np.linalg.norm(np.ptp(sheet.vertices[finite], axis=0)) / 8.0
+    if float(distance.max()) > side:
+        return np.zeros((len(points), 2)), np.inf
+    places, off = _onto(sheet, points, sheet.vertex_places[finite[nearest]])
+    domain, found = sheet.surface.domain, places[:, :2].copy()
+    for axis, closed in enumerate((domain.closed_u, domain.closed_v)):
+        if closed:
+            step = np.diff(found[:, axis], prepend=found[:1, axis])
+            found[:, axis] += np.cumsum(-np.round(step / domain.size[axis])) * domain.size[axis]
+    return found, float(off.max())
+
+
+def _onto(sheet: SmoothSheet, points: Floats, places: Floats) -> tuple[Floats, Floats]:
+    """Places (k,3) of the points of a sheet nearest to points, from places near them, and the distances (k,)."""
+    away = points - sheet.points(places)
+    for _ in range(ROUNDS):
+        moved = sheet.moved(places, away)
+        better = np.isfinite(moved).all(axis=1) & sheet.on_sheet(moved)
+        places = np.where(better[:, None], moved, places)
+        away = points - sheet.points(places)
+        if not (dot(away, away) > (1e-3 * ON_SHEET) ** 2).any():
+            break
+    return places, np.asarray(np.sqrt(dot(away, away)))

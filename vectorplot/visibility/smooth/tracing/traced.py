@@ -1,0 +1,112 @@
+"""The curves of a scene's smooth surfaces as a view shows them: those that are drawn, and the edges that hide."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats
+from vectorplot.curves.curve import is_curve
+from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.geometry.budget import USUAL, Budget, in_one_line, unheard
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import View
+from vectorplot.surfaces.surface import is_implicit, is_parametrised
+from vectorplot.visibility.polyhedra.lines import kinds_of
+from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.sheets.implicit_sheet import implicit_sheet
+from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
+from vectorplot.visibility.smooth.tracing.implicit_items import curves_of_implicit
+from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet, meetings
+from vectorplot.visibility.smooth.tracing.parametric_items import curves_of_parametrised, sheet_of_parametrised
+from vectorplot.visibility.smooth.tracing.space_items import space_curve
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves, together
+from vectorplot.words import LineKind
+
+WIDEST_IMAGE = 4.0
+"""Images further than so many focal lengths from the principal point are not looked at closely."""
+
+HIDING = (LineKind.CONTOUR, LineKind.BOUNDARY, LineKind.CREASE)
+"""Kinds of curves behind which sheets begin."""
+
+
+@dataclass(frozen=True, eq=False)
+class TracedScene:
+    """The sheets of all smooth items, and for each (s,) whether it may meet itself; the curves that are drawn; edges:
+    the folds, borders and cuspidal edges of the sheets that hide; doubts: what could not be decided, with the name of
+    the item."""
+
+    sheets: tuple[SmoothSheet, ...]
+    meets_itself: Bools
+    curves: Curves
+    edges: Curves
+    doubts: tuple[str, ...]
+
+    def __len__(self) -> int:
+        return len(self.curves)
+
+
+def scene_sheets(scene: Scene, view: View) -> tuple[SmoothSheet, ...]:
+    """The sheets of all smooth items."""
+    sheets: list[SmoothSheet] = []
+    for number, item in enumerate(scene.items):
+        if is_parametrised(item.shape):
+            sheets.append(sheet_of_parametrised(view, item.shape, number, item.hides))
+        elif is_implicit(item.shape):
+            sheets.append(implicit_sheet(view, item.shape, number, item.hides))
+    return tuple(sheets)
+
+
+def traced_scene(
+    scene: Scene,
+    view: View,
+    sheets: tuple[SmoothSheet, ...],
+    kinds: frozenset[LineKind],
+    tolerance: float,
+    budget: Budget = USUAL,
+    done: Callable[[float], None] = unheard,
+) -> TracedScene:
+    """All curves of smooth items, and those that are items themselves, every point exact, chords within a tolerance in
+    the image.
+
+    budget: of the work on every item; done: is told the part of the work that is done.
+    """
+    tracing = Tracing(tolerance=tolerance, picture=lambda points: _picture(view, points), budget=budget)
+    drawn, edges, doubts = [], [], []
+    for number, sheet in enumerate(sheets):
+        item = scene.items[sheet.item]
+        wanted = kinds_of(item, kinds)
+        if isinstance(sheet, ParametricSheet):
+            parts, unsure = curves_of_parametrised(scene, view, sheet, number, wanted, tracing)
+        else:
+            parts, unsure = curves_of_implicit(scene, view, sheet, number, wanted, tracing)
+        doubts += [f"{item.name}: {text}" for text in in_one_line(unsure)]
+        done((number + 1) / (len(sheets) + 1))
+        drawn += [part.some(np.flatnonzero(np.isin(part.kind, list(wanted)))) for part in parts]
+        if item.hides:
+            edges += [part.some(np.flatnonzero(np.isin(part.kind, HIDING))) for part in parts]
+    wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
+    met = meetings(scene, view, sheets, wants, tracing)
+    doubts += met.doubts
+    for number, item in enumerate(scene.items):
+        if is_curve(item.shape) and LineKind.CURVE in kinds_of(item, kinds):
+            drawn.append(space_curve(view, item.shape, number, sheets, tracing))
+    curves, hiding = (_with_images(view, together(parts)) for parts in ([*drawn, met.curves], edges))
+    return TracedScene(sheets, met.meets_itself, curves, hiding, tuple(dict.fromkeys(doubts)))
+
+
+def _with_images(view: View, curves: Curves) -> Curves:
+    """The curves but for those that run along sight rays, such as rulings seen end-on: their images are points."""
+    if not len(curves):
+        return curves
+    image, first = _picture(view, curves.points), curves.offsets[:-1]
+    extent = np.maximum.reduceat(image, first) - np.minimum.reduceat(image, first)
+    return curves.some(np.flatnonzero((extent > view.tolerance).any(axis=1)))
+
+
+def _picture(view: View, points: Floats) -> Floats:
+    """(k,2) images, those far out of every picture drawn in."""
+    limit = WIDEST_IMAGE * view.focus
+    return np.clip(projection.image(view, points), -limit, limit)

@@ -1,0 +1,129 @@
+"""All curves of a scene with smooth surfaces: polylines of which every point is exact, and what they are between."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.visibility.smooth.sheets.family import Along, Chords, Family
+
+
+@dataclass(frozen=True, eq=False)
+class Curves:
+    """Polylines in the view's coordinates.
+
+    points (n,3); places (n,3) of them on their sheets; second_places (n,3) those on a second sheet, of curves in which
+    two sheets meet; of those in faces of a mesh the normal of the face in which the chord from the point lies; else
+    NaN; offsets (m+1,); closed (m,): the last point is the first again, its place whole periods
+    away; kind (m,) LineKind values; item (m,); family (m,) indices into families; level (m,) the value that the
+    condition of its family has along a curve.
+    """
+
+    points: Floats
+    places: Floats
+    second_places: Floats
+    offsets: Ints
+    closed: Bools
+    kind: Ints
+    item: Ints
+    family: Ints
+    level: Floats
+    families: tuple[Family, ...]
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    @cached_property
+    def owner(self) -> Ints:
+        """(n,) the curve of every point."""
+        return ragged.owner(np.diff(self.offsets))
+
+    @cached_property
+    def chords(self) -> Ints:
+        """(c,) the points at which chords begin: all but the last one of each curve."""
+        first = np.ones(len(self.points), dtype=np.bool_)
+        first[self.offsets[1:] - 1] = False
+        return np.flatnonzero(first)
+
+    @cached_property
+    def sheet(self) -> Ints:
+        """(m,) the sheet of each curve, -1 for straight lines."""
+        return self._of_family([family.sheet for family in self.families])
+
+    @cached_property
+    def second_sheet(self) -> Ints:
+        """(m,) the other sheet that a curve lies on, or -1."""
+        return self._of_family([family.second for family in self.families])
+
+    def _of_family(self, values: Sequence[int]) -> Ints:
+        return np.array([*values, -1], dtype=np.intp)[self.family]
+
+    def at(self, chord: Ints, part: Floats) -> Along:
+        """The curves between two of their points: at the part (k,) of the chords that begin at the points chord (k,).
+
+        A part a little below 0 or above 1 lies on the curve too, beyond the ends of the chord.
+        """
+        places, points, slopes = (np.empty((len(chord), 3)) for _ in range(3))
+        second = np.full((len(chord), 3), np.nan)
+        family = self.family[self.owner[chord]]
+        for number in np.unique(family).tolist():
+            which = np.flatnonzero(family == number)
+            found = self.families[number].between(self._chords(chord[which]), part[which])
+            places[which], points[which], slopes[which] = found.places, found.points, found.slopes
+            if self.families[number].second >= 0:
+                second[which] = found.second_places
+        return Along(places, points, slopes, second)
+
+    def _chords(self, begin: Ints) -> Chords:
+        """The chords that begin at these points."""
+        places, points, second = ((x[begin], x[begin + 1]) for x in (self.places, self.points, self.second_places))
+        return Chords(places, points, second, self.level[self.owner[begin]])
+
+    def some(self, which: Ints) -> Curves:
+        """Some of the curves."""
+        counts = np.diff(self.offsets)[which]
+        offsets = ragged.offsets(counts)
+        index = ragged.ranges(self.offsets[which], counts)
+        return Curves(
+            self.points[index],
+            self.places[index],
+            self.second_places[index],
+            offsets,
+            self.closed[which],
+            self.kind[which],
+            self.item[which],
+            self.family[which],
+            self.level[which],
+            self.families,
+        )
+
+
+def together(parts: Sequence[Curves]) -> Curves:
+    """All the curves of all parts."""
+    parts = [no_curves(), *parts]
+    counts = np.concatenate([np.diff(p.offsets) for p in parts])
+    shift = ragged.starts([len(p.families) for p in parts])
+    return Curves(
+        np.concatenate([p.points for p in parts]),
+        np.concatenate([p.places for p in parts]),
+        np.concatenate([p.second_places for p in parts]),
+        ragged.offsets(counts),
+        np.concatenate([p.closed for p in parts]),
+        np.concatenate([p.kind for p in parts]),
+        np.concatenate([p.item for p in parts]),
+        np.concatenate([p.family + s for p, s in zip(parts, shift, strict=True)]),
+        np.concatenate([p.level for p in parts]),
+        tuple(family for p in parts for family in p.families),
+    )
+
+
+def no_curves() -> Curves:
+    """No curve at all."""
+    none, whole = np.zeros((0, 3)), np.zeros(0, dtype=np.intp)
+    flags = np.zeros(0, dtype=np.bool_)
+    return Curves(none, none, none, np.zeros(1, dtype=np.intp), flags, whole, whole, whole, np.zeros(0), ())
