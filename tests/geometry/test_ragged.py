@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
@@ -35,9 +37,7 @@ def test_ranges_and_take(sizes, data):
     which = data.draw(st.lists(st.integers(0, len(sizes) - 1), max_size=8)) if sizes else []
     index = np.array(which, dtype=np.intp)
     position, ends = ragged.take(offsets, index)
-    assert [position[a:b].tolist() for a, b in zip(ends[:-1], ends[1:], strict=True)] == [
-        groups(offsets)[k] for k in which
-    ]
+    assert [position[a:b].tolist() for a, b in pairwise(ends)] == [groups(offsets)[k] for k in which]
     mask = np.isin(np.arange(len(sizes)), index)
     assert ragged.take(offsets, mask)[0].tolist() == ragged.take(offsets, np.flatnonzero(mask))[0].tolist()
     first, count = offsets[:-1][index], np.diff(offsets)[index]
