@@ -11,13 +11,10 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.solids import box, prism
-from vectorplot.geometry.vectors import translated
-from vectorplot.scene.view import look
-from vectorplot.visibility.painter.pairs.face_pairs import APART
-from vectorplot.visibility.painter.priorities import priorities, view_objects
+from vectorplot.drawing import FillKind, Fills
+from vectorplot.geometry import box, prism, revolution, translated
+from vectorplot.scene import look
+from vectorplot.visibility import APART, priorities, view_objects
 
 
 def placed(name: str, mesh: vp.Mesh, place: tuple[float, float, float], colour: str) -> vp.Item:

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.clipping import Polygons, Window, clip_polygons_2d, cut_polygons
+from vectorplot.geometry import Polygons, Window, clip_polygons_2d, cut_polygons
 
 WINDOW = Window(-2, 2, -1.3, 1.3)
 POLYGON = np.array([(-3.2, -0.4), (0.4, -2.2), (2.9, -0.4), (1.7, 0.9), (0.3, 2.2), (-1.0, 0.9)])

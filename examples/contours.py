@@ -10,11 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.curves.circle import Circle
-from vectorplot.surfaces.families.helical import helical_surface
-from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.graph import graph
-from vectorplot.surfaces.surface import Domain
+from vectorplot.curves import Circle
+from vectorplot.surfaces import Domain, Torus, graph, helical_surface
 from vectorplot.testing import assert_contour, curves_in_space
 
 BESIDE = vp.Camera(eye=(5, -15, 8), target=(0, 0, 2), fov_deg=24)

@@ -11,9 +11,9 @@ import numpy as np
 import shapely
 
 import vectorplot as vp
-from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.geometry.convex.polygon_clipping import clipped, contained
-from vectorplot.shading.light.palettes import palette
+from vectorplot.drawing import FillKind, Fills
+from vectorplot.geometry import clipped_by_convex, inside_convex
+from vectorplot.shading import palette
 
 ARROW = np.array([(6, 22), (40, 22), (40, 8), (74, 30), (40, 52), (40, 38), (6, 38)], dtype=np.float64)
 ANGLES = np.radians(np.arange(15, 375, 60))
@@ -22,7 +22,7 @@ HEXAGON = np.array([36.0, 31.0]) + 24.0 * np.column_stack([np.cos(ANGLES), np.si
 
 def clip(subject: np.ndarray, window: np.ndarray) -> np.ndarray:
     """One polygon clipped by one."""
-    points, offsets, _ = clipped(subject.T, np.array([0, len(subject)]), window.T, np.array([0, len(window)]))
+    points, offsets, _ = clipped_by_convex(subject.T, np.array([0, len(subject)]), window.T, np.array([0, len(window)]))
     assert len(offsets) == 2
     return points.T
 
@@ -57,7 +57,7 @@ def main(folder: Path) -> None:
     assert np.isclose(shapely.Polygon(whole).area, common.area, rtol=1e-12)
     assert shapely.Polygon(left).symmetric_difference(common).area < 1e-9
     start = np.array([0, len(whole)]), np.array([0, 6])
-    assert contained(whole.T, start[0], HEXAGON.T, start[1], tolerance=1e-9).all(), (
+    assert inside_convex(whole.T, start[0], HEXAGON.T, start[1], tolerance=1e-9).all(), (
         "clipping again would change nothing"
     )
 

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.geometry.convex.convex_hulls import convex_hull
-from vectorplot.shading.light.palettes import palette
+from vectorplot.drawing import FillKind, Fills
+from vectorplot.geometry import convex_hull
+from vectorplot.shading import palette
 
 PAGE_MM = (70.0, 60.0)
 

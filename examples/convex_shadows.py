@@ -10,12 +10,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.effects.shadows.shadow_decals import shadow_decals
-from vectorplot.geometry.outline import spatial_hull
-from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.solids import box
-from vectorplot.geometry.vectors import translated
-from vectorplot.scene.view import look
+from vectorplot.effects import shadow_decals
+from vectorplot.geometry import box, revolution, spatial_hull, translated
+from vectorplot.scene import look
 
 LAMP = vp.Light((-5.0, -4.0, 9.0), intensity=0.9)
 LATITUDE = np.linspace(-np.pi / 2, np.pi / 2, 13)

@@ -12,11 +12,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.curves.line import Line
-from vectorplot.features.zeros.grid_triangulation import mesh_of_grid, triangulate_surface
-from vectorplot.features.zeros.zero_manifold import zero_manifold_of_f_uv
-from vectorplot.surfaces.graph import graph
-from vectorplot.surfaces.surface import Domain
+from vectorplot.curves import Line
+from vectorplot.features import mesh_of_grid, triangulate_surface, zero_manifold_of_f_uv
+from vectorplot.surfaces import Domain, graph
 from vectorplot.testing import branch_count, curves_in_space
 
 CELLS, SQUARE = 12, Domain(-1.5, 1.5, -1.1, 1.1)

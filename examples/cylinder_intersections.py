@@ -11,10 +11,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.curves.cylinder_intersection import cylinder_intersection
-from vectorplot.geometry.rotations import rotation_x
-from vectorplot.surfaces.families.cylinder import Cylinder
-from vectorplot.surfaces.placed import PlacedSurface
+from vectorplot.curves import cylinder_intersection
+from vectorplot.geometry import rotation_x
+from vectorplot.surfaces import Cylinder, PlacedSurface
 from vectorplot.testing import assert_closed, curves_in_space
 
 CASES = ((2, 1, 0.5, 2), (2, 1.5, 0.5, 1), (2, 1.4, 1.2, 1), (1.2, 2, 0.5, 2), (1.6, 1.6, 0, 2))

@@ -10,12 +10,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry import ragged
-from vectorplot.geometry.solids import box
-from vectorplot.shading.depth.depth_buffer import depth_buffer
-from vectorplot.shading.depth.depth_code import DepthCode
-from vectorplot.shading.raster.screen import raster_system, screen_triangles
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.geometry import box, ragged
+from vectorplot.shading import DepthCode, depth_buffer, raster_system, screen_triangles
+from vectorplot.surfaces import Torus
 
 SIZE = (360, 300)
 

@@ -11,10 +11,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.solids import box
-from vectorplot.geometry.vectors import translated
-from vectorplot.shading.light.palettes import SIZE
+from vectorplot.geometry import box, revolution, translated
+from vectorplot.shading import PALETTE_SIZE
 
 GLASS = revolution([(1.3, 0, 0), (0.2, 0, 0.3), (0.2, 0, 2), (1, 0, 2.6), (1.3, 0, 3.5), (1.1, 0, 4.5)], 36)
 ROW = 7
@@ -26,7 +24,7 @@ def wires() -> vp.Drawing:
     camera = vp.Camera(eye=(3, -9, 7), target=(0, 0, 2.2), fov_deg=30)
     drawing = vp.draw(scene, camera, page=vp.Page(70, 90, 5), style="depth-cue")
     shades = [int(layer.name.split()[1]) for layer in drawing.layers[1:]]
-    assert shades == sorted(shades) and shades[0] <= 0.3 * SIZE and shades[-1] >= 0.9 * SIZE
+    assert shades == sorted(shades) and shades[0] <= 0.3 * PALETTE_SIZE and shades[-1] >= 0.9 * PALETTE_SIZE
     return drawing
 
 

@@ -10,9 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
-from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.inversion import inverted
+from vectorplot.surfaces import ImplicitCyclide, Torus, dupin_cyclide, inverted
 from vectorplot.testing import assert_on_surface, curves_in_space
 
 CENTRE, RADIUS = (5.2, 0.0, 0.0), 4.0

@@ -11,11 +11,10 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.drawing.painted_fills import placed_faces
-from vectorplot.scene.view import look
-from vectorplot.textbook.erasing_faces import erasing_edges, interleaved
-from vectorplot.visibility.painter.order import painters_order
+from vectorplot.drawing import FillKind, Fills, placed_faces
+from vectorplot.scene import look
+from vectorplot.textbook import erasing_edges, interleaved
+from vectorplot.visibility import painters_order
 
 DATA = Path(__file__).resolve().parent.parent / "data"
 PAGE = vp.Page(110, 80, 4)

@@ -12,10 +12,8 @@ import numpy as np
 import shapely
 
 import vectorplot as vp
-from vectorplot.geometry.regions import polygons_of
-from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.vectors import translated
-from vectorplot.shading.light.illumination import FINISHES, lambert
+from vectorplot.geometry import polygons_of, revolution, translated
+from vectorplot.shading import FINISHES, lambert
 
 WORDS = ("mat", "wood", "normal", "plastic", "metallic", "shiny")
 LATITUDE = np.linspace(-np.pi / 2, np.pi / 2, 17)

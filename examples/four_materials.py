@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.curves.function import curve_of_function
-from vectorplot.surfaces.families.revolution import revolution_surface
+from vectorplot.curves import curve_of_function
+from vectorplot.surfaces import revolution_surface
 
 MATERIALS = ("plastic", "metallic", "wood", "normal")
 LIGHT = vp.Light((-3, -4, 4), parallel=True, intensity=1.0)

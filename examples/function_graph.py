@@ -12,9 +12,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.features.zeros.grid_triangulation import mesh_of_grid
-from vectorplot.surfaces.graph import graph
-from vectorplot.surfaces.surface import Domain
+from vectorplot.features import mesh_of_grid
+from vectorplot.surfaces import Domain, graph
 from vectorplot.testing import curves_in_space, hausdorff
 
 SQUARE, LEVELS = Domain(-3, 3, -3, 3), tuple(np.linspace(-0.9, 0.9, 13).tolist())

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.drawing.fills import Fills
-from vectorplot.scene.view import look
-from vectorplot.shading.light.palettes import shaded_colours
-from vectorplot.textbook.graph_order import graph_order, graph_triangles
+from vectorplot.drawing import Fills
+from vectorplot.scene import look
+from vectorplot.shading import shaded_colours
+from vectorplot.textbook import graph_order, graph_triangles
 
 LINES = np.linspace(-2.0, 2.0, 25)
 EYES = {"none": (7.0, -9.0, 6.0), "one": (0.7, -10.0, 6.0), "both": (0.7, -0.4, 11.0)}

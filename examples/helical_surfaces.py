@@ -10,10 +10,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.curves.circle import Circle
-from vectorplot.curves.line import Line
-from vectorplot.geometry.rotations import rotation_z
-from vectorplot.surfaces.families.helical import helical_surface
+from vectorplot.curves import Circle, Line
+from vectorplot.geometry import rotation_z
+from vectorplot.surfaces import helical_surface
 
 RISE, TURNS = 0.32, 2 * np.pi
 

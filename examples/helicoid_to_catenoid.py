@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.surfaces.curvature import first_form, gaussian_curvature, mean_curvature
-from vectorplot.surfaces.families.minimal import helicoid_to_catenoid
+from vectorplot.surfaces import first_form, gaussian_curvature, helicoid_to_catenoid, mean_curvature
 
 STEPS = 5
 

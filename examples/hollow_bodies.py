@@ -10,9 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.solids import box
-from vectorplot.geometry.vectors import translated
+from vectorplot.geometry import box, revolution, translated
 
 EYE = np.array([6.0, -13.0, 9.0])
 

@@ -10,11 +10,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.curves.function import curve_of_function
-from vectorplot.scene.surface_lines import even_cosines
-from vectorplot.surfaces.families.revolution import revolution_surface
-from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.normals import unit_normals
+from vectorplot.curves import curve_of_function
+from vectorplot.scene import even_cosines
+from vectorplot.surfaces import Torus, revolution_surface, unit_normals
 from vectorplot.testing import curves_in_space
 
 LIGHT = vp.Light((-2, -2, 3), parallel=True)

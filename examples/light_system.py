@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.cameras.projection import CoordinateSystem, switched
+from vectorplot.geometry import CoordinateSystem, switched
 
 DATA = Path(__file__).resolve().parent.parent / "data"
 

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.curves.loxodrome import Loxodrome
-from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.curves import Loxodrome
+from vectorplot.surfaces import Sphere
 from vectorplot.testing import assert_on_surface, curves_in_space
 
 RADIUS, COURSE = 2.0, np.radians(80)

@@ -11,9 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.rotations import rotation_about
-from vectorplot.geometry.vectors import translated
+from vectorplot.geometry import revolution, rotation_about, translated
 
 STICK = revolution([(0, 0, -6.3), (0.2, 0, -6), (0.2, 0, 6), (0, 0, 6.3)], 6)
 

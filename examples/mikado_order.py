@@ -12,11 +12,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.solids import box, placed
-from vectorplot.scene.view import look
-from vectorplot.visibility.painter.groups import gordian_knots, knot_report
-from vectorplot.visibility.painter.mikado import mikado
-from vectorplot.visibility.painter.priorities import demands, priorities, view_objects
+from vectorplot.geometry import box, placed
+from vectorplot.scene import look
+from vectorplot.visibility import demands, gordian_knots, knot_report, mikado, priorities, view_objects
 
 COLOURS = ("orange", "green", "blue", "yellow", "pink", "cyan")
 STICK = placed(box((9, 0.4, 0.3)), (1, 0, 0, -4.5, 0, 1, 0, -0.2, 0, 0, 1, 0))

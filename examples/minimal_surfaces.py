@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.surfaces.curvature import first_form, mean_curvature
-from vectorplot.surfaces.families.minimal import minimal_spiral_surface
+from vectorplot.surfaces import first_form, mean_curvature, minimal_spiral_surface
 
 GROWTH, STEPS = 0.12, 4
 

@@ -12,9 +12,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.drawing.fills import FillKind
-from vectorplot.geometry.solids import box, prism
-from vectorplot.geometry.vectors import translated
+from vectorplot.drawing import FillKind
+from vectorplot.geometry import box, prism, translated
 
 NORMAL, LEVEL = np.array([0.0, -1.0, 0.0]), -2.0
 """The plane of the mirror: normal times x = level, the side of the eye above it."""

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.curves.circle import Circle
-from vectorplot.geometry.rotations import rotation_z
-from vectorplot.surfaces.families.spiral import spiral_surface
+from vectorplot.curves import Circle
+from vectorplot.geometry import rotation_z
+from vectorplot.surfaces import spiral_surface
 
 SHELLS = {
     # name: circle, growth, turns, eye, light, colour

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.scene.view import look
-from vectorplot.shading.light.face_shades import face_middles, face_shades, view_lights
+from vectorplot.scene import look
+from vectorplot.shading import face_middles, face_shades, view_lights
 
 LAMP = vp.Light((0.5, 0.5, 4.0), intensity=1.0)
 COLUMNS, ROWS = 20, 12

@@ -11,12 +11,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.solids import box
-from vectorplot.geometry.vectors import translated
-from vectorplot.scene.view import look
-from vectorplot.visibility.painter.groups import grouped_order
-from vectorplot.visibility.painter.priorities import demands, priorities, view_objects
+from vectorplot.geometry import box, revolution, translated
+from vectorplot.scene import look
+from vectorplot.visibility import demands, grouped_order, priorities, view_objects
 
 
 def block(name: str, lengths: tuple[float, float, float], place: tuple[float, float, float], colour: str) -> vp.Item:

@@ -10,11 +10,10 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.convex.convex_hulls import convex_hull
-from vectorplot.geometry.solids import box, placed
-from vectorplot.scene.view import look
-from vectorplot.textbook.outline_positions import Position, relative_position
-from vectorplot.visibility.painter.image_faces import mapped
+from vectorplot.geometry import box, convex_hull, placed
+from vectorplot.scene import look
+from vectorplot.textbook import Position, relative_position
+from vectorplot.visibility import mapped
 
 CASES = {
     Position.DISJOINT: ((3.6, 0.0, 0.0), 1.0),

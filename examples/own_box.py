@@ -9,9 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.convex.separating_planes import own_box
-from vectorplot.geometry.rotations import rotation_about
-from vectorplot.geometry.solids import prism
+from vectorplot.geometry import own_box, prism, rotation_about
 
 HOUSE = prism([(-1, -2, 0), (1, -2, 0), (1, -2, 1.4), (0, -2, 2.4), (-1, -2, 1.4)], (0, 4, 0))
 FACES = [(0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4, 6), (4, 5, 7, 6), (2, 3, 1, 0)]

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.effects.glass.refraction import angle_of_refraction, inverse_refraction, plate_shift, refracted
-from vectorplot.shading.light.palettes import palette
+from vectorplot.drawing import FillKind, Fills
+from vectorplot.effects import angle_of_refraction, inverse_refraction, plate_shift, refracted
+from vectorplot.shading import palette
 
 C, THICKNESS = 1.5, 24.0
 TOP, BOTTOM = 52.0, 28.0

@@ -10,9 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.drawing.fills import FillKind
-from vectorplot.geometry.solids import box, prism
-from vectorplot.geometry.vectors import translated
+from vectorplot.drawing import FillKind
+from vectorplot.geometry import box, prism, translated
 
 SUN = vp.Light((-6, -1, 8), parallel=True, intensity=0.9)
 

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.shading.light.palettes import palette, shaded_colours
-from vectorplot.textbook.outline_positions import in_convex_polygon
+from vectorplot.drawing import FillKind, Fills
+from vectorplot.shading import palette, shaded_colours
+from vectorplot.textbook import in_convex_polygon
 
 OUTLINE = np.array([(12, 14), (42, 6), (66, 20), (68, 40), (40, 54), (16, 42)], dtype=np.float64)
 SLOPE = np.array([0.8, 0.5])

@@ -9,10 +9,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.curves.line import Line
-from vectorplot.shading.light.illumination import reflected
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.trimmed import TrimmedSurface
+from vectorplot.curves import Line
+from vectorplot.shading import reflected
+from vectorplot.surfaces import Sphere, TrimmedSurface
 
 PLACES = ((4.35, 0.7), (5.15, 0.55), (5.85, 0.85))
 LIGHT = np.array([0.9, -2.6, 4.2])

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.drawing.fills import Fills
-from vectorplot.scene.view import look
-from vectorplot.shading.light.face_shades import face_colours, face_shades, view_lights
-from vectorplot.textbook.ring_order import ring_order, sliced_meridian
+from vectorplot.drawing import Fills
+from vectorplot.scene import look
+from vectorplot.shading import face_colours, face_shades, view_lights
+from vectorplot.textbook import ring_order, sliced_meridian
 
 MERIDIAN = np.array([(0, 0), (1.3, 0.2), (0.3, 0.8), (0.3, 1.6), (1.6, 2.4), (1.9, 3.6), (1.3, 4.6), (1.5, 5.2)])
 ORDER = 28

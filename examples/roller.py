@@ -13,8 +13,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.cameras.projection import CoordinateSystem, collineate, project
-from vectorplot.geometry.revolution import revolution
+from vectorplot.geometry import CoordinateSystem, collineate, project, revolution
 
 PAGE = vp.Page(110, 110, 8)
 STEPS = 24

@@ -10,9 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.curves.circle import Circle
-from vectorplot.curves.line import Line
-from vectorplot.surfaces.families.rotoidal import rotoidal_surface
+from vectorplot.curves import Circle, Line
+from vectorplot.surfaces import rotoidal_surface
 
 DISTANCE = 3.0
 

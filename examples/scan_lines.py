@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.clipping import Polygons
-from vectorplot.textbook.framebuffer import Framebuffer, swapped, with_lines, with_polygons, with_smooth_polygons
+from vectorplot.geometry import Polygons
+from vectorplot.textbook import Framebuffer, swapped_buffers, with_lines, with_polygons, with_smooth_polygons
 
 ENLARGED = 8
 LEFT = np.array([(3.0, 4.0), (17.3, 2.2), (20.6, 15.1), (9.5, 24.7), (2.1, 14.0)])
@@ -36,7 +36,7 @@ def main(folder: Path) -> None:
     frame = with_polygons(frame, two, [(240, 150, 90), (120, 180, 230)])
     colours = np.array([(20, 60, 40), (60, 160, 90), (210, 250, 200), (90, 200, 120)])
     frame = with_smooth_polygons(frame, Polygons.of(np.column_stack([SHADED, colours])))
-    pixels = np.kron(swapped(frame).picture(), np.ones((ENLARGED, ENLARGED, 1), dtype=np.uint8))
+    pixels = np.kron(swapped_buffers(frame).picture(), np.ones((ENLARGED, ENLARGED, 1), dtype=np.uint8))
     # The true edges over the large pixels, and lines between these.
     pixels[::ENLARGED] = np.minimum(pixels[::ENLARGED], 215)
     pixels[:, ::ENLARGED] = np.minimum(pixels[:, ::ENLARGED], 215)
@@ -44,9 +44,9 @@ def main(folder: Path) -> None:
     for corners in (LEFT, RIGHT, SHADED):
         at = (corners + 0.5) * ENLARGED
         large = with_lines(large, at, np.roll(at, -1, axis=0), [0, 0, 0])
-    vp.save(vp.Image(swapped(large).picture(), "Scan lines"), folder / "scan_lines.png")
+    vp.save(vp.Image(swapped_buffers(large).picture(), "Scan lines"), folder / "scan_lines.png")
 
-    page = swapped(frame).picture()
+    page = swapped_buffers(frame).picture()
     for corners, colour in ((LEFT, (240, 150, 90)), (RIGHT, (120, 180, 230))):
         filled = (page == colour).all(axis=2).sum()
         assert abs(filled - area(corners)) <= girth(corners) / 2, "as large as the polygon, but for its border"

@@ -10,9 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.convex.separating_planes import Surroundings, separations
-from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.solids import box, placed
+from vectorplot.geometry import Surroundings, box, placed, revolution, separations
 
 EYES = ((7.0, -15.0, 7.0), (-7.0, 15.0, 7.0))
 LIGHT = vp.Light((-3, -5, 7), parallel=True, intensity=0.9)

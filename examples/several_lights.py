@@ -11,10 +11,10 @@ import numpy as np
 import shapely
 
 import vectorplot as vp
-from vectorplot.drawing.fills import Fills
-from vectorplot.effects.shadows.shadow_decals import shadow_decals
-from vectorplot.scene.view import look
-from vectorplot.shading.light.palettes import palette
+from vectorplot.drawing import Fills
+from vectorplot.effects import shadow_decals
+from vectorplot.scene import look
+from vectorplot.shading import palette
 from vectorplot.testing import visible_by_rays
 
 DATA = Path(__file__).resolve().parent.parent / "data"

@@ -10,9 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.solids import placed
-from vectorplot.shading.light.illumination import REDUCED
-from vectorplot.shading.light.palettes import palette
+from vectorplot.geometry import placed
+from vectorplot.shading import DIRECT_SHARE, palette
 
 SHEET = vp.Mesh.from_polygons([(-0.9, -0.9, 0), (0.9, -0.9, 0), (0.9, 0.9, 0), (-0.9, 0.9, 0)], [(0, 1, 2, 3)])
 TOWARDS = np.array([0.0, -1.0, 1.0]) / np.sqrt(2.0)
@@ -42,9 +41,9 @@ def main(folder: Path) -> None:
     shades = palette("orange").astype(int)
     number = [int(np.abs(shades - colour[item.name]).sum(axis=1).argmin()) for item in sheets]
     # What is nearest to the eye is a little brighter: at most by the fifth of the palette that is ambient light.
-    least = np.floor((len(shades) - 1) * REDUCED * np.cos(angles))
+    least = np.floor((len(shades) - 1) * DIRECT_SHARE * np.cos(angles))
     assert (np.diff(number) < 0).all() and (number >= least).all()
-    assert (number - least <= (len(shades) - 1) * (1 - REDUCED) + 1).all()
+    assert (number - least <= (len(shades) - 1) * (1 - DIRECT_SHARE) + 1).all()
 
 
 if __name__ == "__main__":

@@ -10,12 +10,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.curves.function import curve_of_function
-from vectorplot.geometry.solids import box
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.revolution import revolution_surface
-from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.placed import PlacedSurface
+from vectorplot.curves import curve_of_function
+from vectorplot.geometry import box
+from vectorplot.surfaces import PlacedSurface, Sphere, Torus, revolution_surface
 
 SIZE = (360, 240)
 

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.effects.shadows.shadow_decals import shadow_decals
-from vectorplot.scene.view import look
+from vectorplot.drawing import FillKind, Fills
+from vectorplot.effects import shadow_decals
+from vectorplot.scene import look
 
 LAMP = np.array([-2.5, -3.0, 6.0])
 CARD = np.array([(-1.7, -2.0, 2.6), (0.9, -1.6, 2.2), (0.5, 0.9, 2.9), (-1.2, 0.6, 3.2)])

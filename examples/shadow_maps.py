@@ -10,12 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry import ragged
-from vectorplot.geometry.solids import box
-from vectorplot.shading.raster.screen import raster_system
-from vectorplot.shading.shadows.seen_region import region_in_picture
-from vectorplot.shading.shadows.shadow_buffer import shadow_buffer
-from vectorplot.shading.shadows.shadow_map import texels_per_unit
+from vectorplot.geometry import box, ragged
+from vectorplot.shading import raster_system, region_in_picture, shadow_buffer, texels_per_unit
 
 SIZE, MAP = (300, 200), 200
 LIGHT = vp.Light((-2.0, -0.6, 1.6), parallel=True, intensity=1.0)

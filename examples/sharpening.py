@@ -11,18 +11,14 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.convex.intersect_polyhedra import intersection
-from vectorplot.geometry.repair.adjacency import body_record
-from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.solids import has_convex_outline
-from vectorplot.geometry.vectors import translated
+from vectorplot.geometry import body_record, has_convex_outline, polyhedron_intersection, revolution, translated
 
 PRISM = revolution([(4, 0, -14), (4, 0, 14)], 6)
 
 
 def pencil(tip: float) -> vp.Mesh:
     """The prism in a cone with its tip at this height."""
-    return intersection(PRISM, revolution([(5, 0, -20), (5, 0, tip - 11), (0, 0, tip)], 90))
+    return polyhedron_intersection(PRISM, revolution([(5, 0, -20), (5, 0, tip - 11), (0, 0, tip)], 90))
 
 
 def main(folder: Path) -> None:

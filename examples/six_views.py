@@ -11,8 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.solids import box, prism
-from vectorplot.geometry.vectors import translated
+from vectorplot.geometry import box, prism, translated
 
 CELL = 62.0
 PLACES = {"bottom": (1, 2), "right": (0, 1), "front": (1, 1), "left": (2, 1), "back": (3, 1), "top": (1, 0)}

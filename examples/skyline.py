@@ -11,9 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.rotations import rotation_z
-from vectorplot.geometry.solids import box
-from vectorplot.geometry.vectors import translated
+from vectorplot.geometry import box, rotation_z, translated
 from vectorplot.testing import assert_drawing_is_right
 
 SIDE = 20

@@ -10,12 +10,10 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.drawing.fills import Fills
-from vectorplot.scene.view import look
-from vectorplot.shading.light.face_shades import face_shades, view_lights
-from vectorplot.shading.light.palettes import shaded_colours
-from vectorplot.visibility.painter.image_faces import image_faces
-from vectorplot.visibility.painter.slices import cut_into_slices, slice_order, sliced_order
+from vectorplot.drawing import Fills
+from vectorplot.scene import look
+from vectorplot.shading import face_shades, shaded_colours, view_lights
+from vectorplot.visibility import cut_into_slices, image_faces, slice_order, sliced_order
 
 LEVELS = np.linspace(-0.9, 0.9, 10)
 LIGHT = vp.Light((-4, -5, 6), parallel=True, intensity=1.0)

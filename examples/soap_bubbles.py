@@ -12,9 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.convex.separating_planes import spheres_power
-from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.vectors import translated
+from vectorplot.geometry import revolution, spheres_power, translated
 
 SPHERES = np.array(
     [

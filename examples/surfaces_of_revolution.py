@@ -10,10 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.curves.helix import Helix
-from vectorplot.curves.line import Line
-from vectorplot.surfaces.families.hyperboloid import Hyperboloid
-from vectorplot.surfaces.families.revolution import revolution_surface
+from vectorplot.curves import Helix, Line
+from vectorplot.surfaces import Hyperboloid, revolution_surface
 from vectorplot.testing import assert_on_surface, curves_in_space
 
 PAGE = vp.Page(90, 110, 5)

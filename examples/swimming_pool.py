@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.drawing.fills import FillKind
-from vectorplot.effects.glass.refraction import seen_in_surface
+from vectorplot.drawing import FillKind
+from vectorplot.effects import seen_in_surface
 
 POOL = vp.read(Path(__file__).resolve().parent.parent / "data" / "pool.scene")
 EYES = {"low": np.array([-9.0, -15.0, 17.0]), "high": np.array([3.0, -7.0, 24.0])}

@@ -12,10 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.cameras.projection import CoordinateSystem
-from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.rotations import rotation_about, rotation_x, rotation_z
-from vectorplot.geometry.solids import box, prism
+from vectorplot.geometry import CoordinateSystem, box, prism, revolution, rotation_about, rotation_x, rotation_z
 
 EYE, TWIST_DEG = (2.4, -2.2, 1.7), 25.0
 

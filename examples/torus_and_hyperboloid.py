@@ -11,11 +11,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.features.zeros.zero_manifold import zero_manifold_of_f_uv
-from vectorplot.surfaces.families.hyperboloid import Hyperboloid
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.graph import graph
-from vectorplot.surfaces.surface import Domain
+from vectorplot.features import zero_manifold_of_f_uv
+from vectorplot.surfaces import Domain, Hyperboloid, ImplicitTorus, Torus, graph
 from vectorplot.testing import assert_on_both, assert_on_surface, curves_in_space
 
 A, B, CENTRE = 3.0, 1.2, (1.2, 0.0, 0.3)

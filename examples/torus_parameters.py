@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.surfaces.families.torus import ImplicitTorus, ImplicitTorusByDistance, Torus
-from vectorplot.surfaces.trimmed import TrimmedSurface
+from vectorplot.surfaces import ImplicitTorus, ImplicitTorusByDistance, Torus, TrimmedSurface
 from vectorplot.testing import assert_on_surface, curves_in_space
 
 MAJOR, MINOR = 3.0, 1.2

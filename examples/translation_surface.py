@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.curves.function import curve_of_function
-from vectorplot.surfaces.families.translation import translation_surface
+from vectorplot.curves import curve_of_function
+from vectorplot.surfaces import translation_surface
 from vectorplot.testing import assert_on_surface, curves_in_space
 
 

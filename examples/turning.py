@@ -11,10 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.rotations import axis_frame, rotated_about_line
-from vectorplot.geometry.solids import box
-from vectorplot.geometry.vectors import translated
+from vectorplot.geometry import axis_frame, box, revolution, rotated_about_line, translated
 
 FOOT, AXIS = np.array([1.0, 2.0, 0.5]), np.array([0.35, -0.2, 1.0])
 STEPS = 20

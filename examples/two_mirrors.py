@@ -9,10 +9,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.drawing.fills import FillKind
-from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.solids import box
-from vectorplot.geometry.vectors import translated
+from vectorplot.drawing import FillKind
+from vectorplot.geometry import box, revolution, translated
 
 LIGHTS = (vp.Light((5, -6, 7), parallel=True, intensity=0.5), vp.Light((-1.0, -7.0, 9.0), intensity=0.3))
 PLANES = {"MIRROR1": (np.array([0.0, -1.0, 0.0]), -3.0), "MIRROR2": (np.array([1.0, 0.0, 0.0]), -3.4)}

@@ -10,9 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.rotations import rotation_about
-from vectorplot.geometry.vectors import translated
-from vectorplot.textbook.intersections import polygons_common_segment
+from vectorplot.geometry import rotation_about, translated
+from vectorplot.textbook import polygons_common_segment
 
 HEXAGON = np.array([(np.cos(a), np.sin(a), 0) for a in np.radians(np.arange(0, 360, 60))])
 SHEET = np.array([(-1.5, -0.6, 0), (1.2, -0.9, 0), (1.4, 0.8, 0), (-0.9, 1.0, 0)])

@@ -11,14 +11,18 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.cameras.projection import CoordinateSystem, collineate
-from vectorplot.geometry.clipping import Box, Window
-from vectorplot.geometry.convex.intersect_polyhedra import intersection
-from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.rotations import rotation_about
-from vectorplot.geometry.solids import box
-from vectorplot.geometry.vectors import translated
-from vectorplot.textbook.frustum import Frustum
+from vectorplot.geometry import (
+    Box,
+    CoordinateSystem,
+    Window,
+    box,
+    collineate,
+    polyhedron_intersection,
+    revolution,
+    rotation_about,
+    translated,
+)
+from vectorplot.textbook import Frustum
 
 PAGE = vp.Page(140, 110, 6)
 
@@ -47,7 +51,7 @@ def items(frame: vp.Mesh, shapes: dict[str, vp.Mesh]) -> vp.Scene:
 def main(folder: Path) -> None:
     system = CoordinateSystem.of_image(vp.Camera(eye=(0.6, -5.2, 1.4)))
     frustum = Frustum(system, Box(Window(-1.5, 1.5, -1.1, 1.1), min_z=-0.28, max_z=0.4))
-    inside = {name: intersection(mesh, frustum.mesh) for name, mesh in bodies().items()}
+    inside = {name: polyhedron_intersection(mesh, frustum.mesh) for name, mesh in bodies().items()}
 
     def after_t2(mesh: vp.Mesh) -> vp.Mesh:
         return replace(mesh, vertices=collineate(system.rotated(mesh.vertices), system.distance, factor=1.0))

@@ -12,9 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry.revolution import revolution
-from vectorplot.geometry.rotations import rotation_about
-from vectorplot.geometry.solids import box
+from vectorplot.geometry import box, revolution, rotation_about
 
 ARC = np.radians(np.arange(-90, 91, 15))
 

@@ -199,7 +199,7 @@ def test_the_nearer_of_two_plates_wins_in_every_verb(verb: str, gap: float, size
 
 def faceted_sphere(rings: int, sectors: int, seed: int) -> Mesh:
     """A ball of triangles and quadrilaterals, turned at random."""
-    from vectorplot.geometry.revolution import revolution
+    from vectorplot.geometry.bodies_of_revolution import revolution
 
     angle = np.linspace(-np.pi / 2, np.pi / 2, rings + 1)
     meridian = [(float(np.cos(a)) if 0 < k < rings else 0.0, 0.0, float(np.sin(a))) for k, a in enumerate(angle)]
@@ -345,7 +345,7 @@ def wordy(*at: Floats) -> str:
 def test_functions_that_fail_are_named_in_every_verb(verb, wrong, kind: str) -> None:
     from vectorplot.curves.function import curve_of_function
     from vectorplot.surfaces.function import surface_of_function
-    from vectorplot.surfaces.graph import graph
+    from vectorplot.surfaces.graphs import graph
     from vectorplot.surfaces.implicit_function import implicit_of_function
     from vectorplot.surfaces.surface import Domain
 
@@ -363,7 +363,7 @@ def test_functions_that_fail_are_named_in_every_verb(verb, wrong, kind: str) -> 
 @pytest.mark.hard(69)
 @pytest.mark.parametrize("verb", ["paint", "render", "draw"])
 def test_where_a_function_is_not_finite_one_looks_through(verb: str) -> None:
-    from vectorplot.surfaces.graph import graph
+    from vectorplot.surfaces.graphs import graph
     from vectorplot.surfaces.surface import Domain
 
     def with_hole(x: Floats, y: Floats) -> Floats:

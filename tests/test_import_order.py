@@ -141,18 +141,3 @@ def test_import_of_the_package_takes_less_than_a_tenth_of_a_second():
     run = [sys.executable, "-c", script]
     times = [float(subprocess.run(run, capture_output=True, text=True, check=True).stdout) for _ in range(3)]
     assert min(times) < 0.1
-
-
-def test_every_exported_name_has_a_home_and_the_others_do_not_exist():
-    assert set(vectorplot._HOME) == set(vectorplot.__all__)
-    assert set(vectorplot.__all__) <= set(dir(vectorplot))
-    for name in vectorplot.__all__:
-        assert getattr(vectorplot, name).__name__ == name
-    with pytest.raises(AttributeError, match="rubber"):
-        _ = vectorplot.rubber
-
-
-@pytest.mark.parametrize("verb", ["draw", "render", "save"])
-def test_a_verb_stays_a_verb_when_its_module_was_imported_first(verb):
-    script = f"import vectorplot.{verb}, vectorplot as vp; assert callable(vp.{verb}), vp.{verb}"
-    subprocess.run([sys.executable, "-c", script], check=True)

@@ -20,8 +20,8 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.plan import chosen_shadows, plan_render
 from vectorplot.render import render
 from vectorplot.save import write
-from vectorplot.shading.light.illumination import AMBIENT, DARK_SIDE, FINISHES, REDUCED
-from vectorplot.shading.light.palettes import LIMITS, palette
+from vectorplot.shading.light.illumination import AMBIENT, DARK_SIDE, DIRECT_SHARE, FINISHES
+from vectorplot.shading.light.palettes import PALETTE_LIMITS, palette
 from vectorplot.shading.raster import picture
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.spiral import spiral_surface
@@ -80,7 +80,7 @@ def test_a_sphere_has_the_shades_of_its_true_normals(word):
     depth = normal @ CAMERA.direction
     # The box about the sphere is what depths run over; its corners are in view coordinates those of the mesh.
     cue = AMBIENT * (depth + 1.0) / 2.0
-    expected = 255.0 * np.clip(REDUCED * np.minimum(total, 1.0) + cue, 0.0, 1.0)
+    expected = 255.0 * np.clip(DIRECT_SHARE * np.minimum(total, 1.0) + cue, 0.0, 1.0)
     off = np.abs(levels(image) - expected)[inside]
     assert inside.mean() > 0.1
     # A sharp highlight is as wide as a few facets.
@@ -494,7 +494,7 @@ def test_the_background_is_the_scenes_or_the_users():
     assert render(scene, size=(20, 20)).pixels[0, 0].tolist() == palette("yellow")[-1].tolist()
     assert render(scene, size=(20, 20), background="#102030").pixels[0, 0].tolist() == [16, 32, 48]
     assert render(replace(scene, background=None), size=(20, 20)).pixels[0, 0].tolist() == [255, 255, 255]
-    assert "blue" in LIMITS
+    assert "blue" in PALETTE_LIMITS
     with pytest.raises(InputError, match="colour"):
         render(scene, background="mauve")
 

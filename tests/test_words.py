@@ -10,7 +10,7 @@ from vectorplot.cli.main import run
 from vectorplot.geometry.solids import box
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.shading.light.illumination import FINISHES
-from vectorplot.shading.light.palettes import LIMITS, PLAIN, palette
+from vectorplot.shading.light.palettes import PALETTE_LIMITS, PLAIN, palette
 from vectorplot.words import (
     COLOURS,
     DRAWN,
@@ -33,7 +33,7 @@ def of_file(words: str) -> vp.Item:
 
 
 def test_every_named_colour_has_shades():
-    assert tuple(LIMITS) == PALETTES and tuple(PLAIN) == PLAIN_COLOURS
+    assert tuple(PALETTE_LIMITS) == PALETTES and tuple(PLAIN) == PLAIN_COLOURS
     for colour in COLOUR_WORDS:
         assert palette(colour).shape == (32, 3)
 

@@ -131,7 +131,7 @@ def draw(
         # Little of the scene is drawn, and that larger than thought.
         scale = float(placed[0, 0])
     if walk.calls_for("halo"):
-        from vectorplot.effects.halo import halo
+        from vectorplot.effects.halos import halo
 
         seen = walk.run("halo", halo, view, framed, seen, halo_mm / placed[0, 0])
     world = page_from_world(view, placed)

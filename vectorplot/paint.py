@@ -33,7 +33,7 @@ from vectorplot.shading.light.fineness import picture_fineness
 from vectorplot.shading.light.flat_regions import plane_numbers
 from vectorplot.shading.light.painted_colours import Lighting, colours_of, corner_shades_of, opacities
 from vectorplot.shading.light.painted_normals import painted_normals
-from vectorplot.shading.light.palettes import SIZE, shaded_colours
+from vectorplot.shading.light.palettes import PALETTE_SIZE, shaded_colours
 from vectorplot.shading.light.palettes import palette as shades_of
 from vectorplot.shading.light.refinement import SHORTEST_MM, refined
 from vectorplot.visibility.painter.gathering import side_by_side
@@ -65,7 +65,7 @@ def paint(
     lights: Sequence[Light] | None = None,
     shadows: Literal["auto", "none"] = "auto",
     aura_mm: float = 0.0,
-    palette: int = SIZE,
+    palette: int = PALETTE_SIZE,
     smooth: bool = True,
     fills: Literal["painted", "visible", "erasing"] = "painted",
     lines: str | Iterable[str] = (),

@@ -14,8 +14,8 @@ import pytest
 from vectorplot.draw import default_camera
 from vectorplot.effects.glass.glass_polygons import seen_in_glass
 from vectorplot.effects.mirrors.reflections import mirrors, reflections
+from vectorplot.geometry.bodies_of_revolution import revolution
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.revolution import revolution
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Light, Material, Scene
 from vectorplot.scene.view import look

@@ -12,16 +12,16 @@ from vectorplot.backends.svg.document import svg_bytes
 from vectorplot.draw import default_camera
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.convex_hulls import hull_mesh
-from vectorplot.geometry.convex.polygon_clipping import clipped
+from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box, numbered, rotated_boxes, rotation
 from vectorplot.testing.surfaces import bumpy_icosphere
-from vectorplot.textbook.graph_order import graph_order, graph_triangles
-from vectorplot.textbook.ring_order import ring_order, sliced_meridian
-from vectorplot.textbook.sphere_order import sphere_order
+from vectorplot.textbook.graph_orders import graph_order, graph_triangles
+from vectorplot.textbook.ring_orders import ring_order, sliced_meridian
+from vectorplot.textbook.sphere_orders import sphere_order
 from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.order import painters_order
@@ -177,7 +177,7 @@ def test_polygons_clipped_in_pairs() -> None:
             circle = np.stack([np.cos(angle), np.sin(angle)])[:, None]
             corners += [(circle + random.uniform(-1, 1, (2, count, 1))).reshape(2, -1), np.arange(count + 1) * size]
         sizes.append(count)
-        times.append(seconds(lambda c=corners: clipped(*c)))
+        times.append(seconds(lambda c=corners: clipped_by_convex(*c)))
         print(f"  {count:>9,}: {times[-1]:7.3f} s")
     print(growth(sizes, times))
 

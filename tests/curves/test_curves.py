@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vectorplot.curves.circle import Circle
-from vectorplot.curves.cylinder_intersection import cylinder_intersection
+from vectorplot.curves.cylinder_intersections import cylinder_intersection
 from vectorplot.curves.function import curve_of_function
 from vectorplot.curves.helix import Helix
 from vectorplot.curves.line import Line

@@ -3,7 +3,7 @@ import pytest
 
 from vectorplot.io.expressions.expression import parse_expression
 from vectorplot.io.scenes.scene_formulas import Formulas, formula_graph, formula_surface
-from vectorplot.surfaces.graph import graph, graph_over_disc
+from vectorplot.surfaces.graphs import graph, graph_over_disc
 from vectorplot.surfaces.regions import Disc
 from vectorplot.surfaces.surface import Domain
 

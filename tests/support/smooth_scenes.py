@@ -20,7 +20,7 @@ from vectorplot.surfaces.families.minimal import helicoid_to_catenoid
 from vectorplot.surfaces.families.quadric import implicit_ellipsoid, implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.function import FunctionSurface, surface_of_function
-from vectorplot.surfaces.graph import graph
+from vectorplot.surfaces.graphs import graph
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.testing.shapes import box, rotation

@@ -23,7 +23,7 @@ from vectorplot.surfaces.families.spiral import spiral_surface
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.families.translation import translation_surface
 from vectorplot.surfaces.function import surface_of_function
-from vectorplot.surfaces.graph import graph, graph_over_disc
+from vectorplot.surfaces.graphs import graph, graph_over_disc
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.placed import PlacedSurface
 from vectorplot.surfaces.regions import Disc

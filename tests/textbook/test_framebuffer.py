@@ -144,7 +144,7 @@ def test_pillow_reads_what_is_written():
     numbers, colours = rng.integers(0, 7, (20, 30), dtype=np.uint8), rng.integers(0, 256, (7, 3), dtype=np.uint8)
     read = image.open(io.BytesIO(png_bytes(numbers, colours))).convert("RGB")
     assert (np.asarray(read) == colours[numbers]).all()
-    frame = fb.swapped(fb.cleared(fb.with_colour(Framebuffer.of_numbers(4, 3), 8, 1, 2, 3), 8))
+    frame = fb.swapped_buffers(fb.cleared(fb.with_colour(Framebuffer.of_numbers(4, 3), 8, 1, 2, 3), 8))
     assert np.asarray(image.open(io.BytesIO(frame.png())).convert("RGB")).reshape(-1, 3).tolist() == [[1, 2, 3]] * 12
     assert png_bytes(numbers, colours) == png_bytes(numbers.copy(), colours)
 

@@ -92,7 +92,7 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
     from vectorplot.draw import default_camera
     from vectorplot.errors import InputWarning
     from vectorplot.geometry.cameras.camera import Camera
-    from vectorplot.geometry.cameras.lens import advice
+    from vectorplot.geometry.cameras.lens import lens_advice
 
     upright = options.up if options.up is not None and any(options.up) else (0.0, 0.0, 1.0)
     base = scene.camera or default_camera(scene, upright)
@@ -115,7 +115,7 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
         near=chosen(options.near, base.near),
         far=chosen(options.far, base.far),
     )
-    told = None if parallel else advice(camera.fov_deg)
+    told = None if parallel else lens_advice(camera.fov_deg)
     if told is not None:
         warnings.warn(told, InputWarning, stacklevel=2)
     return camera

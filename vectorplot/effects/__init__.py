@@ -1,1 +1,5 @@
 """What a scene may call for: each effect a function from one waist type to itself."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -18,7 +18,7 @@ from vectorplot.scene.view import View
 from vectorplot.shading.light.depth_cueing import MIDDLE, edge_shades
 from vectorplot.shading.light.face_shades import limited_depths
 from vectorplot.shading.light.illumination import shade_numbers
-from vectorplot.shading.light.palettes import SIZE, palette
+from vectorplot.shading.light.palettes import PALETTE_SIZE, palette
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines
 
@@ -45,7 +45,7 @@ def wire_layers(
     shade = np.full(len(strokes), MIDDLE) if style == "wireframe" else _cued(view, strokes.points3d)
     names = list(dict.fromkeys(item.colour for item in scene.items))
     of_item = np.array([names.index(item.colour) for item in scene.items], dtype=np.intp)
-    key = shade_numbers(shade, SIZE) * len(names) + of_item[strokes.item]
+    key = shade_numbers(shade, PALETTE_SIZE) * len(names) + of_item[strokes.item]
     used, which = np.unique(key, return_inverse=True)
     pens = [_pen(names[k % len(names)], k // len(names)) for k in used.tolist()]
     return (_background(scene, page), *layers_of(strokes, which, pens))

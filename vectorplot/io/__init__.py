@@ -1,1 +1,5 @@
 """Files: the scene language and mesh formats, in and out."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.errors import InputWarning
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.function import FunctionSurface
-from vectorplot.surfaces.graph import Graph, PolarGraph
+from vectorplot.surfaces.graphs import Graph, PolarGraph
 
 
 def tell_what_is_cut_off(scene: Scene) -> None:

@@ -55,7 +55,7 @@ class Device:
 
     def swapped(self) -> Device:
         """With the drawn page shown (double buffering)."""
-        return replace(self, window=framebuffer.swapped(self.frame))
+        return replace(self, window=framebuffer.swapped_buffers(self.frame))
 
     def with_rgb(self, number: int, red: int, green: int, blue: int) -> Device:
         """With a new colour, 0 to 255 each, under a number."""

@@ -88,7 +88,7 @@ def with_colour(frame: Framebuffer, number: int, red: int, green: int, blue: int
     return replace(frame, colours=colours)
 
 
-def swapped(frame: Framebuffer) -> Framebuffer:
+def swapped_buffers(frame: Framebuffer) -> Framebuffer:
     """The framebuffer with the drawn page shown, and the other one to be drawn on."""
     return replace(frame, shown=frame.drawn)
 

@@ -36,7 +36,7 @@ def dehomogenized(points: ArrayLike) -> Floats:
     return np.asarray(p[..., :-1] / p[..., -1:])
 
 
-def apply(matrix: ArrayLike, points: ArrayLike) -> Floats:
+def transformed(matrix: ArrayLike, points: ArrayLike) -> Floats:
     """The points (..., k) under a homogeneous matrix (k+1, k+1), after division by the last component."""
     return dehomogenized(homogeneous(points) @ np.asarray(matrix, dtype=np.float64).T)
 

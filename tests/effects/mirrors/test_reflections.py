@@ -7,9 +7,9 @@ from support.seen_rays import first_hits, sight_rays, topmost, triangles
 from vectorplot.effects.mirrors.reflections import Mirrors, mirrored_view, mirrors, originals, reflections
 from vectorplot.effects.windows.window_polygons import SeenThrough
 from vectorplot.geometry import ragged
+from vectorplot.geometry.bodies_of_revolution import revolution
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.revolution import revolution
 from vectorplot.scene.scene import Item, Material, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box

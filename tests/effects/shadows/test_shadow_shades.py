@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.effects.shadows.shadow_shades import LEVELS, shadow_shades
-from vectorplot.shading.light.illumination import REDUCED, shades
+from vectorplot.shading.light.illumination import DIRECT_SHARE, shades
 
 SHARES = st.lists(st.floats(0.0, 3.0), min_size=3, max_size=3)
 
@@ -18,7 +18,7 @@ SHARES = st.lists(st.floats(0.0, 3.0), min_size=3, max_size=3)
 @pytest.mark.capability("G6.3-shadow-shade")
 def test_a_shadow_of_the_only_light_has_half_of_the_reduced_palette() -> None:
     share, cue = np.array([[0.2, 0.9, 1.0]]), np.array([0.0, 0.1, 0.2])
-    assert np.allclose(shadow_shades(share, [1.0], [1, 1, 1], cue), 0.5 * REDUCED * share[0] + cue)
+    assert np.allclose(shadow_shades(share, [1.0], [1, 1, 1], cue), 0.5 * DIRECT_SHARE * share[0] + cue)
 
 
 @pytest.mark.capability("G6.3-shadow-shade")

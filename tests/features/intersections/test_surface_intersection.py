@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from vectorplot.errors import InputError
 from vectorplot.features.intersections.surface_intersection import surface_intersection
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.sections import intersection
+from vectorplot.features.parametric.sections import section_by_implicit
 from vectorplot.geometry.rotations import rotation_about
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
@@ -116,7 +116,7 @@ def test_the_same_curves_as_the_section_with_the_implicit_surface(kind, base, ce
         "ellipsoid": lambda: (Ellipsoid((2, 0.3, 0.7), centre), implicit_ellipsoid((2, 0.3, 0.7), centre)),
     }
     shape, implicit = pairs[kind]()
-    expected = intersection(base, implicit, tracing=Tracing(tolerance=1e-4))
+    expected = section_by_implicit(base, implicit, tracing=Tracing(tolerance=1e-4))
     curves = surface_intersection(base, shape, tracing=Tracing(tolerance=1e-4))
     if len(expected.nodes) or len(expected.isolated) or expected.doubts:
         return

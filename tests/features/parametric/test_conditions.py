@@ -21,7 +21,7 @@ from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParabol
 from vectorplot.surfaces.families.quadric import implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.function import surface_of_function
-from vectorplot.surfaces.graph import graph
+from vectorplot.surfaces.graphs import graph
 from vectorplot.surfaces.surface import Domain
 
 SURFACES = {

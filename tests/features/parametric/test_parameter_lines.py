@@ -10,7 +10,7 @@ from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.graph import graph
+from vectorplot.surfaces.graphs import graph
 from vectorplot.surfaces.regions import Disc
 
 

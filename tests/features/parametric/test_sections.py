@@ -7,7 +7,7 @@ import pytest
 
 from vectorplot.errors import InputWarning
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.sections import intersection, level_lines, plane_sections
+from vectorplot.features.parametric.sections import level_lines, plane_sections, section_by_implicit
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
@@ -21,14 +21,14 @@ BOX = [[-9.0] * 3, [9.0] * 3]
 @pytest.mark.parametrize("offset", [0.0, 1e6])
 def test_two_spheres_meet_in_a_circle(offset):
     far = np.array([offset, 0.0, 0.0])
-    curves = intersection(Sphere(2.0, far), implicit_sphere(2.0, (offset + 1.0, 0.5, 0.0)))
+    curves = section_by_implicit(Sphere(2.0, far), implicit_sphere(2.0, (offset + 1.0, 0.5, 0.0)))
     assert len(curves) == 1 and curves.closed.all() and not curves.doubts
     assert np.abs((curves.points - far) @ (1.0, 0.5, 0.0) - 0.625).max() < (1e-10 if offset == 0.0 else 1e-8)
 
 
 @pytest.mark.capability("G8.4-intersection")
 def test_steinmetz_curve_is_two_ellipses_through_two_nodes():
-    curves = intersection(Cylinder(1.0, -2.0, 2.0), implicit_cylinder(1.0, (0, 0, 0), (1, 0, 0), BOX))
+    curves = section_by_implicit(Cylinder(1.0, -2.0, 2.0), implicit_cylinder(1.0, (0, 0, 0), (1, 0, 0), BOX))
     x, y, z = curves.points.T
     assert np.abs(x * x + y * y - 1).max() < 1e-12 and np.abs(y * y + z * z - 1).max() < 1e-11
     assert len(curves) == 2 and curves.closed.all() and len(curves.nodes) == 2
@@ -42,8 +42,8 @@ def test_steinmetz_curve_is_two_ellipses_through_two_nodes():
 
 @pytest.mark.capability("G8.4-intersection")
 def test_viviani_curve_on_the_cylinder_and_on_the_sphere():
-    on_cylinder = intersection(Cylinder(1.0, -3.0, 3.0, (1, 0, 0)), implicit_sphere(2.0))
-    on_sphere = intersection(Sphere(2.0), implicit_cylinder(1.0, (1, 0, 0), (0, 0, 1), BOX))
+    on_cylinder = section_by_implicit(Cylinder(1.0, -3.0, 3.0, (1, 0, 0)), implicit_sphere(2.0))
+    on_sphere = section_by_implicit(Sphere(2.0), implicit_cylinder(1.0, (1, 0, 0), (0, 0, 1), BOX))
     for curves in (on_cylinder, on_sphere):
         x, y, z = curves.points.T
         assert np.abs((x - 1) ** 2 + y * y - 1).max() < 1e-10 and np.abs(x * x + y * y + z * z - 4).max() < 1e-10
@@ -66,7 +66,7 @@ def test_torus_and_plane_and_torus_and_torus():
     off = [np.abs(np.linalg.norm(p - (s, 0, 0), axis=1) - 3.0) for s in (1, -1)]
     assert np.minimum(*off).max() < 1e-9
     other = ImplicitTorus(3.0, 1.0, (2.0, 0.5, 0.3))
-    curves = intersection(torus, other)
+    curves = section_by_implicit(torus, other)
     assert len(curves) and np.abs(other.values(curves.points)).max() < 1e-10 * 200
     assert curves.closed.all()
 
@@ -79,7 +79,7 @@ def test_torus_and_plane_and_torus_and_torus():
 def test_sphere_touching_a_plane_gives_a_point_and_a_warning(point, normal):
     sphere = Sphere(2.0)
     with pytest.warns(InputWarning, match="single point"):
-        curves = intersection(sphere, implicit_plane(point, normal, BOX))
+        curves = section_by_implicit(sphere, implicit_plane(point, normal, BOX))
     assert len(curves) == 0 and len(curves.isolated) == 1 and not len(curves.touching)
     assert np.linalg.norm(sphere.points(*curves.isolated.T)[0] - point) < 1e-7
 
@@ -87,7 +87,7 @@ def test_sphere_touching_a_plane_gives_a_point_and_a_warning(point, normal):
 def test_a_plane_that_misses_gives_nothing_and_no_warning():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        curves = intersection(Sphere(2.0), implicit_plane((0, 0, 3), (0, 0, 1), BOX))
+        curves = section_by_implicit(Sphere(2.0), implicit_plane((0, 0, 3), (0, 0, 1), BOX))
     assert len(curves) == 0 and curves.points.shape == (0, 3) and not curves.doubts
 
 
@@ -117,5 +117,5 @@ def test_level_lines_of_the_saddle_are_hyperbolas_and_at_zero_two_lines():
 
 
 def test_coinciding_surfaces_say_so():
-    curves = intersection(Sphere(2.0), implicit_sphere(2.0))
+    curves = section_by_implicit(Sphere(2.0), implicit_sphere(2.0))
     assert len(curves) == 0 and len(curves.doubts) == 1

@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 from scipy.spatial import ConvexHull, HalfspaceIntersection
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.convex.intersect_polyhedra import cut_face, intersection
+from vectorplot.geometry.bodies_of_revolution import revolution
+from vectorplot.geometry.convex.intersect_polyhedra import cut_face, polyhedron_intersection
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.adjacency import body_record, face_constants
 from vectorplot.geometry.repair.winding import is_closed_oriented
-from vectorplot.geometry.revolution import revolution
 from vectorplot.geometry.solids import box, has_convex_outline, prism
 
 
@@ -44,10 +44,10 @@ def euler(mesh):
 @pytest.mark.capability("G3.6-demo")
 def test_two_rotated_cubes_have_the_volume_of_the_halfspace_intersection():
     one, other = cube(), moved(cube(), [0, 0, 0], (40, 20))
-    common = intersection(one, other)
+    common = polyhedron_intersection(one, other)
     assert body_record(common).volume == pytest.approx(halfspace_volume(one, other), rel=1e-12)
     assert euler(common) == 2 and is_closed_oriented(common) and has_convex_outline(common)
-    swapped = intersection(other, one)
+    swapped = polyhedron_intersection(other, one)
     assert body_record(swapped).volume == pytest.approx(body_record(common).volume, rel=1e-12)
     assert body_record(swapped).edge_count == body_record(common).edge_count
 
@@ -56,7 +56,7 @@ def test_two_rotated_cubes_have_the_volume_of_the_halfspace_intersection():
 def test_pencil_has_the_six_faces_of_the_prism_and_a_faceted_tip():
     cone = revolution([[5, 0, -10], [5, 0, 0], [0, 0, 11]], 45)
     hexagon = revolution([[4, 0, -12], [4, 0, 12]], 6)
-    pencil = intersection(cone, hexagon)
+    pencil = polyhedron_intersection(cone, hexagon)
     record = body_record(pencil)
     assert record.volume == pytest.approx(halfspace_volume(cone, hexagon), rel=1e-12)
     assert euler(pencil) == 2 and has_convex_outline(pencil)
@@ -76,7 +76,7 @@ shift = st.lists(st.floats(-2, 2), min_size=3, max_size=3)
 @given(shift, angle, angle)
 def test_any_two_cubes(offset, first, second):
     one, other = cube(), moved(cube(), offset, (first, second))
-    common = intersection(one, other)
+    common = polyhedron_intersection(one, other)
     inside = np.array(offset) / 2
     assert body_record(common).volume == pytest.approx(halfspace_volume(one, other, inside=inside), rel=1e-6)
     assert euler(common) == 2 and is_closed_oriented(common)
@@ -85,8 +85,8 @@ def test_any_two_cubes(offset, first, second):
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
 def test_the_size_of_the_scene_does_not_matter(scale):
     one, other = cube(), moved(cube(), [0.3, 0.1, 0.2], (40, 20))
-    common = intersection(one, other)
-    scaled = intersection(moved(one, [0] * 3, scale=scale), moved(other, [0] * 3, scale=scale))
+    common = polyhedron_intersection(one, other)
+    scaled = polyhedron_intersection(moved(one, [0] * 3, scale=scale), moved(other, [0] * 3, scale=scale))
     assert scaled.polygons() == common.polygons()
     assert np.allclose(scaled.vertices, common.vertices * scale, rtol=1e-9, atol=1e-12 * scale)
 
@@ -95,68 +95,68 @@ def test_the_size_of_the_scene_does_not_matter(scale):
 def test_the_place_of_the_scene_does_not_matter(offset):
     place = np.array([offset, -offset, offset])
     one, other = cube(), moved(cube(), [0.25, 0.125, 0.5], (40, 20))
-    common = intersection(one, other)
-    far = intersection(*(moved(body, place) for body in (one, other)))
+    common = polyhedron_intersection(one, other)
+    far = polyhedron_intersection(*(moved(body, place) for body in (one, other)))
     assert is_closed_oriented(far) and euler(far) == 2
     assert np.ptp(far.vertices, axis=0) == pytest.approx(np.ptp(common.vertices, axis=0), abs=1e-14 * offset)
-    touching = intersection(moved(one, place), moved(cube(), np.add(place, [3, 0, 0])))
+    touching = polyhedron_intersection(moved(one, place), moved(cube(), np.add(place, [3, 0, 0])))
     assert touching.face_count == 6
 
 
 @pytest.mark.capability("G3.6-intersect")
 def test_faces_in_one_plane_appear_once():
-    common = intersection(cube(), moved(cube(), [3, 0, 0]))
+    common = polyhedron_intersection(cube(), moved(cube(), [3, 0, 0]))
     assert body_record(common).volume == pytest.approx(108)
     record = body_record(common)
     assert (record.vertex_count, record.edge_count, record.face_count) == (8, 12, 6)
-    same = intersection(cube(), cube())
+    same = polyhedron_intersection(cube(), cube())
     assert body_record(same).face_count == 6 and body_record(same).volume == pytest.approx(216)
 
 
 def test_bodies_that_touch_or_lie_apart_have_nothing_in_common():
     for distance in (6.0, 7.0):
-        assert intersection(cube(), moved(cube(), [distance, 0, 0])).face_count == 0
-    assert intersection(cube(), moved(cube(), [6, 6, 6])).face_count == 0
+        assert polyhedron_intersection(cube(), moved(cube(), [distance, 0, 0])).face_count == 0
+    assert polyhedron_intersection(cube(), moved(cube(), [6, 6, 6])).face_count == 0
 
 
 def test_a_body_inside_the_other_stays_whole():
     small = cube(2.0)
-    assert intersection(cube(), small).face_count == 6
-    assert body_record(intersection(cube(), small)).volume == pytest.approx(8)
-    assert intersection(small, cube()).polygons() == small.polygons()
+    assert polyhedron_intersection(cube(), small).face_count == 6
+    assert body_record(polyhedron_intersection(cube(), small)).volume == pytest.approx(8)
+    assert polyhedron_intersection(small, cube()).polygons() == small.polygons()
 
 
 @pytest.mark.capability("G3.6-intersect")
 def test_a_body_that_is_not_convex_may_fall_into_pieces():
     letter = [[0, 0, 0], [4, 0, 0], [4, 1, 0], [1, 1, 0], [1, 3, 0], [4, 3, 0], [4, 4, 0], [0, 4, 0]]
     body = prism(letter, [0, 0, 2])
-    tips = intersection(body, moved(box((3, 6, 2)), [2, -1, 0.5]))
+    tips = polyhedron_intersection(body, moved(box((3, 6, 2)), [2, -1, 0.5]))
     assert body_record(tips).volume == pytest.approx(2 * 2 * 1 * 1.5)
     assert euler(tips) == 4 and is_closed_oriented(tips)
     # The plane x = 1 holds a face of the letter.
-    assert body_record(intersection(body, moved(box((2, 6, 2)), [1, -1, 0]))).volume == pytest.approx(8)
+    assert body_record(polyhedron_intersection(body, moved(box((2, 6, 2)), [1, -1, 0]))).volume == pytest.approx(8)
     # The order of a convex and a non-convex body is found out.
-    assert body_record(intersection(moved(box((3, 6, 2)), [2, -1, 0.5]), body)).volume == pytest.approx(6)
+    assert body_record(polyhedron_intersection(moved(box((3, 6, 2)), [2, -1, 0.5]), body)).volume == pytest.approx(6)
 
 
 @pytest.mark.capability("G3.6-intersect")
 def test_a_cut_through_a_ring_is_closed_around_its_hole():
     ring = revolution([[2, 0, -1], [3, 0, -1], [3, 0, 1], [2, 0, 1], [2, 0, -1]], 24)
     whole = body_record(ring).volume
-    half = intersection(ring, moved(box((8, 8, 8)), [-4, -4, 0]))
+    half = polyhedron_intersection(ring, moved(box((8, 8, 8)), [-4, -4, 0]))
     assert body_record(half).volume == pytest.approx(whole / 2)
     assert euler(half) == 0 and is_closed_oriented(half)
     for cut in (-2.5, -1.0, -0.3, 0.0, 1.99, 2.0):
         slab = moved(box((9, 9, 8)), [cut, -4.5, -4])
         rest = moved(box((9, 9, 8)), [cut - 9, -4.5, -4])
-        parts = [intersection(ring, side) for side in (slab, rest)]
+        parts = [polyhedron_intersection(ring, side) for side in (slab, rest)]
         assert all(is_closed_oriented(part) for part in parts)
         assert sum(body_record(part).volume for part in parts) == pytest.approx(whole)
 
 
 def test_a_face_that_is_only_thought_of_stays_so():
     tube = revolution([[2, 0, -2], [2, 0, 2]], 12, caps=())
-    cut = intersection(tube, moved(box((8, 8, 8)), [0, -4, -4]))
+    cut = polyhedron_intersection(tube, moved(box((8, 8, 8)), [0, -4, -4]))
     removed = ~cut.present
     assert removed.sum() == 2
     assert np.allclose(np.abs(cut.face_normals[removed, 2]), 1.0)
@@ -165,10 +165,10 @@ def test_a_face_that_is_only_thought_of_stays_so():
 def test_open_bodies_and_two_that_are_not_convex_are_refused():
     opened = Mesh.from_polygons(cube().vertices, cube().polygons()[:5])
     with pytest.raises(InputError, match="closed"):
-        intersection(opened, cube())
+        polyhedron_intersection(opened, cube())
     ring = revolution([[2, 0, -1], [3, 0, -1], [3, 0, 1], [2, 0, 1], [2, 0, -1]], 24)
     with pytest.raises(InputError, match="both not convex"):
-        intersection(ring, ring)
+        polyhedron_intersection(ring, ring)
 
 
 def area(points):

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 import shapely
 
-from vectorplot.geometry.convex.polygon_clipping import clipped, contained
+from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex, inside_convex
 
 SQUARE = np.array([[0.0, 2.0, 2.0, 0.0], [0.0, 0.0, 2.0, 2.0]])
 
 
 def one(subject, clip, **options):
-    points, offsets, _ = clipped(
+    points, offsets, _ = clipped_by_convex(
         subject, np.array([0, subject.shape[1]]), clip, np.array([0, clip.shape[1]]), **options
     )
     return points if len(offsets) > 1 else points[:, :0]
@@ -46,7 +46,7 @@ def test_areas_are_those_of_shapely_for_many_pairs_at_once(star):
         for _ in range(400)
     ]
     clips = [c[:, ::-1] if k % 2 else c for k, c in enumerate(clips)]
-    points, offsets, pair = clipped(*batch(subjects), *batch(clips))
+    points, offsets, pair = clipped_by_convex(*batch(subjects), *batch(clips))
     assert (np.diff(pair) > 0).all()
     assert np.isfinite(points).all()
     found = np.zeros(400)
@@ -85,13 +85,13 @@ def test_outside_touching_and_empty_polygons_leave_nothing():
     assert one(SQUARE + 2.0, SQUARE).shape == (2, 0)
     assert one(SQUARE, np.array([[0.0, 1.0, 2.0], [0.0, 1.0, 2.0]])).shape == (2, 0)
     assert one(np.zeros((2, 0)), SQUARE).shape == (2, 0)
-    points, offsets, pair = clipped(np.zeros((3, 0)), np.zeros(1, int), np.zeros((2, 0)), np.zeros(1, int))
+    points, offsets, pair = clipped_by_convex(np.zeros((3, 0)), np.zeros(1, int), np.zeros((2, 0)), np.zeros(1, int))
     assert (points.shape, offsets.tolist(), pair.tolist()) == ((3, 0), [0], [])
 
 
 def test_sizes_that_average_to_triangles_are_no_triangles():
     subject, starts = batch([SQUARE[:, :2], SQUARE])
-    points, offsets, pair = clipped(subject, starts, *batch([SQUARE, SQUARE]))
+    points, offsets, pair = clipped_by_convex(subject, starts, *batch([SQUARE, SQUARE]))
     assert pair.tolist() == [1]
     assert (offsets.tolist(), points.tolist()) == ([0, 4], SQUARE.tolist())
 
@@ -119,8 +119,8 @@ def test_contained_tells_whether_the_whole_polygon_survived():
     rng = np.random.default_rng(5)
     subjects = [wreath(rng, 5, radius=0.3, middle=rng.uniform(-0.8, 0.8, 2), star=True) for _ in range(300)]
     clips = [wreath(rng, 9) for _ in range(300)]
-    inside = contained(*batch(subjects), *batch(clips))
+    inside = inside_convex(*batch(subjects), *batch(clips))
     assert 20 < inside.sum() < 280
     polygons = np.array([shapely.Polygon(p.T) for p in clips]), [shapely.MultiPoint(p.T) for p in subjects]
     assert (inside == shapely.covers(*(np.array(p) for p in polygons))).all()
-    assert contained(*batch([SQUARE, SQUARE + 1e-6]), *batch([SQUARE, SQUARE])).tolist() == [True, False]
+    assert inside_convex(*batch([SQUARE, SQUARE + 1e-6]), *batch([SQUARE, SQUARE])).tolist() == [True, False]

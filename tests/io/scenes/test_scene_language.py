@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from support.paths import DATA, DOCS
 
 from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.bodies_of_revolution import revolution
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.repair.adjacency import body_record
 from vectorplot.geometry.repair.winding import is_closed_oriented
-from vectorplot.geometry.revolution import revolution
 from vectorplot.geometry.solids import box
 from vectorplot.io.scenes import scene_language
 from vectorplot.io.scenes.scene_language import parse_scene, read_scene

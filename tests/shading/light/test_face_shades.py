@@ -14,7 +14,7 @@ from vectorplot.scene.scene import Item, Light, Material, Scene
 from vectorplot.scene.view import look
 from vectorplot.shading.light import face_shades as fs
 from vectorplot.shading.light import fading
-from vectorplot.shading.light.illumination import AMBIENT, DARK_SIDE, FINISHES, REDUCED
+from vectorplot.shading.light.illumination import AMBIENT, DARK_SIDE, DIRECT_SHARE, FINISHES
 from vectorplot.shading.light.palettes import palette
 from vectorplot.testing.shapes import box, rotation
 from vectorplot.testing.surfaces import torus_mesh
@@ -75,7 +75,7 @@ def by_hand(scene: Scene, camera: Camera) -> list[float]:
                     share += finish.highlight * finish.weight * beta**finish.sharpness
                 total += share * (1 / np.sqrt(2) if light.intensity is None else light.intensity)
             cue = AMBIENT * (middle @ camera.axes[2] - low) / (high - low)
-            found.append(REDUCED * min(total, 1.0) + cue)
+            found.append(DIRECT_SHARE * min(total, 1.0) + cue)
     return found
 
 
@@ -98,7 +98,7 @@ def test_each_light_alone_and_all_together():
     assert (found.total >= np.maximum(found.of_light(0), found.of_light(1)) - 1e-14).all()
     fitted = found.fitted
     assert (fitted.intensity @ fitted.shares).max() == pytest.approx(1.0)
-    assert (fitted.total - fitted.cue).max() == pytest.approx(REDUCED)
+    assert (fitted.total - fitted.cue).max() == pytest.approx(DIRECT_SHARE)
 
 
 @pytest.mark.capability("G4.5-darkface")

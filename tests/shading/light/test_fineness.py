@@ -17,7 +17,7 @@ from vectorplot.surfaces.families.cyclide import dupin_cyclide
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.quadric import implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.graph import graph
+from vectorplot.surfaces.graphs import graph
 from vectorplot.surfaces.surface import Domain
 
 WAVES = graph(lambda x, y: np.sin(3.0 * x) * np.cos(2.0 * y), Domain(-2.0, 2.0, -2.0, 2.0))

@@ -17,7 +17,7 @@ SIZE = 32
 @pytest.mark.capability("G4.5-distance")
 @pytest.mark.capability("G4.5-depth")
 def test_tv23_lambert_distance_and_depth():
-    s = il.REDUCED * il.lambert(np.cos(0.6), 2.0)
+    s = il.DIRECT_SHARE * il.lambert(np.cos(0.6), 2.0)
     assert SIZE * s == pytest.approx(17.4381792573014, abs=1e-12)
     s *= il.distance_factor(20.0, 2.0, 5.0)
     assert SIZE * s == pytest.approx(12.1098467064593, abs=1e-12)
@@ -43,7 +43,7 @@ def test_no_highlight_where_light_or_eye_is_behind_and_none_beyond_the_palette()
     assert il.brightness(-0.5, 1.0, finish) == pytest.approx(0.5 * 0.3 * 0.5)
     bright = il.brightness(1.0, 1.0, Finish(1.0, 0.5, 10.0, 64.0, 1.0))
     assert bright > 1.0
-    assert il.shades([[bright]], [1.0])[0] == il.REDUCED
+    assert il.shades([[bright]], [1.0])[0] == il.DIRECT_SHARE
     assert il.shade_numbers(il.shades([[bright]], [1.0], il.AMBIENT), SIZE)[0] == SIZE - 1
 
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
 from vectorplot.shading.light import palettes
-from vectorplot.shading.light.palettes import LIMITS, PLAIN, colour_map, palette, palette_number, ramp, spectrum
+from vectorplot.shading.light.palettes import PALETTE_LIMITS, PLAIN, colour_map, palette, palette_number, ramp, spectrum
 from vectorplot.textbook.device import Device
 from vectorplot.words import COLOURS, PALETTES
 
@@ -16,24 +16,24 @@ limit = st.tuples(*[st.floats(0, 1)] * 3)
 
 @pytest.mark.capability("G4.3-palettes")
 def test_tv22_shade_17_of_magenta():
-    assert ramp(*LIMITS["magenta"])[17] == pytest.approx(
+    assert ramp(*PALETTE_LIMITS["magenta"])[17] == pytest.approx(
         (0.593548387096774, 0.154838709677419, 0.593548387096774), abs=1e-14
     )
 
 
 @pytest.mark.capability("G4.3-palettes")
-@pytest.mark.parametrize("name", LIMITS)
+@pytest.mark.parametrize("name", PALETTE_LIMITS)
 def test_first_and_last_shade_are_the_limits(name):
-    shades = ramp(*LIMITS[name])
+    shades = ramp(*PALETTE_LIMITS[name])
     assert len(shades) == 32
-    assert np.allclose(shades[[0, -1]], LIMITS[name], rtol=0, atol=1e-15)
+    assert np.allclose(shades[[0, -1]], PALETTE_LIMITS[name], rtol=0, atol=1e-15)
     assert np.allclose(np.diff(shades, n=2, axis=0), 0, atol=1e-15)
-    assert np.array_equal(palette(name)[[0, -1]], np.floor(255 * np.array(LIMITS[name]) + 0.5))
+    assert np.array_equal(palette(name)[[0, -1]], np.floor(255 * np.array(PALETTE_LIMITS[name]) + 0.5))
 
 
 @pytest.mark.capability("G4.3-palettes")
 def test_eight_palettes_fill_a_colour_map():
-    assert tuple(LIMITS) == PALETTES and len(colour_map([]).entries) == 256 == 8 * colour_map([]).size
+    assert tuple(PALETTE_LIMITS) == PALETTES and len(colour_map([]).entries) == 256 == 8 * colour_map([]).size
 
 
 @pytest.mark.capability("G4.3-spectrum")
@@ -57,7 +57,7 @@ def test_a_spectrum_for_a_device_of_few_levels():
 
 @pytest.mark.capability("G4.3-subpalettes")
 @pytest.mark.parametrize("count", [2, 31, 32, 256])
-@pytest.mark.parametrize("name", LIMITS)
+@pytest.mark.parametrize("name", PALETTE_LIMITS)
 def test_halves_lie_in_their_parent(name, count):
     parent, light, dark = (palette(word + name, count) for word in ("", "light", "dark"))
     assert np.array_equal(light[-1], parent[-1]) and np.array_equal(dark[0], parent[0])
@@ -67,9 +67,9 @@ def test_halves_lie_in_their_parent(name, count):
 
 @pytest.mark.capability("G4.3-lookup")
 def test_numbers_of_palettes():
-    assert [palette_number(name) for name in LIMITS] == list(range(8))
-    assert [palette_number("light" + name) for name in LIMITS] == list(range(8, 16))
-    assert [palette_number("dark" + name) for name in LIMITS] == list(range(16, 24))
+    assert [palette_number(name) for name in PALETTE_LIMITS] == list(range(8))
+    assert [palette_number("light" + name) for name in PALETTE_LIMITS] == list(range(8, 16))
+    assert [palette_number("dark" + name) for name in PALETTE_LIMITS] == list(range(16, 24))
 
 
 @pytest.mark.capability("G4.3-lookup")
@@ -90,7 +90,7 @@ def test_the_fewer_palettes_are_used_the_more_shades_they_have():
 @pytest.mark.capability("G4.3-background")
 def test_the_background_of_the_screen_is_the_darkest_gray_behind_all_ramps():
     """A picture of all ramps on a device: its colour table, entry by entry, and the background where nothing is."""
-    names = [f"{half}{name}" for half in ("", "light", "dark") for name in palettes.LIMITS]
+    names = [f"{half}{name}" for half in ("", "light", "dark") for name in palettes.PALETTE_LIMITS]
     table = colour_map(names)
     device = Device().opened(34, 26)
     for number, rgb in enumerate(table.entries.tolist()):
@@ -139,7 +139,7 @@ def test_colours_of_many_faces_at_once():
 
 @pytest.mark.capability("G8.5-coloured-light")
 def test_a_coloured_light_changes_the_bright_end():
-    body = ramp(*LIMITS["blue"])
+    body = ramp(*PALETTE_LIMITS["blue"])
     mixed = palettes.mixed(body, (1.0, 0.9, 0.2), 20)
     assert np.array_equal(mixed[:20], body[:20]) and np.allclose(mixed[-1], (1.0, 0.9, 0.2))
 

@@ -12,7 +12,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box
-from vectorplot.textbook.graph_order import graph_order, graph_triangles
+from vectorplot.textbook.graph_orders import graph_order, graph_triangles
 from vectorplot.visibility.painter.height_fields import field_order, known_orders
 from vectorplot.visibility.painter.image_faces import image_faces
 from vectorplot.visibility.painter.order import painters_order

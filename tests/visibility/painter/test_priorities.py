@@ -20,7 +20,7 @@ from vectorplot.testing.shapes import (
     scene_of,
 )
 from vectorplot.testing.surfaces import torus_mesh
-from vectorplot.textbook.sphere_order import sphere_order
+from vectorplot.textbook.sphere_orders import sphere_order
 from vectorplot.visibility.painter.groups import gordian_knots, grouped_order, knot_report, object_order
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.mikado import component_ranks, mikado

@@ -20,7 +20,7 @@ from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box, numbered
 from vectorplot.testing.surfaces import torus_mesh
-from vectorplot.textbook.graph_order import graph_triangles
+from vectorplot.textbook.graph_orders import graph_triangles
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces, unmapped
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.painter.ribbons import in_slices, ribbon_order, ribbons

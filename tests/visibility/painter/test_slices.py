@@ -15,8 +15,8 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box, numbered, scene_of
 from vectorplot.testing.surfaces import torus_mesh
-from vectorplot.textbook.graph_order import graph_order, graph_triangles
-from vectorplot.textbook.ring_order import ring_order, sliced_meridian
+from vectorplot.textbook.graph_orders import graph_order, graph_triangles
+from vectorplot.textbook.ring_orders import ring_order, sliced_meridian
 from vectorplot.visibility.painter.image_faces import image_faces, mapped, polygons_of
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.painter.slices import cut_into_slices, eye_coordinate, slice_order, sliced_order

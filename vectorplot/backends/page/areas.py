@@ -13,7 +13,7 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import SEAM_MM, Colours, FillKind, Fills
 from vectorplot.drawing.strokes.page_clip import clipped_parts
 from vectorplot.geometry import ragged
-from vectorplot.geometry.convex.polygon_clipping import clipped
+from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
 
 RUN_LENGTH = 1000
 """So many polygons are painted at once; one huge path makes the rasterisers of all readers slow."""
@@ -218,7 +218,9 @@ def _cut(polygons: Polygons, low: Floats, high: Floats) -> tuple[Polygons, Ints]
     rectangle = np.array([(low[0], high[0], high[0], low[0]), (low[1], low[1], high[1], high[1])])
     count = len(polygons.source)
     rows = np.concatenate((polygons.points.T, polygons.colours.T.astype(np.float64)))
-    rows, offsets, owner = clipped(rows, polygons.offsets, np.tile(rectangle, count), np.arange(0, 4 * count + 1, 4))
+    rows, offsets, owner = clipped_by_convex(
+        rows, polygons.offsets, np.tile(rectangle, count), np.arange(0, 4 * count + 1, 4)
+    )
     points = np.clip(rows[:2].T, low, high)  # rounding may leave a cut beside its side, far beside it if it is long
     colours = np.rint(np.clip(rows[2:].T, 0.0, 255.0)).astype(np.uint8)
     return Polygons(points, offsets, colours, polygons.source[owner]), owner

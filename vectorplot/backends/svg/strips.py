@@ -14,7 +14,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.backends.page.areas import Areas, Polygons, rounded
 from vectorplot.geometry import ragged
-from vectorplot.geometry.convex.polygon_clipping import clipped
+from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
 
 SHADE_ERROR = 2.0
 """By how many steps of 255 a shaded piece that is painted in one colour may differ from what it should be."""
@@ -117,7 +117,7 @@ def _slopes(corners: Floats, colours: Floats) -> Floats:
 
 def _cut(triangles: Floats, quads: Floats) -> tuple[Ints, Ints, Ints]:
     """Triangles (s,3,2) clipped by quadrilaterals (s,4,2): corners, offsets, and which ones are left."""
-    points, offsets, which = clipped(
+    points, offsets, which = clipped_by_convex(
         triangles.reshape(-1, 2).T,
         np.arange(0, 3 * len(triangles) + 1, 3),
         quads.reshape(-1, 2).T,

@@ -10,7 +10,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.effects.decals.decal_polygons import Decals
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
-from vectorplot.geometry.convex.polygon_clipping import clipped
+from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import mapped
 
@@ -43,7 +43,7 @@ def laid(view: View, decals: Decals, points: Floats, offsets: Ints, source: Ints
     piece = order[first[pair] + step]
     corner, starts = ragged.take(offset, pair)
     border, borders = ragged.take(offsets, piece)
-    cut, ends, kept = clipped(
+    cut, ends, kept = clipped_by_convex(
         mapped(view, shape[:, corner]), starts, points[:2, border], borders, tolerance=view.tolerance
     )
     decal, piece = which[pair[kept]], piece[kept]

@@ -10,7 +10,7 @@ from vectorplot.effects.decals.decal_polygons import Decals, joined_decals, no_d
 from vectorplot.features.meshes.patterns import face_frames
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.convex_faces import convex_faces
-from vectorplot.geometry.convex.polygon_clipping import clipped
+from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import newell
@@ -91,7 +91,7 @@ def _clipped_in_frame(
     origin, along, left = (np.repeat(row, np.diff(borders), axis=1) for row in frame[:, :, part])
     arm = view.points[:, view.corners[corner]] - origin
     border = np.stack([(arm * along).sum(axis=0), (arm * left).sum(axis=0)])
-    cut, ends, which = clipped(flat[:, position], starts, border, borders, tolerance=view.tolerance)
+    cut, ends, which = clipped_by_convex(flat[:, position], starts, border, borders, tolerance=view.tolerance)
     origin, along, left = (np.repeat(row, np.diff(ends), axis=1) for row in frame[:, :, part[which]])
     return origin + cut[0] * along + cut[1] * left, ends, which
 
@@ -139,7 +139,7 @@ def in_shadows(view: View, patterns: Decals, shadows: Decals) -> Decals:
     borders = ragged.offsets(np.diff(patterns.offsets)[pattern])
     position, starts = ragged.take(shadows.offsets, shade)
     laid = np.concatenate([_flattened(view, shadows), shadows.points])[:, position]
-    cut, ends, which = clipped(laid, starts, flat, borders, tolerance=view.tolerance)
+    cut, ends, which = clipped_by_convex(laid, starts, flat, borders, tolerance=view.tolerance)
     pattern, shade = pattern[which], shade[which]
     return Decals(
         np.ascontiguousarray(cut[2:]),

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
-from vectorplot.shading.light.illumination import REDUCED, SHADOW_SHARE
+from vectorplot.shading.light.illumination import DIRECT_SHARE, SHADOW_SHARE
 
 LEVELS = 9
 """From light to shadow there are so many steps: those between them, one fewer, are the soft border of a shadow."""
@@ -42,4 +42,4 @@ def shadow_shades(
     kept = np.where(gone == 1, SHADOW_SHARE, soft)
     total = given.sum(axis=0)
     left = (given * kept).sum(axis=0) / np.where(total > 0.0, total, 1.0)
-    return np.asarray(np.clip(REDUCED * np.minimum(total, 1.0) * left + np.asarray(cue), 0.0, 1.0))
+    return np.asarray(np.clip(DIRECT_SHARE * np.minimum(total, 1.0) * left + np.asarray(cue), 0.0, 1.0))

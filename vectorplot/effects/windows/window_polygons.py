@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.plane_cuts import polygon_areas
-from vectorplot.geometry.convex.polygon_clipping import clipped, contained
+from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex, inside_convex
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.projected_faces import Floats32
 
@@ -127,13 +127,13 @@ def _parts(
     corner, starts = ragged.take(faces.offsets, face)
     border, borders = ragged.take(painted.offsets, window)
     points, sides = faces.points[:, corner], painted.points[:2, border]
-    whole = contained(points, starts, sides, borders, tolerance=tolerance)
+    whole = inside_convex(points, starts, sides, borders, tolerance=tolerance)
     if whole.all():
         return points, starts, np.arange(len(face))
     partly = np.flatnonzero(~whole)
     corner, some = ragged.take(starts, partly)
     border, some_borders = ragged.take(borders, partly)
-    cut, ends, kept = clipped(points[:, corner], some, sides[:, border], some_borders, tolerance=tolerance)
+    cut, ends, kept = clipped_by_convex(points[:, corner], some, sides[:, border], some_borders, tolerance=tolerance)
     kept_whole = np.flatnonzero(whole)
     corner, whole_ends = ragged.take(starts, kept_whole)
     pair = np.concatenate([kept_whole, partly[kept]])

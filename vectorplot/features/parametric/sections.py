@@ -16,7 +16,7 @@ from vectorplot.surfaces.surface import ImplicitSurface, Surface
 DEFAULT = Tracing()
 
 
-def intersection(surface: Surface, other: ImplicitSurface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
+def section_by_implicit(surface: Surface, other: ImplicitSurface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The curves of a surface on which F of an implicit surface is zero; F > 0 on the left, in u and v.
 
     F is taken wherever the surface is, inside the box of the implicit surface and outside.

@@ -36,7 +36,7 @@ def focal_length_mm(fov_deg: float) -> float:
     return NEGATIVE_MM[1] / 2.0 / float(np.tan(np.radians(fov_deg) / 2.0))
 
 
-def advice(fov_deg: float) -> str | None:
+def lens_advice(fov_deg: float) -> str | None:
     """One line about a field of vision that will not look natural, or None for a sensible one."""
     natural = f"{NATURAL_DEG[0]:g} to {NATURAL_DEG[1]:g} degrees look natural"
     if fov_deg > WIDEST_DEG:

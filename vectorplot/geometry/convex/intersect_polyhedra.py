@@ -18,7 +18,7 @@ MAX_PLANES = 10_000
 """The largest number of faces of the convex polyhedron: the other one is cut once for each."""
 
 
-def intersection(body: Mesh, convex: Mesh) -> Mesh:
+def polyhedron_intersection(body: Mesh, convex: Mesh) -> Mesh:
     """The part of a closed polyhedron that lies inside a closed convex one.
 
     Faces of body first, in their order, then those of convex that close the cuts; a face that is not present stays so.

@@ -8,7 +8,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 
 
-def clipped(
+def clipped_by_convex(
     points: Floats, offsets: Ints, clip_points: Floats, clip_offsets: Ints, *, tolerance: float = 0.0
 ) -> tuple[Floats, Ints, Ints]:
     """The parts of polygons inside convex polygons, pair by pair: polygon i is clipped by convex polygon i.
@@ -35,7 +35,7 @@ def clipped(
     return points, offsets, pair
 
 
-def contained(
+def inside_convex(
     points: Floats, offsets: Ints, clip_points: Floats, clip_offsets: Ints, *, tolerance: float = 0.0
 ) -> Bools:
     """(n,) whether all of polygon i lies inside convex polygon i or on its border, so that clipping leaves it whole.

@@ -8,7 +8,7 @@ from typing import Any
 
 from vectorplot.curves.circle import Circle
 from vectorplot.curves.curve import Curve
-from vectorplot.curves.cylinder_intersection import cylinder_branches
+from vectorplot.curves.cylinder_intersections import cylinder_branches
 from vectorplot.curves.helix import Helix
 from vectorplot.curves.line import Line
 from vectorplot.curves.loxodrome import Loxodrome

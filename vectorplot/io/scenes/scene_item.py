@@ -9,10 +9,10 @@ import numpy as np
 
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.convex.intersect_polyhedra import intersection
+from vectorplot.geometry.bodies_of_revolution import FULL_TURN, revolution
+from vectorplot.geometry.convex.intersect_polyhedra import polyhedron_intersection
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.adjacency import mesh_edges
-from vectorplot.geometry.revolution import FULL_TURN, revolution
 from vectorplot.geometry.solids import (
     BOTH_CAPS,
     BOTTOM,
@@ -212,7 +212,7 @@ def _translation(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
 def _intersection(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
     body = parts[0]
     for part in parts[1:]:
-        body = intersection(body, part)
+        body = polyhedron_intersection(body, part)
     if not body.face_count:
         raise InputError(f"{' and '.join(draft.parts or ())} have no volume in common")
     return placed(body, draft.placement)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.curves.circle import Circle
 from vectorplot.curves.curve import Curve
-from vectorplot.curves.cylinder_intersection import CylinderBranch, cylinder_intersection
+from vectorplot.curves.cylinder_intersections import CylinderBranch, cylinder_intersection
 from vectorplot.curves.derivatives import NumericFunction
 from vectorplot.curves.function import FunctionCurve
 from vectorplot.curves.helix import Helix
@@ -34,7 +34,7 @@ from vectorplot.surfaces.families.quadric import Quadric
 from vectorplot.surfaces.families.swept import Swept
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.function import FunctionSurface
-from vectorplot.surfaces.graph import Graph, PolarGraph
+from vectorplot.surfaces.graphs import Graph, PolarGraph
 from vectorplot.surfaces.implicit_function import ImplicitFunction
 from vectorplot.surfaces.inversion import InvertedSurface
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface

@@ -32,7 +32,7 @@ from vectorplot.shading.light.illumination import (
     shades,
     towards,
 )
-from vectorplot.shading.light.palettes import COLOUR_MAP, SIZE, Colours, palette, shaded_colours
+from vectorplot.shading.light.palettes import COLOUR_MAP, PALETTE_SIZE, Colours, palette, shaded_colours
 
 HEADLIGHT = Light(UPPER_LEFT, parallel=True, intensity=1.0)
 """The light of a view of a scene without lights, in the view's coordinates; it throws no shadows."""
@@ -218,12 +218,12 @@ def shows_inside(view: View) -> Bools:
     return np.asarray(np.einsum("ij,ji->j", face_normals(view), to_eye) < 0.0)
 
 
-def face_colours(view: View, items: Sequence[Item], shade: Floats, count: int = SIZE) -> Colours:
+def face_colours(view: View, items: Sequence[Item], shade: Floats, count: int = PALETTE_SIZE) -> Colours:
     """(f,3) the colours of all faces of a view at shades (f,) or (3,f) from 0 to 1, of palettes of so many shades."""
     return item_colours(items, view.face_item, shade, count)
 
 
-def item_colours(items: Sequence[Item], item: Ints, shade: Floats, count: int = SIZE) -> Colours:
+def item_colours(items: Sequence[Item], item: Ints, shade: Floats, count: int = PALETTE_SIZE) -> Colours:
     """(n,3) the colours of items (n,) at shades (n,) or (3,n) from 0 to 1, of palettes of so many shades.
 
     Errors: InputError that names the colour, where there is none of that name.

@@ -20,7 +20,7 @@ from vectorplot.scene.scene import Light
 AMBIENT = 0.2
 """The part of the palette that is kept for ambient light (decision D-5)."""
 
-REDUCED = 1.0 - AMBIENT
+DIRECT_SHARE = 1.0 - AMBIENT
 """The part that light sources fill."""
 
 DARK_SIDE = 0.3
@@ -214,7 +214,7 @@ def shades(shares: ArrayLike, intensity: ArrayLike, cue: ArrayLike = 0.0) -> Flo
     palette, cut off there; then comes the cue. With intensities (l, 3), of coloured light, (3, n) shades. Source:
     Glaeser, section 4.5, equations 3, 5 and 7; erratum G4-08."""
     total = np.asarray(intensity, dtype=np.float64).T @ np.asarray(shares, dtype=np.float64)
-    return np.asarray(np.clip(REDUCED * np.minimum(total, 1.0) + np.asarray(cue), 0.0, 1.0))
+    return np.asarray(np.clip(DIRECT_SHARE * np.minimum(total, 1.0) + np.asarray(cue), 0.0, 1.0))
 
 
 def fitting(shares: ArrayLike, intensity: ArrayLike) -> Floats:

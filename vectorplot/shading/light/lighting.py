@@ -17,8 +17,8 @@ from vectorplot.shading.light.corner_normals import face_normals, unit
 from vectorplot.shading.light.face_shades import depth_limits, light_colours, view_eye
 from vectorplot.shading.light.fading import fading_factors, lamp_reach
 from vectorplot.shading.light.illumination import (
+    DIRECT_SHARE,
     FINISHES,
-    REDUCED,
     SHADOW_SHARE,
     Finish,
     brightness,
@@ -183,7 +183,7 @@ def _colours(lighting: Lighting, own: Ints, lit: _Lit, kept: Floats, which: Ints
             given = strength[:, channel, None] * lit.given[:, which]
             total, left = given.sum(axis=0), (given * kept).sum(axis=0)
             bright = np.minimum(total, 1.0) * left / np.where(total > 0.0, total, 1.0)
-            shade = np.clip(REDUCED * bright + lit.cue[which], 0.0, 1.0)
+            shade = np.clip(DIRECT_SHARE * bright + lit.cue[which], 0.0, 1.0)
             level = np.rint(shade * (COLOUR_MAP - 1)).astype(np.intp)
         result[:, channel] = lighting.palettes[own, level, channel]
     return result

@@ -19,7 +19,7 @@ from vectorplot.shading.light.face_shades import (
     shows_inside,
 )
 from vectorplot.shading.light.flat_regions import plane_middles
-from vectorplot.shading.light.palettes import COLOUR_MAP, SIZE, Colours
+from vectorplot.shading.light.palettes import COLOUR_MAP, PALETTE_SIZE, Colours
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +32,7 @@ class Lighting:
     lights: Sequence[Light]
     normals: Floats
     plane: Ints
-    size: int = SIZE
+    size: int = PALETTE_SIZE
     doubles: tuple[Light, ...] = ()
 
 

@@ -13,13 +13,13 @@ from vectorplot.scene.scene import Item, Light
 from vectorplot.scene.view import View
 from vectorplot.shading.light.corner_normals import at_corners, view_normals
 from vectorplot.shading.light.face_shades import decal_shades, face_middles, face_normals
-from vectorplot.shading.light.illumination import REDUCED, shades
-from vectorplot.shading.light.palettes import SIZE
+from vectorplot.shading.light.illumination import DIRECT_SHARE, shades
+from vectorplot.shading.light.palettes import PALETTE_SIZE
 
 FLAT_COSINE = 1.0 - 1e-8
 """Of the angle between a normal and that of its face where the face is flat: less than a hundredth of a degree."""
 
-VARIED = 2.0 / SIZE
+VARIED = 2.0 / PALETTE_SIZE
 """By so much of a palette light varies on planes that are not shown in one shade: by two shades of a usual one."""
 
 
@@ -62,7 +62,7 @@ def _varied(view: View, items: Sequence[Item], lights: Sequence[Light], plane: I
     points = np.concatenate([start, (start + end) / 2.0, face_middles(view)], axis=1)
     face = np.concatenate([of_corner, of_corner, np.arange(view.face_count)])
     at = decal_shades(view, items, lights, points, face)
-    light = np.atleast_2d(shades(at.shares, at.intensity)) / REDUCED
+    light = np.atleast_2d(shades(at.shares, at.intensity)) / DIRECT_SHARE
     count = int(plane.max(initial=-1)) + 1
     spread = np.zeros(count)
     for row in light:

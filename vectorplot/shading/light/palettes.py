@@ -20,7 +20,7 @@ from vectorplot.shading.light.illumination import shade_numbers
 Colours = NDArray[np.uint8]
 Colour = tuple[float, float, float]
 
-LIMITS: dict[str, tuple[Colour, Colour]] = {
+PALETTE_LIMITS: dict[str, tuple[Colour, Colour]] = {
     "gray": ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)),
     "green": ((0.0, 0.30, 0.0), (0.80, 1.0, 0.80)),
     "yellow": ((0.50, 0.30, 0.0), (1.0, 1.0, 0.50)),
@@ -35,7 +35,7 @@ LIMITS: dict[str, tuple[Colour, Colour]] = {
 PLAIN: dict[str, Colour] = {"white": (1.0, 1.0, 1.0), "black": (0.0, 0.0, 0.0), "red": (1.0, 0.0, 0.0)}
 """Colours of their own, which belong to no palette (decision D-6)."""
 
-SIZE = 32
+PALETTE_SIZE = 32
 """How many shades a palette has if nobody says otherwise: eight of them fill a colour map."""
 
 COLOUR_MAP = 256
@@ -47,7 +47,7 @@ DARKEST_SHARE = 0.2
 _HEX = re.compile(r"#[0-9a-fA-F]{6}")
 
 
-def ramp(lower: ArrayLike, upper: ArrayLike, count: int = SIZE) -> Floats:
+def ramp(lower: ArrayLike, upper: ArrayLike, count: int = PALETTE_SIZE) -> Floats:
     """(count, 3) shades at equal steps from one colour to another, both among them.
 
     Errors: InputError for fewer than two shades. Source: Glaeser, section 4.3, equation 1; erratum G4-01.
@@ -58,7 +58,7 @@ def ramp(lower: ArrayLike, upper: ArrayLike, count: int = SIZE) -> Floats:
     return np.asarray(low + np.linspace(0.0, 1.0, count)[:, None] * (high - low))
 
 
-def spectrum(lower: ArrayLike, upper: ArrayLike, count: int = SIZE, levels: int = 256) -> Ints:
+def spectrum(lower: ArrayLike, upper: ArrayLike, count: int = PALETTE_SIZE, levels: int = 256) -> Ints:
     """(count, 3) the shades of a ramp for a device with some levels of red, green and blue each: integers from 0 to
     levels - 1, no two neighbours equal.
 
@@ -95,7 +95,7 @@ def dark_half(shades: Colours) -> Colours:
     return shades[np.arange(len(shades)) // 2]
 
 
-def palette(name: str, count: int = SIZE) -> Colours:
+def palette(name: str, count: int = PALETTE_SIZE) -> Colours:
     """(count, 3) the shades of a palette by its name, from dark to bright.
 
     A parent, or its half as light... or dark...; white, black, red and #rrggbb run from a fifth of that colour to it.
@@ -106,7 +106,7 @@ def palette(name: str, count: int = SIZE) -> Colours:
         full = np.array(PLAIN[name]) if name in PLAIN else _of_hex(name)
         return np.rint(255.0 * ramp(DARKEST_SHARE * full, full, count)).astype(np.uint8)
     parent, half = parent_and_half(name)
-    shades = spectrum(*LIMITS[parent], count).astype(np.uint8)
+    shades = spectrum(*PALETTE_LIMITS[parent], count).astype(np.uint8)
     chosen = {"": shades, "light": light_half(shades), "dark": dark_half(shades)}[half]
     return chosen
 
@@ -117,9 +117,11 @@ def parent_and_half(name: str) -> tuple[str, str]:
     Errors: InputError for a name that is none.
     """
     for half in ("", "light", "dark"):
-        if name.startswith(half) and name.removeprefix(half) in LIMITS:
+        if name.startswith(half) and name.removeprefix(half) in PALETTE_LIMITS:
             return name.removeprefix(half), half
-    raise InputError(f"colour {name!r}: expected a palette ({', '.join(LIMITS)}), its light or dark half, or #rrggbb")
+    raise InputError(
+        f"colour {name!r}: expected a palette ({', '.join(PALETTE_LIMITS)}), its light or dark half, or #rrggbb"
+    )
 
 
 def palette_number(name: str) -> int:
@@ -128,7 +130,7 @@ def palette_number(name: str) -> int:
     Errors: InputError for a name that is none. Source: Glaeser, section 4.3.
     """
     parent, half = parent_and_half(name)
-    return list(LIMITS).index(parent) + 8 * ("", "light", "dark").index(half)
+    return list(PALETTE_LIMITS).index(parent) + 8 * ("", "light", "dark").index(half)
 
 
 def mixed(shades: ArrayLike, light: ArrayLike, kept: int) -> Floats:
@@ -141,7 +143,7 @@ def mixed(shades: ArrayLike, light: ArrayLike, kept: int) -> Floats:
     return np.asarray(body + share * (np.asarray(light, dtype=np.float64) - body))
 
 
-def shaded_colours(names: Sequence[str], which: Ints, shade: ArrayLike, count: int = SIZE) -> Colours:
+def shaded_colours(names: Sequence[str], which: Ints, shade: ArrayLike, count: int = PALETTE_SIZE) -> Colours:
     """(n, 3) colours: number which[k] of the palettes with these names, at shade[k] from 0 to 1.
 
     Shades (3, n) are of red, green and blue, as coloured light makes them: a component each of a shade of its own.
@@ -190,7 +192,7 @@ def colour_map(names: Sequence[str], colours: int = COLOUR_MAP, offset: int = 0)
     Source: Glaeser, section 4.3; erratum G4-02.
     """
     used = {parent_and_half(name)[0] for name in names}
-    parents = tuple(name for name in LIMITS if name in used or not used)
+    parents = tuple(name for name in PALETTE_LIMITS if name in used or not used)
     size = min((colours - offset) // len(parents), COLOUR_MAP)
     if offset < 0 or size < 2:
         raise InputError(f"a colour map of {colours} from {offset} on has no room for {len(parents)} palettes")

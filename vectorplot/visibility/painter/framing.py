@@ -6,7 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry import ragged
-from vectorplot.geometry.convex.polygon_clipping import clipped
+from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
 from vectorplot.visibility.painter.image_faces import ImageFaces
 
 
@@ -23,7 +23,7 @@ def framed_faces(faces: ImageFaces, low: Floats, high: Floats, tolerance: float)
     cut = np.flatnonzero(~outside & ~inside)
     corner, offsets = ragged.take(faces.offsets, cut)
     frame = np.array([[low[0], high[0], high[0], low[0]], [low[1], low[1], high[1], high[1]]])
-    points, ends, kept = clipped(
+    points, ends, kept = clipped_by_convex(
         faces.points[:, corner],
         offsets,
         np.tile(frame, (1, len(cut))),

@@ -14,7 +14,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.convex_hulls import convex_hulls
-from vectorplot.geometry.convex.polygon_clipping import contained
+from vectorplot.geometry.convex.polygon_clipping import inside_convex
 from vectorplot.geometry.convex.separating_planes import Surroundings, separations
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.view import View
@@ -172,7 +172,7 @@ def wholly_hidden(objects: Objects) -> Bools:
         use = convex[front]
         behind, front = behind[use], front[use]
         (inner, outer), ends = zip(*(_some(outlines, starts, which) for which in (behind, front)), strict=True)
-        within = np.flatnonzero(contained(inner, ends[0], outer, ends[1], tolerance=view.tolerance))
+        within = np.flatnonzero(inside_convex(inner, ends[0], outer, ends[1], tolerance=view.tolerance))
         codes = which_first(objects, behind[within], front[within], critical=True)
         hidden[behind[within[codes == BEHIND]]] = True
     return np.asarray(hidden, dtype=np.bool_)

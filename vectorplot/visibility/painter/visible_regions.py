@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.convex.polygon_clipping import clipped
+from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
 from vectorplot.geometry.regions import (
     WIDTH_KEPT,
     corners_of,
@@ -156,7 +156,7 @@ def _faulty(faces: _Covers, covers: _Covers, behind: Ints, front: Ints, of: Ints
     import shapely
 
     subject, starts = _some(faces, behind)
-    points, offsets, pair = clipped(subject, starts, *_some(covers, front), tolerance=tolerance)
+    points, offsets, pair = clipped_by_convex(subject, starts, *_some(covers, front), tolerance=tolerance)
     overlaps = polygons_of(points, offsets)
     width = WIDTH_KEPT * tolerance
     wide = shapely.area(overlaps) > width * shapely.length(overlaps)

@@ -12,7 +12,7 @@ from vectorplot.features.implicit.implicit_curves import implicit_intersection
 from vectorplot.features.intersections.implicit_mesh_section import implicit_mesh_section
 from vectorplot.features.parametric.conditions import ImplicitSection
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.sections import intersection
+from vectorplot.features.parametric.sections import section_by_implicit
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.visibility.smooth.events.roots import roots_along
 from vectorplot.visibility.smooth.sheets.family import Along, ConditionCurves, SpatialCurves
@@ -31,7 +31,7 @@ def parametrised_with_implicit(
     one: ParametricSheet, first: int, two: ImplicitSheet, second: int, item: int, tracing: Tracing
 ) -> tuple[Curves, Doubts]:
     """The curves in which two sheets of these numbers meet, within the box of the implicit one; and doubts."""
-    found = intersection(one.surface, two.surface, tracing=tracing)
+    found = section_by_implicit(one.surface, two.surface, tracing=tracing)
     family = ConditionCurves(one, first, ImplicitSection(one.surface, two.surface), second)
     curves = as_curves(found, LineKind.INTERSECTION, item, family)
     return within_box(replace(curves, second_places=curves.points), two), found.doubts

@@ -17,7 +17,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.surfaces.graph import is_graph
+from vectorplot.surfaces.graphs import is_graph
 from vectorplot.surfaces.surface import Domain
 from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
 from vectorplot.visibility.smooth.sheets.meeting_families import FaceCurves, SheetsMeet

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.draw import draw
-from vectorplot.effects.halo import outer_zones
+from vectorplot.effects.halos import outer_zones
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.testing.shapes import box

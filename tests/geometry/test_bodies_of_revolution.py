@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
+from vectorplot.geometry.bodies_of_revolution import MAX_ORDER, revolution
 from vectorplot.geometry.repair.adjacency import body_record, face_constants, neighbour_faces
 from vectorplot.geometry.repair.winding import is_closed_oriented
-from vectorplot.geometry.revolution import MAX_ORDER, revolution
 from vectorplot.geometry.solids import has_convex_outline
 
 CONE = [[4, 0, 0], [0, 0, 7]]

@@ -1,0 +1,131 @@
+"""What an example needs is one import deep: every room exports its public names, lazily and with their types."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import re
+import subprocess
+import sys
+
+import pytest
+from support.paths import DOCS, EXAMPLES, PACKAGE, ROOT
+
+import vectorplot as vp
+
+STUBS = sorted(path.relative_to(PACKAGE) for path in PACKAGE.rglob("*.pyi"))
+ROOMS = {path.parent.as_posix() for path in STUBS} - {"."}
+PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md"))]
+
+
+def room_of(stub):
+    return ".".join(("vectorplot", *stub.parts[:-1]))
+
+
+def stub_exports(stub):
+    """(module, name) of every name that a stub takes from its room."""
+    tree = ast.parse((PACKAGE / stub).read_text(encoding="utf-8"))
+    imports = [node for node in tree.body if isinstance(node, ast.ImportFrom)]
+    return [(node.module, alias.name) for node in imports for alias in node.names]
+
+
+def imports_of_users():
+    """(file, module, name) of what examples and pages import from the package."""
+    sources = [(path, path.read_text(encoding="utf-8")) for path in sorted(EXAMPLES.glob("*.py"))]
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        sources += [(page, block) for block in re.findall(r"```python\n(.*?)```", text, flags=re.DOTALL)]
+    for path, source in sources:
+        for node in ast.walk(ast.parse(source)):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "vectorplot":
+                yield from ((path.name, node.module, alias.name) for alias in node.names)
+            elif isinstance(node, ast.Import):
+                yield from ((path.name, alias.name, "") for alias in node.names if alias.name.startswith("vectorplot."))
+
+
+@pytest.mark.parametrize("stub", STUBS, ids=str)
+def test_every_name_of_a_stub_is_what_its_module_calls_so(stub):
+    room = importlib.import_module(room_of(stub))
+    exports = stub_exports(stub)
+    names = [name for _, name in exports]
+    assert room.__all__ == sorted(set(names)) and len(set(names)) == len(names)
+    for module, name in exports:
+        if module is None:
+            assert getattr(room, name) is importlib.import_module(f"{room.__name__}.{name}")
+        else:
+            assert getattr(room, name) is getattr(importlib.import_module(f"{room.__name__}.{module}"), name)
+    declared = ast.parse((PACKAGE / stub).read_text(encoding="utf-8")).body[-1]
+    assert isinstance(declared, ast.Assign) and sorted(ast.literal_eval(declared.value)) == room.__all__
+
+
+@pytest.mark.parametrize("room", sorted(ROOMS))
+def test_no_name_of_a_room_is_also_a_file_or_a_folder_there(room):
+    """``vectorplot.geometry.box`` must not mean a module once somebody has imported it."""
+    for module, name in stub_exports(next(stub for stub in STUBS if stub.parent.as_posix() == room)):
+        folder = PACKAGE / room / name
+        assert module is None or not (folder.is_dir() or folder.with_suffix(".py").exists()), f"{room}: {name}"
+
+
+def test_every_room_with_stages_of_the_walk_has_a_front_door():
+    folders = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
+    assert folders - ROOMS == {"cli"}
+
+
+def test_examples_and_pages_import_no_deeper_than_a_room():
+    found = list(imports_of_users())
+    assert len(found) > 200
+    for file, module, name in found:
+        assert module == "vectorplot" or module.removeprefix("vectorplot.") in ROOMS, f"{file}: from {module}"
+        assert name in importlib.import_module(module).__all__, f"{file}: {module} does not export {name}"
+
+
+def test_type_checkers_know_what_examples_import(tmp_path):
+    taken = sorted({(module, name) for _, module, name in imports_of_users() if name})
+    lines = [f"from {module} import {name} as name_{i}" for i, (module, name) in enumerate(taken)]
+    (tmp_path / "imports.py").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    command = [sys.executable, "-m", "mypy", "--config-file", str(ROOT / "pyproject.toml"), "--follow-imports=silent"]
+    command += ["--cache-dir", str(ROOT / ".mypy_cache"), str(tmp_path / "imports.py")]
+    result = subprocess.run(command, capture_output=True, text=True, cwd=ROOT)
+    assert result.returncode == 0, result.stdout
+
+
+def loaded_after(statement):
+    script = f"import sys\n{statement}\nprint(*sys.modules)"
+    result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    return set(result.stdout.split())
+
+
+@pytest.mark.parametrize("room", sorted(ROOMS))
+def test_a_room_loads_nothing_before_a_name_is_used(room):
+    loaded = loaded_after(f"import vectorplot.{room}")
+    assert "numpy" not in loaded
+    assert {name for name in loaded if name.startswith("vectorplot")} == {"vectorplot", f"vectorplot.{room}"}
+
+
+def test_a_name_of_a_room_loads_its_own_modules_only():
+    loaded = loaded_after("from vectorplot.surfaces import Torus")
+    assert "vectorplot.surfaces.families.torus" in loaded
+    assert not {"scipy", "cairo", "shapely", "vectorplot.surfaces.families.minimal"} & loaded
+
+
+def test_what_no_room_exports_is_an_attribute_error():
+    with pytest.raises(AttributeError, match="rubber"):
+        _ = vp.rubber
+    with pytest.raises(ImportError, match="rubber"):
+        exec("from vectorplot.surfaces import rubber")
+
+
+@pytest.mark.parametrize("verb", ["draw", "paint", "read", "render", "save"])
+def test_a_verb_stays_a_verb_when_modules_were_imported_first(verb):
+    home = "io.read" if verb == "read" else verb
+    script = f"import vectorplot as vp, vectorplot.{home}; import vectorplot.cli.main; assert callable(vp.{verb})"
+    subprocess.run([sys.executable, "-c", script], check=True)
+    script = f"from vectorplot.{home} import {verb}; import vectorplot as vp; assert vp.{verb} is {verb}"
+    subprocess.run([sys.executable, "-c", script], check=True)
+
+
+def test_all_may_be_loaded_at_once():
+    """As programs are built that cannot wait: the environment asks lazy_loader to load every name at import."""
+    script = "import os; os.environ['EAGER_IMPORT'] = '1'\n"
+    script += "\n".join(f"import vectorplot.{room.replace('/', '.')}" for room in sorted(ROOMS))
+    subprocess.run([sys.executable, "-c", script], check=True)

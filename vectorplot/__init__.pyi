@@ -1,0 +1,43 @@
+from .draw import draw
+from .drawing.drawing import Drawing, Layer, Paths, Pen
+from .errors import InputError, InputWarning
+from .geometry.cameras.camera import Camera
+from .geometry.mesh import Mesh
+from .geometry.strokes import Strokes
+from .io.read import read
+from .paint import paint
+from .render import render
+from .save import save
+from .scene.scene import Item, Light, Material, Page, Pattern, Scene
+from .scene.surface_lines import Section, SurfaceLines
+from .shading.raster.image import Image
+from .words import LineKind
+
+__version__: str
+
+__all__ = [
+    "Camera",
+    "Drawing",
+    "Image",
+    "InputError",
+    "InputWarning",
+    "Item",
+    "Layer",
+    "Light",
+    "LineKind",
+    "Material",
+    "Mesh",
+    "Page",
+    "Paths",
+    "Pattern",
+    "Pen",
+    "Scene",
+    "Section",
+    "Strokes",
+    "SurfaceLines",
+    "draw",
+    "paint",
+    "read",
+    "render",
+    "save",
+]

@@ -1,0 +1,21 @@
+from .drawing import Curves, Drawing, Layer, Paths, Pen
+from .fills import FillKind, Fills
+from .painted_fills import placed_faces
+from .strokes.curved_strokes import with_curves
+from .strokes.long_strokes import split_long
+from .strokes.pen_order.order import pen_ordered, travel_mm
+
+__all__ = [
+    "Curves",
+    "Drawing",
+    "FillKind",
+    "Fills",
+    "Layer",
+    "Paths",
+    "Pen",
+    "pen_ordered",
+    "placed_faces",
+    "split_long",
+    "travel_mm",
+    "with_curves",
+]

@@ -1,0 +1,15 @@
+from .cuts import between_planes
+from .glass.refraction import angle_of_refraction, inverse_refraction, plate_shift, refracted, seen_in_surface
+from .halos import halo
+from .shadows.shadow_decals import shadow_decals
+
+__all__ = [
+    "angle_of_refraction",
+    "between_planes",
+    "halo",
+    "inverse_refraction",
+    "plate_shift",
+    "refracted",
+    "seen_in_surface",
+    "shadow_decals",
+]

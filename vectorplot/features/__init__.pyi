@@ -1,0 +1,88 @@
+from .implicit.implicit_curves import (
+    implicit_contour,
+    implicit_contour_cusps,
+    implicit_intersection,
+    implicit_isophotes,
+    implicit_level_lines,
+    implicit_parallel_contour,
+    implicit_parallel_contour_cusps,
+    implicit_plane_sections,
+    implicit_point_light_isophotes,
+)
+from .implicit.implicit_tracing import ImplicitTracing
+from .implicit.polygonize import polygonized
+from .intersections.implicit_mesh_section import implicit_mesh_section
+from .intersections.mesh_section import mesh_section
+from .intersections.self_intersection import self_intersections
+from .intersections.surface_intersection import surface_intersection
+from .meshes.edges import mesh_edges
+from .meshes.mesh_intersections import face_intersections
+from .meshes.mesh_lines import (
+    mesh_contour_across_faces,
+    mesh_isophote_edges,
+    mesh_isophotes,
+    mesh_level_lines,
+    mesh_parallel_contour_across_faces,
+    mesh_plane_sections,
+    mesh_point_light_isophote_edges,
+    mesh_point_light_isophotes,
+)
+from .parametric.contour import contour, parallel_contour
+from .parametric.curve_tracing import Tracing
+from .parametric.cusps import contour_cusps, contour_with_cusps
+from .parametric.isophotes import isophotes, point_light_isophotes
+from .parametric.parameter_lines import borders, parameter_lines, u_lines, v_lines
+from .parametric.sections import level_lines, plane_sections, section_by_implicit
+from .parametric.singular_lines import singular_lines
+from .tessellation import surface_tessellation
+from .zeros.grid_triangulation import average_normals, mesh_of_grid, triangulate_surface
+from .zeros.zero_manifold import ZeroManifold, zero_manifold_of_f_uv
+
+__all__ = [
+    "ImplicitTracing",
+    "Tracing",
+    "ZeroManifold",
+    "average_normals",
+    "borders",
+    "contour",
+    "contour_cusps",
+    "contour_with_cusps",
+    "face_intersections",
+    "implicit_contour",
+    "implicit_contour_cusps",
+    "implicit_intersection",
+    "implicit_isophotes",
+    "implicit_level_lines",
+    "implicit_mesh_section",
+    "implicit_parallel_contour",
+    "implicit_parallel_contour_cusps",
+    "implicit_plane_sections",
+    "implicit_point_light_isophotes",
+    "isophotes",
+    "level_lines",
+    "mesh_contour_across_faces",
+    "mesh_edges",
+    "mesh_isophote_edges",
+    "mesh_isophotes",
+    "mesh_level_lines",
+    "mesh_of_grid",
+    "mesh_parallel_contour_across_faces",
+    "mesh_plane_sections",
+    "mesh_point_light_isophote_edges",
+    "mesh_point_light_isophotes",
+    "mesh_section",
+    "parallel_contour",
+    "parameter_lines",
+    "plane_sections",
+    "point_light_isophotes",
+    "polygonized",
+    "section_by_implicit",
+    "self_intersections",
+    "singular_lines",
+    "surface_intersection",
+    "surface_tessellation",
+    "triangulate_surface",
+    "u_lines",
+    "v_lines",
+    "zero_manifold_of_f_uv",
+]

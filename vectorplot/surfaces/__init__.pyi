@@ -1,0 +1,96 @@
+from .curvature import first_form, gaussian_curvature, mean_curvature, second_form
+from .families.cyclide import ImplicitCyclide, dupin_cyclide
+from .families.cylinder import Cone, Cylinder
+from .families.ellipsoid import Ellipsoid, Sphere
+from .families.helical import helical_surface
+from .families.hyperbolic_paraboloid import HyperbolicParaboloid
+from .families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
+from .families.minimal import MinimalSurface, helicoid_to_catenoid, minimal_spiral_surface
+from .families.motions import Motion, Rotoid, Screw, SpiralMotion, Translation
+from .families.quadric import (
+    Quadric,
+    implicit_cone,
+    implicit_cylinder,
+    implicit_ellipsoid,
+    implicit_plane,
+    implicit_sphere,
+)
+from .families.revolution import revolution_surface
+from .families.rotoidal import rotoidal_surface
+from .families.spiral import spiral_surface
+from .families.swept import Swept
+from .families.torus import ImplicitTorus, ImplicitTorusByDistance, Torus
+from .families.translation import translation_surface
+from .function import FunctionSurface, surface_of_function
+from .graphs import Graph, PolarGraph, graph, graph_over_disc
+from .height_grid import densified_grid, grid_of_scattered
+from .implicit_function import ImplicitFunction, implicit_of_function
+from .inversion import InvertedImplicit, InvertedSurface, inverted
+from .normals import unit_normals
+from .placed import PlacedImplicit, PlacedSurface
+from .regions import Disc, PolygonRegion, Region
+from .surface import Domain, ImplicitSurface, Surface
+from .trimmed import TrimmedSurface
+
+__all__ = [
+    "Cone",
+    "Cylinder",
+    "Disc",
+    "Domain",
+    "Ellipsoid",
+    "FunctionSurface",
+    "Graph",
+    "HyperbolicParaboloid",
+    "Hyperboloid",
+    "HyperboloidSheet",
+    "ImplicitCyclide",
+    "ImplicitFunction",
+    "ImplicitSurface",
+    "ImplicitTorus",
+    "ImplicitTorusByDistance",
+    "InvertedImplicit",
+    "InvertedSurface",
+    "MinimalSurface",
+    "Motion",
+    "Paraboloid",
+    "PlacedImplicit",
+    "PlacedSurface",
+    "PolarGraph",
+    "PolygonRegion",
+    "Quadric",
+    "Region",
+    "Rotoid",
+    "Screw",
+    "Sphere",
+    "SpiralMotion",
+    "Surface",
+    "Swept",
+    "Torus",
+    "Translation",
+    "TrimmedSurface",
+    "densified_grid",
+    "dupin_cyclide",
+    "first_form",
+    "gaussian_curvature",
+    "graph",
+    "graph_over_disc",
+    "grid_of_scattered",
+    "helical_surface",
+    "helicoid_to_catenoid",
+    "implicit_cone",
+    "implicit_cylinder",
+    "implicit_ellipsoid",
+    "implicit_of_function",
+    "implicit_plane",
+    "implicit_sphere",
+    "inverted",
+    "mean_curvature",
+    "minimal_spiral_surface",
+    "revolution_surface",
+    "rotoidal_surface",
+    "second_form",
+    "spiral_surface",
+    "surface_of_function",
+    "translation_surface",
+    "unit_normals",
+]

@@ -1,0 +1,35 @@
+from .compare import assert_drawings_equal
+from .curve_distance import hausdorff
+from .curves import (
+    BranchCount,
+    assert_closed,
+    assert_contour,
+    assert_isophote,
+    assert_on_both,
+    assert_on_surface,
+    assert_same_curve,
+    branch_count,
+)
+from .drawing_checks import assert_drawing_is_right, edge_points
+from .polylines import curves_in_space
+from .rays.sight import Sight, visible_by_rays
+from .shapes import hard_shapes
+
+__all__ = [
+    "BranchCount",
+    "Sight",
+    "assert_closed",
+    "assert_contour",
+    "assert_drawing_is_right",
+    "assert_drawings_equal",
+    "assert_isophote",
+    "assert_on_both",
+    "assert_on_surface",
+    "assert_same_curve",
+    "branch_count",
+    "curves_in_space",
+    "edge_points",
+    "hard_shapes",
+    "hausdorff",
+    "visible_by_rays",
+]

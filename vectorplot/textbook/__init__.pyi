@@ -1,0 +1,86 @@
+from .depth_queries import depth_planes, points_visible, visible_line_pixels
+from .device import Device
+from .erasing_faces import Erased, erasing_edges, interleaved
+from .framebuffer import (
+    Framebuffer,
+    cleared,
+    pixel_colours,
+    swapped_buffers,
+    with_colour,
+    with_lines,
+    with_pixels,
+    with_polygons,
+    with_rubber_bands,
+    with_smooth_polygons,
+)
+from .frustum import Frustum
+from .graph_orders import graph_order, graph_triangles
+from .intersections import LineCut, line_and_line, line_and_plane, polygons_common_segment, segments
+from .outline_positions import Position, RelativePosition, in_convex_polygon, relative_position
+from .planes import Plane
+from .ring_orders import ring_order, sliced_meridian
+from .sphere_orders import sphere_order
+from .viewing_matrices import (
+    ViewVolume,
+    basis_of,
+    basis_of_gaze,
+    camera_matrix,
+    dehomogenized,
+    frame_from_world,
+    homogeneous,
+    pixel_matrix,
+    segments_to_pixels,
+    transformed,
+    viewport,
+    window_transform,
+    world_from_frame,
+)
+
+__all__ = [
+    "Device",
+    "Erased",
+    "Framebuffer",
+    "Frustum",
+    "LineCut",
+    "Plane",
+    "Position",
+    "RelativePosition",
+    "ViewVolume",
+    "basis_of",
+    "basis_of_gaze",
+    "camera_matrix",
+    "cleared",
+    "dehomogenized",
+    "depth_planes",
+    "erasing_edges",
+    "frame_from_world",
+    "graph_order",
+    "graph_triangles",
+    "homogeneous",
+    "in_convex_polygon",
+    "interleaved",
+    "line_and_line",
+    "line_and_plane",
+    "pixel_colours",
+    "pixel_matrix",
+    "points_visible",
+    "polygons_common_segment",
+    "relative_position",
+    "ring_order",
+    "segments",
+    "segments_to_pixels",
+    "sliced_meridian",
+    "sphere_order",
+    "swapped_buffers",
+    "transformed",
+    "viewport",
+    "visible_line_pixels",
+    "window_transform",
+    "with_colour",
+    "with_lines",
+    "with_pixels",
+    "with_polygons",
+    "with_rubber_bands",
+    "with_smooth_polygons",
+    "world_from_frame",
+]

@@ -1,0 +1,40 @@
+from .painter.groups import ObjectOrder, gordian_knots, group_ranks, grouped_order, knot_report, object_order
+from .painter.image_faces import ImageFaces, image_faces, mapped
+from .painter.mikado import Mikado, mikado
+from .painter.order import Painted, painters_order
+from .painter.pairs.face_pairs import APART, BEHIND, COPLANAR, IN_FRONT, STRADDLING
+from .painter.priorities import Objects, demands, priorities, view_objects, wholly_hidden
+from .painter.slices import cut_into_slices, slice_order, sliced_order
+from .polyhedra.hidden_lines import Visibility, counted_parts, visible_parts
+
+__all__ = [
+    "APART",
+    "BEHIND",
+    "COPLANAR",
+    "IN_FRONT",
+    "STRADDLING",
+    "ImageFaces",
+    "Mikado",
+    "ObjectOrder",
+    "Objects",
+    "Painted",
+    "Visibility",
+    "counted_parts",
+    "cut_into_slices",
+    "demands",
+    "gordian_knots",
+    "group_ranks",
+    "grouped_order",
+    "image_faces",
+    "knot_report",
+    "mapped",
+    "mikado",
+    "object_order",
+    "painters_order",
+    "priorities",
+    "slice_order",
+    "sliced_order",
+    "view_objects",
+    "visible_parts",
+    "wholly_hidden",
+]
