@@ -31,12 +31,12 @@ def main(folder: Path) -> None:
     scene = vp.read(DATA / "three_bars.scene")
     view = look(scene, scene.camera)
     painted = painters_order(view)
-    place = placed_faces(view, painted.faces, PAGE, True).page_from_image
+    place = placed_faces(view, painted.faces, PAGE, True)
     parts = []
     for corners, starts, ends in interleaved(painted.faces, erasing_edges(view, painted.faces)):
-        face = (place[:2, :2] @ corners[:2]).T + place[:2, 2]
+        face = place.on_page(corners[:2])
         sides = np.stack([starts[:2], ends[:2]], axis=2).reshape(2, -1)
-        lines = (place[:2, :2] @ sides).T + place[:2, 2]
+        lines = place.on_page(sides)
         parts.append(Fills.flat(face, np.array([0, len(face)]), np.full((1, 3), 255, np.uint8)))
         black = np.zeros((len(lines) // 2, 3), np.uint8)
         parts.append(Fills.flat(lines, np.arange(0, len(lines) + 1, 2), black, kind=FillKind.EDGE))

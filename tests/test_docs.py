@@ -109,9 +109,8 @@ def test_modules_that_pages_name_exist():
 
 def test_the_numbers_of_the_pages_are_those_of_the_code():
     from vectorplot.drawing.layers import PENS
+    from vectorplot.geometry.cameras.unit_projection import NEAR_OF_DISTANCE, ULPS, WIDEST_DEG
     from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
-    from vectorplot.scene.view import NEAR_OF_DISTANCE, ULPS
-    from vectorplot.visibility.framing import WIDEST_DEG
     from vectorplot.visibility.polyhedra.occluders import MAX_SOLID_FACES
 
     limits = (DOCS / "accuracy-and-limits.md").read_text(encoding="utf-8")

@@ -10,22 +10,24 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats
+from vectorplot.arrays import Bools
 from vectorplot.drawing.drawing import Drawing, Layer, Paths
+from vectorplot.drawing.drawn_lines import fitted_lines, strokes_on_page
 from vectorplot.drawing.layers import layers_by_colour, layers_by_kind, layers_by_object
-from vectorplot.drawing.placement import mm_per_image, page_from_image, page_from_world, strokes_on_page
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.drawing.strokes.shared_kinds import with_shared_kinds
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.budget import Budget, budget_of
 from vectorplot.geometry.cameras.camera import Camera, Point
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, normalize
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_draw
+from vectorplot.scene.placement import Placement, mm_per_image
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.seams import without_seams
 from vectorplot.scene.unbounded import tell_what_is_cut_off
-from vectorplot.scene.view import View, look
-from vectorplot.visibility.framing import in_frame
+from vectorplot.scene.view import View, look, view_of
+from vectorplot.visibility.framing import frame_of, in_frame
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility, counted_parts, visible_parts
 from vectorplot.visibility.polyhedra.lines import (
     Lines,
@@ -118,24 +120,26 @@ def draw(
     solid = solid_items(view, faces)
     straight = _straight_lines(walk, scene, view, faces, solid, kinds, crease_angle_deg)
     sheets = _sheets(walk, scene, view)
-    scale = mm_per_image(view, [sheet.vertices for sheet in sheets], page, fit)
+    reached = np.concatenate([view.points, *(sheet.vertices.T for sheet in sheets)], axis=1)
+    scale = mm_per_image(view, reached, page, fit)
     while True:
         # Chords take one half of the tolerance, Béziers through their ends the other.
         tolerance = 0.5 * tolerance_mm / scale
         every = _with_curves(walk, scene, view, sheets, kinds, straight, tolerance, allowed)
-        framed, whole = walk.run("frame", in_frame, view, every, page, fit)
+        frame = frame_of(view, every, page, fit)
+        framed = walk.run("frame", in_frame, view, every, frame)
         seen = _visibility(walk, view, faces, solid, framed)
-        placed = page_from_image(view, framed, seen, page, fit, whole)
-        if every is straight or not len(seen) or placed[0, 0] <= LARGER * scale or tolerance < FINEST:
+        placement = frame or fitted_lines(view, framed, seen, page)
+        if every is straight or not len(seen) or placement.scale <= LARGER * scale or tolerance < FINEST:
             break
         # Little of the scene is drawn, and that larger than thought.
-        scale = float(placed[0, 0])
+        scale = placement.scale
     if walk.calls_for("halo"):
         from vectorplot.effects.halos import halo
 
-        seen = walk.run("halo", halo, view, framed, seen, halo_mm / placed[0, 0])
-    world = page_from_world(view, placed)
-    strokes = walk.run("strokes", strokes_on_page, view, framed, seen, placed)
+        seen = walk.run("halo", halo, view, framed, seen, halo_mm / placement.scale)
+    world = placement.page_from_world
+    strokes = walk.run("strokes", strokes_on_page, view, framed, seen, placement)
     if style == "plain":
         sorted_layers = walk.run("layers", _layers, scene, strokes, layers)
     else:
@@ -156,34 +160,44 @@ def seen_part(walk: Walk, scene: Scene, camera: Camera) -> Scene:
     return walk.run("cuts", between_planes, scene, camera)
 
 
+def with_smooth_surfaces(scene: Scene, view: View, faces: ProjectedFaces) -> tuple[View, ProjectedFaces]:
+    """The view of a scene, and its faces in the image, in the projection of a view of it that has triangles in place of
+    smooth surfaces: the same where there are none."""
+    if all(isinstance(item.shape, Mesh) for item in scene.items):
+        return replace(view, occludes=np.array([item.hides for item in scene.items], dtype=np.bool_)), faces
+    view = view_of(scene, view)
+    return view, project_faces(view)
+
+
 def lines_in_place(
     scene: Scene,
-    camera: Camera,
-    page: Page,
-    lines: Iterable[str],
-    place: Callable[[View], Floats],
+    view: View,
+    faces: ProjectedFaces,
+    placement: Placement,
+    kinds: frozenset[LineKind],
     *,
-    fit: bool,
     crease_angle_deg: float,
     tolerance_mm: float,
     budget: float,
+    progress: Callable[[float], None] | None = None,
 ) -> Paths:
     """The visible parts of the lines of a scene, as they come, where a picture of it already has its place on the page.
 
-    place: the (3,3) matrix from the image of a view of the scene to the page. All else as of draw.
+    view: of the scene, in the projection of the picture; progress(fraction) is called while it works. All else as of
+    draw.
     """
-    kinds = line_kinds(lines)
-    walk = Walk(plan_draw(scene, kinds, "none", 0.0), None, None)
-    view = look(scene, camera)
-    faces, placed = project_faces(view), place(view)
+    told = None if progress is None else lambda stage, fraction: progress(fraction)
+    walk = Walk(plan_draw(scene, kinds, "none", 0.0), None, told)
     solid = solid_items(view, faces)
     straight = _straight_lines(walk, scene, view, faces, solid, kinds, crease_angle_deg)
-    tolerance = 0.5 * tolerance_mm / float(placed[0, 0])
+    tolerance = 0.5 * tolerance_mm / placement.scale
     sheets = _sheets(walk, scene, view)
     every = _with_curves(walk, scene, view, sheets, kinds, straight, tolerance, budget_of(budget))
-    framed, _ = in_frame(view, every, page, fit)
+    # Lines may reach too far where what the picture was fitted to does not.
+    cut = not placement.whole or view.reaches_too_far(every.start, every.end)
+    framed = walk.run("frame", in_frame, view, every, placement if cut else None)
     seen = _visibility(walk, view, faces, solid, framed)
-    return strokes_on_page(view, framed, seen, placed)
+    return walk.run("strokes", strokes_on_page, view, framed, seen, placement)
 
 
 def _straight_lines(

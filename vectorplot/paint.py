@@ -4,29 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.draw import default_camera, lines_in_place, seen_part
+from vectorplot.arrays import Bools, Ints
+from vectorplot.draw import default_camera, lines_in_place, seen_part, with_smooth_surfaces
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.layers import layers_by_kind
-from vectorplot.drawing.painted_fills import Overlay, Placed, fills_on_page, placed_faces, stacked
-from vectorplot.drawing.placement import allowed_in_space, page_from_world
+from vectorplot.drawing.painted_fills import Overlay, fills_on_page, placed_faces, shown_faces, stacked
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.errors import InputError
 from vectorplot.features.facets import Within
 from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_paint
+from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seams import without_seams
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.unbounded import tell_what_is_cut_off
-from vectorplot.scene.view import View, look
+from vectorplot.scene.view import View, view_of
 from vectorplot.shading.light.face_shades import Shades, item_colours, view_lights
 from vectorplot.shading.light.faceted import FacetedScene, faceted
 from vectorplot.shading.light.fineness import picture_fineness
@@ -103,16 +104,17 @@ def paint(
     kinds = line_kinds(lines)
     walk = Walk((*plan_cuts(camera), *plan_paint(scene, shadows, fills, kinds)), explain, progress)
     scene = seen_part(walk, scene, camera)
+    projection = projection_of(camera, scene.bounds)
     facets = FacetedScene(scene, (None,) * len(scene.items))
     if walk.calls_for("facets"):
-        allowed = allowed_in_space(scene, camera, page, fit, tolerance_mm)
+        allowed = allowed_in_space(scene, projection, page, fit, tolerance_mm)
         # Where each triangle has one shade they have to be so small that nobody sees it.
         shaded = smooth and fills == "painted"
         casts = shadows != "none" and bool(scene.lights)
-        demand = picture_fineness(scene, camera, casts, allowed) if shaded else lambda number: Within(allowed)
+        demand = picture_fineness(scene, projection, casts, allowed) if shaded else lambda number: Within(allowed)
         facets = walk.run("facets", faceted, scene, demand, budget_of(budget))
     facets = replace(facets, scene=_with_clear_items(facets.scene))
-    view = walk.run("look", look, facets.scene, camera)
+    view = walk.run("look", view_of, facets.scene, projection)
     projected = walk.run("faces", project_faces, view)
     known, groups = known_orders(facets.scene, view), _groups(scene)
     sliced = {number: planes for number, item in enumerate(scene.items) if (planes := item.curves.slices)}
@@ -129,9 +131,9 @@ def paint(
         faces = faces.some(walk.run("transparent sheets", gathered, faces, sheet, view.tolerance))
     plane = plane_numbers(view)
     faces = faces.some(side_by_side(faces, _planes_of(facets.scene, view, faces, plane), view.tolerance))
-    placed = placed_faces(view, faces, page, fit)
-    seen = _Seen(facets.scene, view, projected, placed.framed(faces, page, view.tolerance), placed)
-    world = page_from_world(view, placed.page_from_image)
+    placement = placed_faces(view, faces, page, fit)
+    seen = _Seen(facets.scene, view, projected, shown_faces(faces, placement), placement)
+    world = placement.page_from_world
     here = view_lights(view, scene.lights)
     normals = np.full((3, len(view.corners)), np.nan)
     if smooth and fills == "painted":
@@ -140,7 +142,7 @@ def paint(
         # Pens have no gradients: meshes and planes keep one shade for each of their faces.
         normals = painted_normals(view, scene.items, (), facets.normals, plane, 0.0)
     lighting = Lighting(scene.items, here, normals, plane, palette)
-    ruler = _Ruler(camera, page, seen, fit, crease_angle_deg, tolerance_mm, budget)
+    ruler = _Ruler(scene, seen, crease_angle_deg, tolerance_mm, budget)
     if walk.calls_for("erasing"):
         polygons = _erased(walk, seen, scene, ruler, kinds or line_kinds(LINE_WORDS), palette)
     else:
@@ -155,7 +157,7 @@ def paint(
         polygons = walk.run("screen door", screened, polygons, PEN.width_mm, world)
     layers = [Layer("fills", PEN, (polygons,))]
     if walk.calls_for("lines"):
-        layers += walk.run("lines", ruler.layers, scene, kinds)
+        layers += walk.run("lines", ruler.layers, kinds, walk.fraction("lines"))
     return Drawing(page.width_mm, page.height_mm, tuple(layers), tuple(i.name for i in scene.items), scene.title, world)
 
 
@@ -168,54 +170,45 @@ class _Seen:
     view: View
     projected: ProjectedFaces
     faces: ImageFaces
-    placed: Placed
+    placement: Placement
 
 
 @dataclass(frozen=True, eq=False)
 class _Ruler:
-    """How the lines of a scene come to be on a picture of it, by the same camera, where its polygons have their
-    place."""
+    """How the lines of a scene come to be on a picture of it, where its polygons have their place."""
 
-    camera: Camera
-    page: Page
+    scene: Scene
     seen: _Seen
-    fit: bool
     crease_angle_deg: float
     tolerance_mm: float
     budget: float
 
-    def layers(self, scene: Scene, kinds: frozenset[LineKind]) -> tuple[Layer, ...]:
+    def layers(self, kinds: frozenset[LineKind], progress: Callable[[float], None]) -> tuple[Layer, ...]:
         """The visible lines in layers by kind."""
-        return inked(layers_by_kind(self._found(scene, kinds)), "none", self._world, self.tolerance_mm)
+        found = self._found(self.scene, kinds, progress)
+        return inked(layers_by_kind(found), "none", self.seen.placement.page_from_world, self.tolerance_mm)
 
     def strokes(self, scene: Scene, kinds: frozenset[LineKind]) -> Paths:
-        """The visible lines as polylines."""
-        (layer,) = inked((Layer("", PEN, (self._found(scene, kinds),)),), "none", self._world)
+        """The visible lines as polylines. scene: this one, whatever patterns it has."""
+        found = self._found(scene, kinds, None)
+        (layer,) = inked((Layer("", PEN, (found,)),), "none", self.seen.placement.page_from_world)
         return layer.strokes[0]
 
-    @property
-    def _world(self) -> Floats:
-        return page_from_world(self.seen.view, self.seen.placed.page_from_image)
-
-    def _found(self, scene: Scene, kinds: frozenset[LineKind]) -> Paths:
-        words = [kind.word for kind in kinds]
+    def _found(self, scene: Scene, kinds: frozenset[LineKind], progress: Callable[[float], None] | None) -> Paths:
         return lines_in_place(
             scene,
-            self.camera,
-            self.page,
-            words,
-            self._place,
-            fit=self.fit,
+            *self._view,
+            self.seen.placement,
+            kinds,
             crease_angle_deg=self.crease_angle_deg,
             tolerance_mm=self.tolerance_mm,
             budget=self.budget,
+            progress=progress,
         )
 
-    def _place(self, view: View) -> Floats:
-        own = self.seen.view
-        # The same rays in views of other units: a length in the image is one in the world, or a slope times the focus.
-        unit = view.scale / own.scale if own.eye is None else own.focus / view.focus
-        return np.asarray(self.seen.placed.page_from_image @ np.diag([unit, unit, 1.0]))
+    @cached_property
+    def _view(self) -> tuple[View, ProjectedFaces]:
+        return with_smooth_surfaces(self.scene, self.seen.view, self.seen.projected)
 
 
 def _with_clear_items(scene: Scene) -> Scene:
@@ -287,7 +280,7 @@ def _check_options(
 def _finer(seen: _Seen, lighting: Lighting) -> ImageFaces:
     """The polygons, those that are shaded so small that no corner shows."""
     faces = seen.faces
-    shortest = SHORTEST_MM / float(seen.placed.page_from_image[0, 0])
+    shortest = SHORTEST_MM / seen.placement.scale
     points, offsets, parent = refined(seen.view, lighting, faces.points, faces.offsets, faces.source, shortest)
     if len(parent) == len(faces):
         return faces
@@ -309,7 +302,7 @@ def _erased(walk: Walk, seen: _Seen, scene: Scene, ruler: _Ruler, kinds: frozens
         view,
         faces.points,
         faces.offsets,
-        seen.placed,
+        seen.placement,
         colours=np.repeat(_paper(scene), faces.points.shape[1], axis=0),
         opacity=np.ones(len(faces)),
         item=view.face_item[faces.source],
@@ -344,7 +337,7 @@ def _shaded(walk: Walk, seen: _Seen, lighting: Lighting, page: Page, aura_mm: fl
     """The polygons of the picture in their colours, with all that lies on them and is seen in them."""
     seen = replace(seen, faces=_finer(seen, lighting))
     shades = walk.run("shades", _shades, seen, lighting)
-    aura = aura_mm / float(seen.placed.page_from_image[0, 0])
+    aura = aura_mm / seen.placement.scale
     decals, lighting = _decals(walk, seen, lighting, aura)
     laid = _laid(seen, lighting, decals)
     overlays = _overlays(walk, seen, lighting, decals, aura, tolerance_mm)
@@ -384,7 +377,7 @@ def _laid(seen: _Seen, lighting: Lighting, decals: tuple[Decals, ...]) -> tuple[
         return ()
     from vectorplot.effects.decals.decal_fills import decal_fills
 
-    return tuple(decal_fills(seen.view, lighting, some, seen.faces, seen.placed) for some in decals)
+    return tuple(decal_fills(seen.view, lighting, some, seen.faces, seen.placement) for some in decals)
 
 
 def _overlays(
@@ -407,7 +400,7 @@ def _overlays(
             return double_decals(seen.scene, seen.view, shown, number, there, which, borders)
 
         found.append(
-            walk.run("reflections", reflection_fills, seen.view, lighting, shown, decals_of, seen.faces, seen.placed)
+            walk.run("reflections", reflection_fills, seen.view, lighting, shown, decals_of, seen.faces, seen.placement)
         )
     if walk.calls_for("refraction"):
         from vectorplot.effects.glass.glass_fills import glass_fills
@@ -421,7 +414,7 @@ def _overlays(
                 seen.projected,
                 lighting,
                 seen.faces,
-                seen.placed,
+                seen.placement,
                 tolerance_mm,
                 decals,
             )
@@ -446,7 +439,7 @@ def _fills(
         view,
         faces.points,
         faces.offsets,
-        seen.placed,
+        seen.placement,
         colours=colours_of(view, lighting, np.repeat(faces.source, np.diff(faces.offsets)), shades.total),
         opacity=opacity,
         item=item,
@@ -469,7 +462,7 @@ def _fills(
     if not walk.calls_for("visible fills"):
         from vectorplot.drawing.flattened import flattened
 
-        world, plane = page_from_world(view, seen.placed.page_from_image), lighting.plane[faces.source]
+        world, plane = seen.placement.page_from_world, lighting.plane[faces.source]
         with_decals = flattened(fills, laid, world, plane)
     return Fills.joined(*_background(seen.scene, page), stacked([with_decals, *overlays]).fills)
 

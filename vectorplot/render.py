@@ -16,11 +16,12 @@ from vectorplot.features.facets import Within
 from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.projection import CoordinateSystem
+from vectorplot.geometry.cameras.unit_projection import LARGEST, projection_of
 from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, dims_light, plan_cuts, plan_render
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seams import without_seams
 from vectorplot.scene.unbounded import tell_what_is_cut_off
-from vectorplot.scene.view import LARGEST, View, look
+from vectorplot.scene.view import View, look
 from vectorplot.shading.depth.coplanar import coplanar_faces
 from vectorplot.shading.light.face_shades import view_lights
 from vectorplot.shading.light.faceted import FacetedScene, faceted
@@ -197,10 +198,10 @@ def _check_lights(lights: Sequence[Light]) -> None:
 
 def _allowed(scene: Scene, camera: Camera, size: tuple[int, int], fit: bool) -> Callable[[Floats], Floats]:
     """How far triangles may be off smooth surfaces at points of the world."""
-    from vectorplot.drawing.placement import allowed_in_space
+    from vectorplot.scene.placement import allowed_in_space
 
     # A millimetre of this page is a pixel.
-    return allowed_in_space(scene, camera, Page(*size, 0.0), fit, FACET_PIXELS)
+    return allowed_in_space(scene, projection_of(camera, scene.bounds), Page(*size, 0.0), fit, FACET_PIXELS)
 
 
 @dataclass(frozen=True, eq=False)

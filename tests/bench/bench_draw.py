@@ -21,7 +21,7 @@ from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import rotated_boxes
 from vectorplot.testing.surfaces import bumpy_icosphere
-from vectorplot.visibility.framing import in_frame
+from vectorplot.visibility.framing import frame_of, in_frame
 from vectorplot.visibility.polyhedra.hidden_lines import visible_parts
 from vectorplot.visibility.polyhedra.lines import edge_lines, joined_lines
 from vectorplot.visibility.polyhedra.occluders import solid_items
@@ -51,7 +51,8 @@ def visible(scene: Scene, kinds: frozenset[LineKind]) -> int:
     view = look(scene, default_camera(scene))
     faces = project_faces(view)
     solid = solid_items(view, faces)
-    lines, _ = in_frame(view, joined_lines([edge_lines(scene, view, faces, kinds, 25.0, ~solid)]), Page(), True)
+    every = joined_lines([edge_lines(scene, view, faces, kinds, 25.0, ~solid)])
+    lines = in_frame(view, every, frame_of(view, every, Page(), True))
     return len(visible_parts(view, faces, solid, Segments(lines.start, lines.end), lambda part: None).segment)
 
 

@@ -10,7 +10,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing import visible_by_rays
-from vectorplot.visibility.framing import in_frame
+from vectorplot.visibility.framing import frame_of, in_frame
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility, counted_parts, visible_parts
 from vectorplot.visibility.polyhedra.lines import Lines, edge_lines, intersection_lines, joined_lines
 from vectorplot.visibility.polyhedra.occluders import solid_items
@@ -42,7 +42,8 @@ def seen(scene: Scene, camera: Camera, kinds: tuple[str, ...] = DRAWN, fit: bool
     found = [edge_lines(scene, view, faces, wanted, 25.0, np.ones(len(solid), dtype=np.bool_))]
     if LineKind.INTERSECTION in wanted:
         found.append(intersection_lines(scene, view, faces, wanted, solid))
-    lines, _ = in_frame(view, joined_lines(found), Page(), fit)
+    every = joined_lines(found)
+    lines = in_frame(view, every, frame_of(view, every, Page(), fit))
     segments = Segments(lines.start, lines.end)
     counted = counted_parts(view, faces, solid, segments, lambda part: None)
     visible = visible_parts(view, faces, solid, segments, lambda part: None)

@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import look
-from vectorplot.visibility.framing import in_frame
+from vectorplot.visibility.framing import frame_of, in_frame
 from vectorplot.visibility.polyhedra.hidden_lines import counted_parts
 from vectorplot.visibility.polyhedra.lines import edge_lines, intersection_lines, joined_lines
 from vectorplot.visibility.polyhedra.occluders import solid_items
@@ -49,7 +49,8 @@ def chords_seen(scene: Scene, camera: Camera, *, tolerance: float = 5e-5) -> Cho
     edges = edge_lines(scene, view, faces, kinds, 25.0, np.ones(len(solid), dtype=np.bool_))
     straight = joined_lines([edges, intersection_lines(scene, view, faces, kinds, solid)])
     traced = traced_scene(scene, view, scene_sheets(scene, view), kinds, tolerance)
-    lines, _ = in_frame(view, with_curves(view, traced, straight, len(scene.items), tolerance)[0], Page(), True)
+    every, _ = with_curves(view, traced, straight, len(scene.items), tolerance)
+    lines = in_frame(view, every, frame_of(view, every, Page(), True))
     seen = counted_parts(view, faces, solid, Segments(lines.start, lines.end), lambda part: None)
     seen = replace(seen, hidden_by=seen.hidden_by + lines.behind[seen.segment])
     start, way = lines.start[:, seen.segment], (lines.end - lines.start)[:, seen.segment]

@@ -9,10 +9,9 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.fills import Colours, Fills
-from vectorplot.drawing.placement import centred, fitted
+from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture
 from vectorplot.scene.scene import Page
 from vectorplot.scene.view import View
-from vectorplot.visibility.framing import reaches_too_far
 from vectorplot.visibility.painter.framing import framed_faces
 from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
 
@@ -48,44 +47,28 @@ def interleaved(base: Fills, overlays: Sequence[Overlay]) -> Fills:
     return overlaid(Overlay(base, np.arange(len(base))), overlays).fills
 
 
-@dataclass(frozen=True, eq=False)
-class Placed:
-    """Where a picture goes: page_from_image (3,3), and whether all of it is on the page; else it shows what the camera
-    sees, inside the margins."""
-
-    page_from_image: Floats
-    whole: bool
-
-    def framed(self, faces: ImageFaces, page: Page, tolerance: float) -> ImageFaces:
-        """The polygons as far as the picture shows them."""
-        if self.whole:
-            return faces
-        scale, middle = self.page_from_image[0, 0], self.page_from_image[:2, 2]
-        size = np.array([page.width_mm, page.height_mm])
-        low, high = (page.margin_mm - middle) / scale, (size - page.margin_mm - middle) / scale
-        return framed_faces(faces, low, high, tolerance)
-
-
-def placed_faces(view: View, faces: ImageFaces, page: Page, fit: bool) -> Placed:
+def placed_faces(view: View, faces: ImageFaces, page: Page, fit: bool) -> Placement:
     """The place on the page of a picture of painted polygons."""
     used = np.zeros(view.face_count, dtype=np.bool_)
     used[faces.source] = True
-    points, image = view.points[:, view.corners[np.repeat(used, view.face_sizes)]], faces.points[:2]
-    if not fit:
-        return Placed(centred(page, view.picture_height, page.height_mm), False)
-    if reaches_too_far(view, points, points):
-        return Placed(centred(page, view.picture_height, page.height_mm - 2.0 * page.margin_mm), False)
-    if not image.shape[1]:
-        return Placed(fitted(page, np.zeros(2), np.zeros(2)), True)
-    low, high = image.min(axis=1), image.max(axis=1)
-    return Placed(fitted(page, low, high if (high - low).max() > view.tolerance else low), True)
+    points = view.points[:, view.corners[np.repeat(used, view.face_sizes)]]
+    if not fit or view.reaches_too_far(points):
+        return field_of_vision(view, page, fit)
+    return fitted_picture(view, page, faces.points[:2])
+
+
+def shown_faces(faces: ImageFaces, placement: Placement) -> ImageFaces:
+    """The polygons as far as the picture shows them."""
+    if placement.whole:
+        return faces
+    return framed_faces(faces, *placement.window, placement.projection.tolerance)
 
 
 def fills_on_page(
     view: View,
     points: Floats,
     offsets: Ints,
-    placed: Placed,
+    placement: Placement,
     *,
     colours: Colours,
     opacity: Floats,
@@ -94,8 +77,7 @@ def fills_on_page(
 ) -> Fills:
     """Polygons of the image on the page: points (3,c) places and heights as of ImageFaces, colours (c,3), opacity,
     item and kind (m,) as of Fills."""
-    place = placed.page_from_image
-    flat = (place[:2, :2] @ points[:2]).T + place[:2, 2]
+    flat = placement.on_page(points[:2])
     return Fills(
         np.ascontiguousarray(flat), offsets, colours, opacity, item, view.world_of(unmapped(view, points)), kind
     )

@@ -5,36 +5,23 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.scene.placement import Placement, field_of_vision
 from vectorplot.scene.scene import Page
 from vectorplot.scene.view import View
 from vectorplot.visibility.polyhedra.lines import Lines
 
-WIDEST_DEG = 60.0
-"""A picture that is fitted to the page shows what lies up to so many degrees off the principal ray."""
 
-
-def window_planes(view: View, half_width: float, half_height: float) -> Floats:
-    """(4,4) planes (unit normal, constant) of a window in the image plane, positive inside."""
+def window_planes(view: View, low: Floats, high: Floats) -> Floats:
+    """(4,4) planes (unit normal, constant) of a window in the image plane from low to high (2,), positive inside."""
+    (left, bottom), (right, top) = low, high
     if view.eye is None:
         x, y = view.target[:2]
-        rows = [
-            [1, 0, 0, x - half_width],
-            [-1, 0, 0, -x - half_width],
-            [0, 1, 0, y - half_height],
-            [0, -1, 0, -y - half_height],
-        ]
+        rows = [[1, 0, 0, x + left], [-1, 0, 0, -x - right], [0, 1, 0, y + bottom], [0, -1, 0, -y - top]]
         return np.array(rows, dtype=np.float64)
-    x, y, z = view.eye
-    normals = np.array(
-        [
-            [view.focus, 0, -half_width],
-            [-view.focus, 0, -half_width],
-            [0, view.focus, -half_height],
-            [0, -view.focus, -half_height],
-        ]
-    )
+    d = view.focus
+    normals = np.array([[d, 0, left], [-d, 0, -right], [0, d, bottom], [0, -d, -top]])
     normals /= np.sqrt((normals * normals).sum(axis=1))[:, None]
-    return np.column_stack([normals, normals @ [x, y, z]])
+    return np.column_stack([normals, normals @ view.eye])
 
 
 def near_plane(view: View) -> Floats:
@@ -62,30 +49,21 @@ def inside(planes: Floats, start: Floats, end: Floats) -> tuple[Floats, Floats]:
     return low, high
 
 
-def reaches_too_far(view: View, start: Floats, end: Floats) -> bool:
-    """Whether segments (3,n) reach behind the near plane, or too far off the principal ray to be fitted to a page."""
-    if view.eye is None or not start.shape[1]:
-        return False
-    limit = view.focus * np.tan(np.radians(WIDEST_DEG))
-    for points in (start, end):
-        if view.depth_of(points).min() < view.near or np.abs(view.image_of(points)).max() > limit:
-            return True
-    return False
+def frame_of(view: View, lines: Lines, page: Page, fit: bool) -> Placement | None:
+    """The frame of a picture of lines: the camera's field of vision where they are not to be fitted to the page, or
+    reach too far; else None."""
+    if fit and not view.reaches_too_far(lines.start, lines.end):
+        return None
+    return field_of_vision(view, page, fit)
 
 
-def in_frame(view: View, lines: Lines, page: Page, fit: bool) -> tuple[Lines, bool]:
-    """The lines in front of the eye and inside the picture, and whether all of them fit a page.
-
-    Without fit, and where the scene reaches too far to be fitted, the picture is the camera's field of vision.
-    """
-    fitted = fit and not reaches_too_far(view, lines.start, lines.end)
+def in_frame(view: View, lines: Lines, frame: Placement | None) -> Lines:
+    """The lines in front of the eye, and inside the frame of the picture if it has one."""
     planes = near_plane(view)
-    if not fitted:
-        width, height = page.width_mm - 2.0 * page.margin_mm, page.height_mm - 2.0 * page.margin_mm
-        unit = view.picture_height / (height if fit else page.height_mm)
-        planes = np.concatenate([planes, window_planes(view, unit * width / 2.0, unit * height / 2.0)])
-    if len(planes):
-        low, high = inside(planes, lines.start, lines.end)
-        kept = np.flatnonzero(low < high)
-        lines = lines.cut(view, kept, low[kept], high[kept])
-    return lines, fitted
+    if frame is not None:
+        planes = np.concatenate([planes, window_planes(view, *frame.window)])
+    if not len(planes):
+        return lines
+    low, high = inside(planes, lines.start, lines.end)
+    kept = np.flatnonzero(low < high)
+    return lines.cut(view, kept, low[kept], high[kept])

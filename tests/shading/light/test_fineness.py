@@ -7,10 +7,11 @@ import pytest
 import shapely
 
 from vectorplot.draw import default_camera
-from vectorplot.drawing.placement import allowed_in_space
 from vectorplot.features.facets import facets
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.paint import paint
+from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.shading.light.fineness import SHADE_ERROR, picture_fineness
 from vectorplot.surfaces.families.cyclide import dupin_cyclide
@@ -32,8 +33,9 @@ CLOSED = {
 def made(surface, camera: Camera | None = None, tolerance_mm: float = 0.02):
     scene = Scene((Item("THING", surface),))
     camera = camera or default_camera(scene)
-    allowed = allowed_in_space(scene, camera, Page(), True, tolerance_mm)
-    demand = picture_fineness(scene, camera, False, allowed)(0)
+    projection = projection_of(camera, scene.bounds)
+    allowed = allowed_in_space(scene, projection, Page(), True, tolerance_mm)
+    demand = picture_fineness(scene, projection, False, allowed)(0)
     return facets(surface, demand), demand
 
 
@@ -104,6 +106,6 @@ def test_boxes_of_other_items_count_where_they_meet_and_once():
     """A crowd costs no box for each pair: those that lie elsewhere, and copies in one place, add nothing."""
     balls = [Sphere(1.0)] * 50 + [Sphere(1.0, (5.0 * k, 0.0, 0.0)) for k in range(1, 50)]
     scene = Scene(tuple(Item(f"BALL{number}", ball) for number, ball in enumerate(balls)))
-    camera = default_camera(scene)
-    demand = picture_fineness(scene, camera, False, allowed_in_space(scene, camera, Page(200, 150), True, 0.02))
+    projection = projection_of(default_camera(scene), scene.bounds)
+    demand = picture_fineness(scene, projection, False, allowed_in_space(scene, projection, Page(200, 150), True, 0.02))
     assert [len(demand(number).others) for number in (0, 49, 60)] == [1, 1, 0]

@@ -8,8 +8,8 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Paths
+from vectorplot.drawing.drawn_lines import COINCIDENT_MM
 from vectorplot.drawing.fills import Fills
-from vectorplot.drawing.placement import COINCIDENT_MM
 from vectorplot.drawing.strokes.curved_strokes import with_curves
 from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.drawing.strokes.join import joined

@@ -8,13 +8,14 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.drawing.painted_fills import Overlay, Placed, fills_on_page
+from vectorplot.drawing.painted_fills import Overlay, fills_on_page
 from vectorplot.effects.decals.convex_decals import convex_decals
 from vectorplot.effects.decals.decal_polygons import Decals
 from vectorplot.effects.decals.decals_on_pieces import Laid, laid
 from vectorplot.effects.shadows.shadow_shades import LEVELS, shadow_shades
 from vectorplot.effects.windows.window_polygons import SeenThrough
 from vectorplot.geometry import ragged
+from vectorplot.scene.placement import Placement
 from vectorplot.scene.view import View
 from vectorplot.shading.light.face_shades import Shades
 from vectorplot.shading.light.painted_colours import Lighting, colours_of, corner_shades_of, opacities, smooth_faces
@@ -23,7 +24,7 @@ from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
 
 
 def decal_fills(
-    view: View, lighting: Lighting, decals: Decals, faces: ImageFaces | SeenThrough, placed: Placed
+    view: View, lighting: Lighting, decals: Decals, faces: ImageFaces | SeenThrough, placement: Placement
 ) -> Overlay:
     """Decals on what is painted of their faces, in the shades of their faces, those that lack lights darker.
 
@@ -32,7 +33,7 @@ def decal_fills(
     """
     decals = shown_decals(view, lighting, decals)
     parts = laid(view, decals, faces.points, faces.offsets, faces.source)
-    return Overlay(laid_fills(view, lighting, decals, parts, placed), parts.piece)
+    return Overlay(laid_fills(view, lighting, decals, parts, placement), parts.piece)
 
 
 def shown_decals(view: View, lighting: Lighting, decals: Decals) -> Decals:
@@ -42,7 +43,7 @@ def shown_decals(view: View, lighting: Lighting, decals: Decals) -> Decals:
     return convex_decals(view, decals, smooth_faces(view, lighting.normals))
 
 
-def laid_fills(view: View, lighting: Lighting, decals: Decals, parts: Laid, placed: Placed) -> Fills:
+def laid_fills(view: View, lighting: Lighting, decals: Decals, parts: Laid, placement: Placement) -> Fills:
     """Parts of decals in the shades of their faces, those that lack lights darker."""
     points = unmapped(view, parts.points)
     shades = corner_shades_of(view, lighting, points, parts.offsets, decals.face[parts.decal])
@@ -54,7 +55,7 @@ def laid_fills(view: View, lighting: Lighting, decals: Decals, parts: Laid, plac
         view,
         parts.points,
         parts.offsets,
-        placed,
+        placement,
         colours=_colours(view, lighting, decals, parts, shade),
         opacity=decals.opacities[parts.decal],
         item=view.face_item[decals.face[parts.decal]],

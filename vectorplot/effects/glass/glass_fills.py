@@ -9,13 +9,14 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.drawing.painted_fills import Overlay, Placed
+from vectorplot.drawing.painted_fills import Overlay
 from vectorplot.drawing.united_fills import united
 from vectorplot.effects.decals.decal_fills import laid_fills, shown_decals
 from vectorplot.effects.decals.decal_polygons import Decals, joined_decals
 from vectorplot.effects.decals.decals_on_pieces import Laid
 from vectorplot.effects.glass.glass_polygons import seen_in_glass
 from vectorplot.effects.windows.window_fills import mixed, seen_fills
+from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.light.painted_colours import Lighting
@@ -30,7 +31,7 @@ def glass_fills(
     projected: ProjectedFaces,
     lighting: Lighting,
     faces: ImageFaces,
-    placed: Placed,
+    placement: Placement,
     tolerance_mm: float,
     decals: Sequence[Decals] = (),
 ) -> Overlay:
@@ -42,11 +43,11 @@ def glass_fills(
     """
     shown = [shown_decals(view, lighting, some) for some in decals]
     lying = joined_decals(*(some.of(some.painting_order) for some in shown))
-    seen = seen_in_glass(scene, view, projected, faces, tolerance_mm / placed.page_from_image[0, 0], lying)
+    seen = seen_in_glass(scene, view, projected, faces, tolerance_mm / placement.scale, lying)
     bare, marked = np.flatnonzero(seen.decal < 0), np.flatnonzero(seen.decal >= 0)
-    base = seen_fills(view, lighting, seen.some(bare), placed, FillKind.GLASS).fills
+    base = seen_fills(view, lighting, seen.some(bare), placement, FillKind.GLASS).fills
     marks = seen.some(marked)
-    laid = laid_fills(view, lighting, lying, Laid(marks.points, marks.offsets, marks.decal, marks.window), placed)
+    laid = laid_fills(view, lighting, lying, Laid(marks.points, marks.offsets, marks.decal, marks.window), placement)
     laid = replace(laid, kind=np.full(len(laid), int(FillKind.GLASS)))
     order = np.argsort(np.concatenate([bare, marked]))
     return united(Overlay(Fills.joined(base, laid).some(order), seen.window), seen.decal)

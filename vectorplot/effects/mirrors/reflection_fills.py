@@ -10,13 +10,13 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.flattened import flattened
-from vectorplot.drawing.painted_fills import Overlay, Placed
-from vectorplot.drawing.placement import page_from_world
+from vectorplot.drawing.painted_fills import Overlay
 from vectorplot.effects.decals.decal_fills import decal_fills
 from vectorplot.effects.decals.decal_polygons import Decals
 from vectorplot.effects.mirrors.reflections import DIMMED, Mirrors, backwards, doubled, reflections
 from vectorplot.effects.windows.window_fills import mixed, seen_fills
 from vectorplot.effects.windows.window_polygons import SeenThrough
+from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
 from vectorplot.shading.light.painted_colours import Lighting
@@ -32,7 +32,7 @@ WEAK_ON_MIRRORS = (FillKind.SHADOW, FillKind.SHADOW_BORDER, FillKind.CLEAR_SHADO
 
 
 def reflection_fills(
-    view: View, lighting: Lighting, mirrors: Mirrors, decals_of: DecalsOf, faces: ImageFaces, placed: Placed
+    view: View, lighting: Lighting, mirrors: Mirrors, decals_of: DecalsOf, faces: ImageFaces, placement: Placement
 ) -> Overlay:
     """The doubles of all faces in mirrors, with the decals that lie on them, dimmed.
 
@@ -50,7 +50,7 @@ def reflection_fills(
             there = _mirrored_light(view, lighting, mirrors, number)
             shown = np.isin(np.arange(view.face_count), here.source)
             decals = decals_of(number, there, shown)
-            parts.append(_of_double(doubled(view, mirrors, number), there, decals, here, placed))
+            parts.append(_of_double(doubled(view, mirrors, number), there, decals, here, placement))
     if not parts:
         return Overlay(Fills.empty(), np.zeros(0, dtype=np.intp))
     return Overlay(Fills.joined(*(part.fills for part in parts)), np.concatenate([part.after for part in parts]))
@@ -74,17 +74,17 @@ def _on_mirrors(overlay: Overlay, pane: Bools, paper: Colours) -> Overlay:
 
 
 def _of_double(
-    mirrored: View, lighting: Lighting, decals: Sequence[Decals], seen: SeenThrough, placed: Placed
+    mirrored: View, lighting: Lighting, decals: Sequence[Decals], seen: SeenThrough, placement: Placement
 ) -> Overlay:
     points, offsets, parent = refined(
-        mirrored, lighting, seen.points, seen.offsets, seen.source, SHORTEST_MM / float(placed.page_from_image[0, 0])
+        mirrored, lighting, seen.points, seen.offsets, seen.source, SHORTEST_MM / placement.scale
     )
     seen = replace(seen.some(parent), points=points, offsets=offsets)
-    shown = seen_fills(mirrored, lighting, seen, placed, FillKind.REFLECTION)
-    laid = [decal_fills(mirrored, lighting, some, seen, placed) for some in decals]
+    shown = seen_fills(mirrored, lighting, seen, placement, FillKind.REFLECTION)
+    laid = [decal_fills(mirrored, lighting, some, seen, placement) for some in decals]
     whole = shown
     if laid:
-        flat = flattened(shown.fills, laid, page_from_world(mirrored, placed.page_from_image))
+        flat = flattened(shown.fills, laid, placement.page_from_world)
         whole = Overlay(flat.fills, shown.after[flat.after])
     count = len(whole.fills)
     dimmed = np.rint(DIMMED * whole.fills.colours).astype(np.uint8)

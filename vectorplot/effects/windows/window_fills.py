@@ -8,14 +8,15 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.drawing.fills import Colours, FillKind, Fills
-from vectorplot.drawing.painted_fills import Overlay, Placed, fills_on_page
+from vectorplot.drawing.painted_fills import Overlay, fills_on_page
 from vectorplot.effects.windows.window_polygons import SeenThrough
+from vectorplot.scene.placement import Placement
 from vectorplot.scene.view import View
 from vectorplot.shading.light.painted_colours import Lighting, colours_of, corner_shades_of, opacities
 from vectorplot.visibility.painter.image_faces import unmapped
 
 
-def seen_fills(view: View, lighting: Lighting, seen: SeenThrough, placed: Placed, kind: FillKind) -> Overlay:
+def seen_fills(view: View, lighting: Lighting, seen: SeenThrough, placement: Placement, kind: FillKind) -> Overlay:
     """Polygons seen through windows, in the shades of their faces, each to be painted after its window.
 
     Degenerate: nothing seen gives nothing. Source: Glaeser, sections 6.4 and 6.6.
@@ -26,7 +27,7 @@ def seen_fills(view: View, lighting: Lighting, seen: SeenThrough, placed: Placed
         view,
         seen.points,
         seen.offsets,
-        placed,
+        placement,
         colours=colours_of(view, lighting, source, shades.total),
         opacity=opacities(lighting.items)[view.face_item[seen.source]],
         item=view.face_item[seen.source],

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.edge_splitting import NONE, Edges
 from vectorplot.features.facets import INSIDE, Allowed, off_chords, turning
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.cameras.unit_projection import Projection
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.extent import smooth_bounds
+from vectorplot.scene.placement import box_corners
 from vectorplot.scene.scene import Item, Light, Scene
-from vectorplot.scene.view import View, look
+from vectorplot.scene.view import View, view_of
 from vectorplot.shading.light.face_shades import point_shades, view_eye, view_lights
 from vectorplot.shading.light.faceted import without_curved_mirror
 from vectorplot.shading.light.illumination import homogeneous_light, towards
@@ -109,13 +110,13 @@ class PictureFineness:
         return self.view.points_of(points).T, normals @ self.view.axes.T
 
 
-def picture_fineness(scene: Scene, camera: Camera, casts: bool, allowed: Allowed) -> Callable[[int], PictureFineness]:
+def picture_fineness(
+    scene: Scene, projection: Projection, casts: bool, allowed: Allowed
+) -> Callable[[int], PictureFineness]:
     """What a picture of the scene asks of the triangles of its items, by their numbers. casts: whether its lights throw
     shadows; allowed: how far triangles may be off outlines, so that it is the tolerance on the page."""
-    view = look(scene, camera)
-    low, high = scene.bounds
-    corners = np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, high, low)
-    view = replace(view, points=view.points_of(corners))
+    reached = Mesh(box_corners(scene.bounds), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
+    view = view_of(Scene((Item("box", reached),)), projection)
     lights = view_lights(view, scene.lights)
     deep = DEEP_IN_LIGHT if casts else DEEP
     if any(item.material.is_mirror or item.material.refraction != 1.0 for item in scene.items):

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from vectorplot.drawing.placement import centred, fitted
+from vectorplot.scene.placement import centred, fitted
 from vectorplot.scene.scene import Page
 
 A4 = Page()

@@ -1,0 +1,134 @@
+"""A camera's projection of a scene, in the unit box: from the world to the image, and back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.errors import InputError
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+
+ULPS = 16.0
+"""Fewer rounding steps of the largest coordinate than these count as zero too."""
+
+LARGEST = 1e100
+"""Beyond this, and below its inverse, products of lengths leave the range of floating point numbers."""
+
+NEAR_OF_DISTANCE = 1e-4
+"""The near plane, as a part of the smaller of the eye's distance from its target and the scene's extent."""
+
+WIDEST_DEG = 60.0
+"""A picture that is fitted to the page shows what lies up to so many degrees off the principal ray."""
+
+
+@dataclass(frozen=True, eq=False)
+class Projection:
+    """How a camera sees a scene: axes x right, y up, z towards the eye; origin in the middle of the scene, the largest
+    coordinate about 1.
+
+    eye (3,) the eye, or for a parallel projection None: then every ray runs along +z; target (3,); focus: depth of the
+    image plane, which is put into the middle of the scene; near: the smallest depth that is drawn; picture_height: of
+    the camera's picture in the image plane; tolerance: what counts as distance zero.
+    world_from_view: point = centre + scale * (p @ axes).
+    Source: Glaeser, sections 2.1 and 2.4.
+    """
+
+    eye: Floats | None
+    target: Floats
+    focus: float
+    near: float
+    picture_height: float
+    tolerance: float
+    centre: Floats
+    scale: float
+    axes: Floats
+
+    def depth_of(self, points: Floats) -> Floats:
+        """(n,) the depths of points (3,n)."""
+        return np.asarray(-points[2] if self.eye is None else self.eye[2] - points[2], dtype=np.float64)
+
+    def image_of(self, points: Floats) -> Floats:
+        """(2,n) the images of points (3,n)."""
+        if self.eye is None:
+            return points[:2] - self.target[:2, None]
+        factor = self.focus / np.maximum(self.depth_of(points), self.near)
+        return (points[:2] - self.eye[:2, None]) * factor
+
+    def points_of(self, world: Floats) -> Floats:
+        """(3,n) points (n,3) of the world in the view's coordinates."""
+        return np.asarray((self.axes / self.scale) @ (world - self.centre).T, dtype=np.float64)
+
+    def world_of(self, points: Floats) -> Floats:
+        """(n,3) points (3,n) of the view in world coordinates."""
+        return np.ascontiguousarray((self.scale * self.axes.T @ points).T + self.centre)
+
+    @cached_property
+    def image_from_world(self) -> Floats:
+        """(3,4) homogeneous image coordinates, as of image but in world units, from world points (x,y,z,1)."""
+        rotation = np.zeros((4, 4))
+        rotation[:3, :3] = self.axes / self.scale
+        rotation[:3, 3] = -self.axes @ (self.centre / self.scale)
+        rotation[3, 3] = 1.0
+        if self.eye is None:
+            rows = np.array([[1.0, 0, 0, -self.target[0]], [0, 1.0, 0, -self.target[1]], [0, 0, 0, 1.0]])
+        else:
+            x, y, z = self.eye
+            d = self.focus
+            rows = np.array([[d, 0, 0, -d * x], [0, d, 0, -d * y], [0, 0, -1.0, z]])
+        rows[:2] *= self.scale
+        return np.asarray(rows @ rotation, dtype=np.float64)
+
+    @property
+    def distance(self) -> float:
+        """From the eye to the target; infinite in a parallel projection."""
+        return np.inf if self.eye is None else float(self.eye[2] - self.target[2])
+
+    def reaches_too_far(self, *points: Floats) -> bool:
+        """Whether any of some points (3,n) is nearer than the near plane, or too far off the principal ray to be
+        fitted to a page."""
+        if self.eye is None:
+            return False
+        limit = self.focus * np.tan(np.radians(WIDEST_DEG))
+        return any(
+            self.depth_of(some).min() < self.near or np.abs(self.image_of(some)).max() > limit
+            for some in points
+            if some.shape[1]
+        )
+
+
+def projection_of(camera: Camera, bounds: Floats) -> Projection:
+    """A camera's projection of what is inside bounds (2,3), normalised so that no later decision depends on its size or
+    place.
+
+    Errors: InputError where this is so small, or the eye so far away, that its coordinates have no digits left.
+    """
+    low, high = bounds
+    # What is out of range by overflow is told below.
+    with np.errstate(over="ignore"):
+        centre, scale = (low + high) / 2.0, float((high - low).max()) / 2.0
+    if not scale > 0.0:
+        scale = camera.distance if not camera.parallel or camera.height is None else camera.height
+    if not 1.0 / LARGEST < scale < LARGEST or not camera.distance < LARGEST:
+        raise InputError(f"an extent of {2.0 * scale:g}, seen from {camera.distance:g} away, is out of range")
+    largest = max(float(np.abs(low).max()), float(np.abs(high).max()))
+    noise = ULPS * np.finfo(float).eps * largest / scale
+    if noise > 1e-3:
+        raise InputError("the scene is too small for its distance from the origin: its coordinates have no digits left")
+    axes = camera.axes
+    eye = None if camera.parallel else axes @ ((np.asarray(camera.eye) - centre) / scale)
+    focus = 1.0 if eye is None else max(float(eye[2]), 1.0)
+    return Projection(
+        eye=eye,
+        target=axes @ ((np.asarray(camera.target) - centre) / scale),
+        focus=focus,
+        near=-np.inf if eye is None else NEAR_OF_DISTANCE * min(camera.distance / scale, 1.0),
+        picture_height=camera.picture_height / scale * (1.0 if eye is None else focus * scale / camera.distance),
+        tolerance=max(ZERO_OF_EXTENT, noise),
+        centre=centre,
+        scale=scale,
+        axes=axes,
+    )

@@ -1,0 +1,127 @@
+"""Where the picture goes on the page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.geometry.cameras.unit_projection import Projection
+from vectorplot.scene.scene import Page, Scene
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """A picture's place: the projection that it has on a page, and page_from_image (3,3), from the image to mm, y
+    upwards. whole: all of the scene is on the page; else the picture shows the camera's field of vision, and ends at
+    the margins."""
+
+    projection: Projection
+    page: Page
+    page_from_image: Floats
+    whole: bool
+
+    @property
+    def scale(self) -> float:
+        """How many mm a unit of the image is on the page."""
+        return float(self.page_from_image[0, 0])
+
+    @property
+    def window(self) -> tuple[Floats, Floats]:
+        """The corners (2,) of the page inside its margin, in the image: left and bottom, right and top."""
+        middle, size = self.page_from_image[:2, 2], np.array([self.page.width_mm, self.page.height_mm])
+        return (self.page.margin_mm - middle) / self.scale, (size - self.page.margin_mm - middle) / self.scale
+
+    @cached_property
+    def page_from_world(self) -> Floats:
+        """(4,4) matrix from points (x,y,z,1) of the world to homogeneous points of the page in mm; the third row keeps
+        z."""
+        unit = 1.0 / self.projection.scale
+        rows = self.page_from_image @ np.diag([unit, unit, 1.0]) @ self.projection.image_from_world
+        return np.vstack([rows[:2], [0.0, 0.0, 1.0, 0.0], rows[2:]])
+
+    def on_page(self, image: Floats) -> Floats:
+        """(n,2) points of the image (2,n) in mm."""
+        return np.asarray((self.page_from_image[:2, :2] @ image).T + self.page_from_image[:2, 2])
+
+
+def field_of_vision(projection: Projection, page: Page, fit: bool) -> Placement:
+    """The place of the camera's field of vision, the target in the middle: as high as the page, or if it is to fit, as
+    the page inside its margin."""
+    height_mm = page.height_mm - 2.0 * page.margin_mm if fit else page.height_mm
+    return Placement(projection, page, centred(page, projection.picture_height, height_mm), whole=False)
+
+
+def fitted_picture(projection: Projection, page: Page, image: Floats) -> Placement:
+    """The place of a picture that fills the page with points (2,n) of the image.
+
+    Degenerate: without points the origin is in the middle.
+    """
+    if not image.shape[1]:
+        return Placement(projection, page, fitted(page, np.zeros(2), np.zeros(2)), whole=True)
+    low, high = image.min(axis=1), image.max(axis=1)
+    # Where all sight rays are one the image is a point, and rounding must not fill the page.
+    extended = (high - low).max() > projection.tolerance
+    return Placement(projection, page, fitted(page, low, high if extended else low), whole=True)
+
+
+def fitted(page: Page, low: Floats, high: Floats) -> Floats:
+    """(3,3) matrix from image to page: the box from low to high (2,) fills the page but for its margin, in the middle.
+
+    Degenerate: a box without extent goes to the middle at the scale 1; one without width or height fills the other.
+    """
+    room = np.array([page.width_mm, page.height_mm]) - 2.0 * page.margin_mm
+    size = high - low
+    scales = [r / s for r, s in zip(room.tolist(), size.tolist(), strict=True) if s > 1e-12 * size.max()]
+    scale = min(scales, default=1.0)
+    middle = np.array([page.width_mm, page.height_mm]) / 2.0
+    offset = middle - scale * (low + high) / 2.0
+    return np.array([[scale, 0.0, offset[0]], [0.0, scale, offset[1]], [0.0, 0.0, 1.0]])
+
+
+def centred(page: Page, picture_height: float, height_mm: float) -> Floats:
+    """(3,3) matrix from image to page: the image's origin goes to the middle, picture_height becomes height_mm."""
+    scale = height_mm / picture_height
+    return np.array([[scale, 0.0, page.width_mm / 2.0], [0.0, scale, page.height_mm / 2.0], [0.0, 0.0, 1.0]])
+
+
+def mm_per_image(projection: Projection, points: Floats, page: Page, fit: bool) -> float:
+    """About how many mm a unit of the image will be on the page; points (3,n): of what is seen."""
+    if not fit:
+        return float(page.height_mm / projection.picture_height)
+    points = points[:, np.isfinite(points).all(axis=0)]
+    every = points.shape[1]
+    points = points[:, projection.depth_of(points) > projection.near]
+    if not points.shape[1]:
+        return float(page.height_mm / projection.picture_height)
+    image = projection.image_of(points)
+    fitting = fitted(page, image.min(axis=1), image.max(axis=1))[0, 0]
+    if points.shape[1] == every and not projection.reaches_too_far(points):
+        return float(fitting)
+    return float(max(fitting, field_of_vision(projection, page, fit).scale))
+
+
+def allowed_in_space(
+    scene: Scene, projection: Projection, page: Page, fit: bool, tolerance_mm: float
+) -> Callable[[Floats], Floats]:
+    """How far (...) triangles may be off smooth surfaces at points (..., 3) of the world, so that they are off by no
+    more than the tolerance on the page."""
+    reached = np.concatenate([scene.vertices, box_corners(scene.bounds)])
+    scale = mm_per_image(projection, projection.points_of(reached), page, fit)
+
+    def allowed(points: Floats) -> Floats:
+        depth = projection.depth_of(projection.points_of(points.reshape(-1, 3))).reshape(points.shape[:-1])
+        central = projection.eye is not None
+        ahead = np.maximum(depth, projection.near) / projection.focus if central else np.ones_like(depth)
+        return np.asarray(tolerance_mm / scale * projection.scale * ahead)
+
+    return allowed
+
+
+def box_corners(bounds: Floats) -> Floats:
+    """(8,3) the corners of a box from its smallest and largest coordinates (2,3)."""
+    low, high = bounds
+    return np.asarray(np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, high, low))
