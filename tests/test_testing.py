@@ -54,6 +54,15 @@ def test_a_closed_path_equals_its_segments():
         assert_drawings_equal(ring, drawing_of([(0, 0), (9, 0), (0, 9)]), 1e-6)
 
 
+def test_points_drawn_twice_are_the_same_line():
+    """A stroke may stand still: a segment of no length lies where another one does."""
+    still = drawing_of([(0, 0), (0, 0), (9, 0), (9, 5), (9, 5)])
+    assert_drawings_equal(still, still, 1e-6)
+    assert_drawings_equal(still, drawing_of([(0, 0), (9, 0), (9, 5)]), 1e-6)
+    with pytest.raises(AssertionError, match="contour"):
+        assert_drawings_equal(drawing_of([(0, 0), (0, 0)]), drawing_of([(1, 0), (2, 0)]), 1e-6)
+
+
 @pytest.mark.parametrize(
     ("other", "message"),
     [

@@ -96,7 +96,8 @@ def worst_uncovered(lines: Floats, others: Floats, tolerance: float) -> tuple[Fl
     )
     _, distance = tree.query_nearest(points(candidates), return_distance=True, all_matches=False)
     worst = int(np.argmax(distance))
-    return candidates[worst], float(distance[worst])
+    # A segment of no length has no inside that could be covered: its place alone decides.
+    return (candidates[worst], float(distance[worst])) if distance[worst] > tolerance else None
 
 
 def covered(lines: Floats, others: Floats, tolerance: float) -> tuple[Floats, Floats]:
