@@ -8,8 +8,8 @@ from random import Random
 from fuzz.fuzz_words import HOSTILE, NAMES, changed_bytes, changed_words, number, one, repeated, whole
 
 from vectorplot.io.expressions.expression_parser import CONSTANTS, FUNCTIONS
+from vectorplot.io.scenes.reserved_words import RESERVED
 from vectorplot.io.scenes.scene_families import CURVES, SURFACES
-from vectorplot.io.scenes.scene_reader import RESERVED
 from vectorplot.words import COLOURS, LINE_WORDS, MATERIALS
 
 VOCABULARY = (*sorted(RESERVED), *sorted(COLOURS), *NAMES, ",", '"', "#", "\n", "", "0", "-1", '"x"', '"2*pi"', '"1/0"')

@@ -27,7 +27,8 @@ def read(path: str | os.PathLike[str]) -> Scene:
     """The scene in a file: a mesh (obj, stl, ply, off, glb) or a text in the scene language (any other suffix).
 
     A mesh file gives one item named after the file, or one for every object (OBJ) or node (glb) if there are several.
-    Meshes are mended (see geometry.repair); what was mended, and what could not be, is said in one InputWarning a file.
+    Meshes are mended (see mesh_repair.mended); what was mended, and what could not be, is said in one InputWarning a
+    file.
     Errors: InputError, one line with the file, the line where there is one, and the cause; a file of another kind is
     named as such.
     """

@@ -10,7 +10,7 @@ from vectorplot.scene.scene import Scene
 
 
 def without_seams(scene: Scene) -> Scene:
-    """The scene with the seams of its polyhedra joined (see geometry.seams); without seams the scene itself.
+    """The scene with the seams of its polyhedra joined (see geometry.repair.seams); without seams the scene itself.
 
     Every verb begins with it: what arrays and other libraries' meshes say of a shape is then what a file would say.
     """

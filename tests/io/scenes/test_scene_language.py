@@ -17,10 +17,13 @@ from vectorplot.geometry.repair.adjacency import body_record
 from vectorplot.geometry.repair.winding import is_closed_oriented
 from vectorplot.geometry.solids import box
 from vectorplot.io.scenes import scene_language
+from vectorplot.io.scenes.reserved_words import RESERVED
+from vectorplot.io.scenes.scene_item import CAP_WORDS
 from vectorplot.io.scenes.scene_language import parse_scene, read_scene
-from vectorplot.io.scenes.scene_reader import RESERVED
+from vectorplot.io.scenes.scene_reader import HANDLERS
+from vectorplot.io.scenes.scene_words import FORM_WORDS, ITEM_WORDS
 from vectorplot.scene.scene import Light, Page
-from vectorplot.words import PALETTES
+from vectorplot.words import COLOURS, MATERIALS, PALETTES
 
 PYRAMID = """PYRAMID metallic gray convex hollow
 vertices
@@ -528,3 +531,7 @@ def test_every_word_of_the_language_is_documented():
     text = (DOCS / "scene-language.md").read_text()
     words = RESERVED - {c for p in PALETTES for c in ("light" + p, "dark" + p)}
     assert not [word for word in sorted(words) if f"`{word}`" not in text and f'"{word}"' not in text]
+
+
+def test_every_word_of_an_item_has_what_reads_it():
+    assert set(HANDLERS) == {*ITEM_WORDS, *FORM_WORDS, *CAP_WORDS, *COLOURS, *MATERIALS}

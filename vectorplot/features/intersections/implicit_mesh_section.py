@@ -28,7 +28,7 @@ ROUNDS = 3
 
 @dataclass(frozen=True, eq=False)
 class ImplicitPatch:
-    """An implicit surface within its box as a sheet of `features.sheets`: places are its points; rails 0, 1, 2 the
+    """An implicit surface within its box as a sheet of `intersections.sheets`: places are its points; rails 0, 1, 2 the
     sides of the box across x, y and z. mesh: the surface polygonised."""
 
     surface: ImplicitSurface

@@ -20,7 +20,6 @@ from vectorplot.io.scenes.scene_curves import (
     read_smooth_lines,
     read_surface_curve,
 )
-from vectorplot.io.scenes.scene_families import CURVES, SLOT_WORDS, SURFACES
 from vectorplot.io.scenes.scene_item import CAP_WORDS, Draft
 from vectorplot.io.scenes.scene_placement import Placement, moved, read_matrix, read_rotation, read_scale
 from vectorplot.io.scenes.scene_words import (
@@ -101,6 +100,9 @@ class ItemReader:
         if plain and draft.colour is None and nearest(draft.name, HANDLERS) is None:
             draft.colour = self.colour(draft.name)
             return False
+        # Surfaces and curves are loaded for scenes that name one, and to say what a word may have meant.
+        from vectorplot.io.scenes.reserved_words import RESERVED
+
         meant = nearest(draft.name, RESERVED)
         hint = f" (or is '{draft.name}' meant to be '{meant}'?)" if meant else ""
         self.fail(f"expected one of {', '.join(KIND_WORDS)}, got {source.shown(self.at)}{hint}", draft)
@@ -400,8 +402,3 @@ HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
 """What reads the words of an item."""
 
 _BEFORE_LENGTHS = frozenset([*COLOURS, *MATERIALS, *FORM_WORDS, *CAP_WORDS])
-
-_WITHIN = ("position", "direction", "intensity", "fading", "none", "face", "polygon", "at", "normal", "lit_by")
-
-RESERVED = frozenset([*HANDLERS, *SCENE_WORDS, *SURFACES, *CURVES, *SLOT_WORDS, *_WITHIN])
-"""Words that are no names unless they are quoted."""

@@ -15,6 +15,12 @@ from vectorplot.geometry.tolerance import LARGEST
 SOLID_WORDS = ("solid", "voll")
 FORM_WORDS = ("convex", *SOLID_WORDS, "hollow", "general", "concave")
 KIND_WORDS = ("vertices", "revolution", "translation", "box", "intersection", "surface", "curve")
+ITEM_WORDS = (
+    *("colour", "opacity", "refraction", "vertices", "edges", "faces", "removed_faces", "revolution", "rot_angle"),
+    *("meridian", "order", "translation", "base_points", "trans_vector", "box", "intersection", "rotation", "patterns"),
+    *("lines", "occludes", "group", "scale", "matrix", "surface", "curve", "parameter_lines", "isophotes", "sections"),
+    *("level_lines", "slices", "surface_curve", "smooth_lines", "isophote_edges"),
+)
 SCENE_WORDS = ("camera", "light", "page", "background", "title")
 
 # A string that is not closed is one word too, up to the end of its line. Nothing is tried twice: what these patterns

@@ -12,7 +12,7 @@ from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.io.scenes.scene_reader import RESERVED
+from vectorplot.io.scenes.reserved_words import RESERVED
 from vectorplot.io.scenes.scene_words import bare_word
 from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised

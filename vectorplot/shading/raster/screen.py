@@ -25,7 +25,7 @@ WIDEST_SLOPE = float(np.tan(np.radians(60.0)))
 """A picture is not fitted to what lies farther off the principal ray."""
 
 LARGEST_SIDE_PIXELS = 32767
-"""The limit of backends.cairo, well inside the guard band."""
+"""The limit of backends.cairo.surfaces, well inside the guard band."""
 
 LARGEST_RASTER_PIXELS = 1 << 27
 """1 GB of depths."""

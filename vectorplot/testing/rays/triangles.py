@@ -22,7 +22,7 @@ def triangulated(mesh: Mesh) -> tuple[Ints, Ints]:
     """Triangles (t,3) of vertex indices that cover the faces that are there, and (t,) the face each belongs to.
 
     Degenerate: a convex face without area gives triangles without area; ears without area are left out. A face that is
-    not planar is the triangles that geometry.convex_faces makes of it: nothing but that convention says which surface
+    not planar is the triangles that convex_faces makes of it: nothing but that convention says which surface
     it is.
     """
     present = np.ones(mesh.face_count, dtype=np.bool_) if mesh.present is None else mesh.present
