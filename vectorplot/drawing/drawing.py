@@ -10,6 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier.elliptic_arcs import EllipseArcs
 from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.drawing.fills import Fills
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT
 
 
 @dataclass(frozen=True)
@@ -29,14 +30,14 @@ class Paths:
     number of items in front, 0 = visible; points3d (p,3) the same points in the world; smooth (m,): the points lie on a
     smooth curve, between them is more of it; none does unless said otherwise."""
 
-    points: Floats
+    points: Floats = field(metadata=EACH_POINT)
     offsets: Ints
-    closed: Bools
-    kind: Ints
-    item: Ints
-    hidden_by: Ints
-    points3d: Floats
-    smooth: Bools = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
+    closed: Bools = field(metadata=EACH_LINE)
+    kind: Ints = field(metadata=EACH_LINE)
+    item: Ints = field(metadata=EACH_LINE)
+    hidden_by: Ints = field(metadata=EACH_LINE)
+    points3d: Floats = field(metadata=EACH_POINT)
+    smooth: Bools = field(default_factory=lambda: np.zeros(0, dtype=np.bool_), metadata=EACH_LINE)
 
     def __post_init__(self) -> None:
         if not len(self.smooth):

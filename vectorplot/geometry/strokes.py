@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT
 
 
 @dataclass(frozen=True, eq=False)
@@ -16,10 +17,10 @@ class Strokes:
     Degenerate: no strokes at all is points (0,3), offsets (1,).
     """
 
-    points: Floats
+    points: Floats = field(metadata=EACH_POINT)
     offsets: Ints
-    kind: Ints
-    item: Ints
+    kind: Ints = field(metadata=EACH_LINE)
+    item: Ints = field(metadata=EACH_LINE)
 
     def __len__(self) -> int:
         return len(self.offsets) - 1

@@ -12,6 +12,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import Polylines, closed_round
 from vectorplot.geometry.strokes import Strokes
 from vectorplot.words import LineKind
 
@@ -37,24 +38,16 @@ def curves_in_space(drawing: Drawing, *, kind: str | None = None, item: str | No
                 kept &= paths.kind == wanted_kind
             if item is not None:
                 kept &= np.isin(paths.item, [k for k, name in enumerate(drawing.items) if name == item])
-            found += cut(paths.points3d, paths.offsets, paths.closed, kept)
+            found += cut(Polylines(paths.points3d, paths.offsets, paths.closed), kept)
     return found
 
 
-def cut(points: Floats, offsets: Ints, closed: Bools, kept: Bools) -> list[Floats]:
-    """The polylines that are kept, each an array; closed ones with their first point once more."""
-    if not kept.any():
-        return []
-    size = np.diff(offsets) + closed
-    starts = ragged.offsets(size)
-    path = ragged.owner(size)
-    place = np.arange(starts[-1]) - starts[path]
-    place[closed[path] & (place == size[path] - 1)] = 0
-    return [
-        part
-        for part, wanted in zip(np.split(points[offsets[path] + place], starts[1:-1]), kept, strict=True)
-        if wanted and len(part)
-    ]
+def cut(lines: Polylines, kept: Bools) -> list[Floats]:
+    """The polylines that are kept, each an array; closed ones with their first point once more; those without points
+    are left out."""
+    rounds = closed_round(lines)
+    parts = np.split(lines.points[rounds.index], rounds.offsets[1:-1])
+    return [part for part, wanted in zip(parts, kept, strict=False) if wanted and len(part)]
 
 
 def polylines_of(curves: Curves) -> list[Floats]:
@@ -65,10 +58,10 @@ def polylines_of(curves: Curves) -> list[Floats]:
     if isinstance(curves, Drawing):
         return curves_in_space(curves)
     if isinstance(curves, Paths):
-        return cut(curves.points3d, curves.offsets, curves.closed, np.ones(len(curves), dtype=np.bool_))
+        return cut(Polylines(curves.points3d, curves.offsets, curves.closed), np.ones(len(curves), dtype=np.bool_))
     if isinstance(curves, Strokes):
         every = np.ones(len(curves), dtype=np.bool_)
-        return cut(curves.points, curves.offsets, ~every, every)
+        return cut(Polylines(curves.points, curves.offsets, ~every), every)
     if isinstance(curves, (list, tuple)) and any(np.ndim(part) == 2 for part in curves):
         return [one_polyline(part) for part in curves if len(part)]
     try:

@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import joined, some
 
 
 def world_per_mm(paths: Paths) -> float:
@@ -21,37 +22,12 @@ def world_per_mm(paths: Paths) -> float:
 
 def chosen(paths: Paths, which: Ints | Bools) -> Paths:
     """The strokes with these indices, in this order; or those where a mask is true."""
-    index = np.flatnonzero(which) if which.dtype == np.bool_ else which
-    counts = np.diff(paths.offsets)[index]
-    points = ragged.ranges(paths.offsets[index], counts)
-    return Paths(
-        paths.points[points],
-        ragged.offsets(counts),
-        paths.closed[index],
-        paths.kind[index],
-        paths.item[index],
-        paths.hidden_by[index],
-        paths.points3d[points],
-        paths.smooth[index],
-    )
+    return some(paths, which)
 
 
 def concatenated(parts: tuple[Paths, ...]) -> Paths:
     """The strokes of all parts, one part after the other."""
-    if len(parts) == 1:
-        return parts[0]
-    if not parts:
-        return Paths.empty()
-    return Paths(
-        np.concatenate([part.points for part in parts]),
-        ragged.offsets(np.concatenate([np.diff(part.offsets) for part in parts])),
-        np.concatenate([part.closed for part in parts]),
-        np.concatenate([part.kind for part in parts]),
-        np.concatenate([part.item for part in parts]),
-        np.concatenate([part.hidden_by for part in parts]),
-        np.concatenate([part.points3d for part in parts]),
-        np.concatenate([part.smooth for part in parts]),
-    )
+    return joined(parts) if parts else Paths.empty()
 
 
 def unrolled(paths: Paths, start: Ints, extra: Ints) -> Paths:

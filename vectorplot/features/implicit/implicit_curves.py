@@ -38,6 +38,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.outline import concat
+from vectorplot.geometry.polylines import closed_round
 from vectorplot.geometry.repair.winding import edge_uses
 from vectorplot.geometry.vectors import normalize
 from vectorplot.surfaces.surface import ImplicitSurface
@@ -243,12 +244,10 @@ def _border(
         branches = concat(np.stack([a[here], b[here]], axis=1))
         if not len(branches):
             continue
-        parts = [
-            np.append(branches[k], branches[k][:1]) if branches.closed[k] else branches[k] for k in range(len(branches))
-        ]
-        points = vertices[np.concatenate(parts)]
+        rounds = closed_round(branches)
+        points = vertices[branches.points[rounds.index]]
         last = np.zeros(len(points), dtype=np.bool_)
-        last[np.cumsum([len(part) for part in parts]) - 1] = True
+        last[rounds.offsets[1:] - 1] = True
         plane = MeetsPlane(np.eye(3)[axis], float(box[side, axis]))
         curve = curve_in_space(surface, plane, extent)
         tolerance = 1e-3 * extent if tracing.tolerance is None else tracing.tolerance

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.outline import concat
+from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, closed_round, indices_along, joined
 from vectorplot.surfaces.surface import ImplicitSurface
 
 FLAT = 1e-9
@@ -63,36 +64,25 @@ class ImplicitCurves:
     doubts: a sentence for each thing that could not be decided.
     """
 
-    points: Floats
+    points: Floats = field(metadata=EACH_POINT)
     offsets: Ints
-    closed: Bools
-    levels: Floats
-    isolated: Floats
-    nodes: Floats
-    doubts: tuple[str, ...]
+    closed: Bools = field(metadata=EACH_LINE)
+    levels: Floats = field(metadata=EACH_LINE)
+    isolated: Floats = field(metadata=APART)
+    nodes: Floats = field(metadata=APART)
+    doubts: tuple[str, ...] = field(metadata=DOUBTS)
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
 
     def __getitem__(self, curve: int) -> Floats:
         """(k,3) the points of a curve; a closed one ends with its first point."""
-        own = self.points[self.offsets[curve] : self.offsets[curve + 1]]
-        return np.concatenate([own, own[:1]]) if self.closed[curve] else own
+        return self.points[indices_along(self, curve)]
 
 
 def all_curves(families: Sequence[ImplicitCurves]) -> ImplicitCurves:
     """All the curves in one; a doubt that several of them have is said once."""
-    families = [no_curves(), *families]
-    counts = np.concatenate([np.diff(c.offsets) for c in families])
-    return ImplicitCurves(
-        np.concatenate([c.points for c in families]),
-        ragged.offsets(counts),
-        np.concatenate([c.closed for c in families]),
-        np.concatenate([c.levels for c in families]),
-        np.concatenate([c.isolated for c in families]),
-        np.concatenate([c.nodes for c in families]),
-        tuple(dict.fromkeys(text for c in families for text in c.doubts)),
-    )
+    return joined([no_curves(), *families])
 
 
 def no_curves(doubts: tuple[str, ...] = ()) -> ImplicitCurves:
@@ -244,12 +234,10 @@ def _polylines(points: Floats, pairs: Ints, spans: Floats, dot: float) -> tuple[
     branches = concat(pairs)
     if not len(branches):
         return np.zeros((0, 3)), np.zeros(0, dtype=np.bool_), np.zeros(0, dtype=np.bool_), np.zeros((0, 3))
-    sizes = np.diff(branches.offsets) + branches.closed
-    starts = ragged.offsets(sizes)
-    line = ragged.owner(sizes)
-    place = np.arange(starts[-1]) - starts[line]
-    place[branches.closed[line] & (place == sizes[line] - 1)] = 0
-    index = branches.points[branches.offsets[line] + place]
+    rounds = closed_round(branches)
+    starts = rounds.offsets
+    line = ragged.owner(np.diff(starts))
+    index = branches.points[rounds.index]
     own, width = points[index], spans[index]
     gap = np.linalg.norm(np.diff(own, axis=0, prepend=own[:1]), axis=1)
     gap[starts[:-1]] = 0.0
@@ -260,7 +248,7 @@ def _polylines(points: Floats, pairs: Ints, spans: Floats, dot: float) -> tuple[
     ends = starts[1:] - 1
     kept[starts[:-1]] = kept[ends] = True
     few = np.add.reduceat(kept, starts[:-1]) < 8
-    kept |= few[line] & ((gap > 0.0) | (place == 0))
+    kept |= few[line] & ((gap > 0.0) | (rounds.index == branches.offsets[line]))
     before = ends - 1
     kept[before] &= few | (gap[ends] > 0.5 * THINNED * width[ends])
     kept[starts[:-1]] = True

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from vectorplot.features.intersections.meeting_points import in_planes, meetings
 from vectorplot.features.intersections.sheets import Sheet
 from vectorplot.features.parametric.curve_tracing import Picture
 from vectorplot.features.zeros.zero_refinement import MISSED, PROBES
+from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, indices_along
 
 ROUNDS = 20
 """How often chords are cut at most."""
@@ -35,23 +36,22 @@ class DoubleCurves:
     doubts: a sentence for each thing that could not be decided.
     """
 
-    points: Floats
-    one: Floats
-    two: Floats
+    points: Floats = field(metadata=EACH_POINT)
+    one: Floats = field(metadata=EACH_POINT)
+    two: Floats = field(metadata=EACH_POINT)
     offsets: Ints
-    closed: Bools
-    nodes: Floats
-    isolated: Floats
-    touching: Floats
-    doubts: tuple[str, ...]
+    closed: Bools = field(metadata=EACH_LINE)
+    nodes: Floats = field(metadata=APART)
+    isolated: Floats = field(metadata=APART)
+    touching: Floats = field(metadata=APART)
+    doubts: tuple[str, ...] = field(metadata=DOUBTS)
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
 
     def __getitem__(self, curve: int) -> Floats:
         """(k,3) the points of a curve; a closed one ends with its first point."""
-        own = self.points[self.offsets[curve] : self.offsets[curve + 1]]
-        return np.concatenate([own, own[:1]]) if self.closed[curve] else own
+        return self.points[indices_along(self, curve)]
 
 
 def no_double_curves(doubts: tuple[str, ...] = ()) -> DoubleCurves:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -15,6 +15,14 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.outline import concat
+from vectorplot.geometry.polylines import (
+    EACH_LINE,
+    EACH_POINT,
+    closed_round,
+    indices_along,
+    joined,
+    with_points_kept,
+)
 from vectorplot.geometry.strokes import Strokes
 from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
 from vectorplot.words import LineKind
@@ -32,26 +40,25 @@ class MeshCurves:
     side of larger values is on the left.
     """
 
-    points: Floats
+    points: Floats = field(metadata=EACH_POINT)
     offsets: Ints
-    closed: Bools
-    faces: Ints
-    levels: Floats
+    closed: Bools = field(metadata=EACH_LINE)
+    faces: Ints = field(metadata=EACH_POINT)
+    levels: Floats = field(metadata=EACH_LINE)
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
 
     def __getitem__(self, curve: int) -> Floats:
         """(k,3) the points of a curve; a closed one ends with its first point."""
-        own = self.points[self.offsets[curve] : self.offsets[curve + 1]]
-        return np.concatenate([own, own[:1]]) if self.closed[curve] else own
+        return self.points[indices_along(self, curve)]
 
     def strokes(self, kind: LineKind, item: int = 0) -> Strokes:
         """The curves as strokes, closed ones with their first point repeated."""
-        parts = [self[k] for k in range(len(self))]
-        ends = ragged.offsets([len(part) for part in parts])
-        points = np.concatenate([np.zeros((0, 3)), *parts])
-        return Strokes(points, ends, np.full(len(self), int(kind)), np.full(len(self), item))
+        rounds = closed_round(self)
+        return Strokes(
+            self.points[rounds.index], rounds.offsets, np.full(len(self), int(kind)), np.full(len(self), item)
+        )
 
     def smooth(self, tolerance: float) -> BezierPaths:
         """Smooth paths through the curves, within a tolerance. Source: Glaeser, section 9.3."""
@@ -62,15 +69,7 @@ def all_mesh_curves(families: Sequence[MeshCurves]) -> MeshCurves:
     """All the curves in one."""
     none = np.zeros(0, dtype=np.intp)
     empty = MeshCurves(np.zeros((0, 3)), np.zeros(1, dtype=np.intp), none.astype(np.bool_), none, np.zeros(0))
-    families = [empty, *families]
-    counts = np.concatenate([np.diff(c.offsets) for c in families])
-    return MeshCurves(
-        np.concatenate([c.points for c in families]),
-        ragged.offsets(counts),
-        np.concatenate([c.closed for c in families]),
-        np.concatenate([c.faces for c in families]),
-        np.concatenate([c.levels for c in families]),
-    )
+    return joined([empty, *families])
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,23 +118,16 @@ def joined_segments(points: Floats, pairs: Ints, face: Ints, level: float) -> Me
     branches = concat(pairs)
     if not len(branches):
         return all_mesh_curves([])
-    sizes = np.diff(branches.offsets)
-    line = ragged.owner(sizes)
     last = branches.offsets[1:] - 1
-    after = np.append(branches.points[1:], 0)
-    after[last] = branches.points[branches.offsets[:-1]]
+    after = branches.points[ragged.following(branches.offsets)]
     faces = _faces_between(branches.points, after, pairs, face, len(points))
     faces[last[~branches.closed]] = NO_FACE
     own = points[branches.points]
     # A segment without length goes, and its first point with it; at the end of an open curve its second.
     still = (own == points[after]).all(axis=1)
     still[last[~branches.closed]] = False
-    kept = ~still
-    counts = np.bincount(line[kept], minlength=len(sizes))
-    real = counts > 1
-    kept &= real[line]
-    offsets = ragged.offsets(counts[real])
-    return MeshCurves(own[kept], offsets, branches.closed[real], faces[kept], np.full(int(real.sum()), level))
+    whole = MeshCurves(own, branches.offsets, branches.closed, faces, np.full(len(branches), level))
+    return with_points_kept(whole, ~still)
 
 
 def without_inner(curves: MeshCurves, extent: float) -> MeshCurves:
@@ -143,20 +135,14 @@ def without_inner(curves: MeshCurves, extent: float) -> MeshCurves:
     which less than two points are left."""
     if not len(curves):
         return curves
-    sizes = np.diff(curves.offsets)
-    line = ragged.owner(sizes)
     before, after = ragged.preceding(curves.offsets), ragged.following(curves.offsets)
     here, chord = curves.points, curves.points[after] - curves.points[before]
     on = np.einsum("ij,ij->i", here - curves.points[before], curves.points[after] - here) > 0.0
     length = np.maximum(np.linalg.norm(chord, axis=1), np.finfo(float).tiny)
     aside = np.linalg.norm(np.cross(here - curves.points[before], chord), axis=1) / length
     straight = on & (aside <= ZERO_OF_EXTENT * extent)
-    kept = ~(straight & (curves.faces == curves.faces[before]) & (curves.faces != NO_FACE))
-    counts = np.bincount(line[kept], minlength=len(sizes))
-    real = counts > 1
-    kept &= real[line]
-    offsets = ragged.offsets(counts[real])
-    return MeshCurves(here[kept], offsets, curves.closed[real], curves.faces[kept], curves.levels[real])
+    inner = straight & (curves.faces == curves.faces[before]) & (curves.faces != NO_FACE)
+    return with_points_kept(curves, ~inner)
 
 
 def _faces_between(start: Ints, end: Ints, pairs: Ints, face: Ints, count: int) -> Ints:

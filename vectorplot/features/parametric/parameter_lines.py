@@ -14,6 +14,7 @@ from vectorplot.features.parametric.poles import poles
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import unresolved
+from vectorplot.geometry.polylines import some
 from vectorplot.surfaces.surface import Domain, Surface
 
 DEFAULT = Tracing()
@@ -206,20 +207,4 @@ def _without_points(curves: SurfaceCurves, size: float) -> SurfaceCurves:
     start = curves.offsets[:-1]
     away = np.linalg.norm(curves.points - np.repeat(curves.points[start], counts, axis=0), axis=1)
     real = np.maximum.reduceat(away, start) > 1e-9 * size
-    if real.all():
-        return curves
-    own = np.repeat(real, counts)
-    none = np.zeros((0, 2))
-    return SurfaceCurves(
-        curves.u[own],
-        curves.v[own],
-        curves.points[own],
-        ragged.offsets(counts[real]),
-        curves.closed[real],
-        curves.turns[real],
-        curves.levels[real],
-        none,
-        none,
-        none,
-        curves.doubts,
-    )
+    return curves if real.all() else some(curves, real)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -27,20 +27,6 @@ class Pole:
     place: float
     inwards: float
     size: float
-
-
-@dataclass(frozen=True, eq=False)
-class Branches:
-    """Curves and single points: all fields as of a ZeroManifold."""
-
-    points: Floats
-    offsets: Ints
-    closed: Bools
-    turns: Ints
-    isolated: Floats
-    nodes: Floats
-    touching: Floats
-    doubts: tuple[str, ...]
 
 
 def poles(surface: Surface) -> list[Pole]:
@@ -68,16 +54,15 @@ def _spread(points: Floats) -> float:
     return float(np.linalg.norm(np.ptp(points, axis=0))) if np.isfinite(points).all() else np.inf
 
 
-def through_poles(surface: Surface, found: ZeroManifold) -> Branches:
+def through_poles(surface: Surface, found: ZeroManifold) -> ZeroManifold:
     """The branches of a manifold, those that end at a pole led to it, those that go straight on through it joined.
 
     Where the condition is zero at a pole but no curve leads there, the pole is an isolated point.
     """
     own = poles(surface)
-    lines = [found.points[a:b].copy() for a, b in zip(found.offsets[:-1], found.offsets[1:], strict=True)]
     if not own:
-        own_points = found.isolated, found.nodes, found.touching
-        return Branches(found.points, found.offsets, found.closed, found.turns, *own_points, found.doubts)
+        return found
+    lines = [found.points[a:b].copy() for a, b in zip(found.offsets[:-1], found.offsets[1:], strict=True)]
     closed, turns = found.closed.tolist(), list(found.turns)
     isolated, nodes, touching = (_away(own, p) for p in (found.isolated, found.nodes, found.touching))
     for pole in own:
@@ -96,15 +81,16 @@ def through_poles(surface: Surface, found: ZeroManifold) -> Branches:
     alone = len(found.touching) > 0 and not len(touching)
     doubts = tuple(text for text in found.doubts if not (alone and text.startswith(ALONG_A_LINE)))
     sizes = [len(line) for line in lines]
-    return Branches(
-        np.concatenate([np.zeros((0, 2)), *lines]),
-        ragged.offsets(sizes),
-        np.array(closed, dtype=np.bool_),
-        np.array(turns, dtype=np.intp).reshape(-1, 2),
-        isolated,
-        nodes,
-        touching,
-        doubts,
+    return replace(
+        found,
+        points=np.concatenate([np.zeros((0, 2)), *lines]),
+        offsets=ragged.offsets(sizes),
+        closed=np.array(closed, dtype=np.bool_),
+        turns=np.array(turns, dtype=np.intp).reshape(-1, 2),
+        isolated=isolated,
+        nodes=nodes,
+        touching=touching,
+        doubts=doubts,
     )
 
 

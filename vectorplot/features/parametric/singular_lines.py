@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.features.parametric.curve_tracing import Tracing, curves_where_zero, samples, wrapped
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves
-from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import some
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.surfaces.surface import Domain, Surface, normals
 
@@ -165,21 +165,13 @@ def _singular_only(surface: Surface, found: SurfaceCurves, size: float) -> Surfa
             single.append(np.array([home[0][own][0], home[1][own][0]]))
         else:
             kept.append(k)
-    inside: Bools = np.repeat(np.isin(np.arange(len(found)), kept), np.diff(found.offsets))
-    sizes = np.diff(found.offsets)[kept]
     own_nodes = np.linalg.norm(normals(surface, *found.nodes.T), axis=-1) <= SINGULAR * size
-    return SurfaceCurves(
-        found.u[inside],
-        found.v[inside],
-        found.points[inside],
-        ragged.offsets(sizes),
-        found.closed[kept],
-        found.turns[kept],
-        found.levels[kept],
-        np.array(single).reshape(-1, 2),
-        found.nodes[own_nodes],
-        found.touching[:0],
-        (),
+    return replace(
+        some(found, np.array(kept, dtype=np.intp)),
+        isolated=np.array(single).reshape(-1, 2),
+        nodes=found.nodes[own_nodes],
+        touching=found.touching[:0],
+        doubts=(),
     )
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, indices_along, joined
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,44 +26,29 @@ class SurfaceCurves:
     doubts: a sentence for each thing that could not be decided.
     """
 
-    u: Floats
-    v: Floats
-    points: Floats
+    u: Floats = field(metadata=EACH_POINT)
+    v: Floats = field(metadata=EACH_POINT)
+    points: Floats = field(metadata=EACH_POINT)
     offsets: Ints
-    closed: Bools
-    turns: Ints
-    levels: Floats
-    isolated: Floats
-    nodes: Floats
-    touching: Floats
-    doubts: tuple[str, ...]
+    closed: Bools = field(metadata=EACH_LINE)
+    turns: Ints = field(metadata=EACH_LINE)
+    levels: Floats = field(metadata=EACH_LINE)
+    isolated: Floats = field(metadata=APART)
+    nodes: Floats = field(metadata=APART)
+    touching: Floats = field(metadata=APART)
+    doubts: tuple[str, ...] = field(metadata=DOUBTS)
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
 
     def __getitem__(self, curve: int) -> Floats:
         """(k,3) the points of a curve; a closed one ends with its first point."""
-        own = self.points[self.offsets[curve] : self.offsets[curve + 1]]
-        return np.concatenate([own, own[:1]]) if self.closed[curve] else own
+        return self.points[indices_along(self, curve)]
 
 
 def together(families: Sequence[SurfaceCurves]) -> SurfaceCurves:
     """All the curves in one; a doubt that several of them have is said once."""
-    families = [no_curves(), *families]
-    counts = np.concatenate([np.diff(c.offsets) for c in families])
-    return SurfaceCurves(
-        np.concatenate([c.u for c in families]),
-        np.concatenate([c.v for c in families]),
-        np.concatenate([c.points for c in families]),
-        ragged.offsets(counts),
-        np.concatenate([c.closed for c in families]),
-        np.concatenate([c.turns for c in families]),
-        np.concatenate([c.levels for c in families]),
-        np.concatenate([c.isolated for c in families]),
-        np.concatenate([c.nodes for c in families]),
-        np.concatenate([c.touching for c in families]),
-        tuple(dict.fromkeys(text for c in families for text in c.doubts)),
-    )
+    return joined([no_curves(), *families])
 
 
 def with_points(curves: SurfaceCurves, after: Ints, u: Floats, v: Floats, points: Floats) -> tuple[SurfaceCurves, Ints]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -42,6 +42,7 @@ from vectorplot.features.zeros.zero_triangles import triangles_near
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
 from vectorplot.geometry.outline import concat
+from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, closed_round
 from vectorplot.surfaces.surface import Domain
 
 JUMPS = "f changes its sign without being zero"
@@ -72,14 +73,14 @@ class ZeroManifold:
     """
 
     domain: Domain
-    points: Floats
+    points: Floats = field(metadata=EACH_POINT)
     offsets: Ints
-    closed: Bools
-    turns: Ints
-    nodes: Floats
-    isolated: Floats
-    touching: Floats
-    doubts: tuple[str, ...]
+    closed: Bools = field(metadata=EACH_LINE)
+    turns: Ints = field(metadata=EACH_LINE)
+    nodes: Floats = field(metadata=APART)
+    isolated: Floats = field(metadata=APART)
+    touching: Floats = field(metadata=APART)
+    doubts: tuple[str, ...] = field(metadata=DOUBTS)
     grid: Floats
 
     def __len__(self) -> int:
@@ -274,22 +275,20 @@ def _levels(columns: int, rows: int, resolution: float) -> int:
 def _polylines(field: ScalarField, points: Floats, segments: Ints) -> Polylines:
     """The segments joined to polylines whose parameters run on over seams; closed ones repeat their first point."""
     branches = concat(segments)
-    size = np.diff(branches.offsets) + branches.closed
-    offsets = ragged.offsets(size)
-    path = ragged.owner(size)
-    place = np.arange(offsets[-1]) - offsets[path]
-    index = branches.offsets[path] + place
-    index = np.where(branches.closed[path] & (place == size[path] - 1), branches.offsets[path], index)
-    result = points[branches.points[index.astype(np.intp)]]
-    last = place == size[path] - 1
+    rounds = closed_round(branches)
+    offsets = rounds.offsets
+    path = ragged.owner(np.diff(offsets))
+    result = points[branches.points[rounds.index]]
+    last = np.zeros(len(result), dtype=np.bool_)
+    last[offsets[1:] - 1] = True
     for axis in (0, 1):
         if field.closed[axis] and len(result):
             x = result[:, axis]
             jump = np.concatenate([[0.0], -np.round(np.diff(x) / field.size[axis])])
-            jump[place == 0] = 0.0
+            jump[offsets[:-1]] = 0.0
             turned = np.cumsum(jump)
             result[:, axis] = x + (turned - turned[offsets[path]]) * field.size[axis]
-    return Polylines(result, np.asarray(last, dtype=np.bool_))
+    return Polylines(result, last)
 
 
 def _to_holes(field: ScalarField, lines: Polylines, cell: Floats, zero: float) -> Polylines:

@@ -22,6 +22,7 @@ from vectorplot.features.meshes.mesh_lines import (
 from vectorplot.features.meshes.patterns import pattern_outline
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.repair.winding import pieces_of_faces
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
@@ -223,11 +224,8 @@ def _mesh_isophotes(scene: Scene, view: View, item: Item) -> MeshCurves:
 def _lines_of_curves(view: View, curves: MeshCurves, kind: LineKind, item: int, smooth: bool) -> Lines:
     """The segments of curves; smooth: they are chords of smooth curves through their ends."""
     points = view.points_of(curves.points)
-    after = np.arange(1, len(curves.points) + 1)
-    last = curves.offsets[1:] - 1
-    after[last] = np.where(curves.closed, curves.offsets[:-1], last)
-    begin = np.flatnonzero(after != np.arange(len(after)))
+    begin, end = segments(curves).T
     numbers = np.full(len(begin), item)
     kinds = np.full(len(begin), int(kind))
-    lines = straight_lines(points[:, begin], points[:, after[begin]], kinds, numbers, np.zeros_like(numbers))
+    lines = straight_lines(points[:, begin], points[:, end], kinds, numbers, np.zeros_like(numbers))
     return replace(lines, smooth=np.full(len(begin), smooth))

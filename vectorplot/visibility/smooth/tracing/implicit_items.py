@@ -25,7 +25,7 @@ from vectorplot.features.implicit.implicit_curves import (
 )
 from vectorplot.features.implicit.implicit_tracing import ImplicitCurves, ImplicitTracing
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import closed_round
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
@@ -80,16 +80,13 @@ def as_spatial_curves(
     """Curves of the world in the view's coordinates, closed ones led back to their first point; second_places (n,3) of
     the points found, in the view's coordinates."""
     view = sheet.view
-    counts = np.diff(found.offsets) + found.closed
-    offsets = ragged.offsets(counts)
-    index = ragged.ranges(found.offsets[:-1], counts)
-    index[offsets[1:][found.closed] - 1] = found.offsets[:-1][found.closed]
-    points = np.ascontiguousarray(view.points_of(found.points).T)[index]
+    rounds = closed_round(found)
+    points = np.ascontiguousarray(view.points_of(found.points).T)[rounds.index]
     return Curves(
         points,
         points,
-        np.full_like(points, np.nan) if second_places is None else second_places[index],
-        offsets,
+        np.full_like(points, np.nan) if second_places is None else second_places[rounds.index],
+        rounds.offsets,
         found.closed,
         np.full(len(found), int(kind)),
         np.full(len(found), sheet.item, dtype=np.intp),

@@ -13,8 +13,8 @@ from vectorplot.features.intersections.mesh_section import mesh_section
 from vectorplot.features.intersections.self_intersection import self_intersections
 from vectorplot.features.intersections.surface_intersection import surface_intersection
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.polylines import closed_round
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.graphs import is_graph
@@ -127,12 +127,8 @@ def _double(
     found: DoubleCurves, one: ParametricSheet, first: int, two: ParametricSheet, second: int, item: int
 ) -> Curves:
     """Curves on two sheets, closed ones led back to their first point in whatever roles and periods it is there."""
-    counts = np.diff(found.offsets) + found.closed
-    offsets = ragged.offsets(counts)
-    index = ragged.ranges(found.offsets[:-1], counts)
-    back = offsets[1:][found.closed] - 1
-    start = found.offsets[:-1][found.closed]
-    index[back] = start
+    rounds = closed_round(found)
+    index, back, start = rounds.index, rounds.again, rounds.start
     places, others = _places(found.one)[index], _places(found.two)[index]
     swaps = np.zeros(len(start), dtype=np.bool_)
     if first == second:
@@ -148,7 +144,7 @@ def _double(
         found.points[index],
         places,
         others,
-        offsets,
+        rounds.offsets,
         found.closed,
         np.full(many, int(LineKind.INTERSECTION)),
         np.full(many, item, dtype=np.intp),

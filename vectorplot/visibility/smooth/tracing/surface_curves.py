@@ -6,7 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
-from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import closed_round
 from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves
 from vectorplot.visibility.smooth.sheets.meeting_families import FaceCurves
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
@@ -19,21 +19,18 @@ def as_curves(
     found: SurfaceCurves, kind: LineKind, item: int, family: OnSurface, second_places: Floats | None = None
 ) -> Curves:
     """Curves of a surface with closed ones led back to their first point; second_places (n,3) of the points found."""
-    counts = np.diff(found.offsets) + found.closed
-    offsets = ragged.offsets(counts)
-    index = ragged.ranges(found.offsets[:-1], counts)
-    back = offsets[1:][found.closed] - 1
-    index[back] = found.offsets[:-1][found.closed]
+    rounds = closed_round(found)
+    index = rounds.index
     places = np.stack([found.u, found.v, np.zeros_like(found.u)], axis=1)[index]
     surface = family.surface.surface
-    places[back, :2] += found.turns[found.closed] * np.array(surface.domain.size)
+    places[rounds.again, :2] += found.turns[found.closed] * np.array(surface.domain.size)
     many = len(found)
     whole = np.full(many, item, dtype=np.intp)
     return Curves(
         found.points[index],
         places,
         np.full_like(places, np.nan) if second_places is None else second_places[index],
-        offsets,
+        rounds.offsets,
         found.closed,
         np.full(many, int(kind)),
         whole,

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
 from vectorplot.visibility.smooth.sheets.family import Along, Chords, Family
 
 
@@ -24,15 +25,15 @@ class Curves:
     condition of its family has along a curve.
     """
 
-    points: Floats
-    places: Floats
-    second_places: Floats
+    points: Floats = field(metadata=EACH_POINT)
+    places: Floats = field(metadata=EACH_POINT)
+    second_places: Floats = field(metadata=EACH_POINT)
     offsets: Ints
-    closed: Bools
-    kind: Ints
-    item: Ints
-    family: Ints
-    level: Floats
+    closed: Bools = field(metadata=EACH_LINE)
+    kind: Ints = field(metadata=EACH_LINE)
+    item: Ints = field(metadata=EACH_LINE)
+    family: Ints = field(metadata=EACH_LINE)
+    level: Floats = field(metadata=EACH_LINE)
     families: tuple[Family, ...]
 
     def __len__(self) -> int:
@@ -86,40 +87,15 @@ class Curves:
 
     def some(self, which: Ints) -> Curves:
         """Some of the curves."""
-        counts = np.diff(self.offsets)[which]
-        offsets = ragged.offsets(counts)
-        index = ragged.ranges(self.offsets[which], counts)
-        return Curves(
-            self.points[index],
-            self.places[index],
-            self.second_places[index],
-            offsets,
-            self.closed[which],
-            self.kind[which],
-            self.item[which],
-            self.family[which],
-            self.level[which],
-            self.families,
-        )
+        return some(self, which)
 
 
 def together(parts: Sequence[Curves]) -> Curves:
     """All the curves of all parts."""
     parts = [no_curves(), *parts]
-    counts = np.concatenate([np.diff(p.offsets) for p in parts])
     shift = ragged.starts([len(p.families) for p in parts])
-    return Curves(
-        np.concatenate([p.points for p in parts]),
-        np.concatenate([p.places for p in parts]),
-        np.concatenate([p.second_places for p in parts]),
-        ragged.offsets(counts),
-        np.concatenate([p.closed for p in parts]),
-        np.concatenate([p.kind for p in parts]),
-        np.concatenate([p.item for p in parts]),
-        np.concatenate([p.family + s for p, s in zip(parts, shift, strict=True)]),
-        np.concatenate([p.level for p in parts]),
-        tuple(family for p in parts for family in p.families),
-    )
+    numbered = [replace(p, family=p.family + s) for p, s in zip(parts, shift, strict=True)]
+    return replace(joined(numbered), families=tuple(family for p in parts for family in p.families))
 
 
 def no_curves() -> Curves:

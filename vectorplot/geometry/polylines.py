@@ -1,0 +1,152 @@
+"""Polylines, and what is said of each of their points and of each of them: chosen, put together, led round.
+
+Curves on a surface, in faces of a mesh, on two sheets or on a page are polylines of which more is known: parameters
+beside every point, a level or a kind beside every line. Such a type has the fields ``offsets`` and mostly ``closed`` as
+Polylines have them, and marks with EACH_POINT, EACH_LINE, APART or DOUBTS what its other fields belong to; the
+functions here then take care of all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import Field, dataclass, field, fields, replace
+from typing import Any, ClassVar, Protocol, TypeVar
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+
+_BELONGS_TO = "belongs to"
+
+EACH_POINT = {_BELONGS_TO: "point"}
+"""Marks a field with one row for every point."""
+
+EACH_LINE = {_BELONGS_TO: "line"}
+"""Marks a field with one row for every polyline."""
+
+APART = {_BELONGS_TO: "none"}
+"""Marks a field with rows that belong to none of the polylines: single points, or nodes."""
+
+DOUBTS = {_BELONGS_TO: "doubts"}
+"""Marks a field with sentences about all polylines."""
+
+
+class Lines(Protocol):
+    """A frozen dataclass with polylines that may be open only."""
+
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+
+    @property
+    def offsets(self) -> Ints:
+        """(m+1,): polyline i has the points offsets[i] to offsets[i+1]."""
+
+
+class Rings(Lines, Protocol):
+    """A frozen dataclass with polylines that may be closed."""
+
+    @property
+    def closed(self) -> Bools:
+        """(m,): the last point joins the first, which is not repeated."""
+
+
+L = TypeVar("L", bound=Lines)
+
+
+@dataclass(frozen=True, eq=False)
+class Polylines:
+    """Polylines, open and closed.
+
+    points (p,d); offsets (m+1,): polyline i has the points offsets[i] to offsets[i+1]; closed (m,): the last point
+    joins the first, which is not repeated.
+    Degenerate: no polylines at all is points (0,d), offsets (1,).
+    """
+
+    points: Floats = field(metadata=EACH_POINT)
+    offsets: Ints
+    closed: Bools = field(metadata=EACH_LINE)
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __getitem__(self, line: int) -> Floats:
+        """(k,d) the points of a polyline; a closed one ends with its first point."""
+        return self.points[indices_along(self, line)]
+
+
+@dataclass(frozen=True, eq=False)
+class Rounds:
+    """Polylines led back to where they begin: index (n,) of points, line after line, those of a closed one with its
+    first once more at the end; offsets (m+1,) of the lines then; again (c,): where in index the points stand that come
+    once more, and start (c,): which they are."""
+
+    index: Ints
+    offsets: Ints
+    again: Ints
+    start: Ints
+
+
+def closed_round(lines: Rings) -> Rounds:
+    """The polylines as open ones: closed ones come back to their first point."""
+    sizes = np.diff(lines.offsets)
+    goes_round = lines.closed & (sizes > 0)
+    offsets = ragged.offsets(sizes + goes_round)
+    index = ragged.ranges(lines.offsets[:-1], sizes + goes_round)
+    again, start = offsets[1:][goes_round] - 1, lines.offsets[:-1][goes_round]
+    index[again] = start
+    return Rounds(index, offsets, again, start)
+
+
+def indices_along(lines: Rings, line: int) -> Ints:
+    """(k,) the points of one polyline in order; a closed one ends with its first point."""
+    first, end = lines.offsets[line : line + 2]
+    return np.append(np.arange(first, end), [first] * bool(lines.closed[line] and end > first)).astype(np.intp)
+
+
+def segments(lines: Rings) -> Ints:
+    """(s,2) the points at which the segments of polylines begin and end, those that close them in their places."""
+    rounds = closed_round(lines)
+    begins = np.ones(len(rounds.index), dtype=np.bool_)
+    begins[rounds.offsets[1:][np.diff(rounds.offsets) > 0] - 1] = False
+    at = np.flatnonzero(begins)
+    return np.stack([rounds.index[at], rounds.index[at + 1]], axis=1)
+
+
+def some(lines: L, which: Ints | Bools) -> L:
+    """Some of the polylines, with all that is said of them: those with these indices, in this order; or those where a
+    mask is true."""
+    points, offsets = ragged.take(lines.offsets, which)
+    return _with_rows(lines, points, which, offsets)
+
+
+def with_points_kept(lines: L, kept: Bools) -> L:
+    """The polylines with those of their points (p,) that are kept, without those that keep less than two."""
+    owner = ragged.owner(np.diff(lines.offsets))
+    counts = np.bincount(owner[kept], minlength=len(lines.offsets) - 1)
+    real = counts > 1
+    return _with_rows(lines, kept & real[owner], real, ragged.offsets(counts[real]))
+
+
+def _with_rows(lines: L, points: Ints | Bools, which: Ints | Bools, offsets: Ints) -> L:
+    values = {f.name: getattr(lines, f.name) for f in fields(lines)}
+    chosen = {"point": points, "line": which}
+    rows = {
+        f.name: values[f.name][chosen[f.metadata[_BELONGS_TO]]]
+        for f in fields(lines)
+        if f.metadata.get(_BELONGS_TO) in chosen
+    }
+    return replace(lines, offsets=offsets, **rows)
+
+
+def joined(parts: Sequence[L]) -> L:
+    """All polylines of at least one part, one part after the other, with all that is said of them; a doubt that several
+    parts have is said once. A field without a mark is that of the first part."""
+    rows: dict[str, Any] = {}
+    for f in fields(parts[0]):
+        values = [getattr(part, f.name) for part in parts]
+        if f.metadata == DOUBTS:
+            rows[f.name] = tuple(dict.fromkeys(text for texts in values for text in texts))
+        elif _BELONGS_TO in f.metadata:
+            rows[f.name] = np.concatenate(values)
+    offsets = ragged.offsets(np.concatenate([np.diff(part.offsets) for part in parts]))
+    return replace(parts[0], offsets=offsets, **rows)
