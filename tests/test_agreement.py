@@ -111,6 +111,7 @@ def differences(scene: vp.Scene, camera: vp.Camera, **options: str) -> np.ndarra
     return np.abs(means[0] - means[1]).max(axis=1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_regions_have_the_same_mean_colours_painted_and_rendered(name: str) -> None:
     for camera, shadows in ((ABOVE, "auto"), (ASKEW, "auto"), (ABOVE, "none")):

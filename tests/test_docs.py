@@ -43,6 +43,7 @@ def checkout(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("page", [page for page in PAGES if blocks(page, "python")], ids=lambda page: page.name)
 def test_the_python_of_the_pages_runs(page, checkout):
     code = "\n".join(blocks(page, "python"))
@@ -57,6 +58,7 @@ def test_the_painted_town_says_how_many_polygons_it_has(checkout, capsys):
     assert "polygons" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", sorted(set(COMMANDS)))
 def test_the_commands_of_the_pages_work(command, checkout, capfdbinary):
     words = shlex.split(command)

@@ -64,6 +64,7 @@ def cameras(scene: Scene) -> list[Camera]:
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G7.1-screen-hl")
 @pytest.mark.hard(20, 21)
 @pytest.mark.filterwarnings("ignore::vectorplot.errors.InputWarning")

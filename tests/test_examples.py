@@ -70,6 +70,7 @@ def pixels_of(path: Path) -> np.ndarray:
     return np.asarray(image.open(path).convert("RGB")).astype(np.int16)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", [*SCENES, *EXAMPLES], ids=lambda path: path.stem)
 def test_every_scene_and_example_draws_whole_pictures(path, made):
     files = made(path)
@@ -78,6 +79,7 @@ def test_every_scene_and_example_draws_whole_pictures(path, made):
         assert_is_whole(file)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", [*SCENES, *EXAMPLES], ids=lambda path: path.stem)
 def test_the_stored_pictures_are_the_ones_that_are_drawn_now(path, made):
     for file in made(path):
@@ -219,6 +221,7 @@ def covered(fills, chosen):
     return shapely.union_all([shapely.Polygon(rings[k]).buffer(0) for k in np.flatnonzero(chosen)], grid_size=1e-9)
 
 
+@pytest.mark.slow
 def test_the_town_has_two_lights_which_cast_shadows():
     town = vp.read(ROOT / "data" / "town.scene")
     assert len(town.lights) == 2
@@ -299,6 +302,7 @@ def test_what_the_book_and_the_examples_are_known_for_is_there():
     assert len(vp.read(ROOT / "data" / "town.scene").items) == 30 + 1, "thirty blocks on a plate"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
 def test_rays_confirm_every_scene(path):
     read = vp.read(path)

@@ -199,6 +199,7 @@ def cylinder(sides: int, rings: int) -> vp.Mesh:
     return vp.Mesh.from_polygons(vertices, faces + np.concatenate(walls).tolist())
 
 
+@pytest.mark.slow
 @pytest.mark.hard(25)
 @pytest.mark.parametrize("lines", [("contour", "crease", "boundary"), EVERY_EDGE])
 def test_a_cylinder_along_its_axis_is_one_closed_stroke(lines: tuple[str, ...]) -> None:
@@ -275,6 +276,7 @@ print(peak, peak - before, sure.sum(), wrong.sum(), (lines.hidden_by[which][sure
 """
 
 
+@pytest.mark.slow
 @pytest.mark.hard(27)
 def test_a_million_triangles_stay_below_a_ceiling_and_agree_with_rays() -> None:
     here = TESTS

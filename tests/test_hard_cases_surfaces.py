@@ -55,6 +55,7 @@ def torus_cusps(slant: float) -> np.ndarray:
     return 3.0 * middle + arm / np.linalg.norm(arm, axis=1, keepdims=True)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(29)
 @pytest.mark.parametrize("slant", [1.1, 1.3, 1.5])
 def test_the_visible_contour_of_a_torus_ends_in_its_cusps(slant: float) -> None:
@@ -73,6 +74,7 @@ def test_the_visible_contour_of_a_torus_ends_in_its_cusps(slant: float) -> None:
     assert_drawing_is_right(drawing, scene, camera, samples=300, clearance=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(48)
 @pytest.mark.parametrize("eye", [(6.0, -5.0, 4.0), (5.0, 7.0, 2.0), (-4.0, -6.0, 7.0)])
 def test_the_double_line_of_an_umbrella_is_drawn_up_to_its_pinch_point(eye: tuple[float, float, float]) -> None:
@@ -87,6 +89,7 @@ def test_the_double_line_of_an_umbrella_is_drawn_up_to_its_pinch_point(eye: tupl
     assert np.isclose(sum(abs(np.diff(line[:, 2])).sum() for line in lines), 1.0, atol=1e-6), "once, without gaps"
 
 
+@pytest.mark.slow
 @pytest.mark.hard(49)
 def test_the_cuspidal_edge_of_a_swallowtail_keeps_its_cusp() -> None:
     tail = surface_of_function(lambda u, v: (3.0 * v**4 + u * v * v, 4.0 * v**3 + 2.0 * u * v, u), SQUARE)
@@ -101,6 +104,7 @@ def test_the_cuspidal_edge_of_a_swallowtail_keeps_its_cusp() -> None:
     assert distance(knots(drawing), on_page(drawing, np.zeros(3))) < 1e-6, "no curve is bent round the cusp"
 
 
+@pytest.mark.slow
 @pytest.mark.hard(49)
 def test_the_edge_of_the_tangents_of_a_helix_is_drawn_whole() -> None:
     def points(u, v):

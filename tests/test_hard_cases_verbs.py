@@ -142,6 +142,7 @@ OPEN: dict[str, Callable[[], vp.Scene]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.hard(13)
 @pytest.mark.parametrize("verb", VERBS)
 @pytest.mark.parametrize("name", OPEN)
@@ -151,6 +152,7 @@ def test_open_meshes_hide_and_are_seen_from_both_sides(verb: str, name: str) -> 
         VERBS[verb](scene, camera)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(20)
 @pytest.mark.parametrize("verb", VERBS)
 @pytest.mark.parametrize("count", [3, 4, 5, 7])
@@ -161,6 +163,7 @@ def test_bars_that_overlap_in_a_ring_of_any_number(verb: str, count: int) -> Non
             VERBS[verb](scene, camera)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(21)
 @pytest.mark.parametrize("verb", VERBS)
 @pytest.mark.parametrize("seed", range(4))
@@ -223,6 +226,7 @@ def loops(points: list[Floats]) -> list[Floats]:
     return ways
 
 
+@pytest.mark.slow
 @pytest.mark.hard(28)
 @pytest.mark.parametrize("verb", ["draw", "paint"])
 @pytest.mark.parametrize(("rings", "sectors"), [(4, 5), (9, 12), (24, 40), (60, 90)])
@@ -360,6 +364,7 @@ def test_functions_that_fail_are_named_in_every_verb(verb, wrong, kind: str) -> 
     assert "\n" not in str(told.value)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(69)
 @pytest.mark.parametrize("verb", ["paint", "render", "draw"])
 def test_where_a_function_is_not_finite_one_looks_through(verb: str) -> None:

@@ -112,6 +112,7 @@ def test_an_edge_behind_the_eye_is_clipped_before_it_is_divided() -> None:
     assert len(drawn(vp.draw(scene_of(BEHIND=box((-1, -9, 0), (1, -5, 2))), camera))) == 0
 
 
+@pytest.mark.slow
 @pytest.mark.hard(6)
 def test_coincident_faces_in_any_order_give_the_same_drawing() -> None:
     scene = coincident_faces()

@@ -50,6 +50,7 @@ def imported_modules(tree: ast.AST, package: tuple[str, ...]) -> set[tuple[str, 
     return {module[1:] for module in found if module[0] == "vectorplot" and len(module) > 1}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("file", [file for file in FILES if file != "__init__.py"])
 def test_a_room_imports_only_what_stands_left_of_it(file):
     path = Path(file)
@@ -80,6 +81,7 @@ def modules_imported_by(file: str) -> set[str]:
     return found - {file}
 
 
+@pytest.mark.slow
 def test_no_files_import_each_other_in_a_circle():
     """Not even inside functions, and not for types alone; but for a drawing that shows itself."""
     hooks = {home for home, _ in ALLOWED}
@@ -90,6 +92,7 @@ def test_no_files_import_each_other_in_a_circle():
     assert not waiting, f"in circles, or behind one: {sorted(waiting)}"
 
 
+@pytest.mark.slow
 def test_no_file_takes_what_another_keeps_to_itself():
     """Names with an underscore in front are a file's own."""
     taken = []

@@ -102,6 +102,7 @@ def test_a_fitted_picture_touches_its_margins_and_is_otherwise_the_same(camera: 
     assert np.allclose(here - here[0], scale * (there - there[0]), atol=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(18, 19)
 @pytest.mark.parametrize("kind", ["piercing boxes", "table", "mirror and glass"])
 @pytest.mark.parametrize("offset, scale", [(1e6, 1.0), (0.0, 1e-6), (0.0, 1e6)])
@@ -131,6 +132,7 @@ def test_far_tiny_and_huge_scenes_give_the_same_picture(kind: str, offset: float
     assert_same_picture(paint(scene, cameras[0], page=page), paint(there, cameras[1], page=page))
 
 
+@pytest.mark.slow
 @pytest.mark.hard(32)
 @pytest.mark.parametrize("kind", ["tori", "piercing_boxes", "on_a_floor"])
 def test_the_order_of_the_items_does_not_show(kind: str) -> None:
@@ -157,6 +159,7 @@ def test_an_empty_scene_is_an_empty_page(scene: Scene) -> None:
     assert (drawing.width_mm, drawing.height_mm) == (100.0, 100.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(hard_shapes()))
 @pytest.mark.parametrize("lights", [(), (SUN, LAMP)], ids=["dark", "lit"])
 def test_hard_shapes_are_painted_with_finite_numbers(name: str, lights: tuple[Light, ...]) -> None:
@@ -238,6 +241,7 @@ def test_the_aura_of_a_shadow_is_as_wide_on_the_page_as_it_is_told(fit: bool) ->
     assert (steps >= 0.0).all() and steps.max() < 0.2 * (border[-1] - border[0]) and len(set(np.rint(border))) > 8
 
 
+@pytest.mark.slow
 def test_smooth_surfaces_are_shaded_from_corner_to_corner_unless_told_otherwise() -> None:
     ball = Scene((Item("BALL", Sphere(1.0)),), (SUN,))
     smooth, flat = (fills_of(paint(ball, CAMERAS[0], smooth=on, tolerance_mm=0.5)) for on in (True, False))
@@ -428,6 +432,7 @@ def test_knots_of_many_bars_are_painted_right_and_stay_few_polygons() -> None:
     assert len(fills) < 12 * 3 * 4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["tori", "piercing_boxes", "on_a_floor", "mirror"])
 def test_visible_fills_show_the_same_picture_without_painting_anything_over(kind: str) -> None:
     mirror = Item("MIRROR", box((-3, 2, 0), (3, 2.1, 3)), "cyan", Material("mirror"))
@@ -473,6 +478,7 @@ def test_an_eye_in_the_planes_of_faces_sees_what_there_is() -> None:
     assert len(fills) > 1 and np.isfinite(fills.points).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 2, 4, 6])
 def test_shadows_seen_edge_on_have_no_aura(seed: int) -> None:
     random = np.random.default_rng(seed)
@@ -483,6 +489,7 @@ def test_shadows_seen_edge_on_have_no_aura(seed: int) -> None:
         assert np.isfinite(fills.points).all()
 
 
+@pytest.mark.slow
 def test_what_one_sees_through_lets_light_through_whatever_it_says_about_lines() -> None:
     floor = Item("FLOOR", box((-5, -5, -1), (5, 5, 0)), "lightgray")
     pane = Item("PANE", box((-1, -1, 1), (1, 1, 1.2)), "cyan", Material("transparent", 0.4, 1.4))

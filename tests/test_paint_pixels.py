@@ -39,6 +39,7 @@ FAMILIES = {
 SEEDS, SEEDS_OF_MIRRORS = 16, 8
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G5.0-painter", "G6.3-shadow", "G6.3-multi", "G6.3-convex-cast")
 @pytest.mark.parametrize("family", FAMILIES)
 def test_pictures_show_what_rays_meet_in_the_shade_of_the_lights_that_reach_it(family: str) -> None:
@@ -53,6 +54,7 @@ def test_pictures_show_what_rays_meet_in_the_shade_of_the_lights_that_reach_it(f
     assert sure > 0.5 * SEEDS * ROWS * COLUMNS
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G6.4-reflect", "G6.4-window-test", "G6.4-light-double")
 @pytest.mark.parametrize("family", FAMILIES)
 def test_mirrors_show_what_mirrored_rays_meet_in_its_shade(family: str) -> None:
@@ -82,6 +84,7 @@ def test_the_comparison_finds_wrong_pictures() -> None:
     assert compared(scene, camera, paint(fewer, camera, page=PAGE, fit=False, palette=256))[0] > 100
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("parallel", [False, True])
 def test_an_eye_amid_the_scene_sees_what_is_before_it(parallel: bool) -> None:
     for seed in range(6):
@@ -97,6 +100,7 @@ def test_an_eye_amid_the_scene_sees_what_is_before_it(parallel: bool) -> None:
         assert sure > 0.5 * ROWS * COLUMNS
 
 
+@pytest.mark.slow
 def test_an_eye_in_a_room_sees_its_inner_walls_and_what_stands_in_it() -> None:
     room, table = box((-4, -3, 0), (4, 3, 2.5)), box((0.5, -1, 0), (2, 1, 0.8))
     scene = Scene((Item("ROOM", room), Item("TABLE", table)), (Light((-1.0, 0.5, 2.2), intensity=0.9),))
@@ -105,6 +109,7 @@ def test_an_eye_in_a_room_sees_its_inner_walls_and_what_stands_in_it() -> None:
         assert (wrong, off) == (0, 0) and sure > 0.8 * ROWS * COLUMNS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", ["hulls", "piercing_boxes", "tori"])
 def test_one_sees_through_clear_things_what_rays_meet_one_after_the_other(family: str) -> None:
     compared_places = several = 0

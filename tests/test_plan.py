@@ -72,6 +72,7 @@ CALLS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene, options, stages", CALLS)
 def test_each_scene_runs_the_stages_that_it_calls_for(scene: Scene, options: dict, stages: list[str]) -> None:
     assert ran(scene, **options) == stages
@@ -114,6 +115,7 @@ def effects_of(modules: set[str]) -> set[str]:
     return {name.removeprefix("vectorplot.effects.") for name in modules if name.startswith("vectorplot.effects.")}
 
 
+@pytest.mark.slow
 def test_a_scene_without_lights_mirrors_patterns_and_clear_things_loads_no_effect() -> None:
     pencil = f"from vectorplot.io.read import read\nscene = read({str(DATA / 'pencil.scene')!r})"
     modules = loaded(pencil)
@@ -122,6 +124,7 @@ def test_a_scene_without_lights_mirrors_patterns_and_clear_things_loads_no_effec
     assert not {name for name in modules if name.startswith("vectorplot.backends")}
 
 
+@pytest.mark.slow
 def test_a_single_body_needs_nothing_heavy() -> None:
     modules = loaded(CUBE_TEXT.format(more="") + "scene = vp.Scene((item,))")
     assert not {name.split(".")[0] for name in modules} & {"cairo", "svgwrite", "scipy"}
@@ -140,6 +143,7 @@ EFFECTS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("effect", EFFECTS)
 def test_an_effect_loads_its_own_code_and_not_that_of_the_others(effect: str) -> None:
     more, lights, own = EFFECTS[effect]
@@ -149,6 +153,7 @@ def test_an_effect_loads_its_own_code_and_not_that_of_the_others(effect: str) ->
     assert not found & (others - {own}), found
 
 
+@pytest.mark.slow
 def test_transparency_without_refraction_loads_no_effect() -> None:
     more = ", material=vp.Material('transparent', 0.5), occludes=False"
     assert not effects_of(loaded(CUBE_TEXT.format(more=more) + "scene = vp.Scene((item,))"))

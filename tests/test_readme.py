@@ -7,6 +7,7 @@ import re
 import shutil
 import stat
 
+import pytest
 from support.paths import ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -65,6 +66,7 @@ def test_every_dependency_is_in_the_readme():
         assert re.split(r"[<>=]", requirement)[0] in README, requirement
 
 
+@pytest.mark.slow
 def test_the_page_of_coverage_is_fresh():
     spec = importlib.util.spec_from_file_location("coverage_page", ROOT / "docs" / "coverage.py")
     module = importlib.util.module_from_spec(spec)

@@ -87,6 +87,7 @@ def test_a_sphere_has_the_shades_of_its_true_normals(word):
     assert np.quantile(off, 0.99) < (4.0 if finish.sharpness < 50.0 else 12.0)
 
 
+@pytest.mark.slow
 def test_four_materials_make_four_pictures():
     images = {
         word: render(vp.Scene((sphere(word=word),), (SUN,)), CAMERA, size=(120, 90), background="black")
@@ -169,6 +170,7 @@ def floor_scene(lights):
     return vp.Scene((sphere(), plate), lights)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.6-shadow-buffer", "RN-in-B8.6")
 @pytest.mark.parametrize("shadows", ["buffer", "trapezoid", "exact"])
 @pytest.mark.parametrize("light", [SUN, vp.Light((-2.0, -4.0, 5.0), intensity=1.0)], ids=["sun", "lamp"])
@@ -199,6 +201,7 @@ def test_the_shadow_of_a_ball_is_where_geometry_puts_it(shadows, light):
     assert (with_ == without)[lit].mean() > 0.999
 
 
+@pytest.mark.slow
 def test_every_light_casts_its_own_shadow():
     lights = tuple(vp.Light(way, parallel=True, intensity=0.5) for way in ((-2, -0.5, 3), (2, -0.5, 3)))
     camera = vp.Camera((0.0, -9.0, 9.0), (0, 0, -1), fov_deg=35.0)
@@ -335,6 +338,7 @@ def test_glass_is_a_veil_before_what_is_behind_it():
     assert np.abs(turned - veiled).max() <= 1.0, "whatever their order"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("inside_out", [False, True])
 def test_a_closed_body_is_one_veil_and_an_open_one_a_veil_for_every_layer(inside_out):
     cube = box((-1, -1, -1), (1, 1, 1))
@@ -354,6 +358,7 @@ def test_a_closed_body_is_one_veil_and_an_open_one_a_veil_for_every_layer(inside
     assert set(np.unique(within.pixels).tolist()) == {128}, "an eye in a body sees its walls"
 
 
+@pytest.mark.slow
 def test_a_plane_that_a_light_sees_alone_does_not_shadow_itself():
     wall = vp.Item("WALL", box((-2, 2, -2), (2, 2.1, 2)), "#ffffff")
     for place in ((0, -1, 0), (0.3, -1, 0.2), (0, -1e6, 0)):
@@ -383,6 +388,7 @@ def test_what_is_not_rendered_is_said_in_one_line():
     assert any(report.name == "left out" and "mirrors" in report.why for report in reports)
 
 
+@pytest.mark.slow
 def test_pictures_say_what_their_colours_and_their_size_are():
     image = render(vp.Scene((sphere(),)), size=(30, 20))
     png = image.png()
@@ -455,6 +461,7 @@ def test_the_eye_may_be_anywhere(eye):
         assert (image.pixels.reshape(-1, 3) != 255).any(axis=1).all(), "walls all around"
 
 
+@pytest.mark.slow
 def test_smooth_surfaces_show_no_facets():
     scene = vp.Scene((vp.Item("RING", Torus(3.0, 1.2), "gray"),), (SUN,))
     image = levels(render(scene, vp.Camera((0, -12, 9), fov_deg=40), size=(400, 300)))
@@ -464,6 +471,7 @@ def test_smooth_surfaces_show_no_facets():
     assert np.quantile(across[inner[:, 1:-2]], 0.99) < 8.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("camera", [vp.Camera((0, -12, 9), fov_deg=170), vp.Camera((0, -1200, 900))])
 def test_triangles_are_small_in_fitted_pictures_from_afar_too(camera):
     counts = []
@@ -475,6 +483,7 @@ def test_triangles_are_small_in_fitted_pictures_from_afar_too(camera):
     assert counts[1] > 0.7 * counts[0]
 
 
+@pytest.mark.slow
 def test_meshes_look_round_up_to_the_crease_angle():
     from vectorplot.testing.surfaces import torus_mesh
 
@@ -489,6 +498,7 @@ def test_meshes_look_round_up_to_the_crease_angle():
     assert jumps[0] < 0.5 * jumps[1]
 
 
+@pytest.mark.slow
 def test_the_background_is_the_scenes_or_the_users():
     scene = vp.Scene((sphere("blue"),), background="yellow")
     assert render(scene, size=(20, 20)).pixels[0, 0].tolist() == palette("yellow")[-1].tolist()
@@ -598,6 +608,7 @@ BRICK = vp.Item("BRICK", box((-1, -1, 0), (1, 1, 1)))
 FAR = vp.Camera((0, -30, 20), fov_deg=10.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("items", "lights", "camera", "fit", "expected", "why"),
     [
@@ -627,6 +638,7 @@ def test_the_view_calls_for_its_shadows(items, lights, camera, fit, expected, wh
     assert (automatic.pixels == render(scene, camera, size=SIZE, fit=fit, shadows=word).pixels).all()
 
 
+@pytest.mark.slow
 def test_progress_never_goes_back(monkeypatch):
     monkeypatch.setattr(sys.modules["vectorplot.render"], "BAND_PIXELS", 240 * 20)
     told = []
@@ -653,6 +665,7 @@ def test_only_the_stages_that_the_scene_calls_for_run():
     ]
 
 
+@pytest.mark.slow
 def test_a_plain_picture_loads_no_effect_and_nothing_heavy():
     script = """
 import sys
@@ -667,6 +680,7 @@ print(*(name for name in sys.modules if name.split(".")[0] in ("cairo", "scipy",
     assert result.stdout.split() == []
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.5-coloured-light")
 def test_coloured_light_colours_what_it_falls_on_and_its_highlights():
     red, cyan = (replace(SUN, colour=colour, intensity=1.0) for colour in ("#ff0000", "#00ffff"))
@@ -684,6 +698,7 @@ def test_coloured_light_colours_what_it_falls_on_and_its_highlights():
         render(vp.Scene((item,), (replace(SUN, colour="mauve"),)), CAMERA, size=SIZE)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.6-nautilus")
 @pytest.mark.parametrize("shadows", ["buffer", "trapezoid", "exact"])
 @pytest.mark.parametrize(

@@ -106,6 +106,7 @@ def test_the_mode_of_a_replaced_file_is_kept_and_a_link_followed(drawing, tmp_pa
     assert file.stat().st_mode & 0o777 == 0o640
 
 
+@pytest.mark.slow
 def test_writing_svg_does_not_load_cairo_and_writing_ps_not_svgwrite():
     for format, absent in (("svg", "cairo"), ("ps", "svgwrite"), ("json", "cairo")):
         script = f"{BUILD}\nimport sys\nfrom vectorplot.save import write\nwrite(drawing, {format!r})"

@@ -46,12 +46,14 @@ def drawn(shape: object, lines: int = 5, **options: object) -> tuple[vp.Scene, v
     return scene, camera, drawing, [str(warning.message) for warning in said]
 
 
+@pytest.mark.slow
 def test_graphs_with_poles_are_cut_off_and_right() -> None:
     scene, camera, drawing, said = drawn(graph_of("0.3/hypot(x,y)"))
     assert any(line.startswith("S: runs to infinity: shown is z from ") for line in said)
     assert assert_drawing_is_right(drawing, scene, camera, samples=300) > 50
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", ["1/(x^2+y^2)", "1/(x*y)"])
 def test_graphs_with_poles_of_higher_order_end(text: str) -> None:
     _, _, drawing, said = drawn(graph_of(text), lines=2)
@@ -59,6 +61,7 @@ def test_graphs_with_poles_of_higher_order_end(text: str) -> None:
     assert any(len(mark) for layer in drawing.layers for mark in layer.marks)
 
 
+@pytest.mark.slow
 def test_a_graph_with_a_jump_has_no_wall() -> None:
     scene, camera, drawing, _ = drawn(graph_of("atan2(y,x)"))
     found = stroke_points(drawing, scene, camera, 4000, 0).points
@@ -67,12 +70,14 @@ def test_a_graph_with_a_jump_has_no_wall() -> None:
     assert len(beside) > 20 and (np.abs(beside[:, 2]) > 2.9).all()
 
 
+@pytest.mark.slow
 def test_waves_finer_than_any_resolution_end_and_say_what_is_left_out() -> None:
     _, _, drawing, said = drawn(graph_of("sin(1/hypot(x,y))"), lines=0)
     assert any("wind more finely than the resolution" in line for line in said)
     assert any(len(mark) for layer in drawing.layers for mark in layer.marks)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("text", "size"), [("x*y", 1.0), ("y^2-x^3", 1.0)])
 def test_implicit_surfaces_with_singular_lines_end(text: str, size: float) -> None:
     _, _, drawing, said = drawn(implicit_of(text, size))
@@ -80,6 +85,7 @@ def test_implicit_surfaces_with_singular_lines_end(text: str, size: float) -> No
     assert all(line.startswith("S: ") for line in said)
 
 
+@pytest.mark.slow
 def test_a_budget_that_does_not_do_is_one_line_and_a_larger_one_does() -> None:
     waves = graph_of("0.3*sin(5*x)*cos(4*y)")
     *_, poor = drawn(waves, budget=0.01)

@@ -311,6 +311,7 @@ def test_a_visible_line_that_is_left_out_is_found():
         assert_drawing_is_right(drawn(border, far[:-1]), PLATE_SCENE, FROM_ABOVE, must_show=points)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("name", sorted(hard_shapes()))
 def test_every_family_is_drawn_as_rays_see_it(name, parallel):

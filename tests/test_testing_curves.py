@@ -117,6 +117,7 @@ def test_points_at_poles_seams_apexes_and_borders_are_found():
         assert_on_surface(moved(edge, 0, 0, 1e-3), strip, 9e-4)
 
 
+@pytest.mark.slow
 def test_a_hole_is_no_place_of_a_surface():
     def plane(u, v):
         return u, v, np.where(u * u + v * v < 0.25, np.nan, 0.0)

@@ -61,6 +61,7 @@ def some_points(shape, scene: Scene, random: np.random.Generator) -> np.ndarray:
     return np.concatenate([shape.points(u, v), random.uniform(*scene.bounds, (80, 3))])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("name", SURFACES)
 def test_rays_agree_with_closed_forms(name: str, parallel: bool) -> None:
@@ -76,6 +77,7 @@ def test_rays_agree_with_closed_forms(name: str, parallel: bool) -> None:
         assert np.array_equal(count[both] > 0, sight.hidden_by[both] > 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("parallel", [False, True])
 def test_rays_agree_with_the_runs_of_a_torus(parallel: bool) -> None:
     torus = Torus(3.0, 1.0)
@@ -144,6 +146,7 @@ def changed(drawing: Drawing, **values) -> Drawing:
     return replace(drawing, layers=layers)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", [Torus(3.0, 1.0), ImplicitTorus(3.0, 1.0)])
 def test_a_drawing_of_a_surface_is_right_and_a_wrong_one_is_found(shape) -> None:
     scene = one(shape, curves=SurfaceLines(isophotes=(0.1, 0.5)))
@@ -155,6 +158,7 @@ def test_a_drawing_of_a_surface_is_right_and_a_wrong_one_is_found(shape) -> None
             assert_drawing_is_right(changed(drawing, hidden_by=wrong), scene, camera, samples=300, clearance=SURE)
 
 
+@pytest.mark.slow
 def test_points_that_must_be_shown_on_a_surface() -> None:
     scene = one(Torus(3.0, 1.0), curves=SurfaceLines(columns=6))
     camera = Camera((9.0, 5.0, 6.0))
@@ -167,6 +171,7 @@ def test_points_that_must_be_shown_on_a_surface() -> None:
         assert_drawing_is_right(drawing, scene, camera, must_show=other, **options)
 
 
+@pytest.mark.slow
 def test_polyhedra_among_surfaces_are_judged_too() -> None:
     wall = Mesh.from_polygons(
         np.array([(2.0, -5.0, -5.0), (2.0, 5.0, -5.0), (2.0, 5.0, 5.0), (2.0, -5.0, 5.0)]), [[0, 1, 2, 3]]
@@ -181,6 +186,7 @@ def test_polyhedra_among_surfaces_are_judged_too() -> None:
         )
 
 
+@pytest.mark.slow
 def test_cells_of_very_unequal_size_leave_few_points_open() -> None:
     # A torus inverted in a sphere around a point close to it: one side of it is thirty times as large as the other.
     scene = one(dupin_cyclide(3.0, 1.0, (5.2, 0.0, 0.0), 4.0))

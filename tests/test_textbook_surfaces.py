@@ -26,6 +26,7 @@ TABLE = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TABLE)
 def test_textbook_surfaces_are_drawn_in_seconds(name: str, tmp_path: Path) -> None:
     file = tmp_path / "surface.scene"

@@ -58,6 +58,7 @@ def test_a_wheel_holds_every_file_of_the_package():
     assert SETTINGS["tool"]["setuptools"]["packages"]["find"]["include"] == ["vectorplot*"]
 
 
+@pytest.mark.slow
 def test_the_installed_command_works_in_any_folder(installed, tmp_path):
     (tmp_path / "a folder").mkdir()
     folder = tmp_path / "a folder"
@@ -76,6 +77,7 @@ def test_the_installed_command_works_in_any_folder(installed, tmp_path):
     assert "Usage:" in result.stdout
 
 
+@pytest.mark.slow
 def test_every_installed_module_is_found_and_imported(installed, tmp_path):
     code = (
         "import importlib, pkgutil, vectorplot as vp, vectorplot.testing as testing\n"

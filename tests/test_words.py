@@ -48,6 +48,7 @@ def test_a_material_is_the_same_in_python_and_in_files(word):
     assert mine.material == theirs.material and mine.hides == theirs.hides
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("colour", COLOUR_WORDS)
 def test_a_colour_is_the_same_in_python_in_files_and_in_all_verbs(colour):
     quoted = f'colour "{colour}"'

@@ -56,6 +56,7 @@ def test_every_reader_shows_the_colours_that_are_there(tmp_path):
             assert np.abs(np.array(seen) - colour).max() <= (6 if (x, y) not in places else 1), (name, x, y, seen)
 
 
+@pytest.mark.slow
 def test_all_readers_agree(tmp_path):
     seen = pictures(sample(), tmp_path)
     own = seen.pop("png")
@@ -75,6 +76,7 @@ def grid(cells) -> np.ndarray:
     return places[np.stack((corner, corner + 1, above + 1, corner, above + 1, above), axis=1).reshape(-1, 3)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["flat", "shaded", "both"])
 @pytest.mark.parametrize("shape", ["fan", "grid"])
 def test_no_seam_between_dark_neighbours_on_white_paper(shape, kind, tmp_path):
@@ -109,6 +111,7 @@ def test_shaded_neighbours_one_sees_through_do_not_cover_their_common_sides_twic
     assert red.min() >= 0.6 * 255 - 3 and red.max() <= 0.84 * 255
 
 
+@pytest.mark.slow
 def test_a_polygon_grows_by_half_a_seam():
     picture = rgb(png_bytes(page_of(flat([SQUARE], [DARK])), dpi=1270))  # 50 pixels a mm
     row = picture[1250, :, 0] < 128
@@ -133,6 +136,7 @@ def test_fills_and_edges_may_alternate_in_one_mark(tmp_path):
     assert svg_text(erased).count('stroke-width="0.5"') == 2  # the layer's, and both lines in one path
 
 
+@pytest.mark.slow
 def test_neighbours_of_one_colour_are_one_path_and_look_the_same(tmp_path):
     rng = np.random.default_rng(4)
     corners = rng.uniform(0, 40, (200, 3, 2)) * (1.5, 1)  # either turn, overlapping
@@ -280,6 +284,7 @@ def test_layers_without_fills_are_what_they_were():
     assert "<path" not in svg_text(drawing) and '<polyline points="1,39 9,31"/>' in svg_text(drawing)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(8))
 def test_any_polygons_make_files_that_can_be_read(seed, tmp_path):
     """Of no to seven corners, crossing themselves, tiny, huge, far away, clear, of any colours."""

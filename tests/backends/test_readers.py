@@ -97,6 +97,7 @@ def test_vpype_reads_layers_lengths_pens_and_page(sample, tmp_path):
     assert left >= 0 and top >= 0 and right <= 120.001 and bottom <= 80.001
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G4.X-plotter")
 def test_the_command_of_vpype_reads_and_counts(sample, tmp_path):
     save(sample, tmp_path / "a.svg")
@@ -105,6 +106,7 @@ def test_the_command_of_vpype_reads_and_counts(sample, tmp_path):
     assert "Path count: 12" in report
 
 
+@pytest.mark.slow
 @pytest.mark.hard(55)
 @pytest.mark.parametrize("format", FORMATS)
 def test_readers_open_an_empty_drawing(empty, tmp_path, format):

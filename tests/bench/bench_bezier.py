@@ -1,4 +1,4 @@
-"""Smooth paths through polylines: run with ``pytest tests/bench/bench_bezier.py -m bench -s``."""
+"""Smooth paths through polylines: run with ``pytest tests/bench/bench_bezier.py -s``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whole commands, cold: run with ``pytest tests/bench/bench_command.py -m bench -s``."""
+"""Whole commands, cold: run with ``pytest tests/bench/bench_command.py -s``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Hidden lines beside the bare cost of the same data: run with ``pytest tests/bench/bench_draw.py -m bench -s``.
+"""Hidden lines beside the bare cost of the same data: run with ``pytest tests/bench/bench_draw.py -s``.
 
 The bare cost is what nothing can do without: load the arrays, project vertices, orient faces, sort them by depth.
 """

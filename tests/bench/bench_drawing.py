@@ -1,4 +1,4 @@
-"""From small pieces to the pen's strokes: run with ``pytest tests/bench/bench_drawing.py -m bench -s``."""
+"""From small pieces to the pen's strokes: run with ``pytest tests/bench/bench_drawing.py -s``."""
 
 from __future__ import annotations
 

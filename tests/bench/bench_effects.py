@@ -1,4 +1,4 @@
-"""Mirrors and glass: run with ``pytest tests/bench/bench_effects.py -m bench -s``.
+"""Mirrors and glass: run with ``pytest tests/bench/bench_effects.py -s``.
 
 Times are of the processor, and as multiples of what the order of the same scene costs without the effect.
 """

@@ -1,4 +1,4 @@
-"""Filled pictures as files: run with ``pytest tests/bench/bench_fills.py -m bench -s``."""
+"""Filled pictures as files: run with ``pytest tests/bench/bench_fills.py -s``."""
 
 from __future__ import annotations
 

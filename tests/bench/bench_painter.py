@@ -1,4 +1,4 @@
-"""The painter's order: run with ``pytest tests/bench/bench_painter.py -m bench -s``."""
+"""The painter's order: run with ``pytest tests/bench/bench_painter.py -s``."""
 
 from __future__ import annotations
 

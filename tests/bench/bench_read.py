@@ -1,4 +1,4 @@
-"""Reading a mesh of 1.3 million triangles: run with ``pytest tests/bench/bench_read.py -m bench -s``."""
+"""Reading a mesh of 1.3 million triangles: run with ``pytest tests/bench/bench_read.py -s``."""
 
 import subprocess
 import sys

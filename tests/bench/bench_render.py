@@ -1,4 +1,4 @@
-"""Pixels: run with ``pytest tests/bench/bench_render.py -m bench -s``. Prints; only memory, which no other process
+"""Pixels: run with ``pytest tests/bench/bench_render.py -s``. Prints; only memory, which no other process
 changes, is a test.
 
 Each case runs in a process of its own, so that its peak memory is its own.

@@ -1,4 +1,4 @@
-"""Seams between painted neighbours in many readers: run with ``pytest tests/bench/bench_seams.py -m bench -s``.
+"""Seams between painted neighbours in many readers: run with ``pytest tests/bench/bench_seams.py -s``.
 
 Dark polygons that cover a disc or all of the page on white paper, at 96 dots per inch: a number says by how many steps
 of 255 the brightest pixel amid them is too bright. Readers that are not installed are left out; pypdfium2 is a package

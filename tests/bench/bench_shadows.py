@@ -1,4 +1,4 @@
-"""Shadow polygons: run with ``pytest tests/bench/bench_shadows.py -m bench -s``."""
+"""Shadow polygons: run with ``pytest tests/bench/bench_shadows.py -s``."""
 
 from __future__ import annotations
 

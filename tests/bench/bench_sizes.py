@@ -1,4 +1,4 @@
-"""Sizes of painted surfaces as files, for docs/paint.md: run with ``pytest tests/bench/bench_sizes.py -m bench -s``.
+"""Sizes of painted surfaces as files, for docs/paint.md: run with ``pytest tests/bench/bench_sizes.py -s``.
 
 Each surface alone, at the default tolerance on A4, in the default view, without lights of its own.
 """

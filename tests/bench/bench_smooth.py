@@ -1,4 +1,4 @@
-"""Smooth surfaces from a scene to a drawing: run with ``pytest tests/bench/bench_smooth.py -m bench -s``."""
+"""Smooth surfaces from a scene to a drawing: run with ``pytest tests/bench/bench_smooth.py -s``."""
 
 from __future__ import annotations
 

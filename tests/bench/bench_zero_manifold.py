@@ -1,4 +1,4 @@
-"""Tracing f(u, v) = 0: run with ``pytest tests/bench/bench_zero_manifold.py -m bench -s``."""
+"""Tracing f(u, v) = 0: run with ``pytest tests/bench/bench_zero_manifold.py -s``."""
 
 from __future__ import annotations
 

@@ -3,6 +3,7 @@
 import json
 
 import numpy as np
+import pytest
 from support.paths import DATA
 
 from vectorplot.cli.main import run
@@ -15,6 +16,7 @@ def drawn(tmp_path, name, *options):
     return (tmp_path / name).read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_smooth_curves_leave_as_paths_or_as_polylines(tmp_path):
     curves = drawn(tmp_path, "a.svg")
     lines = drawn(tmp_path, "b.svg", "--curves", "polyline")
@@ -24,6 +26,7 @@ def test_smooth_curves_leave_as_paths_or_as_polylines(tmp_path):
     assert curves.count("<path") + curves.count("<poly") == lines.count("<poly")
 
 
+@pytest.mark.slow
 def test_json_holds_polylines_on_the_true_curve_either_way(tmp_path):
     curves = drawn(tmp_path, "a.json")
     assert curves == drawn(tmp_path, "b.json", "--curves", "polyline")
@@ -31,6 +34,7 @@ def test_json_holds_polylines_on_the_true_curve_either_way(tmp_path):
     assert np.abs((np.hypot(points[:, 0], points[:, 1]) - 3.0) ** 2 + points[:, 2] ** 2 - 1.0).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_a_coarser_tolerance_makes_a_smaller_file(tmp_path):
     assert len(drawn(tmp_path, "a.svg", "--tolerance", "0.2")) < len(drawn(tmp_path, "b.svg", "--tolerance", "0.002"))
 

@@ -123,6 +123,7 @@ STARTS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("word", STARTS)
 def test_every_format_is_written_the_same_to_a_file_and_to_stdout(word, cube, tmp_path):
     out = tmp_path / f"out.{word}"
@@ -152,11 +153,13 @@ def lengths(document, kind=None):
     return found
 
 
+@pytest.mark.slow
 def test_negative_numbers_are_numbers(cube):
     document = drawn(cube, "--eye", "-3,4,5", "--target", "-.5,0,0", "--twist", "-20")
     assert sum(lengths(document)) == pytest.approx(9.0)  # three faces of a cube have nine edges
 
 
+@pytest.mark.slow
 def test_views_pages_and_hidden_lines(cube):
     document = drawn(cube, "--view", "front", "--page", "100x60", "--margin", "5")
     assert document["page_mm"] == [100.0, 60.0]
@@ -169,12 +172,14 @@ def test_views_pages_and_hidden_lines(cube):
     assert {stroke["hidden_by"] for stroke in seen["strokes"]} == {0, 1}
 
 
+@pytest.mark.slow
 def test_kinds_and_crease_angle(cube):
     assert {stroke["kind"] for stroke in drawn(cube)["strokes"]} == {"contour", "crease"}
     assert sum(lengths(drawn(cube, "--lines", "contour"))) == pytest.approx(6.0)
     assert sum(lengths(drawn(cube, "--crease-angle", "95"))) == pytest.approx(6.0)
 
 
+@pytest.mark.slow
 def test_without_fit_the_page_height_spans_the_height_at_the_target(cube):
     look = [
         "--parallel",
@@ -226,6 +231,7 @@ def test_a_file_that_is_replaced_stays_until_the_new_one_is_complete(cube, tmp_p
     assert sorted(path.name for path in tmp_path.iterdir()) == ["cube.obj", "out.svg"]
 
 
+@pytest.mark.slow
 def test_a_full_disk_under_stdout_exits_with_1(cube):
     if not Path("/dev/full").exists():
         pytest.skip("no /dev/full here")
@@ -237,6 +243,7 @@ def test_a_full_disk_under_stdout_exits_with_1(cube):
     assert result.stderr.count(b"\n") == 1
 
 
+@pytest.mark.slow
 def test_a_reader_that_went_away_is_no_traceback(cube):
     reading, writing = os.pipe()
     os.close(reading)
@@ -262,6 +269,7 @@ sys.exit(run(sys.argv[1:]))
 """
 
 
+@pytest.mark.slow
 def test_ctrl_c_leaves_no_file_and_says_one_line(cube, tmp_path):
     out = tmp_path / "out.svg"
     command = [sys.executable, "-c", SLOW, "draw", str(cube), "-o", str(out)]

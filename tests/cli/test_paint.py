@@ -69,6 +69,7 @@ READERS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("word", STARTS)
 def test_every_format_is_written_the_same_to_a_file_and_to_stdout(word: str, scene: Path) -> None:
     out = scene.parent / f"out.{word}"
@@ -81,6 +82,7 @@ def test_every_format_is_written_the_same_to_a_file_and_to_stdout(word: str, sce
     assert sorted(path.name for path in scene.parent.iterdir()) == sorted([out.name, scene.name])
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G4.X-postscript")
 @pytest.mark.parametrize("word", READERS)
 def test_readers_of_each_format_show_the_picture_of_the_png(word: str, scene: Path) -> None:
@@ -104,6 +106,7 @@ def test_readers_of_each_format_show_the_picture_of_the_png(word: str, scene: Pa
     assert (small[0] < 200).any(axis=2).mean() > 0.1
 
 
+@pytest.mark.slow
 def test_svg_and_json_can_be_parsed_and_hold_finite_numbers(scene: Path) -> None:
     out = scene.parent / "out.svg"
     assert run(["paint", str(scene), "-o", str(out)]) == 0
@@ -116,6 +119,7 @@ def test_svg_and_json_can_be_parsed_and_hold_finite_numbers(scene: Path) -> None
     assert all(len(fill["points"]) == len(fill["points3d"]) >= 3 for fill in painted)
 
 
+@pytest.mark.slow
 def test_options_of_light_shadow_and_shade(scene: Path) -> None:
     assert "shadow" not in kinds(fills(scene, "--shadows", "none"))
     assert "shadow_border" in kinds(fills(scene, "--aura", "1.5"))
@@ -125,6 +129,7 @@ def test_options_of_light_shadow_and_shade(scene: Path) -> None:
     assert 1 <= len({json.dumps(fill["colour"]) for fill in few if fill["item"] == "POST"}) <= 2
 
 
+@pytest.mark.slow
 def test_options_of_smooth_surfaces(tmp_path: Path) -> None:
     scene = tmp_path / "ball.scene"
     scene.write_text("BALL green surface sphere 0.6\npage 50x50 margin 5\n", encoding="utf-8")
@@ -267,6 +272,7 @@ def test_a_file_that_is_replaced_stays_until_the_new_one_is_complete(cube, monke
     assert sorted(path.name for path in cube.parent.iterdir()) == ["cube.obj", "out.svg"]
 
 
+@pytest.mark.slow
 def test_a_reader_that_went_away_is_no_traceback(cube: Path) -> None:
     reading, writing = os.pipe()
     os.close(reading)
@@ -291,6 +297,7 @@ sys.exit(run(sys.argv[1:]))
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stage", ["shades", "write"])
 def test_ctrl_c_leaves_no_file_and_says_one_line(stage: str, cube: Path) -> None:
     out = cube.parent / "out.svg"

@@ -105,6 +105,7 @@ def stop_at(number: int, what, monkeypatch) -> None:
     monkeypatch.setattr(Walk, "run", stopping)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", COMMANDS, ids=" ".join)
 def test_a_signal_at_any_stage_leaves_one_line_and_the_old_file(words, place, monkeypatch, capsys):
     arguments, out = command(place, words)
@@ -121,6 +122,7 @@ def test_a_signal_at_any_stage_leaves_one_line_and_the_old_file(words, place, mo
         assert_untouched(out, place)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", COMMANDS, ids=" ".join)
 @pytest.mark.parametrize(
     ("error", "line"),
@@ -152,6 +154,7 @@ def limited(code: str, arguments: list[str], **more) -> subprocess.CompletedProc
     return subprocess.run([sys.executable, "-c", script, *arguments], capture_output=True, timeout=120, **more)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", [COMMANDS[0], COMMANDS[2]], ids=" ".join)
 def test_a_disk_that_fills_up_leaves_the_old_file(words, place):
     arguments, out = command(place, words)
@@ -194,6 +197,7 @@ def test_outside_the_main_thread_there_are_no_signals():
     assert done == [True]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stream", ["stdout", "stderr"])
 def test_nobody_reads_what_is_said(stream, place):
     reading, writing = os.pipe()
@@ -206,6 +210,7 @@ def test_nobody_reads_what_is_said(stream, place):
     assert b"Traceback" not in (result.stderr or b"")
 
 
+@pytest.mark.slow
 def test_eight_threads_at_once_give_the_same_bytes():
     names = ["pencil", "table", "shadows", "pyramid", "cone", "three_bars", "cubes", "box"]
 

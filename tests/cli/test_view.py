@@ -99,6 +99,7 @@ def test_without_an_eye_models_that_stand_upright_along_y_are_seen_from_above_an
     assert camera_from(CameraOptions(up=(3.0, 0.0, 0.0)), SCENE).direction[0] > 0.3
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G2.2-fov")
 @pytest.mark.parametrize("verb", ["draw", "paint", "render"])
 @pytest.mark.parametrize(

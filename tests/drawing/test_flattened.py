@@ -57,6 +57,7 @@ def seen(fills: Fills, samples: np.ndarray) -> np.ndarray:
     return shown
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("clear", [False, True])
 def test_the_picture_stays_and_nothing_at_a_border_is_covered_twice(clear: bool) -> None:
     for seed in range(12):
@@ -118,6 +119,7 @@ def floor(height: float, count: int = 10) -> Mesh:
     return Mesh.from_triangles(vertices, np.concatenate([np.stack(low, 1), np.stack(high, 1)]))
 
 
+@pytest.mark.slow
 @pytest.mark.hard(75)
 @pytest.mark.parametrize("opacity", [1.0, 0.5])
 @pytest.mark.parametrize("height", [0.0, 0.4])

@@ -65,6 +65,7 @@ def test_without_fit_the_target_is_in_the_middle_and_nothing_leaves_the_margins(
     assert target[:2] / target[3] == pytest.approx([30.0, 20.0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("parallel", [False, True])
 def test_points_in_space_have_their_places_on_the_page(parallel: bool) -> None:
     scene = vp.read(DATA / "mixed.scene")
@@ -105,6 +106,7 @@ def test_erasing_leaves_blank_faces_and_their_edges() -> None:
     assert len(np.unique(first[lines], axis=0)) >= len(colours)
 
 
+@pytest.mark.slow
 def test_smooth_surfaces_are_shaded_from_corner_to_corner_or_flat() -> None:
     scene = vp.read(DATA / "torus.scene")
     for smooth in (True, False):
@@ -119,6 +121,7 @@ def test_the_tolerance_decides_how_many_facets_there_are() -> None:
     assert 1.3 < counts[1] / counts[0] < 20
 
 
+@pytest.mark.slow
 def test_erasing_draws_the_outlines_of_smooth_surfaces_and_none_of_their_facets() -> None:
     scene = vp.read(DATA / "torus.scene")
     fills = vp.paint(scene, fills="erasing", lines=("contour",)).layers[0].fills[0]

@@ -98,6 +98,7 @@ def test_sides_that_run_out_and_back_again_are_no_obstacle() -> None:
         assert sum(areas(seen).values()) == pytest.approx(37.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["mirror", "patterns", "shadows", "table"])
 def test_effects_leave_regions_that_do_not_overlap(name: str) -> None:
     seen = paint(vp.read(DATA / f"{name}.scene"), fills="visible").layers[0].fills[0]

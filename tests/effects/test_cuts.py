@@ -139,6 +139,7 @@ def test_planes_that_leave_nothing_are_told_with_file_and_line(words, cause, tmp
     assert f"{file}:2: " in told and cause in told and told.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_smooth_surfaces_stay_or_go_as_a_whole():
     scene = vp.Scene((vp.Item("RING", Torus(3, 1)), vp.Item("BOX", box((-1, 9, -1), (1, 10, 1)))))
     eye = {"eye": (0, -10, 0), "target": (0, 0, 0)}
@@ -158,6 +159,7 @@ def test_patterns_stay_on_faces_that_are_whole():
     assert np.allclose(left.mesh.face_normals[kept.face], normal) and abs(normal[1]) == 1.0
 
 
+@pytest.mark.slow
 @pytest.mark.hard(13)
 @pytest.mark.parametrize("verb", [vp.draw, vp.paint, vp.render])
 def test_cut_bodies_are_open_and_their_insides_are_seen(verb):

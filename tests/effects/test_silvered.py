@@ -21,6 +21,7 @@ def scene_of(colour: str, background: str | None, lights: tuple[vp.Light, ...]) 
     return vp.Scene((mirror, above), lights, background=background)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("camera", CAMERAS, ids=["central", "parallel"])
 @pytest.mark.parametrize("colour", ["cyan", "black", "darkorange"])
 @pytest.mark.parametrize("background", [None, "cyan", "darkblue"])

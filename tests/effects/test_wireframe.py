@@ -134,6 +134,7 @@ def test_smooth_surfaces_and_curves_are_seen_through():
     assert {int(i) for layer in plain.layers for paths in layer.strokes for i in paths.item} == {1}
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G4.4-wireframe", "G4.4-depthcue")
 @pytest.mark.parametrize("style", ["wireframe", "depth-cue"])
 @pytest.mark.parametrize("camera", [vp.Camera(eye=(3, -4, 30)), vp.Camera(eye=(30, 0, 0), parallel=True)])

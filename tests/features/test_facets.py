@@ -54,6 +54,7 @@ def test_surfaces_of_straight_lines_are_within_the_tolerance_though_their_chords
         assert off.max() > 0.2 * tolerance, "and not finer than that"
 
 
+@pytest.mark.slow
 def test_cost_grows_as_the_tolerance_asks() -> None:
     counts = [facets(Sphere(1.0), within(tolerance)).mesh.face_count for tolerance in (1e-3, 1e-4)]
     assert np.all(np.diff(np.log10(counts)) < 1.2)
@@ -69,6 +70,7 @@ def test_poles_and_apices_are_one_vertex_with_a_normal() -> None:
     assert np.isfinite(facets(Cone(0.7, 0.0, 1.0), within(0.01)).mesh.vertices).all()
 
 
+@pytest.mark.slow
 def test_holes_stay_open() -> None:
     roof = graph(lambda x, y: np.sqrt(1.0 - x * x - y * y), Domain(-1.5, 1.5, -1.5, 1.5))
     found = facets(roof, within(0.01))

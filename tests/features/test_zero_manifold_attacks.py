@@ -103,6 +103,7 @@ def test_cusp_and_touching_parabolas_have_a_node(f, nodes):
     assert len(curve.nodes) == nodes and np.abs(curve.nodes).max() < 2e-3 and not len(curve.isolated)
 
 
+@pytest.mark.slow
 def test_twenty_periods():
     curve = traced(lambda u, v: np.sin(20 * np.pi * u) - np.cos(20 * np.pi * v), 40)
     assert len(curve) == 40 and len(curve.nodes) == 820 and not curve.doubts

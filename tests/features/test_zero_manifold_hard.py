@@ -58,6 +58,7 @@ def crossings(p, q):
     return int(((side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)).sum())
 
 
+@pytest.mark.slow
 @pytest.mark.hard(37)
 @given(st.floats(0, np.pi), st.floats(-0.2, 0.2), st.floats(-0.2, 0.2), st.floats(-0.15, 0.15), st.floats(1e-3, 0.1))
 @settings(max_examples=25, deadline=None)

@@ -29,6 +29,7 @@ SHRINKING = settings(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.hard(53)
 @pytest.mark.parametrize("target", TARGETS)
 def test_hostile_input_gives_one_line_or_a_result(tmp_path: Path, target: str) -> None:

@@ -158,6 +158,7 @@ def inside_by_sampling(p, q, frustum):
     return (low, high) if low <= high and not ((a < 0) & (b < 0)).any() else None
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G2.5-clip3d-line")
 @pytest.mark.hard(5)
 def test_lines_after_t2_agree_with_the_frustum_in_the_world_also_across_the_eye():

@@ -26,6 +26,7 @@ def trees():
         yield path.relative_to(PACKAGE), ast.parse(path.read_text(encoding="utf-8"))
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G1.1-convention")
 def test_central_constants_live_in_one_place():
     homes = {}
@@ -39,6 +40,7 @@ def test_central_constants_live_in_one_place():
     assert 2.0 + tolerance.ZERO_OF_EXTENT > 2.0 and 2.0 + tolerance.ROUNDING > 2.0
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G1.1-convention")
 def test_nobody_writes_pi_or_infinity_down_again():
     wrong = []
@@ -52,6 +54,7 @@ def test_nobody_writes_pi_or_infinity_down_again():
     assert not wrong
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G1.1-convention")
 def test_constants_are_named_in_capitals_and_say_why():
     """Every number a module holds for others has a name in capitals and a line below it that says what it is."""
@@ -85,6 +88,7 @@ def test_memory_that_cannot_be_had_is_one_line(verb, tmp_path, capsys, monkeypat
     assert list(tmp_path.iterdir()) == [scene]
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G1.1-convention")
 @pytest.mark.parametrize("verb", ["draw", "paint", "render"])
 def test_the_command_sends_its_messages_to_stderr_and_its_result_to_stdout(verb, tmp_path):
@@ -99,6 +103,7 @@ def test_the_command_sends_its_messages_to_stderr_and_its_result_to_stdout(verb,
     assert "unknown colour 'nocolour'" in text and "distorts" in text and "peak" in text
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G1.1-convention")
 def test_only_the_command_prints():
     for path, tree in trees():

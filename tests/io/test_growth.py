@@ -48,6 +48,7 @@ MANY = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", list(MANY))
 def test_reading_many_takes_a_time_that_grows_with_the_file(tmp_path: Path, what: str) -> None:
     suffix, text = MANY[what]
@@ -96,6 +97,7 @@ def test_reading_glb_of_many_takes_a_time_that_grows_with_the_file(tmp_path: Pat
 TEN_MEGABYTES = 10_000_000
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["scene", "obj", "off", "ply", "stl", "glb"])
 @pytest.mark.parametrize("part", ["a", "1", "-", "\\", '"', "#", "v", ".", "OFF", "é", "\n"])
 def test_ten_megabytes_of_one_word_get_their_line_at_once(tmp_path: Path, suffix: str, part: str) -> None:
@@ -127,6 +129,7 @@ HEADS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", list(HEADS))
 @pytest.mark.parametrize("part", ["1", "x", "1 "])
 def test_ten_megabytes_of_one_number_get_their_line_at_once(tmp_path: Path, suffix: str, part: str) -> None:

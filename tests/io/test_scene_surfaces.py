@@ -266,6 +266,7 @@ def test_formulas_are_read_and_never_run_as_code(formula, tmp_path, monkeypatch)
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_a_scene_without_surfaces_does_not_load_them():
     import subprocess
     import sys

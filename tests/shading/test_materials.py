@@ -32,6 +32,7 @@ def picture(verb: str, word: str, body: str) -> np.ndarray:
     return painted(np.full((144, 192, 3), 255, dtype=np.uint8), drawing).astype(int)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G3.L-physical")
 @pytest.mark.parametrize("verb", ["paint", "render"])
 @pytest.mark.parametrize("body", BODIES)
@@ -67,6 +68,7 @@ def test_what_is_behind_is_seen_through_transparent_things_only(verb):
     assert hidden == {word: word != "transparent" for word in WORDS[:-1]}
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.5-fig18")
 @pytest.mark.parametrize("verb", ["paint", "render"])
 @pytest.mark.parametrize("body", ["a smooth body of revolution", "a body of revolution"])

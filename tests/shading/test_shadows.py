@@ -69,6 +69,7 @@ def test_exact_shadows_are_those_of_rays(seed, light):
     assert exact[facing].any() or seed == 3, "the graph is too flat"
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.6-shadow-buffer")
 @pytest.mark.parametrize("light", LAMPS, ids=["sun", "lamp", "lamp in the scene"])
 @pytest.mark.parametrize("seed", [0, 2, 3])
@@ -123,6 +124,7 @@ def test_a_convex_body_casts_no_shadow_on_itself():
         assert not blocked_exactly(light, places, found.triangle, points, corners)[facing].any()
 
 
+@pytest.mark.slow
 @pytest.mark.capability("N6-z", "N2-orientation")
 @pytest.mark.parametrize("frame", ["standard", "trapezoid"])
 @pytest.mark.parametrize("light", [SUN, FAR_LAMP], ids=["parallel", "lamp"])
@@ -244,6 +246,7 @@ def unscaled(system, depth):
     return depth if not np.isfinite(system.distance) else system.distance * depth / (1.0 + depth)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("R-two-pass", "RN-in-B8.6", "R-demos", "N2-eta")
 @pytest.mark.parametrize(
     "light",
@@ -275,6 +278,7 @@ def test_the_trapezoid_shows_more_of_what_is_near_and_the_same_shadows(light):
     assert wrong["trapezoid"][1] < wrong["standard"][1], "and in all"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("away", "factor"), [(25.0, 0.5), (60.0, 0.7), (400.0, 1.4)])
 def test_focus_by_depth_gains_in_deep_views_and_loses_little_in_shallow_ones(away, factor):
     points, corners = field(150)

@@ -21,6 +21,7 @@ def scattered(count, seed=1):
     return np.column_stack([xy, hills(*xy.T)])
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.3-polygonize")
 def test_heights_of_scattered_points_converge():
     errors = []

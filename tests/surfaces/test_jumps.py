@@ -16,6 +16,7 @@ def surface(text: str) -> Graph:
     return formula_graph(Formulas((parse_expression(text, ("x", "y")),)), SQUARE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", ["atan2(y,x)", "floor(x)"])
 def test_no_triangle_and_no_cell_bridges_a_jump(text: str) -> None:
     own = surface(text)

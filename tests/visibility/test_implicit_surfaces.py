@@ -103,6 +103,7 @@ def images(view: View, chords: Chords, which: np.ndarray) -> list[np.ndarray]:
     return list(np.stack([view.image_of(view.points_of(p[which])).T for p in (chords.start, chords.end)], axis=1))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", BOTH_FORMS)
 def test_both_forms_of_a_surface_give_the_same_drawing(name: str) -> None:
     one, two = (lit(Item(name, shape, curves=LINES)) for shape in BOTH_FORMS[name])
@@ -118,6 +119,7 @@ def test_both_forms_of_a_surface_give_the_same_drawing(name: str) -> None:
                     assert hausdorff(images(view, a, own), images(view, b, other)) < 2e-4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_scenes_with_implicit_surfaces_as_rays_see_them(name: str) -> None:
     scene = SCENES[name]
@@ -127,6 +129,7 @@ def test_scenes_with_implicit_surfaces_as_rays_see_them(name: str) -> None:
         assert compared > 70
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("scale", "offset"), [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e6)])
 def test_size_and_place_change_nothing(scale: float, offset: float) -> None:
     place = offset * np.array([1.0, -1.0, 1.0])
@@ -144,6 +147,7 @@ def test_size_and_place_change_nothing(scale: float, offset: float) -> None:
         assert np.abs(a.lengths() - b.lengths() / scale).max() < 1e-5 * a.length.sum()
 
 
+@pytest.mark.slow
 def test_what_does_not_occlude_hides_nothing() -> None:
     scene = Scene(
         tuple(Item(item.name, item.shape, curves=FEW, occludes=False) for item in SCENES["two spheres"].items)
@@ -152,6 +156,7 @@ def test_what_does_not_occlude_hides_nothing() -> None:
         assert (chords_seen(scene, camera).hidden_by == 0).all()
 
 
+@pytest.mark.slow
 def test_spheres_meet_in_a_circle_of_which_half_can_be_seen() -> None:
     scene = lit(
         Item("one", implicit_sphere(1.0, (-0.6, 0.0, 0.0))), Item("two", Sphere(1.0, (0.6, 0.0, 0.0)), curves=FEW)
@@ -165,6 +170,7 @@ def test_spheres_meet_in_a_circle_of_which_half_can_be_seen() -> None:
     assert np.isclose(chords.length[met].sum(), 1.6 * np.pi, rtol=1e-3)
 
 
+@pytest.mark.slow
 def test_a_surface_that_is_empty_draws_nothing() -> None:
     nothing = Quadric([1.0, 1.0, 1.0, *[0.0] * 6, 1.0], cube(1.0))
     scene = lit(Item("nothing", nothing, curves=LINES), Item("ball", implicit_sphere(0.5), curves=FEW))

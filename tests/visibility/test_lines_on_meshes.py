@@ -63,6 +63,7 @@ def test_isophotes_across_the_faces_of_a_sphere_are_circles() -> None:
     assert np.isclose(seen, unseen, rtol=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lamp", [Light((1.0, 2.0, 3.0), parallel=True), Light((2.0, 3.0, 5.0))])
 def test_lines_on_meshes_as_rays_see_them(lamp: Light) -> None:
     lines = SurfaceLines(isophotes=(-0.3, 0.4), sections=(Section((0.3, 0.1, 1.0), (-0.2, 0.3)),))

@@ -44,12 +44,14 @@ def assert_exact(drawing: Drawing, scene: Scene) -> int:
     return compared
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MIXED)
 def test_points_are_on_their_surfaces_whatever_cuts_the_curves(name: str) -> None:
     for camera in views(MIXED[name], 1, len(name)):
         assert assert_exact(draw(MIXED[name], camera, hidden="solid", page=Page(60, 40, 2)), MIXED[name]) > 50
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["spheres piercing", "cylinders piercing", "saddle through a torus"])
 def test_curves_in_which_surfaces_meet_are_on_both_ends_included(name: str) -> None:
     scene = MIXED[name]
@@ -59,6 +61,7 @@ def test_curves_in_which_surfaces_meet_are_on_both_ends_included(name: str) -> N
         assert_on_both(curves, scene.items[0].shape, scene.items[1].shape, EXACT * size)
 
 
+@pytest.mark.slow
 def test_ends_at_halos_and_at_the_frame_are_on_their_curves() -> None:
     scene = MIXED["torus and box"]
     camera = Camera((8.0, -16.0, 11.0), (0.0, 0.0, 0.0), fov_deg=14.0)
@@ -66,6 +69,7 @@ def test_ends_at_halos_and_at_the_frame_are_on_their_curves() -> None:
         assert assert_exact(draw(scene, camera, page=Page(60, 40, 2), **options), scene) > 50
 
 
+@pytest.mark.slow
 def test_a_chord_that_a_wall_cuts_ends_on_the_torus_where_it_is_seen() -> None:
     scene = MIXED["torus and box"]
     behind = replace(scene, items=(scene.items[0], Item("wall", box((-1.0, -9.0, -2.0), (0.5, -8.9, 3.0)))))

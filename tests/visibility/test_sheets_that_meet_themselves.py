@@ -37,6 +37,7 @@ def seen(text: str, way: tuple[float, float, float], parallel: bool) -> tuple[Sc
     return scene, Camera(eye=tuple(eye.tolist()), target=tuple(middle.tolist()), parallel=parallel)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "parallel"), list(zip(PAIRS, (False, False, True), strict=True)))
 def test_curves_in_which_sheets_meet_go_through_third_ones(name: str, parallel: bool) -> None:
     scene, camera = seen(PAIRS[name], (0.3, -0.5, 0.8), parallel)
@@ -44,6 +45,7 @@ def test_curves_in_which_sheets_meet_go_through_third_ones(name: str, parallel: 
     assert assert_drawing_is_right(drawing, scene, camera, samples=400) > 200
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", [(0.9, 0.35, -0.25), (-0.2, 0.1, 1.0)])
 def test_outlines_go_through_sheets_whose_meetings_nobody_draws(way: tuple[float, float, float]) -> None:
     scene, camera = seen(BENT, way, parallel=False)

@@ -54,6 +54,7 @@ TRIED = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.hard(72)
 @pytest.mark.parametrize("name", TRIED)
 def test_lines_through_singular_points_as_rays_see_them(name: str) -> None:
@@ -62,6 +63,7 @@ def test_lines_through_singular_points_as_rays_see_them(name: str) -> None:
     assert compared(rays, scene, eyes(scene, 2, number)[number % 2], 800) > 600
 
 
+@pytest.mark.slow
 @pytest.mark.hard(72)
 @pytest.mark.parametrize(("size", "seed"), [(1e-6, 1), (1e6, 2), (1.0, 3)])
 def test_wherever_a_cone_stands_and_whatever_its_size(size: float, seed: int) -> None:
@@ -72,6 +74,7 @@ def test_wherever_a_cone_stands_and_whatever_its_size(size: float, seed: int) ->
     assert sum(compared(rays, scene, camera, 600) for camera in eyes(scene, 2, seed)) > 900
 
 
+@pytest.mark.slow
 @pytest.mark.hard(72)
 def test_the_axis_of_a_cone_is_hidden_up_to_its_apex_from_every_side() -> None:
     axis = Item("AXIS", Line.through((0.0, 0.0, 0.0), (0.0, 0.0, 5.0)), lines=("curve",))
@@ -83,6 +86,7 @@ def test_the_axis_of_a_cone_is_hidden_up_to_its_apex_from_every_side() -> None:
             assert np.isclose(height.min(), 4.0, atol=1e-6) and np.isclose(height.max(), 5.0), (eye, parallel, height)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(48)
 def test_the_contour_of_an_umbrella_is_one_to_its_pinch_point() -> None:
     scene = Scene((Item("UMBRELLA", SURFACES["Whitney umbrella"].surface),))

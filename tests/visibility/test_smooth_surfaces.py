@@ -34,18 +34,21 @@ def assert_right(scene: Scene, camera: Camera, samples: int, seed: int) -> None:
     assert compared > samples // 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SINGLE)
 def test_a_surface_as_rays_see_it(name: str) -> None:
     for seed, camera in enumerate(views(SINGLE[name], 2, len(name))):
         assert_right(SINGLE[name], camera, 250, seed)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", IMPLICIT)
 def test_an_implicit_surface_as_rays_see_it(name: str) -> None:
     for seed, camera in enumerate(views(IMPLICIT[name], 2, len(name))):
         assert_right(IMPLICIT[name], camera, 250, seed)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MIXED)
 def test_surfaces_and_polyhedra_as_rays_see_them(name: str) -> None:
     for seed, camera in enumerate(views(MIXED[name], 2, len(name))):
@@ -55,6 +58,7 @@ def test_surfaces_and_polyhedra_as_rays_see_them(name: str) -> None:
 CLOSED_FORMS = ["torus", "sphere", "hyperbolic paraboloid", "hyperboloid", "cylinder"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CLOSED_FORMS)
 def test_views_along_axes_and_rulings_as_in_closed_form(name: str) -> None:
     scene, compared = SINGLE[name], 0
@@ -71,6 +75,7 @@ def test_views_along_axes_and_rulings_as_in_closed_form(name: str) -> None:
     assert compared > 5000
 
 
+@pytest.mark.slow
 def test_a_flat_graph_along_its_axis_as_rays_see_it() -> None:
     for seed, camera in enumerate(list(special_views(SINGLE["ripple"]))[1:6:2]):
         drawing = draw(SINGLE["ripple"], camera, hidden="solid")
@@ -98,6 +103,7 @@ def moved(scene: Scene, camera: Camera, scale: float, offset: np.ndarray) -> tup
     return replace(scene, items=tuple(items)), Camera(eye, target, camera.up, 0.0, camera.fov_deg, camera.parallel)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("scale", "offset"), [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e6)])
 @pytest.mark.parametrize("name", ["linked tori", "torus and box"])
 def test_size_and_place_change_nothing(name: str, scale: float, offset: float) -> None:
@@ -107,6 +113,7 @@ def test_size_and_place_change_nothing(name: str, scale: float, offset: float) -
         assert_same_lengths(chords_seen(scene, camera), chords_seen(*there), scale=scale, tolerance=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["linked tori", "torus and box", "far behind"])
 def test_the_order_of_items_changes_nothing(name: str) -> None:
     scene = MIXED[name]
@@ -115,6 +122,7 @@ def test_the_order_of_items_changes_nothing(name: str) -> None:
         assert_same_lengths(chords_seen(scene, camera), chords_seen(turned, camera))
 
 
+@pytest.mark.slow
 def test_what_stands_behind_changes_nothing_in_front() -> None:
     scene = MIXED["linked tori"]
     for camera in views(scene, 2, 6):
@@ -128,6 +136,7 @@ def test_what_stands_behind_changes_nothing_in_front() -> None:
         assert_same_lengths(before, kept, tolerance=1e-4)
 
 
+@pytest.mark.slow
 def test_what_stands_in_front_only_hides() -> None:
     scene = MIXED["spheres piercing"]
     for camera in views(scene, 2, 7):
@@ -141,6 +150,7 @@ def test_what_stands_in_front_only_hides() -> None:
         assert counted[0] < visible[0]
 
 
+@pytest.mark.slow
 def test_what_does_not_occlude_hides_nothing() -> None:
     scene = MIXED["linked tori"]
     glass = replace(scene, items=tuple(replace(item, occludes=False) for item in scene.items))
@@ -148,6 +158,7 @@ def test_what_does_not_occlude_hides_nothing() -> None:
         assert (chords_seen(glass, camera).hidden_by == 0).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [*SINGLE, *MIXED])
 def test_counts_are_of_items(name: str) -> None:
     scene = {**SINGLE, **MIXED}[name]
@@ -157,6 +168,7 @@ def test_counts_are_of_items(name: str) -> None:
     assert chords.hidden_by.max() <= sum(item.hides for item in scene.items)
 
 
+@pytest.mark.slow
 def test_a_drawing_without_hidden_lines_shows_what_nothing_hides() -> None:
     for scene in (SINGLE["torus"], MIXED["torus and box"]):
         for camera in views(scene, 2, 10):
@@ -174,6 +186,7 @@ def test_a_drawing_without_hidden_lines_shows_what_nothing_hides() -> None:
             assert np.allclose(*lengths, rtol=1e-5, atol=0.02)
 
 
+@pytest.mark.slow
 def test_a_sphere_shows_half_of_itself() -> None:
     scene = Scene((Item("ball", Sphere(1.0), curves=few(12, 9)),), lights=(Light((1.0, 1.0, 1.0), parallel=True),))
     camera = Camera((5.0, 3.0, 2.0), parallel=True)
@@ -186,6 +199,7 @@ def test_a_sphere_shows_half_of_itself() -> None:
     assert np.array_equal(chords.hidden_by[~contour][sure] == 0, middle[sure] > 0.0)
 
 
+@pytest.mark.slow
 def test_a_picture_of_a_very_small_part_costs_no_more_than_others_and_says_that_it_is_coarse() -> None:
     camera = Camera((8.0, -16.0, 11.0), parallel=True, height=1e-9)
     with pytest.warns(InputWarning, match="so small a part"):

@@ -63,6 +63,7 @@ def without_specks(runs: list[Run], size: float) -> list[Run]:
     return runs
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", range(4))
 def test_as_many_runs_as_in_closed_form_from_a_hundred_directions(part: int) -> None:
     torus, count = Torus(3.0, 1.0), 0

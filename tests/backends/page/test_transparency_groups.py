@@ -102,6 +102,7 @@ def test_none_of_nothing():
     assert groups_of(none.reshape(0, 2), np.zeros(1, dtype=np.intp), none).shape == (0,)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["flat", "shaded"])
 def test_no_seam_between_transparent_neighbours(kind, tmp_path):
     triangles = list(fan((30.0, 20.0), 15.0, 97))
@@ -115,6 +116,7 @@ def test_no_seam_between_transparent_neighbours(kind, tmp_path):
         assert low - 3 <= seen.min() and seen.max() <= high + 3, (name, seen.min(), seen.max())
 
 
+@pytest.mark.slow
 def test_a_transparent_ball_of_smooth_facets_has_no_seams(tmp_path):
     source = (
         "page 60x40 margin 5\ncamera eye 0 -20 4 target 0 0 0\nlight SUN direction -4 -6 7\n"

@@ -56,6 +56,7 @@ def test_a_circle_is_smooth_and_within_the_tolerance(tolerance):
     assert len(path.control) <= max(4, 2 * np.ceil((2.73e-4 / tolerance) ** (1 / 6) * 4))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-1, 1e-2, 1e-3, 1e-4, 1e-5])
 @pytest.mark.parametrize("with_tangents", [False, True])
 def test_the_tolerance_is_kept_on_sine_ellipse_and_helix(tolerance, with_tangents):
@@ -177,6 +178,7 @@ def test_many_lines_are_fitted_as_each_alone():
     assert len(flat) == len(lines) + 1 and flat[-1] == len(points)
 
 
+@pytest.mark.slow
 @settings(max_examples=150, deadline=None)
 @given(
     st.lists(st.tuples(*[st.integers(-8, 8)] * 3), min_size=1, max_size=14),
@@ -213,6 +215,7 @@ class Knot:
         return self.points(t + step).imag / 1e-30
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-1, 1e-2, 1e-4, 1e-6])
 def test_a_curve_is_within_the_tolerance_between_the_samples_too(tolerance):
     path = fitted_curve(Knot(), tolerance=tolerance)

@@ -47,6 +47,7 @@ def test_parts_lie_on_the_path():
             PATH.part(*wrong)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5])
 def test_flattening_keeps_its_promise_and_is_not_wasteful(tolerance):
     line = PATH.flattened(tolerance)

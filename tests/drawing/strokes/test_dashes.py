@@ -66,6 +66,7 @@ def test_short_strokes_stay_whole_and_in_order():
     assert len(dashed(Paths.empty(), 1.0, 1.0)) == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("closed", [False, True])
 def test_dashes_lie_on_their_strokes_and_have_the_right_share(closed):
     random = np.random.default_rng(4)

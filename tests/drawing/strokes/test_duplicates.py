@@ -127,6 +127,7 @@ def bundles(draw):
     return pieces(starts, ends), np.array(ranks)
 
 
+@pytest.mark.slow
 @settings(max_examples=150, deadline=None)
 @given(bundles(), st.randoms(use_true_random=False))
 def test_the_picture_stays_nothing_is_drawn_twice_and_the_order_does_not_matter(bundle, random):

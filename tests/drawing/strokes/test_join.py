@@ -109,6 +109,7 @@ def graphs(draw):
     return pieces([at[a] for a, _ in edges], [at[b] for _, b in edges]), np.array(groups), edges
 
 
+@pytest.mark.slow
 @settings(max_examples=200, deadline=None)
 @given(graphs(), st.randoms(use_true_random=False))
 def test_joining_keeps_every_segment_and_leaves_at_most_one_free_end_a_node(graph, random):

@@ -47,6 +47,7 @@ def test_a_length_that_is_none_is_an_error(length):
 COORDINATE = st.floats(0, 200)
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(
     st.lists(st.tuples(st.lists(st.tuples(COORDINATE, COORDINATE), max_size=6), st.booleans()), max_size=4),

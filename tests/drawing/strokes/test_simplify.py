@@ -70,6 +70,7 @@ def test_empty_strokes_and_single_points_stay():
 POINT = st.tuples(st.integers(0, 6), st.integers(0, 2))
 
 
+@pytest.mark.slow
 @settings(max_examples=200, deadline=None)
 @given(st.lists(st.tuples(st.lists(POINT, min_size=1, max_size=12), st.booleans()), min_size=1, max_size=4))
 def test_on_a_lattice_the_drawn_set_stays_exactly(strokes):
@@ -130,6 +131,7 @@ def test_points_repeated_to_within_rounding_go():
     assert np.diff(without_collinear_points(line, 1e-3).offsets).tolist() == [2, 2]
 
 
+@pytest.mark.slow
 @settings(max_examples=200, deadline=None)
 @given(st.lists(st.tuples(st.integers(-9, 9), st.integers(-1, 1)), min_size=3, max_size=40), st.booleans())
 def test_along_each_chord_the_points_left_out_go_forward(steps, loop):

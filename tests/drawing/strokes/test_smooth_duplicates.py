@@ -80,6 +80,7 @@ def test_of_three_one_stays():
     assert [len(paths) for paths in left] == [311, 0, 0]
 
 
+@pytest.mark.slow
 def test_time_for_a_hundred_thousand_chords():
     curves = [chords(lambda t, k=k: np.add(wave(t), (0.0, 0.37 * k)), 0.0, 1.0, 500) for k in range(200)]
     paths = concatenated(curves)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 import shapely
 from support.paths import DATA
 
@@ -50,6 +51,7 @@ def test_the_paper_behind_glass_is_that_of_the_scene():
     assert np.abs(one - two - 0.5 * 255.0).max() <= 1.0
 
 
+@pytest.mark.slow
 def test_what_is_seen_in_a_pool_is_one_region_for_each_face_and_shadow():
     scene = vp.read(DATA / "pool.scene")
     drawing = vp.paint(scene)

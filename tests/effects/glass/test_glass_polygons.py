@@ -122,6 +122,7 @@ class Picture:
         return face, behind
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G6.6-solid")
 @pytest.mark.parametrize("start", [0, 11])
 def test_what_is_seen_in_glass_is_what_the_refracted_ray_meets(start: int) -> None:
@@ -152,6 +153,7 @@ def test_what_is_seen_in_glass_is_what_the_refracted_ray_meets(start: int) -> No
     assert checked > 1500 and seen > 150 and bounced > 20 and paper < 0.25 * bounced
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [7, 9])
 def test_many_faces_show_what_the_refracted_ray_meets(seed: int) -> None:
     """Balls of sixty triangles: some lie with all their sides on one side of the ball's axis."""
@@ -263,6 +265,7 @@ def triangles_on_faces(view: View, random: np.random.Generator) -> Decals:
     return Decals(points, np.arange(0, 3 * view.face_count + 1, 3), count, none, none, none - 1, none - 1, none)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("start", [0, 8])
 def test_what_lies_on_faces_behind_glass_is_where_the_refracted_ray_meets_it(start: int) -> None:
     random = np.random.default_rng(start)

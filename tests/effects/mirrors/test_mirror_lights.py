@@ -89,6 +89,7 @@ class Lit:
         return lit
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G6.4-light-double")
 @pytest.mark.parametrize("mirror_faces", [6, 5])
 def test_light_by_way_of_mirrors_falls_where_rays_find_it(mirror_faces: int) -> None:

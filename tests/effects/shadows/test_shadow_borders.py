@@ -65,6 +65,7 @@ def test_borders_reach_as_far_as_their_width(parallel: bool, turned: bool, light
     assert (outside & (near < 0.999 * width)).sum() > 20
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G6.3-aura")
 def test_a_border_of_higher_grade_ends_where_only_one_light_more_shines() -> None:
     view = scene_view(False)

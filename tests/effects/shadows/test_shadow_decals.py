@@ -105,6 +105,7 @@ FAMILIES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G6.3-shadow")
 @pytest.mark.capability("G6.3-multi")
 @pytest.mark.parametrize("family", FAMILIES)
@@ -152,6 +153,7 @@ SLICED = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G6.3-sliced-self")
 @pytest.mark.parametrize("kind", SLICED)
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
@@ -176,6 +178,7 @@ def test_sliced_surfaces_shade_themselves_where_rays_say(kind: str, size: float)
     assert shaded > 20
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", hard_shapes())
 def test_hard_shapes_have_right_shadows(name: str) -> None:
     scene = hard_shapes()[name]
@@ -226,6 +229,7 @@ def ball(order: int) -> Mesh:
     return revolution(meridian, 2 * order)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G6.3-convex-cast")
 @pytest.mark.parametrize("order", [6, 20])
 def test_a_ball_of_many_faces_casts_its_outline(order: int) -> None:
@@ -277,6 +281,7 @@ def test_a_light_in_the_scene_that_faces_the_camera_casts_no_inverted_shadow() -
     assert (view.world_of(of_first.points)[:, 0] >= 3.0 - 1e-9).all() and len(of_first)
 
 
+@pytest.mark.slow
 def test_an_eye_and_lights_in_a_room_see_right_shadows() -> None:
     wrong = answered = 0
     for seed in (9, 11, 21, 32, 40):

@@ -128,6 +128,7 @@ def test_nothing_joined_has_no_grades() -> None:
     assert len(graded(table(), joined_shadows([]))) == 0
 
 
+@pytest.mark.slow
 @pytest.mark.hard(78)
 @pytest.mark.parametrize("lights", [1, 3, 16, 32])
 def test_sixteen_lights_make_as_many_cells_as_their_borders_do(lights: int) -> None:
@@ -141,6 +142,7 @@ def test_sixteen_lights_make_as_many_cells_as_their_borders_do(lights: int) -> N
     assert wrong == 0 and answered > 1400
 
 
+@pytest.mark.slow
 @pytest.mark.hard(78)
 def test_many_lights_on_a_mesh_see_its_outline_only() -> None:
     ring = torus_mesh().transformed(np.diag([0.5, 0.5, 0.5, 1.0]) + np.pad([[2.2]], ((2, 1), (3, 0))))

@@ -65,6 +65,7 @@ def residual(surface, curves):
     return (np.abs(surface.values(p)) / np.linalg.norm(surface.gradients(p), axis=1)).max() / np.ptp(surface.box)
 
 
+@pytest.mark.slow
 @both_ways
 @pytest.mark.capability("G8.4-contour")
 def test_contours_are_those_of_the_parametrised_surfaces(surface, same, sign):
@@ -77,6 +78,7 @@ def test_contours_are_those_of_the_parametrised_surfaces(surface, same, sign):
     assert_same_curve(lines(curves), lines(other), 2.1e-5)
 
 
+@pytest.mark.slow
 @both_ways
 @pytest.mark.capability("G8.4-isophote")
 def test_isophotes_are_those_of_the_parametrised_surfaces(surface, same, sign):
@@ -92,6 +94,7 @@ def test_isophotes_are_those_of_the_parametrised_surfaces(surface, same, sign):
             assert_same_curve(mine, lines(other), 2.1e-5)
 
 
+@pytest.mark.slow
 def test_isophotes_of_a_point_light():
     lamp = (5.0, 1.0, 4.0)
     curves = implicit_point_light_isophotes(ImplicitTorus(3, 1), lamp, [0.4], tracing=FINE)
@@ -151,6 +154,7 @@ def test_steinmetz_curve_is_two_ellipses_through_two_nodes():
         assert min(np.abs(p[:, 2] - p[:, 0]).max(), np.abs(p[:, 2] + p[:, 0]).max()) < 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.4-intersection")
 def test_viviani_curve_is_one_closed_curve_through_its_node():
     ball, rod = implicit_sphere(2.0), implicit_cylinder(1.0, (1, 0, 0), (0, 0, 1), BOX)
@@ -284,6 +288,7 @@ def test_cusps_for_a_central_eye_are_those_of_both_equations_and_a_sphere_has_no
     assert len(implicit_contour_cusps(ball, eye, implicit_contour(ball, eye))[0]) == 0
 
 
+@pytest.mark.slow
 def test_on_a_mesh_as_coarse_as_to_be_folded_no_curve_runs_to_and_fro_and_no_arc_is_met_twice():
     def waist(x, y, z):
         return (x * x + y * y + z * z) ** 2 - 2 * (x * x - y * y) - 0.02 + 0.3 * z * z

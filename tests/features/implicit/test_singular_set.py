@@ -16,6 +16,7 @@ def implicit(text: str, shift: float = 0.0) -> ImplicitFunction:
     return formula_implicit(Formulas((parse_expression(text, ("x", "y", "z")),)), box)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(79)
 @pytest.mark.parametrize("shift", [0.0, 0.0137])
 @pytest.mark.parametrize(

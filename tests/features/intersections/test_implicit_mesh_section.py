@@ -36,6 +36,7 @@ def test_a_plane_cuts_a_circle_out_of_a_sphere() -> None:
     assert np.isclose(length, 2.0 * np.pi * np.sqrt(1.5**2 - 0.3**2), rtol=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("equation", "surface", "mesh"),
     [
@@ -61,6 +62,7 @@ def test_curves_end_on_the_sides_of_the_box() -> None:
     assert np.abs(np.linalg.norm(found.points, axis=1) - 1.0).max() < 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("scale", "offset"), [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e6)])
 def test_size_and_place_change_nothing(scale: float, offset: float) -> None:
     block = box((0.2, -0.4, -0.3), (2.0, 1.8, 0.9))

@@ -88,6 +88,7 @@ def test_enneper_surface_meets_itself_in_two_plane_curves():
         assert np.abs(curves.one[own, axis] + curves.two[own, axis]).max() < 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.4-selfint")
 def test_double_curve_of_a_klein_bottle_closes_though_its_domain_does_not():
     bottle = klein_bottle()
@@ -121,6 +122,7 @@ def test_pinch_point_is_met_wherever_the_grid_lies(domain):
     assert min(np.abs(curves.points[[0, -1]]).max(axis=1)) < 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.hard(48)
 def test_many_pinch_points_each_end_one_double_curve():
     # A circle, held level, moved along a knot: at every summit and hollow its double curve runs between two pinches.
@@ -149,6 +151,7 @@ def test_double_curve_of_the_swallowtail_ends_in_its_tip():
     assert np.abs(ends - [(0.25, 0, -1), (0, 0, 0)]).max() < 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.hard(49)
 def test_a_cuspidal_edge_is_no_double_curve():
     def points(u, v):
@@ -158,6 +161,7 @@ def test_a_cuspidal_edge_is_no_double_curve():
     assert len(curves) == 0 and len(curves.isolated) == 0
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.4-selfint")
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 def test_spindle_torus_meets_itself_in_two_points_of_its_axis(scale):
@@ -167,6 +171,7 @@ def test_spindle_torus_meets_itself_in_two_points_of_its_axis(scale):
     assert tips.shape == (2, 3) and np.abs(tips - [(0, 0, -np.sqrt(3)), (0, 0, np.sqrt(3))]).max() < 1e-6
 
 
+@pytest.mark.slow
 def test_apex_of_a_double_cone_is_isolated():
     cone = surface_of_function(lambda u, v: (v * np.cos(u), v * np.sin(u), v), Domain(0, TURN, -1, 1.2, closed_u=True))
     curves = self_intersections(cone)
@@ -187,6 +192,7 @@ def test_seams_and_poles_are_no_self_intersections(surface):
     assert len(curves) == 0 and len(curves.isolated) == 0 and not curves.doubts
 
 
+@pytest.mark.slow
 @pytest.mark.hard(44)
 def test_a_surface_that_covers_itself_says_so():
     twice = surface_of_function(lambda u, v: (np.cos(u), np.sin(u), v), Domain(0, 3 * np.pi, 0, 1))
@@ -194,6 +200,7 @@ def test_a_surface_that_covers_itself_says_so():
     assert len(curves) == 0 and "coincide in an area" in curves.doubts[0]
 
 
+@pytest.mark.slow
 def test_a_surface_that_all_but_covers_itself_says_so_at_once():
     scene = parse_scene("S surface rotoidal 3.9 -0.7 loxodrome 3.2 course 90")
     found = self_intersections(scene.items[0].shape)

@@ -103,6 +103,7 @@ def test_a_crossing_that_is_just_avoided_is_avoided_the_right_way(radius, sign):
         assert (side > 0).all() or (side < 0).all() or np.abs(curves[k][:, 2 - across]).max() > 0.9
 
 
+@pytest.mark.slow
 @given(
     st.sampled_from(["sphere", "torus", "ellipsoid"]),
     st.sampled_from([Torus(2.0, 0.8), Ellipsoid((1.0, 2.0, 1.4)), Sphere(1.6)]),
@@ -142,6 +143,7 @@ def test_touching_spheres_give_an_isolated_point(way):
     assert len(curves) == 0 and np.abs(curves.isolated - way).max() < 1e-8 and len(curves.isolated) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.hard(44)
 @pytest.mark.parametrize(
     ("one", "two"),
@@ -173,6 +175,7 @@ def test_nearly_coincident_spheres_meet_in_one_circle_that_does_not_turn_back(di
     assert abs(length(curves) - 2 * np.pi * np.sqrt(1 - distance**2 / 4)) < 0.01
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gap", [1e-2, 1e-3])
 def test_two_circles_close_to_one_another_are_two(gap):
     curves = surface_intersection(Torus(3.0, 1.0), Torus(3.0, 1.0, (0.0, 0.0, 2.0 - gap)))
@@ -182,6 +185,7 @@ def test_two_circles_close_to_one_another_are_two(gap):
     assert np.abs(np.array(radii) - (3 - width, 3 + width)).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_curves_too_close_for_the_triangles_are_doubted():
     curves = surface_intersection(Torus(3.0, 1.0), Torus(3.0, 1.0, (0.0, 0.0, 2.0 - 1e-6)))
     assert any("too close" in text for text in curves.doubts)

@@ -28,6 +28,7 @@ def test_edge_of_the_tangents_of_a_helix_is_the_helix(scale, end):
     assert sorted(curves.v[[0, -1]]) == [0.0, 6.0]
 
 
+@pytest.mark.slow
 @pytest.mark.hard(49)
 @pytest.mark.parametrize("domain", [SQUARE, Domain(-1, 1.3, -0.8, 1.1)])
 def test_edge_of_the_swallowtail_has_its_cusp(domain):

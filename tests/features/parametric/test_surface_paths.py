@@ -23,6 +23,7 @@ def knot(p: int, q: int):
     return lambda t: np.stack([p * t + 0.3, q * t - 0.1], axis=1)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.2-surface")
 @pytest.mark.parametrize(("p", "q"), KNOTS)
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
@@ -76,6 +77,7 @@ def on_curve(drawing: vp.Drawing) -> tuple[float, float]:
     return lengths[0], lengths[1]
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.2-surface", "G3.0-language")
 @pytest.mark.parametrize(
     "camera", [vp.Camera((9, -14, 10)), vp.Camera((3, 2, 12)), vp.Camera((8, 1, 3), parallel=True)]

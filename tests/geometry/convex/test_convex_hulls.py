@@ -13,6 +13,7 @@ from vectorplot.exact.predicates import orient2d
 from vectorplot.geometry.convex.convex_hulls import convex_hull, convex_hulls, hull_mesh
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G6.1-hull2d")
 def test_hulls_of_random_points_are_those_of_scipy_in_one_call():
     random = np.random.default_rng(1)

@@ -60,6 +60,7 @@ def scene(*meshes: Mesh) -> vp.Scene:
     return vp.Scene(tuple(vp.Item(f"BODY{k}", mesh) for k, mesh in enumerate(meshes)))
 
 
+@pytest.mark.slow
 @pytest.mark.hard(73)
 @pytest.mark.parametrize("name", SHAPES)
 @pytest.mark.parametrize("pieces", [2, 5, None])

@@ -90,6 +90,7 @@ def trees() -> st.SearchStrategy[str]:
     return st.recursive(leaves, grown, max_leaves=12)
 
 
+@pytest.mark.slow
 @settings(max_examples=200, deadline=None)
 @given(trees())
 def test_values_are_those_of_python_and_numpy(text):
@@ -151,6 +152,7 @@ def test_derivatives_are_simplified():
     assert expression.derivative("v")(u=U, v=V).shape == U.shape
 
 
+@pytest.mark.slow
 def test_derivatives_of_long_products_stay_short():
     text = "*".join(f"sin({k}*u)" for k in range(1, 60))
     expression = parse_expression(text, ("u",))
@@ -311,6 +313,7 @@ def test_nesting_up_to_the_bound_is_read():
     assert long.derivative("u")(u=0.5) == pytest.approx(4.0)
 
 
+@pytest.mark.slow
 @settings(max_examples=300, deadline=None)
 @given(
     st.one_of(

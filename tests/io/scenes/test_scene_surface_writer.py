@@ -89,6 +89,7 @@ def test_lines_keep_their_parameters(line):
     assert same_surface(again(revolution_surface(line)).shape, revolution_surface(line))
 
 
+@pytest.mark.slow
 @given(
     st.lists(st.floats(-1.0, 1.0), max_size=4),
     st.lists(st.tuples(point.filter(any), st.lists(number, min_size=1, max_size=3)), max_size=3),

@@ -106,6 +106,7 @@ scenes = st.builds(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G3.6-write")
 @settings(max_examples=150, deadline=None)
 @given(scenes)

@@ -63,6 +63,7 @@ def test_of_equally_deep_triangles_the_first_is_kept():
     assert set(np.unique(seen)) == {-1, 0}
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G7.3-strips")
 @pytest.mark.parametrize("count", [2, 7, ROWS])
 def test_strips_together_are_the_whole_picture(count):

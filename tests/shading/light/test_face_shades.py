@@ -134,6 +134,7 @@ def test_a_scene_without_lights_has_one_at_the_eyes_upper_left():
     assert found.total[seen & left].mean() > found.total[seen & ~left].mean()
 
 
+@pytest.mark.slow
 @pytest.mark.hard(18)
 @pytest.mark.hard(19)
 @given(st.integers(0, 1000), st.sampled_from([1e-6, 1.0, 1e6]), st.sampled_from([0.0, 1e6]))

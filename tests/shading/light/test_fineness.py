@@ -39,6 +39,7 @@ def made(surface, camera: Camera | None = None, tolerance_mm: float = 0.02):
     return facets(surface, demand), demand
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CLOSED)
 @pytest.mark.parametrize("eye", [(8.0, -16.0, 11.0), (3.0, 20.0, -4.0)])
 def test_neighbours_of_different_sizes_share_their_vertices(name, eye):
@@ -90,12 +91,14 @@ def test_shades_between_corners_are_within_their_bound(surface):
     assert np.quantile(off[of_side.all(axis=1)], 0.99) < 2.0 * SHADE_ERROR
 
 
+@pytest.mark.slow
 def test_a_coarser_tolerance_makes_fewer_polygons():
     cyclide = dupin_cyclide(3.0, 1.0, (6.5, 0.0, 0.0), 5.0)
     counts = [made(cyclide, tolerance_mm=t)[0].mesh.face_count for t in (0.005, 0.02, 0.2)]
     assert counts[0] > 1.3 * counts[1] > 1.5 * counts[2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("surface", "most"), [(Torus(3.0, 1.0), 3_000), (Sphere(2.0), 2_000), (WAVES, 12_000)])
 def test_pictures_have_few_polygons(surface, most):
     (fills,) = paint(Scene((Item("THING", surface),))).layers[0].marks

@@ -44,6 +44,7 @@ def colours(picture: Scene) -> np.ndarray:
     return fills_of(picture).colours.astype(int)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.5-coloured-light")
 @pytest.mark.parametrize("items", [(), (MIRROR,)], ids=["plain", "mirror"])
 def test_painted_lights_of_three_colours_are_white_together(items):

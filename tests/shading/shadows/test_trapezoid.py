@@ -243,6 +243,7 @@ def turning_maps(angles, beside):
         yield mapped(matrix, image), taper
 
 
+@pytest.mark.slow
 @pytest.mark.hard(33, 34)
 def test_the_map_has_neither_pole_nor_branch():
     angles = np.linspace(0.0, np.pi, 4001)
@@ -254,6 +255,7 @@ def test_the_map_has_neither_pole_nor_branch():
     assert speed[2:-2].max() < 70.0, "in halves of the map a radian: no jump"
 
 
+@pytest.mark.slow
 @pytest.mark.hard(33)
 @pytest.mark.parametrize("beside", [0.3, 0.1, 0.03, 0.01, 0.003])
 def test_beside_the_duelling_position_the_map_turns_no_faster_than_the_axis(beside):

@@ -77,6 +77,7 @@ def ball(x: float, radius: float) -> Item:
     return Item(f"BALL{x:g}", Sphere(radius, (x, 0.0, 0.0)), "blue", GLASS)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(77)
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("eye", [(10.0, -20.0, 8.0), (0.0, -20.0, 0.0), (18.0, -3.0, 2.0), (-3.0, 2.0, 20.0)])

@@ -35,6 +35,7 @@ def field(seed: int, rows: int = 9, columns: int = 6, holes: bool = True) -> Mes
     return Mesh.from_triangles(vertices.reshape(-1, 3), kept.ravel())
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G5.4-graph")
 @given(st.integers(0, 10**6), st.booleans())
 def test_what_is_in_front_comes_later(seed: int, parallel: bool) -> None:

@@ -52,6 +52,7 @@ def assert_right(scene: Scene, camera: Camera, samples: int = 400) -> None:
     assert result.sure > 0.7 * samples
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G5.0-painter", "G5.0-sepplane-rule", "G5.1-facetypes", "G5.1-convex")
 @pytest.mark.parametrize("seed", range(21))
 @pytest.mark.parametrize("kind", STREWN)
@@ -66,6 +67,7 @@ def test_convex_bodies_as_rays_see_them(seed):
         assert_right(scene, camera_of(scene, seed))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SHAPES)
 def test_hard_shapes_as_rays_see_them(name):
     for seed in range(7):
@@ -102,6 +104,7 @@ def test_three_bars_on_one_another_in_a_circle_are_cut_no_more_than_they_must_be
     assert_right(cyclic_bars(), Camera((0.6, 0.5, 6.0), (0, 0, 0)), 4000)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(21)
 def test_boxes_that_pierce_each_other_are_cut_along_their_intersection():
     scene = interpenetrating_boxes()
@@ -112,6 +115,7 @@ def test_boxes_that_pierce_each_other_are_cut_along_their_intersection():
     assert len(result.painted) > result.painted.uncut
 
 
+@pytest.mark.slow
 def test_five_hundred_boxes_through_one_another_stay_few_pieces():
     random = np.random.default_rng(1)
     shapes = [placed(box((0, 0, 0), random.uniform(0.3, 1.3, 3)), random, 5.0) for _ in range(500)]

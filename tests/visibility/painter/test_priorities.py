@@ -55,6 +55,7 @@ def seen_pairs(view, objects, samples=3000):
     return ((apart > 1e-6) & there[:, None] & there[None] & sure).any(axis=2)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G5.5-rect", "G5.5-depth", "G5.5-outlines", "G5.5-which-first", "G5.6-priorities")
 @pytest.mark.parametrize("critical", [False, True])
 @pytest.mark.parametrize("seed", range(8))

@@ -108,6 +108,7 @@ def wrong_points(view, faces, samples=400):
     return int((apart & sure[shown]).sum())
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G5.3-sliced")
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("name", SHAPES)
@@ -203,6 +204,7 @@ BOX blue box solid 2 2 2 translation 5 0 0 slices x at 5.5
 """
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G5.3-sliced")
 def test_slices_in_scene_files_are_read_written_painted_and_drawn():
     scene = parse_scene(SLICED)

@@ -59,6 +59,7 @@ def camera_of(scene, seed):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", STREWN)
 @pytest.mark.parametrize("seed", range(5))
 def test_every_point_shows_the_nearest_face_once(kind, seed):

@@ -38,6 +38,7 @@ def assert_as_rays_say(scene: Scene, camera: Camera, result: Seen, samples: int)
     assert wrong == 0, f"{wrong} of {compared} samples, {fault}, {camera}"
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G7.2-exact", "G7.2-zones", "G7.2-lines-on-faces")
 @pytest.mark.parametrize("name", SCENES)
 def test_hard_shapes_as_rays_see_them(name: str) -> None:
@@ -46,6 +47,7 @@ def test_hard_shapes_as_rays_see_them(name: str) -> None:
         assert_as_rays_say(scene, camera, seen(scene, camera, EVERY_EDGE), 120)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(40))
 def test_random_scenes_as_rays_see_them(seed: int) -> None:
     scenes = random_convex_solids(14, seed), rotated_boxes(25, seed)
@@ -54,6 +56,7 @@ def test_random_scenes_as_rays_see_them(seed: int) -> None:
             assert_as_rays_say(scene, camera, seen(scene, camera, EVERY_EDGE), 25)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G7.2-hollow1", "G7.2-hollow2")
 @pytest.mark.parametrize("name", ["hollow tube", "hollow bodies"])
 def test_one_sees_through_removed_faces(name: str) -> None:
@@ -69,6 +72,7 @@ def test_a_body_without_top_and_bottom_shows_its_inner_wall() -> None:
     assert above.length(above.visible) > 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G7.2-visible")
 @pytest.mark.parametrize("name", SCENES)
 def test_visible_and_hidden_parts_make_up_the_whole(name: str) -> None:
@@ -80,6 +84,7 @@ def test_visible_and_hidden_parts_make_up_the_whole(name: str) -> None:
         assert np.isclose(result.length(result.counted), whole, rtol=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_visible_parts_are_those_that_nothing_hides(name: str) -> None:
     scene = SCENES[name]
@@ -99,6 +104,7 @@ def lengths_by_count(result: Seen) -> np.ndarray:
     return np.bincount(result.counted.hidden_by, weights=weights, minlength=12) * result.view.scale
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
 @pytest.mark.parametrize("name", ["rotated boxes", "box on table", "torus mesh", "nine touching cubes", "hollow tube"])
 def test_the_size_of_the_scene_changes_nothing(name: str, scale: float) -> None:

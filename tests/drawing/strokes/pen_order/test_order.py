@@ -128,6 +128,7 @@ POINT = st.tuples(st.integers(0, 5), st.integers(0, 5))
 STROKES = st.lists(st.tuples(st.lists(POINT, max_size=6), st.booleans()), max_size=30)
 
 
+@pytest.mark.slow
 @settings(max_examples=150, deadline=None)
 @given(STROKES)
 def test_the_strokes_are_the_given_ones_forwards_backwards_or_rolled(strokes):

@@ -59,6 +59,7 @@ def test_two_stars_take_no_more_than_linked_one_by_one():
 NODE = st.tuples(st.integers(0, 4), st.integers(0, 4))
 
 
+@pytest.mark.slow
 @settings(max_examples=200, deadline=None)
 @given(st.lists(st.tuples(NODE, NODE), min_size=1, max_size=60))
 def test_links_make_trails_with_two_free_ends_each(edges):
