@@ -5,11 +5,14 @@ from __future__ import annotations
 import ast
 import subprocess
 import sys
+from collections.abc import Iterable
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 import vectorplot
+from vectorplot.save import _BACKENDS
 
 PACKAGE = Path(vectorplot.__file__).parent
 
@@ -19,10 +22,17 @@ ORDER = [
     *("drawing", "effects", "animation", "textbook", "backends"),
     *("verbs", "testing", "cli"),
 ]
-VERBS = {"draw", "paint", "render", "save", "plan"}
+VERBS = {"draw", "paint", "read", "render", "save", "plan"}
 
 # A Drawing shows itself in a notebook; the import happens when the notebook asks.
 ALLOWED = {("drawing/drawing.py", "backends")}
+
+FOR_PROGRAMS = {
+    "drawing/strokes/long_strokes.py",
+    "surfaces/curvature.py",
+    "surfaces/height_grid.py",
+}
+"""Files that programs of one's own call for, and no verb."""
 
 MOST_FILES = 18
 """What a folder holds before one cannot find a file in it any more."""
@@ -66,6 +76,7 @@ def test_a_room_imports_only_what_stands_left_of_it(file):
         assert not right or (file, target) in ALLOWED, f"{file} imports {'.'.join(module)}, which stands right of it"
 
 
+@cache
 def modules_imported_by(file: str) -> set[str]:
     """The files of the package that a file imports anywhere, for types alone too; names are taken for their module."""
     path = Path(file)
@@ -90,6 +101,40 @@ def test_no_files_import_each_other_in_a_circle():
         for file in free:
             del waiting[file]
     assert not waiting, f"in circles, or behind one: {sorted(waiting)}"
+
+
+def exported(stub: Path) -> set[str]:
+    """The files that a room's stub takes names from."""
+    tree = ast.parse(stub.read_text(encoding="utf-8"))
+    room = stub.parent.relative_to(PACKAGE)
+    imports = [node for node in tree.body if isinstance(node, ast.ImportFrom)]
+    modules = {node.module or alias.name for node in imports for alias in node.names}
+    return {(room / (module.replace(".", "/") + ".py")).as_posix() for module in modules}
+
+
+# Backends are found by the suffix of a file's name, and by nothing else.
+STARTS = {"__main__.py", *(f"backends/{module.replace('.', '/')}.py" for module, _ in _BACKENDS.values())}
+
+
+def unreached_from(stubs: Iterable[Path]) -> set[str]:
+    """The files that neither the command nor what the stubs export needs."""
+    waiting = STARTS.union(*(exported(stub) for stub in stubs))
+    reached: set[str] = set()
+    while waiting:
+        reached |= waiting
+        waiting = set().union(*(modules_imported_by(file) for file in waiting)) - reached
+    return {file for file in FILES if not file.endswith("__init__.py")} - reached
+
+
+def test_every_file_serves_the_command_or_what_a_room_exports():
+    """What nobody can reach is not finished, or forgotten."""
+    assert unreached_from(PACKAGE.rglob("*.pyi")) == set()
+
+
+def test_what_verbs_and_command_do_not_reach_is_few_and_known():
+    """A file that only a room's exports hold has a place in the textbook, or is for programs of one's own."""
+    left = unreached_from((PACKAGE / "__init__.pyi", PACKAGE / "testing" / "__init__.pyi"))
+    assert {file for file in left if not file.startswith("textbook/")} == FOR_PROGRAMS
 
 
 @pytest.mark.slow

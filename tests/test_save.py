@@ -9,10 +9,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.paths import DATA
 
+import vectorplot as vp
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.errors import InputError
 from vectorplot.save import FORMATS, save, write
+from vectorplot.surfaces import Domain, surface_of_function
+from vectorplot.testing import assert_drawings_equal
 
 # Also run in processes of their own.
 BUILD = """
@@ -119,3 +123,38 @@ def test_a_drawing_of_several_marks_keeps_them_all():
     one = Paths(np.array([[1.0, 1.0], [2.0, 2.0]]), np.array([0, 2]), n > 0, n, n, n, np.zeros((2, 3)))
     drawing = Drawing(10.0, 10.0, (Layer("a", Pen(), (one, one)), Layer("b", Pen(), ())))
     assert write(drawing, "svg").count(b"<polyline") == 2
+
+
+def test_a_scene_is_saved_as_a_scene_file_and_read_back(tmp_path):
+    scene = vp.read(DATA / "table.scene")
+    vp.save(scene, tmp_path / "copy.scene")
+    again = vp.read(tmp_path / "copy.scene")
+    assert write(again, "scene") == write(scene, "scene") == (tmp_path / "copy.scene").read_bytes()
+    assert_drawings_equal(vp.draw(scene), vp.draw(again))
+
+
+def test_a_drawing_is_saved_as_json_and_read_back(drawing, tmp_path):
+    vp.save(drawing, tmp_path / "drawing.json")
+    again = vp.read(tmp_path / "drawing.json")
+    assert isinstance(again, vp.Drawing)
+    assert_drawings_equal(drawing, again)
+    vp.save(again, tmp_path / "again.JSON")
+    assert isinstance(vp.read(tmp_path / "again.JSON"), vp.Drawing)
+
+
+def test_scenes_and_drawings_are_not_each_other(drawing, tmp_path):
+    scene = vp.read(DATA / "pencil.scene")
+    for suffix in FORMATS:
+        with pytest.raises(InputError, match="draw, paint or render it first"):
+            vp.save(scene, tmp_path / f"x.{suffix}")
+    with pytest.raises(InputError, match="only a scene"):
+        vp.save(drawing, tmp_path / "x.scene")
+    bent = surface_of_function(lambda u, v: (u, v, u * v), Domain(0, 1, 0, 1))
+    unwritable = vp.Scene((vp.Item("A", bent),))
+    (tmp_path / "old.scene").write_text("old")
+    with pytest.raises(InputError, match="A"):
+        vp.save(unwritable, tmp_path / "old.scene")
+    assert [path.name for path in tmp_path.iterdir()] == ["old.scene"] and (tmp_path / "old.scene").read_text() == "old"
+    (tmp_path / "scene.json").write_text("{}")
+    with pytest.raises(InputError, match="not a drawing"):
+        vp.read(tmp_path / "scene.json")

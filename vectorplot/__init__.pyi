@@ -4,8 +4,8 @@ from .errors import InputError, InputWarning
 from .geometry.cameras.camera import Camera
 from .geometry.mesh import Mesh
 from .geometry.strokes import Strokes
-from .io.read import read
 from .paint import paint
+from .read import read
 from .render import render
 from .save import save
 from .scene.scene import Item, Light, Material, Page, Pattern, Scene

@@ -148,7 +148,7 @@ def paint(
     else:
         polygons = _shaded(walk, seen, lighting, page, aura_mm, tolerance_mm)
     if walk.calls_for("visible fills"):
-        from vectorplot.drawing.visible_fills import visible_fills
+        from vectorplot.drawing.fills_without_overlaps import visible_fills
 
         polygons = walk.run("visible fills", visible_fills, polygons, world)
     if walk.calls_for("screen door"):

@@ -1,4 +1,4 @@
-"""Saving a drawing or a picture of pixels under a name whose suffix says the format."""
+"""Saving a drawing, a picture of pixels or a scene under a name whose suffix says the format."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from pathlib import Path
 
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
+from vectorplot.scene.scene import Scene
 from vectorplot.shading.raster.image import Image
 
 # Module and function of each format; a backend is imported when it is called for.
@@ -25,28 +26,38 @@ _BACKENDS = {
 _BINARY = getattr(os, "O_BINARY", 0)
 
 FORMATS = tuple(_BACKENDS)
-"""The formats that write knows."""
+"""The formats of drawings."""
+
+_SCENE = "scene"
+"""The one format of scenes."""
 
 
-def save(drawing: Drawing | Image, path: str | os.PathLike[str]) -> None:
-    """Write the drawing in the format of the suffix: svg, ps, eps, pdf, png or json; a picture of pixels as png.
+def save(drawing: Drawing | Image | Scene, path: str | os.PathLike[str]) -> None:
+    """Write the drawing in the format of the suffix: svg, ps, eps, pdf, png or json; a picture of pixels as png; a
+    scene as scene, a text in the scene language.
 
     The file is written whole or not at all; an old one stays until the new one is complete.
-    Errors: InputError for an unknown suffix and for what page_marks.sheet refuses; OSError.
+    Errors: InputError for an unknown suffix, for what page_marks.sheet refuses, and for shapes of a scene that the
+    language has no word for; OSError.
     """
     suffix = Path(path).suffix
-    if suffix[1:].lower() not in _BACKENDS:
+    if suffix[1:].lower() not in (*_BACKENDS, _SCENE):
         raise InputError(f"unknown suffix {suffix!r}; known are .{', .'.join(FORMATS)}", file=os.fspath(path))
     write_whole(path, write(drawing, suffix[1:]))
 
 
-def write(drawing: Drawing | Image, format: str) -> bytes:
-    """The drawing as the content of a file: svg, ps, eps, pdf, png (at 150 dpi) or json; a picture of pixels as png.
+def write(drawing: Drawing | Image | Scene, format: str) -> bytes:
+    """The drawing as the content of a file: svg, ps, eps, pdf, png (at 150 dpi) or json; a picture of pixels as png; a
+    scene as scene.
 
     Same drawing, same bytes. Errors: InputError for an unknown format and for what page_marks.sheet refuses.
     """
-    if format.lower() not in _BACKENDS:
+    if format.lower() not in (*_BACKENDS, _SCENE):
         raise InputError(f"unknown format {format!r}; known are {', '.join(FORMATS)}")
+    if isinstance(drawing, Scene):
+        return _scene_text(drawing, format)
+    if format.lower() == _SCENE:
+        raise InputError("only a scene is written as scene")
     if isinstance(drawing, Image):
         if format.lower() != "png":
             raise InputError(f"a picture of pixels is written as png, not as {format}")
@@ -54,6 +65,14 @@ def write(drawing: Drawing | Image, format: str) -> bytes:
     module, function = _BACKENDS[format.lower()]
     backend: Callable[[Drawing], bytes] = getattr(import_module(f"vectorplot.backends.{module}"), function)
     return backend(drawing)
+
+
+def _scene_text(scene: Scene, format: str) -> bytes:
+    if format.lower() != _SCENE:
+        raise InputError(f"a scene is written as scene, not as {format}: draw, paint or render it first")
+    from vectorplot.io.scenes.scene_writer import write_scene
+
+    return write_scene(scene).encode("ascii")
 
 
 def write_whole(path: str | os.PathLike[str], content: bytes) -> None:

@@ -10,6 +10,7 @@ import pytest
 
 from vectorplot.backends.svg.document import svg_bytes
 from vectorplot.draw import default_camera
+from vectorplot.drawing.fills_without_overlaps import visible_fills
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.convex_hulls import hull_mesh
 from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
@@ -26,7 +27,6 @@ from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.painter.pairs.bodies import convex_bodies, outlined_items
-from vectorplot.visibility.painter.visible_regions import visible_regions
 from vectorplot.visibility.projected_faces import project_faces
 
 pytestmark = pytest.mark.bench
@@ -153,16 +153,16 @@ def waves(cells: int) -> Mesh:
     return Mesh.from_triangles(vertices, graph_triangles(cells, cells))
 
 
-def test_visible_regions() -> None:
-    print("\nvisible regions of rotated boxes (to beat: .61 s and 3.7 s at 5,058 and 19,967 faces, exponent 1.3)")
+def test_visible_fills() -> None:
+    print("\nvisible fills of rotated boxes (to beat: .61 s and 3.7 s at 5,058 and 19,967 faces, exponent 1.3)")
     sizes, times = [], []
     for count in (425, 1700, 6700):
-        view = view_of(rotated_boxes(count))
-        painted = painters_order(view)
-        regions = visible_regions(view, painted)
-        sizes.append(painted.uncut)
-        times.append(seconds(lambda v=view, p=painted: visible_regions(v, p), 1))
-        print(f"  {painted.uncut:>9,} faces, {len(regions):>9,} regions: {times[-1]:7.3f} s")
+        painted = paint(rotated_boxes(count), smooth=False)
+        fills = painted.layers[0].fills[0]
+        regions = visible_fills(fills, painted.page_from_world)
+        sizes.append(len(fills))
+        times.append(seconds(lambda f=fills, p=painted: visible_fills(f, p.page_from_world), 1))
+        print(f"  {len(fills):>9,} faces, {len(regions):>9,} regions: {times[-1]:7.3f} s")
     print(growth(sizes, times))
 
 

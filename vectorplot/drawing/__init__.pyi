@@ -1,5 +1,6 @@
 from .drawing import Curves, Drawing, Layer, Paths, Pen
 from .fills import FillKind, Fills
+from .fills_without_overlaps import visible_fills
 from .painted_fills import placed_faces
 from .strokes.curved_strokes import with_curves
 from .strokes.long_strokes import split_long
@@ -17,5 +18,6 @@ __all__ = [
     "placed_faces",
     "split_long",
     "travel_mm",
+    "visible_fills",
     "with_curves",
 ]

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import FillKind, Fills
+from vectorplot.drawing.fills_without_overlaps import GRID_MM, in_space
 from vectorplot.drawing.painted_fills import Overlay, stacked
-from vectorplot.drawing.visible_fills import GRID_MM, in_space
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.regions import (

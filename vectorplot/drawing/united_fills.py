@@ -6,8 +6,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.fills_without_overlaps import GRID_MM
 from vectorplot.drawing.painted_fills import Overlay
-from vectorplot.drawing.visible_fills import GRID_MM
 from vectorplot.geometry import ragged
 from vectorplot.geometry.regions import corners_of, insides_of, polygons_of, unions, without_holes, without_splinters
 

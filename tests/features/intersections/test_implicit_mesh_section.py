@@ -93,3 +93,44 @@ def test_heights_of_a_patch_bend_as_the_surface_does() -> None:
     ).astype(float)
     expected = [np.diag([-1.0, -0.25]), np.diag([-1.0, 0.5]), np.diag([-1.0, 0.0])]
     assert np.allclose(patch.bends(at, frames), expected, atol=1e-9)
+
+
+CUBE = box((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0))
+
+
+@pytest.mark.capability("G9.3-sections")
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("offset", [0.0, 1e6])
+def test_a_sphere_cuts_round_holes_into_the_faces_of_a_cube(scale, offset) -> None:
+    shift = np.array([offset, 0.0, 0.0]) * scale
+    mesh = Mesh(CUBE.vertices * scale + shift, CUBE.corners, CUBE.offsets)
+    tracing = ImplicitTracing(tolerance=1e-4 * scale)
+    digits = 1e-12 + 8.0 * np.spacing(offset)
+    section = implicit_mesh_section(implicit_sphere(1.2 * scale, tuple(shift)), mesh, tracing=tracing)
+    holes = section.curves
+    assert len(holes) == 6 and holes.closed.all()
+    p = (holes.points - shift) / scale
+    assert np.abs(np.linalg.norm(p, axis=1) - 1.2).max() < digits
+    assert np.abs((p * section.normals).sum(axis=1) - 1.0).max() < digits  # in the plane of the face it runs in
+    for k in range(6):
+        length = np.linalg.norm(np.diff(holes[k], axis=0), axis=1).sum() / scale
+        assert abs(length - 2 * np.pi * np.sqrt(0.44)) < 2e-3
+    # A larger one meets the edges: one closed curve around each corner, with a point on every edge it crosses.
+    larger = implicit_mesh_section(implicit_sphere(1.5 * scale, tuple(shift)), mesh, tracing=tracing).curves
+    assert len(larger) == 8 and larger.closed.all()
+    # A closed curve repeats its first point.
+    once = np.delete(larger.points, larger.offsets[1:] - 1, axis=0)
+    edge = np.sort(np.abs(once - shift) / scale, axis=1)[:, 1] > 1.0 - digits
+    assert edge.sum() == 24
+
+
+def test_a_small_hole_in_a_large_face_is_found() -> None:
+    found = curves(implicit_sphere(0.02, (1.0, 0.123, 0.456)), CUBE)
+    assert len(found) == 1 and found.closed.all()
+    assert np.ptp(found.points, axis=0).max() == pytest.approx(0.04, rel=1e-2)
+
+
+def test_a_mesh_and_a_surface_far_from_each_other_have_no_curve() -> None:
+    assert len(curves(implicit_sphere(1.0, (9.0, 9.0, 9.0)), CUBE)) == 0
+    empty = Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3)))
+    assert len(curves(implicit_sphere(1.0), empty)) == 0

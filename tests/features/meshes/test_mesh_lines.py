@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
 from vectorplot.features.implicit.polygonize import polygonized
-from vectorplot.features.intersections.implicit_mesh_curves import mesh_intersection
 from vectorplot.features.meshes.mesh_curves import NO_FACE
 from vectorplot.features.meshes.mesh_lines import (
     mesh_contour_across_faces,
@@ -163,36 +162,8 @@ def test_sections_of_closed_meshes_close(normal, offset):
     assert np.abs(curves.points @ (n / np.linalg.norm(n)) - offset).max() < 1e-13
 
 
-@pytest.mark.capability("G9.3-sections")
-def test_a_sphere_cuts_round_holes_into_the_faces_of_a_cube():
-    middle = CUBE.bounds.mean(axis=0)
-    sphere = implicit_sphere(1.2, middle)
-    curves = mesh_intersection(CUBE, sphere, tolerance=1e-4)
-    assert len(curves) == 6 and curves.closed.all()
-    p = curves.points - middle
-    assert np.abs(np.linalg.norm(p, axis=1) - 1.2).max() < 1e-12
-    assert np.abs(np.abs(p).max(axis=1) - 1.0).max() < 1e-14 and lies_in_its_face(CUBE, curves) < 1e-12
-    for k in range(6):
-        length = np.linalg.norm(np.diff(curves[k], axis=0), axis=1).sum()
-        assert abs(length - 2 * np.pi * np.sqrt(0.44)) < 2e-3
-    # A larger one meets the edges: one closed curve around each corner, with a point on every edge it crosses.
-    larger = mesh_intersection(CUBE, implicit_sphere(1.5, middle), tolerance=1e-4)
-    assert len(larger) == 8 and larger.closed.all()
-    edge = np.sort(np.abs(larger.points - middle), axis=1)[:, 1] > 1.0 - 1e-12
-    assert edge.sum() == 24
-
-
-def test_a_small_hole_in_a_large_face_is_found():
-    middle = CUBE.bounds.mean(axis=0)
-    curves = mesh_intersection(CUBE, implicit_sphere(0.02, middle + np.array([1.0, 0.123, 0.456])), tolerance=1e-5)
-    assert len(curves) == 1 and curves.closed.all()
-    assert np.ptp(curves.points, axis=0).max() == pytest.approx(0.04, rel=1e-2)
-
-
-def test_a_mesh_and_a_surface_far_from_each_other_have_no_curve():
-    assert len(mesh_intersection(BALL, implicit_sphere(1.0, (9, 9, 9)))) == 0
+def test_an_empty_mesh_has_no_curve():
     empty = Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3)))
-    assert len(mesh_intersection(empty, implicit_sphere(1.0))) == 0
     assert len(mesh_plane_sections(empty, (0, 0, 1), [0.0])) == 0 and len(mesh_isophotes(empty, LIGHT, [0.5])) == 0
 
 
@@ -277,8 +248,6 @@ def test_scaled_and_shifted_meshes_give_the_same_curves(scale, offset):
     assert len(mesh_plane_sections(mesh, n, [middle @ n]).points) == len(
         mesh_plane_sections(CUBE, n, [CUBE.bounds.mean(axis=0) @ n]).points
     )
-    holes = mesh_intersection(mesh, implicit_sphere(1.2 * scale, middle))
-    assert len(holes) == 6 and holes.closed.all()
 
 
 def test_wrong_input_is_named():

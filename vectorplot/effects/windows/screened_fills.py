@@ -6,7 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.drawing.visible_fills import in_space
+from vectorplot.drawing.fills_without_overlaps import in_space
 from vectorplot.effects.windows.screen_lines import screen_door, sparseness
 
 

@@ -6,12 +6,16 @@ import numpy as np
 import pytest
 import shapely
 from support.paths import DATA
+from support.strewn import STREWN
 
 import vectorplot as vp
 from vectorplot.drawing.fills import Fills
-from vectorplot.drawing.visible_fills import visible_fills
+from vectorplot.drawing.fills_without_overlaps import visible_fills
 from vectorplot.geometry.regions import polygons_of
 from vectorplot.paint import paint
+from vectorplot.testing import hard_shapes
+
+SHAPES = hard_shapes()
 
 FLAT = np.array([[1.0, 0, 0, 0], [0, 1.0, 0, 0], [0, 0, 1.0, 0], [0, 0, 0, 1.0]])
 
@@ -72,7 +76,32 @@ def test_nothing_and_lines_only() -> None:
 
 @pytest.mark.parametrize("name", ["town", "table", "interpenetrating", "patterns"])
 def test_the_picture_stays_the_same_and_nothing_overlaps(name: str) -> None:
-    painted = paint(vp.read(DATA / f"{name}.scene"), smooth=False)
+    assert_same_picture(paint(vp.read(DATA / f"{name}.scene"), smooth=False))
+
+
+@pytest.mark.parametrize("kind", STREWN)
+@pytest.mark.parametrize("seed", range(3))
+def test_strewn_faces_show_the_same_picture(kind: str, seed: int) -> None:
+    scene = STREWN[kind](np.random.default_rng(seed))
+    assert_same_picture(paint(scene, camera_of(scene, seed), smooth=False))
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_hard_shapes_show_the_same_picture(name: str) -> None:
+    assert_same_picture(paint(SHAPES[name], camera_of(SHAPES[name], 4), smooth=False))
+
+
+def camera_of(scene: vp.Scene, seed: int) -> vp.Camera:
+    """Somewhere around the scene, at random; every other one parallel."""
+    random = np.random.default_rng(seed)
+    low, high = scene.bounds
+    middle, size = (low + high) / 2.0, float(np.linalg.norm(high - low))
+    direction = random.normal(size=3)
+    eye = middle + 1.5 * size * direction / np.linalg.norm(direction)
+    return vp.Camera(tuple(eye), tuple(middle), parallel=seed % 2 == 1)
+
+
+def assert_same_picture(painted: vp.Drawing) -> None:
     before = painted.layers[0].fills[0]
     after = visible_fills(before, painted.page_from_world)
     points = np.random.default_rng(3).uniform([0, 0], [painted.width_mm, painted.height_mm], (4000, 2))
