@@ -160,13 +160,13 @@ def seen_part(walk: Walk, scene: Scene, camera: Camera) -> Scene:
     return walk.run("cuts", between_planes, scene, camera)
 
 
-def with_smooth_surfaces(scene: Scene, view: View, faces: ProjectedFaces) -> tuple[View, ProjectedFaces]:
+def with_smooth_surfaces(scene: Scene, view: View, faces: ProjectedFaces | None) -> tuple[View, ProjectedFaces]:
     """The view of a scene, and its faces in the image, in the projection of a view of it that has triangles in place of
-    smooth surfaces: the same where there are none."""
-    if all(isinstance(item.shape, Mesh) for item in scene.items):
-        return replace(view, occludes=np.array([item.hides for item in scene.items], dtype=np.bool_)), faces
-    view = view_of(scene, view)
-    return view, project_faces(view)
+    smooth surfaces: the same where there are none. faces: of that view, where they are known."""
+    if not all(isinstance(item.shape, Mesh) for item in scene.items):
+        view, faces = view_of(scene, view), None
+    view = replace(view, occludes=np.array([item.hides for item in scene.items], dtype=np.bool_))
+    return view, project_faces(view) if faces is None else faces
 
 
 def lines_in_place(

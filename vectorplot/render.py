@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.draw import default_camera, seen_part
+from vectorplot.arrays import Bools, Ints
+from vectorplot.draw import default_camera, lines_in_place, seen_part, with_smooth_surfaces
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.facets import Within
 from vectorplot.geometry.budget import budget_of
@@ -18,10 +18,11 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.projection import CoordinateSystem
 from vectorplot.geometry.cameras.unit_projection import LARGEST, projection_of
 from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, dims_light, plan_cuts, plan_render
+from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seams import without_seams
 from vectorplot.scene.unbounded import tell_what_is_cut_off
-from vectorplot.scene.view import View, look
+from vectorplot.scene.view import View, view_of
 from vectorplot.shading.depth.coplanar import coplanar_faces
 from vectorplot.shading.light.face_shades import view_lights
 from vectorplot.shading.light.faceted import FacetedScene, faceted
@@ -30,21 +31,21 @@ from vectorplot.shading.light.palettes import palette
 from vectorplot.shading.raster.image import Image
 from vectorplot.shading.raster.picture import Picture, opaque_buffer, picture_of, shaded, with_glass, with_mirrors
 from vectorplot.shading.raster.png import Bytes
-from vectorplot.shading.raster.scene_triangles import SceneTriangles, camera_in_view, scene_triangles
+from vectorplot.shading.raster.scene_triangles import SceneTriangles, scene_triangles
 from vectorplot.shading.raster.screen import (
     LARGEST_RASTER_PIXELS,
     LARGEST_SIDE_PIXELS,
-    fitted,
+    picture_placement,
+    pixel_system,
     raster_size,
-    raster_system,
 )
 from vectorplot.shading.raster.supersampling import averaged_light
 from vectorplot.shading.shadows.map_settings import MapSettings
 from vectorplot.visibility.painter.image_faces import outer_sides
-from vectorplot.words import check_word, line_kinds
+from vectorplot.words import LineKind, check_word, line_kinds
 
 if TYPE_CHECKING:
-    from vectorplot.drawing.drawing import Drawing
+    from vectorplot.drawing.drawing import Paths
     from vectorplot.shading.shadows.seen_region import SeenRegion
 
 SIZE = (800, 600)
@@ -58,6 +59,9 @@ MOST_SAMPLES = 8
 
 FACET_PIXELS = 0.2
 """Triangles are off a smooth surface by no more than this part of a pixel."""
+
+LINE_PIXELS = 0.02
+"""Lines over a picture are off smooth curves by no more than this part of a pixel."""
 
 BAND_PIXELS = 1 << 22
 """So many pixels are in memory at a time."""
@@ -109,7 +113,7 @@ def render(
     upper left, which casts no shadows; nor do items that do not occlude. Transparent ones dim and colour light.
     Source: Glaeser, sections 4.5, 6.4, 7.3, 8.5 and 8.6; Martin and Tan; Ressler.
     """
-    kinds = tuple(kind.word for kind in sorted(line_kinds(lines)))
+    kinds = line_kinds(lines)
     samples = _usual_samples(size) if samples is None else samples
     _check_whole(columns=size[0], rows=size[1], samples=samples, shadow_size=shadow_size)
     _check(size, shadows, samples, crease_angle_deg)
@@ -124,15 +128,15 @@ def render(
     _tell_what_is_missing(walk, scene, kinds)
     scene = seen_part(walk, scene, camera)
     fine = (size[0] * samples, size[1] * samples)
+    projection = projection_of(camera, scene.bounds)
     facets = FacetedScene(scene, (None,) * len(scene.items))
     if walk.calls_for("facets"):
-        demand = Within(_allowed(scene, camera, fine, fit))
+        demand = Within(allowed_in_space(scene, projection, Page(*fine, 0.0), fit, FACET_PIXELS))
         facets = walk.run("facets", faceted, scene, lambda number: demand, budget_of(budget))
-    view = walk.run("look", look, facets.scene, camera)
+    view = walk.run("look", view_of, facets.scene, projection)
     triangles = walk.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
-    system = raster_system(camera_in_view(view, camera), *fine)
-    if fit:
-        system = fitted(system, triangles.points, *fine)
+    placement = picture_placement(view, *fine, fit)
+    system = pixel_system(placement)
     here = view_lights(view, scene.lights)
     region = _region(triangles, system, fine, how) if walk.calls_for("shadows") else None
     maps = _Maps(triangles, here, how, settings, region, outer_sides(view))
@@ -146,15 +150,15 @@ def render(
         picture = replace(picture, points_at_once=EXACT_POINTS_AT_ONCE)
     pixels = _pixels(walk, picture, samples)
     if walk.calls_for("lines"):
-        place = (view, system)
-        pixels = walk.run("lines", _with_lines, pixels, scene, camera, *place, kinds, crease_angle_deg, samples, budget)
+        found = walk.run("lines", _lines, walk, scene, placement, view, kinds, crease_angle_deg, budget)
+        pixels = _with_lines(pixels, found, float(samples))
     return Image(walk.run("average", averaged_light, pixels, samples), scene.title)
 
 
-def _tell_what_is_missing(walk: Walk, scene: Scene, kinds: Sequence[str]) -> None:
+def _tell_what_is_missing(walk: Walk, scene: Scene, kinds: frozenset[LineKind]) -> None:
     """Say what paint would show of the scene, and a picture of pixels does not."""
     missing = []
-    if any(item.patterns for item in scene.items) and "pattern" not in kinds:
+    if any(item.patterns for item in scene.items) and LineKind.PATTERN not in kinds:
         missing.append("patterns (their outlines come with lines of the kind pattern)")
     if any(item.material.is_clear and item.material.refraction != 1.0 for item in scene.items):
         missing.append("refraction")
@@ -194,14 +198,6 @@ def _check_lights(lights: Sequence[Light]) -> None:
             raise InputError(f"{name}: a place or direction of {light.position} is out of range")
         if light.parallel and not any(light.position):
             raise InputError(f"{name}: its rays have no direction")
-
-
-def _allowed(scene: Scene, camera: Camera, size: tuple[int, int], fit: bool) -> Callable[[Floats], Floats]:
-    """How far triangles may be off smooth surfaces at points of the world."""
-    from vectorplot.scene.placement import allowed_in_space
-
-    # A millimetre of this page is a pixel.
-    return allowed_in_space(scene, projection_of(camera, scene.bounds), Page(*size, 0.0), fit, FACET_PIXELS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -286,45 +282,42 @@ def _pixels(walk: Walk, picture: Picture, samples: int) -> Bytes:
     return result
 
 
-def _with_lines(
-    pixels: Bytes,
+def _lines(
+    walk: Walk,
     scene: Scene,
-    camera: Camera,
+    placement: Placement,
     view: View,
-    system: CoordinateSystem,
-    kinds: tuple[str, ...],
+    kinds: frozenset[LineKind],
     crease_angle_deg: float,
-    samples: int,
     budget: float,
-) -> Bytes:
-    """The picture with the scene's lines over it, a pixel of the averaged picture wide."""
+) -> Paths:
+    """The visible lines of a scene on the page whose millimetres are the pixels of its picture."""
+    return lines_in_place(
+        scene,
+        *with_smooth_surfaces(scene, view, None),
+        placement,
+        kinds,
+        crease_angle_deg=crease_angle_deg,
+        tolerance_mm=LINE_PIXELS,
+        budget=budget,
+        progress=walk.fraction("lines"),
+    )
+
+
+def _with_lines(pixels: Bytes, found: Paths, width: float) -> Bytes:
+    """The picture with lines of some width in pixels over it."""
     from vectorplot.backends.raster import painted
-    from vectorplot.draw import draw
+    from vectorplot.drawing.drawing import Drawing
+    from vectorplot.drawing.layers import layers_by_kind
+    from vectorplot.drawing.strokes.finishing import long_strokes
 
     rows, columns = pixels.shape[:2]
-    # A millimetre of this page is a pixel, about.
-    drawing = draw(
-        scene,
-        camera,
-        page=Page(columns, rows, 0.0),
-        lines=kinds,
-        crease_angle_deg=crease_angle_deg,
-        curves="polyline",
-        budget=budget,
+    layers = layers_by_kind(long_strokes(found))
+    return painted(
+        pixels,
+        Drawing(
+            float(columns),
+            float(rows),
+            tuple(replace(layer, pen=replace(layer.pen, width_mm=width)) for layer in layers),
+        ),
     )
-    return painted(pixels, _placed(drawing, view, system, columns, rows, float(samples)))
-
-
-def _placed(drawing: Drawing, view: View, system: CoordinateSystem, columns: int, rows: int, width: float) -> Drawing:
-    """The drawing's strokes where the picture has their points of space, on a page whose millimetres are pixels."""
-    from vectorplot.drawing.drawing import Layer
-
-    layers: list[Layer] = []
-    for layer in drawing.layers:
-        marks = []
-        for paths in layer.strokes:
-            h = system.homogeneous(view.points_of(paths.points3d).T)
-            flat = h[:, :2] / h[:, 3:]
-            marks.append(replace(paths, points=np.stack([flat[:, 0] + 0.5, rows - 0.5 - flat[:, 1]], axis=1)))
-        layers.append(Layer(layer.name, replace(layer.pen, width_mm=width), tuple(marks)))
-    return replace(drawing, width_mm=float(columns), height_mm=float(rows), layers=tuple(layers))

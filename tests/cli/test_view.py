@@ -9,8 +9,7 @@ from vectorplot.draw import default_camera
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import look
-from vectorplot.shading.raster.scene_triangles import camera_in_view
-from vectorplot.shading.raster.screen import raster_system
+from vectorplot.shading.raster.screen import picture_placement, pixel_system
 from vectorplot.testing.shapes import box, scene_of
 
 SCENE = scene_of(BOX=box((0, 0, 0), (2, 1, 1)))
@@ -131,6 +130,6 @@ def test_a_point_half_the_field_of_vision_up_is_on_the_edge_of_every_verbs_pictu
             x, y, _, w = verb(SCENE, camera, page=page, fit=False).page_from_world @ point
             assert (x / w, y / w) == pytest.approx((100.0, 60.0 * (1.0 + sign)), abs=1e-9)
         view = look(SCENE, camera)
-        system = raster_system(camera_in_view(view, camera), 200, 120)
+        system = pixel_system(picture_placement(view, 200, 120, fit=False))
         column, row = system.from_world(view.points_of(point[None, :3]).T)[0, :2]
         assert (column, row) == pytest.approx((99.5, 59.5 + 60.0 * -sign), abs=1e-9)

@@ -55,25 +55,26 @@ def field_of_vision(projection: Projection, page: Page, fit: bool) -> Placement:
     return Placement(projection, page, centred(page, projection.picture_height, height_mm), whole=False)
 
 
-def fitted_picture(projection: Projection, page: Page, image: Floats) -> Placement:
-    """The place of a picture that fills the page with points (2,n) of the image.
+def fitted_picture(projection: Projection, page: Page, image: Floats, border: float = 0.0) -> Placement:
+    """The place of a picture that fills the page with points (2,n) of the image. border: as of fitted.
 
     Degenerate: without points the origin is in the middle.
     """
     if not image.shape[1]:
-        return Placement(projection, page, fitted(page, np.zeros(2), np.zeros(2)), whole=True)
+        return Placement(projection, page, fitted(page, np.zeros(2), np.zeros(2), border), whole=True)
     low, high = image.min(axis=1), image.max(axis=1)
     # Where all sight rays are one the image is a point, and rounding must not fill the page.
     extended = (high - low).max() > projection.tolerance
-    return Placement(projection, page, fitted(page, low, high if extended else low), whole=True)
+    return Placement(projection, page, fitted(page, low, high if extended else low, border), whole=True)
 
 
-def fitted(page: Page, low: Floats, high: Floats) -> Floats:
+def fitted(page: Page, low: Floats, high: Floats, border: float = 0.0) -> Floats:
     """(3,3) matrix from image to page: the box from low to high (2,) fills the page but for its margin, in the middle.
+    border: what part of what is inside the margin stays free on each side.
 
     Degenerate: a box without extent goes to the middle at the scale 1; one without width or height fills the other.
     """
-    room = np.array([page.width_mm, page.height_mm]) - 2.0 * page.margin_mm
+    room = (np.array([page.width_mm, page.height_mm]) - 2.0 * page.margin_mm) * (1.0 - 2.0 * border)
     size = high - low
     scales = [r / s for r, s in zip(room.tolist(), size.tolist(), strict=True) if s > 1e-12 * size.max()]
     scale = min(scales, default=1.0)

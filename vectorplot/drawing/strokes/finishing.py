@@ -40,11 +40,18 @@ def inked(
     return tuple(found)
 
 
-def _pen_strokes(paths: Paths, hidden: str, world: Floats) -> Paths:
+def long_strokes(paths: Paths) -> Paths:
+    """Strokes of one item, kind and count that follow one another joined, without collinear points."""
     if not len(paths):
         return paths
     group = (paths.item * len(LineKind) + paths.kind) * (int(paths.hidden_by.max()) + 1) + paths.hidden_by
-    long = without_collinear_points(joined(paths, group, COINCIDENT_MM), COLLINEAR_MM)
+    return without_collinear_points(joined(paths, group, COINCIDENT_MM), COLLINEAR_MM)
+
+
+def _pen_strokes(paths: Paths, hidden: str, world: Floats) -> Paths:
+    if not len(paths):
+        return paths
+    long = long_strokes(paths)
     if hidden == "dashed" and (long.hidden_by > 0).any():
         behind = np.flatnonzero(long.hidden_by > 0)
         dashes = dashed(chosen(long, behind), *DASH_MM, world)

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.cameras.unit_projection import NEAR_OF_DISTANCE
 from vectorplot.geometry.rotations import look_rotation
 from vectorplot.geometry.tolerance import INFINITE
 from vectorplot.geometry.vectors import length
@@ -117,7 +118,8 @@ class CoordinateSystem:
     """Coordinates of space as the world, a screen or a lamp has them: image x and y, and depth z.
 
     target (3,): the origin; rotation (3, 3): carries world directions, as rows, into the system; distance: of the
-    centre of projection, infinite for a parallel one; scale (2,), middle (2,): pixel = middle + scale * image.
+    centre of projection, infinite for a parallel one; scale (2,), middle (2,): pixel = middle + scale * image; near:
+    how far the near plane is from the centre, as a part of that distance.
     The world itself is the parallel projection along z: world().
     """
 
@@ -126,6 +128,7 @@ class CoordinateSystem:
     distance: float = INFINITE
     scale: tuple[float, float] = (1.0, 1.0)
     middle: tuple[float, float] = (0.0, 0.0)
+    near: float = NEAR_OF_DISTANCE
 
     @classmethod
     def world(cls) -> CoordinateSystem:

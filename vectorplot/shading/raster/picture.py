@@ -78,7 +78,7 @@ def picture_of(
 ) -> Picture:
     """A picture of size columns x rows."""
     homogeneous = system.homogeneous(triangles.points)
-    screen = screen_triangles(homogeneous, triangles.corners)
+    screen = screen_triangles(homogeneous, triangles.corners, near=system.near)
     screen = ranked(screen, triangles, homogeneous, coplanar, lighting.eye, outer_side)
     return Picture(
         triangles, system, homogeneous, screen, *size, lighting, opacity, mirror, outer_side, coplanar, background
@@ -185,7 +185,7 @@ def _reflection(picture: Picture, buffer: DepthBuffer, triangle: int, pixel: Int
     side = HalfSpace(_in_pixels(picture.system, np.append(-normal, a @ normal)), ZERO_OF_EXTENT)
     x, y, z = (eye[:3] - 2.0 * (eye[:3] @ normal - eye[3] * (a @ normal)) * normal).tolist()
     lighting = replace(picture.lighting, eye=(x, y, z, float(eye[3])))
-    flat = screen_triangles(double, triangles.corners, sides=[side])
+    flat = screen_triangles(double, triangles.corners, near=picture.system.near, sides=[side])
     flat = ranked(flat, triangles, double, picture.coplanar, lighting.eye, picture.outer_side)
     columns = picture.columns
     top, bottom = int(pixel.min()) // columns, int(pixel.max()) // columns + 1

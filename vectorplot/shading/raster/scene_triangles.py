@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.view import View
 from vectorplot.shading.light.corner_normals import CornerNormals, view_normals
 
@@ -35,11 +34,3 @@ def scene_triangles(view: View, normals: Sequence[Floats | None], crease_angle_d
     points = np.ascontiguousarray(view.points.T)
     corner_normals = view_normals(view, normals, crease_angle_deg)
     return SceneTriangles(points, view.corners[fans], face, view.face_item[face], corner_normals)
-
-
-def camera_in_view(view: View, camera: Camera) -> Camera:
-    """The camera in view coordinates: it looks along -z, with y upwards."""
-    x, y, z = view.target.tolist()
-    eye = (x, y, z + 1.0) if view.eye is None else tuple(view.eye.tolist())
-    height = view.picture_height if camera.parallel else None
-    return replace(camera, eye=eye, target=(x, y, z), up=(0.0, 1.0, 0.0), twist_deg=0.0, height=height)

@@ -12,17 +12,15 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.projection import CoordinateSystem, PixelWindow
+from vectorplot.geometry.cameras.unit_projection import NEAR_OF_DISTANCE
 from vectorplot.geometry.tolerance import INFINITE
+from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture
+from vectorplot.scene.scene import Page
+from vectorplot.scene.view import View
 from vectorplot.shading.raster.coverage import GUARD_BAND
-
-NEAR = 1e-4
-"""The near plane, as a part of the distance between eye and image plane."""
 
 BORDER = 0.03
 """Part of each side that a fitted picture leaves free."""
-
-WIDEST_SLOPE = float(np.tan(np.radians(60.0)))
-"""A picture is not fitted to what lies farther off the principal ray."""
 
 LARGEST_SIDE_PIXELS = 32767
 """The limit of backends.cairo.surfaces, well inside the guard band."""
@@ -77,27 +75,32 @@ def raster_system(camera: Camera, columns: int, rows: int) -> CoordinateSystem:
     return replace(system, middle=((columns - 1) / 2.0, (rows - 1) / 2.0))
 
 
-def fitted(system: CoordinateSystem, points: ArrayLike, columns: int, rows: int) -> CoordinateSystem:
-    """A system in pixels, enlarged and moved so that points (n, 3) fill the raster but for a border.
+def picture_placement(view: View, columns: int, rows: int, fit: bool) -> Placement:
+    """The place of a picture of a view on a page whose millimetres are pixels: if it is to fit, all points fill the
+    raster but for a border.
 
-    Degenerate: without points, and where one of them lies behind the eye or more than 60 degrees off the principal ray,
-    the system as it is; points in one place are moved to the middle only.
+    Degenerate: without points, and where the scene reaches too far, it shows the camera's field of vision.
     """
-    p = system.homogeneous(points)
-    if not len(p) or p[:, 3].min() < NEAR:
-        return system
-    image = p[:, :2] / p[:, 3:]
-    middle, scale = np.array(system.middle), np.array(system.scale)
-    # The principal ray meets the image plane at a distance from the eye that is known in its units.
-    if system.distance != INFINITE and (np.abs((image - middle) / scale).max() > WIDEST_SLOPE * system.distance):
-        return system
-    low, high = image.min(axis=0), image.max(axis=0)
-    room = np.array([columns, rows]) * (1.0 - 2.0 * BORDER)
-    extent = high - low
-    factor = min((r / e for r, e in zip(room.tolist(), extent.tolist(), strict=True) if e > 0.0), default=1.0)
-    centre = np.array([columns - 1, rows - 1]) / 2.0
-    x, y = (centre + factor * (middle - (low + high) / 2.0)).tolist()
-    return replace(system, scale=(factor * system.scale[0], factor * system.scale[1]), middle=(x, y))
+    page = Page(columns, rows, 0.0)
+    if not fit or not view.points.shape[1] or view.reaches_too_far(view.points):
+        return field_of_vision(view, page, fit)
+    return fitted_picture(view, page, view.image, BORDER)
+
+
+def pixel_system(placement: Placement) -> CoordinateSystem:
+    """The system from a projection's coordinates to pixels with centres at integers and row 0 on top, for a page whose
+    millimetres are pixels."""
+    projection = placement.projection
+    x, y = placement.page_from_image[:2, 2].tolist()
+    middle = (x - 0.5, placement.page.height_mm - 0.5 - y)
+    if projection.eye is None:
+        scale = (placement.scale, -placement.scale)
+        return CoordinateSystem(projection.target, np.eye(3), INFINITE, scale, middle)
+    # Of the image planes one is in the middle of the scene, the other goes through the target.
+    distance = projection.distance
+    across = placement.scale * projection.focus / distance
+    near = projection.near / distance
+    return CoordinateSystem(projection.target, np.eye(3), distance, (across, -across), middle, near)
 
 
 def front_facing(points: ArrayLike, corners: Ints, eye: ArrayLike) -> Bools:
@@ -112,7 +115,7 @@ def front_facing(points: ArrayLike, corners: Ints, eye: ArrayLike) -> Bools:
 
 
 def screen_triangles(
-    points: ArrayLike, corners: ArrayLike, *, near: float = NEAR, sides: Sequence[HalfSpace] = ()
+    points: ArrayLike, corners: ArrayLike, *, near: float = NEAR_OF_DISTANCE, sides: Sequence[HalfSpace] = ()
 ) -> ScreenTriangles:
     """The triangles (t, 3) of homogeneous points (n, 4), as CoordinateSystem.homogeneous gives them, cut to what is
     in front of the near plane, and dropped or cut where they leave the guard band.

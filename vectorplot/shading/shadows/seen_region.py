@@ -13,7 +13,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.projection import CoordinateSystem, depth_of
 from vectorplot.geometry.tolerance import INFINITE, ZERO_OF_EXTENT
-from vectorplot.shading.raster.screen import NEAR, HalfSpace, screen_triangles
+from vectorplot.shading.raster.screen import HalfSpace, screen_triangles
 from vectorplot.shading.shadows.trapezoid import FOCUS_LINE
 
 FOCUS = 0.3
@@ -54,7 +54,7 @@ def region_in_picture(system: CoordinateSystem, columns: int, rows: int, points:
     """What a picture of so many pixels can show of triangles (t, 3) of points (n, 3): they are cut with the frustum.
 
     The near and the far plane touch what is left; the focus is that of focus_of_depths.
-    Error: a ten-thousandth of the eye's distance from the target before the eye nothing is seen.
+    Error: nearer than the near plane of the system nothing is seen.
     Degenerate: no points where nothing is in the frustum.
     """
     sides = [
@@ -63,7 +63,7 @@ def region_in_picture(system: CoordinateSystem, columns: int, rows: int, points:
         HalfSpace((0.0, 1.0, 0.0, 0.5)),
         HalfSpace((0.0, -1.0, 0.0, rows - 0.5)),
     ]
-    flat = screen_triangles(system.homogeneous(points), corners, sides=sides)
+    flat = screen_triangles(system.homogeneous(points), corners, near=system.near, sides=sides)
     used = np.zeros(len(flat.points), dtype=np.bool_)
     used[flat.corners] = True
     if not used.any():
@@ -84,7 +84,7 @@ def depths_seen(system: CoordinateSystem, points: Floats) -> tuple[float, float]
     none nearer than the near plane."""
     parallel = system.distance == INFINITE
     depth = ((system.target if parallel else system.centre) - points) @ system.rotation[:, 2]
-    least = -np.inf if parallel else NEAR * system.distance
+    least = -np.inf if parallel else system.near * system.distance
     return max(float(depth.min()), least), max(float(depth.max()), least)
 
 

@@ -18,10 +18,11 @@ from numpy.typing import ArrayLike, NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.projection import CoordinateSystem
+from vectorplot.geometry.cameras.unit_projection import NEAR_OF_DISTANCE
 from vectorplot.geometry.tolerance import INFINITE, ZERO_OF_EXTENT
 from vectorplot.shading.depth.depth_buffer import depth_codes
 from vectorplot.shading.depth.depth_code import DepthCode
-from vectorplot.shading.raster.screen import NEAR, HalfSpace, screen_triangles
+from vectorplot.shading.raster.screen import HalfSpace, screen_triangles
 from vectorplot.shading.shadows.seen_region import SeenRegion
 from vectorplot.shading.shadows.trapezoid import Axis, focus_distance, line_of_sight, taper_of_focus, tapered_map
 from vectorplot.shading.shadows.trapezoid_matrix import four_by_four
@@ -132,7 +133,7 @@ def shadow_map(
     rows: int,
     *,
     bits: int = 32,
-    near: float = NEAR,
+    near: float = NEAR_OF_DISTANCE,
     biased: bool = True,
 ) -> ShadowMap:
     """The map of triangles (t, 3) of world points (n, 3).
