@@ -111,8 +111,8 @@ def test_modules_that_pages_name_exist():
 
 def test_the_numbers_of_the_pages_are_those_of_the_code():
     from vectorplot.drawing.layers import PENS
-    from vectorplot.geometry.cameras.unit_projection import NEAR_OF_DISTANCE, ULPS, WIDEST_DEG
-    from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+    from vectorplot.geometry.cameras.unit_projection import ULPS, WIDEST_DEG
+    from vectorplot.tolerances.of_extent import NEAR_OF_DISTANCE, ZERO_OF_EXTENT
     from vectorplot.visibility.polyhedra.occluders import MAX_SOLID_FACES
 
     limits = (DOCS / "accuracy-and-limits.md").read_text(encoding="utf-8")

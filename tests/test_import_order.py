@@ -17,7 +17,7 @@ from vectorplot.save import _BACKENDS
 PACKAGE = Path(vectorplot.__file__).parent
 
 ORDER = [
-    *("errors", "words", "arrays"),
+    *("errors", "words", "arrays", "tolerances"),
     *("exact", "geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
     *("drawing", "effects", "animation", "textbook", "backends"),
     *("verbs", "testing", "cli"),

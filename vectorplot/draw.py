@@ -27,6 +27,7 @@ from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.seams import without_seams
 from vectorplot.scene.unbounded import tell_what_is_cut_off
 from vectorplot.scene.view import View, look, view_of
+from vectorplot.tolerances.of_extent import FINEST_CHORD_OF_EXTENT
 from vectorplot.visibility.framing import frame_of, in_frame
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility, counted_parts, visible_parts
 from vectorplot.visibility.polyhedra.lines import (
@@ -47,9 +48,6 @@ if TYPE_CHECKING:
 
 LARGER = 1.25
 """Curves are traced anew where they come out so many times larger on the page than they were taken for."""
-
-FINEST = 1e-7
-"""Chords are no nearer to curves than this part of half the scene's extent, however small a part a picture shows."""
 
 
 def default_camera(scene: Scene, up: Point = (0.0, 0.0, 1.0)) -> Camera:
@@ -130,7 +128,12 @@ def draw(
         framed = walk.run("frame", in_frame, view, every, frame)
         seen = _visibility(walk, view, faces, solid, framed)
         placement = frame or fitted_lines(view, framed, seen, page)
-        if every is straight or not len(seen) or placement.scale <= LARGER * scale or tolerance < FINEST:
+        if (
+            every is straight
+            or not len(seen)
+            or placement.scale <= LARGER * scale
+            or tolerance < FINEST_CHORD_OF_EXTENT
+        ):
             break
         # Little of the scene is drawn, and that larger than thought.
         scale = placement.scale
@@ -270,10 +273,10 @@ def _with_curves(
     from vectorplot.visibility.smooth.smooth_lines import with_curves, with_whole_curves
     from vectorplot.visibility.smooth.tracing.traced import traced_scene
 
-    if tolerance < FINEST:
+    if tolerance < FINEST_CHORD_OF_EXTENT:
         text = "the picture shows so small a part of the scene that smooth curves are off by more than the tolerance"
         warnings.warn(text, InputWarning, stacklevel=3)
-    tolerance = max(tolerance, FINEST)
+    tolerance = max(tolerance, FINEST_CHORD_OF_EXTENT)
     done = walk.fraction("curves")
     traced = walk.run("curves", traced_scene, scene, view, sheets, kinds, tolerance, budget, done)
     for doubt in traced.doubts:

@@ -16,7 +16,7 @@ from vectorplot.features.facets import Within
 from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.projection import CoordinateSystem
-from vectorplot.geometry.cameras.unit_projection import LARGEST, projection_of
+from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, dims_light, plan_cuts, plan_render
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Light, Page, Scene
@@ -41,6 +41,7 @@ from vectorplot.shading.raster.screen import (
 )
 from vectorplot.shading.raster.supersampling import averaged_light
 from vectorplot.shading.shadows.map_settings import MapSettings
+from vectorplot.tolerances.of_numbers import LARGEST_VIEW
 from vectorplot.visibility.painter.image_faces import outer_sides
 from vectorplot.words import LineKind, check_word, line_kinds
 
@@ -194,7 +195,7 @@ def _check_lights(lights: Sequence[Light]) -> None:
     for number, light in enumerate(lights):
         name = f"light {light.name or number}"
         # NaN is not smaller.
-        if not all(abs(coordinate) < LARGEST for coordinate in light.position):
+        if not all(abs(coordinate) < LARGEST_VIEW for coordinate in light.position):
             raise InputError(f"{name}: a place or direction of {light.position} is out of range")
         if light.parallel and not any(light.position):
             raise InputError(f"{name}: its rays have no direction")

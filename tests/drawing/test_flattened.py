@@ -8,7 +8,7 @@ import shapely
 
 from vectorplot.backends.cairo.surfaces import png_bytes
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.drawing.flattened import CLEARANCE_MM, MARGIN_MM, flattened
+from vectorplot.drawing.flattened import MARGIN_MM, flattened
 from vectorplot.drawing.painted_fills import Overlay, stacked
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
@@ -16,6 +16,7 @@ from vectorplot.geometry.regions import polygons_of
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Light, Material, Page, Scene
 from vectorplot.testing.shapes import box
+from vectorplot.tolerances.of_the_page import CLEARANCE_MM
 
 WORLD = np.array([[1.0, 0, 0, 0], [0, 1.0, 0, 0], [0, 0, 1.0, 0], [0, 0, 0, 1.0]])
 """The page is the world."""

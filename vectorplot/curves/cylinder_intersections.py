@@ -14,7 +14,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import number, positive
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.tolerance import ROUNDING
+from vectorplot.tolerances.of_numbers import ROUNDING
 
 # A function of the parameter with its first and second derivative.
 _Jet = tuple[Floats, Floats, Floats]

@@ -16,6 +16,8 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.unbounded import LOOKS, Limits, limits_of
 from vectorplot.curves.user_function import Numbers, UserFunction, user_function
 from vectorplot.errors import InputError
+from vectorplot.tolerances.of_numbers import COMPLEX_STEP
+from vectorplot.tolerances.of_values import DERIVATIVES_AGREE
 
 # Derivatives at s of the five Lagrange polynomials through -2, ..., 2, as coefficients of s^3, s^2, s, 1.
 _SLOPES = np.array([[2, -3, -1, 1], [-8, 6, 16, -8], [12, 0, -30, 0], [-8, -6, 16, 8], [2, 3, -1, -1]]) / 12.0
@@ -147,7 +149,7 @@ class NumericFunction:
 
     def _complex(self, axis: int) -> Callable[[list[Floats]], Floats]:
         """The derivative Im f(t + ih) / h, which no subtraction spoils."""
-        height = 1e-30 * self.ranges[axis].length
+        height = COMPLEX_STEP * self.ranges[axis].length
 
         def slopes(parameters: list[Floats]) -> Floats:
             lifted: list[Numbers] = list(parameters)
@@ -209,7 +211,7 @@ class NumericFunction:
         if not known.any():
             return False
         error = np.abs(exact - difference)[known]
-        return bool((error <= 1e-6 * np.abs(difference[known]).max()).all())
+        return bool((error <= DERIVATIVES_AGREE * np.abs(difference[known]).max()).all())
 
 
 def _most(changes: Floats) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import number, parameter_range, positive
 from vectorplot.errors import InputError
+from vectorplot.tolerances.of_angles import PARALLEL_SINE
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class Loxodrome:
     def __post_init__(self) -> None:
         positive("loxodrome: radius", self.radius)
         parameter_range("loxodrome", self.start, self.end)
-        if abs(np.sin(number("loxodrome: alpha", self.alpha))) < 1e-12:
+        if abs(np.sin(number("loxodrome: alpha", self.alpha))) < PARALLEL_SINE:
             raise InputError("loxodrome: alpha must not be 0: that is a meridian")
 
     @property

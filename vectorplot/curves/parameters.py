@@ -7,7 +7,8 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.tolerance import ROUNDING
+from vectorplot.tolerances.of_numbers import ROUNDING
+from vectorplot.tolerances.of_values import SINGULAR_DETERMINANT
 
 
 def number(name: str, value: float) -> float:
@@ -45,7 +46,7 @@ def invertible(name: str, matrix: ArrayLike) -> Floats:
     m = np.array(matrix, dtype=np.float64)
     if m.shape != (3, 3) or not np.isfinite(m).all():
         raise InputError(f"{name} needs a matrix of 3 times 3 finite numbers")
-    if abs(np.linalg.det(m)) <= 1e-12 * np.linalg.norm(m) ** 3:
+    if abs(np.linalg.det(m)) <= SINGULAR_DETERMINANT * np.linalg.norm(m) ** 3:
         raise InputError(f"{name} needs a matrix that can be inverted")
     return m
 

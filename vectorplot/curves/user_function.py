@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError, InputWarning
+from vectorplot.tolerances.of_values import VALUES_AGREE
 
 # Real or complex.
 Numbers = NDArray[Any]
@@ -126,7 +127,7 @@ def _agree(values: Numbers, single: UserFunction, probes: Sequence[Floats]) -> b
     except InputError:
         return True  # a function that wants arrays
     largest = float(np.max(np.abs(alone[np.isfinite(alone)]), initial=0.0))
-    return bool(np.allclose(values[some], alone, rtol=1e-9, atol=1e-9 * largest, equal_nan=True))
+    return bool(np.allclose(values[some], alone, rtol=VALUES_AGREE, atol=VALUES_AGREE * largest, equal_nan=True))
 
 
 def _hinted(single: UserFunction) -> UserFunction:

@@ -11,12 +11,10 @@ from vectorplot.drawing.strokes.smooth_duplicates import without_smooth_duplicat
 from vectorplot.scene.placement import Placement, fitted_picture
 from vectorplot.scene.scene import Page
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_the_page import COINCIDENT_MM
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines
 from vectorplot.words import LineKind
-
-COINCIDENT_MM = 1e-4
-"""Strokes that are no further apart than this lie on each other, ends on the same point."""
 
 
 def fitted_lines(view: View, lines: Lines, seen: Visibility, page: Page) -> Placement:

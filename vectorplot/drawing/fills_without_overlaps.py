@@ -10,15 +10,11 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import Fills
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.regions import corners_of, polygons_of, unions, without_holes, without_splinters
-
-GRID_MM = 1e-4
-"""Corners of regions lie on a grid of so many mm; the scene's own have digits to spare."""
+from vectorplot.tolerances.of_angles import EDGE_ON_SINE
+from vectorplot.tolerances.of_the_page import GRID_MM
 
 AREA_MM2 = GRID_MM * GRID_MM
 """Smaller polygons have no inside."""
-
-EDGE_ON = 1e-9
-"""Sine of the angle between sight line and plane below which the plane is seen edge-on."""
 
 
 def visible_fills(fills: Fills, page_from_world: Floats) -> Fills:
@@ -110,7 +106,7 @@ def in_space(fills: Fills, points: Floats, source: Ints, page_from_world: Floats
     right = np.stack([-(rows[k, :, :3] * first).sum(axis=1) - rows[k, :, 3] for k in (0, 1)], axis=1)
     system[:, :2] /= (size := np.linalg.norm(system[:, :2], axis=2, keepdims=True))
     right = np.concatenate([right / size[..., 0], np.zeros((len(points), 1))], axis=1)
-    steep = np.abs(np.linalg.det(system)) > EDGE_ON
+    steep = np.abs(np.linalg.det(system)) > EDGE_ON_SINE
     found = first.copy()
     found[steep] += np.linalg.solve(system[steep], right[steep][..., None])[..., 0]
     return found

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.drawing.fills_without_overlaps import GRID_MM, in_space
+from vectorplot.drawing.fills_without_overlaps import in_space
 from vectorplot.drawing.painted_fills import Overlay, stacked
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import next_positions
@@ -31,13 +31,10 @@ from vectorplot.geometry.regions import (
     without_holes,
     without_splinters,
 )
+from vectorplot.tolerances.of_the_page import CLEARANCE_MM, GRID_MM
 
 MARGIN_MM = 0.5
 """So far inside a polygon its border is not in the same pixel, from 72 dots per inch on, its seam included."""
-
-CLEARANCE_MM = 1e-3
-"""What is cut away is wider by this than what lies above it: of two sides that nearly coincide nothing is left between
-them, which would be drawn as wide as a seam."""
 
 MOST_LAYERS, MOST_CLEAR = 48, 8
 """Where more polygons lie on one, or more that one can see through, each of which cuts all below it, they stay as they

@@ -6,10 +6,10 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import Fills
-from vectorplot.drawing.fills_without_overlaps import GRID_MM
 from vectorplot.drawing.painted_fills import Overlay
 from vectorplot.geometry import ragged
 from vectorplot.geometry.regions import corners_of, insides_of, polygons_of, unions, without_holes, without_splinters
+from vectorplot.tolerances.of_the_page import GRID_MM
 
 
 def united(overlay: Overlay, sheet: Ints) -> Overlay:

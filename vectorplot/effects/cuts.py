@@ -13,9 +13,9 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Item, Scene
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 
 def between_planes(scene: Scene, camera: Camera) -> Scene:

@@ -8,6 +8,8 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_extent import HALO_MARGIN
+from vectorplot.tolerances.of_lengths import UNION_OF_SEGMENT
 from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines
@@ -33,7 +35,7 @@ def halo(view: View, lines: Lines, seen: Visibility, width: float) -> Visibility
     # A halo wider than the picture is as good as one of the picture's size, and lets the grid keep its digits.
     width = min(width, _diameter(view.image_of(np.concatenate([start[:, shown], end[:, shown]], axis=1))))
     part, low, high = _zones(view, lines, seen.segment, start, end, shown, outline, width)
-    fine = np.full(len(shown), 1e-9)
+    fine = np.full(len(shown), UNION_OF_SEGMENT)
     part, low, high = intervals.union(part, low, high, fine)
     part, low, high = intervals.complement(len(shown), part, low, high, fine)
     which = shown[part]
@@ -91,7 +93,7 @@ def _close_pairs(p0: Floats, p1: Floats, q0: Floats, q1: Floats, width: float) -
     flat = np.ones(p0.shape[1])
     pieces = grids.cut(grid, p0, p1, flat, flat, False)
     left, right = np.minimum(q0, q1), np.maximum(q0, q1)
-    margin = width + 1e-6 * (width + float(np.abs(right).max() + np.abs(left).max()))
+    margin = width + HALO_MARGIN * (width + float(np.abs(right).max() + np.abs(left).max()))
     box = np.stack([left[0] - margin, right[0] + margin, left[1] - margin, right[1] + margin]).astype(np.float32)
     outline_level = grids.entry_level(grid, box)
     thing, column, row = grids.touched(grid, box, outline_level)

@@ -15,14 +15,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.tolerances.of_numbers import HALF_ULP, UNDERFLOW
 
 Signs = NDArray[np.int8]
 
-_HALF_ULP = 2.0**-53
-_BOUND_2D = (3.0 + 16.0 * _HALF_ULP) * _HALF_ULP
-_BOUND_3D = (7.0 + 56.0 * _HALF_ULP) * _HALF_ULP
-_UNDERFLOW = 1e-280
-"""Below it products of doubles may have lost digits that the error bounds do not know of."""
+_BOUND_2D = (3.0 + 16.0 * HALF_ULP) * HALF_ULP
+_BOUND_3D = (7.0 + 56.0 * HALF_ULP) * HALF_ULP
 
 
 def orient2d(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Signs:
@@ -78,7 +76,7 @@ def polygon_orientation(points: ArrayLike) -> int:
         x, y = (p - p[0]).T
         left, right = x * np.roll(y, -1), np.roll(x, -1) * y
         value, size = (left - right).sum(), np.abs(left).sum() + np.abs(right).sum()
-        bound = (len(p) + 4.0) * 2.0 * _HALF_ULP
+        bound = (len(p) + 4.0) * 2.0 * HALF_ULP
         signs, is_open = _filtered(np.asarray(value), np.asarray(size), bound)
     if not is_open.any():
         return int(signs)
@@ -103,7 +101,7 @@ def _check_finite(array: Floats) -> None:
 
 def _filtered(value: Floats, size: Floats, bound: float) -> tuple[Signs, NDArray[np.bool_]]:
     """Signs of values whose error is below bound * size, and which of them stay open."""
-    clear = (np.abs(value) > bound * size) & (size > _UNDERFLOW) & (size < np.inf)
+    clear = (np.abs(value) > bound * size) & (size > UNDERFLOW) & (size < np.inf)
     return np.where(clear, np.sign(np.nan_to_num(value)), 0).astype(np.int8), np.asarray(~clear)
 
 

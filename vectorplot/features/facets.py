@@ -12,7 +12,7 @@ from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, Vertices, refined
 from vectorplot.features.implicit.polygonize import onto_surface, settled_mesh
-from vectorplot.features.implicit.singular_set import VANISHED, led_into_singular_set, usual_gradient
+from vectorplot.features.implicit.singular_set import led_into_singular_set, usual_gradient
 from vectorplot.features.parametric.poles import Pole, poles
 from vectorplot.features.tessellation import grid_numbers
 from vectorplot.features.zeros.grid_triangulation import triangulate_surface
@@ -21,6 +21,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.surfaces.jumps import jumps
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, is_implicit, is_parametrised
+from vectorplot.tolerances.of_values import VANISHED_GRADIENT
 
 FEWEST, USUAL, FINEST = (2, 4), 16, 1024
 """Columns, and rows, of the first grid: so many at least for open and for closed surfaces, doubled until they are
@@ -256,7 +257,7 @@ class _Level:
     @cached_property
     def least(self) -> float:
         """The length of gradients that are not but for rounding."""
-        return VANISHED * usual_gradient(self.surface, self.mesh.vertices)
+        return VANISHED_GRADIENT * usual_gradient(self.surface, self.mesh.vertices)
 
     def __call__(self, start: Vertices, end: Vertices, t: Floats) -> Vertices:
         first, last = start.points, end.points

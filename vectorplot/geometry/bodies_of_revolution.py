@@ -14,7 +14,8 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import BOTH_CAPS, BOTTOM, TOP, checked_points, presence
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_angles import HALF_TURN_ROUNDING
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 MAX_ORDER = 100_000
 """The largest number of sides."""
@@ -82,7 +83,7 @@ class _Profile:
 
     @property
     def is_half(self) -> bool:
-        return abs(self.angle_deg - HALF_TURN) <= 1e-9 * HALF_TURN
+        return abs(self.angle_deg - HALF_TURN) <= HALF_TURN_ROUNDING * HALF_TURN
 
     @property
     def runs_down(self) -> bool:

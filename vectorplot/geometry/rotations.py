@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry.vectors import normalize, spherical_coordinates
+from vectorplot.tolerances.of_angles import PARALLEL_SINE
 
 
 def rotation_x(angle: ArrayLike) -> Floats:
@@ -98,7 +99,7 @@ def euler_angles(axes: ArrayLike) -> tuple[float, float, float]:
     m = np.asarray(axes, dtype=np.float64)
     sine = float(np.hypot(m[2, 0], m[2, 1]))
     beta = float(np.arctan2(sine, m[2, 2]))
-    if sine > 1e-12:
+    if sine > PARALLEL_SINE:
         gamma = float(np.pi / 2.0 + np.arctan2(m[2, 1], m[2, 0]))
         alpha = float(np.arctan2(m[0, 2], m[1, 2]))
     else:

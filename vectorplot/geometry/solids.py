@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
+from vectorplot.tolerances.of_extent import FLAT_OF_EXTENT, ZERO_OF_EXTENT
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR, ROUNDING
 
 BOTTOM, TOP = "bottom", "top"
 BOTH_CAPS = (BOTTOM, TOP)
@@ -95,7 +96,7 @@ def is_planar(points: ArrayLike) -> bool:
     corners = np.asarray(points, dtype=np.float64)
     arm, extent = corners - corners[0], float(np.ptp(corners, axis=0).max())
     area = np.cross(arm, np.roll(arm, -1, axis=0)).sum(axis=0)
-    return not np.abs(arm @ area).max() > 1e-6 * extent * float(np.linalg.norm(area))
+    return not np.abs(arm @ area).max() > FLAT_OF_EXTENT * extent * float(np.linalg.norm(area))
 
 
 def swept_polygon(base_points: ArrayLike, vector: ArrayLike, *, caps: Collection[str] = BOTH_CAPS) -> Mesh:
@@ -107,7 +108,7 @@ def swept_polygon(base_points: ArrayLike, vector: ArrayLike, *, caps: Collection
     if step.shape != (3,) or not np.isfinite(step).all():
         raise InputError("trans_vector must be three finite numbers")
     arm = base - base[0]
-    extent = max(float(np.ptp(base, axis=0).max()), np.finfo(np.float64).tiny)
+    extent = max(float(np.ptp(base, axis=0).max()), LEAST_DIVISOR)
     area = np.cross(arm, np.roll(arm, -1, axis=0)).sum(axis=0)
     size = float(np.linalg.norm(area))
     height = float(area @ step)

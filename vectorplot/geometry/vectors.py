@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.tolerance import ROUNDING
+from vectorplot.tolerances.of_numbers import ROUNDING
 
 
 def dot(a: ArrayLike, b: ArrayLike) -> Floats:

@@ -7,8 +7,8 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
-from vectorplot.geometry.tolerance import LARGEST
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
+from vectorplot.tolerances.of_numbers import LARGEST
 
 GRID = 64
 """Cells of the grid over the domain, in each direction, on which a surface is looked at first."""

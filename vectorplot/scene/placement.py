@@ -11,6 +11,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.geometry.cameras.unit_projection import Projection
 from vectorplot.scene.scene import Page, Scene
+from vectorplot.tolerances.of_extent import FLAT_PICTURE
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +77,7 @@ def fitted(page: Page, low: Floats, high: Floats, border: float = 0.0) -> Floats
     """
     room = (np.array([page.width_mm, page.height_mm]) - 2.0 * page.margin_mm) * (1.0 - 2.0 * border)
     size = high - low
-    scales = [r / s for r, s in zip(room.tolist(), size.tolist(), strict=True) if s > 1e-12 * size.max()]
+    scales = [r / s for r, s in zip(room.tolist(), size.tolist(), strict=True) if s > FLAT_PICTURE * size.max()]
     scale = min(scales, default=1.0)
     middle = np.array([page.width_mm, page.height_mm]) / 2.0
     offset = middle - scale * (low + high) / 2.0

@@ -11,7 +11,7 @@ import numpy as np
 from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.errors import InputError
-from vectorplot.geometry.tolerance import ROUNDING
+from vectorplot.tolerances.of_numbers import ROUNDING
 
 Vector = tuple[float, float, float]
 

@@ -12,12 +12,10 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, cut_off, numeric_function
 from vectorplot.errors import InputError
 from vectorplot.surfaces.surface import Domain
+from vectorplot.tolerances.of_extent import GAP_OF_EXTENT
 
 LOOKS = 16
 """Columns and rows of the points at which a seam is looked at."""
-
-OPEN = 1e-6
-"""A surface with a larger gap than this part of its extent does not close."""
 
 
 def ranges_of(domain: Domain) -> tuple[Range, Range]:
@@ -104,6 +102,6 @@ def _check_seams(surface: FunctionSurface) -> None:
     extent = float(np.nanmax(np.nanmax(points, axis=(0, 1)) - np.nanmin(points, axis=(0, 1))))
     for name, closed, along in (("u", domain.closed_u, points), ("v", domain.closed_v, points.swapaxes(0, 1))):
         apart = np.linalg.norm(along[-1] - along[0], axis=1)
-        if closed and (apart > OPEN * extent).any():
+        if closed and (apart > GAP_OF_EXTENT * extent).any():
             gap = float(np.nanmax(apart))
             raise InputError(f"a domain closed in {name}, but the surface ends up to {gap:.3g} from where it began")

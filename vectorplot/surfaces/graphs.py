@@ -14,6 +14,7 @@ from vectorplot.errors import InputError
 from vectorplot.surfaces.function import ranges_of
 from vectorplot.surfaces.regions import Disc, Region
 from vectorplot.surfaces.surface import Domain
+from vectorplot.tolerances.of_parameters import ROUNDING_OF_DOMAIN
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +127,7 @@ def graph_over_disc(
 
 def _over_square(function: Callable[..., Any], disc: Disc, slopes: Sequence[Callable[..., Any]]) -> Graph:
     """The graph whose function is asked in the disc only, rounding at its border forgiven."""
-    wider = Disc(disc.radius * (1.0 + 1e-12), disc.centre)
+    wider = Disc(disc.radius * (1.0 + ROUNDING_OF_DOMAIN), disc.centre)
     return graph(function, wider, slopes=slopes)
 
 

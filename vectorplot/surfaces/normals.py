@@ -7,13 +7,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.geometry.vectors import cross
 from vectorplot.surfaces.surface import Domain, Surface
-
-# A cross product below this part of what the second derivatives allow is that of a pole.
-_POLE = 1e-9
-
-# Part of the domain by which a pole is looked at from inside where the normal's derivatives are asked for: the rounding
-# of a cross product as small as that is no larger than what the normal turns on the way.
-_ASIDE = 1e-6
+from vectorplot.tolerances.of_parameters import ASIDE_OF_POLE
+from vectorplot.tolerances.of_values import SINGULAR_PRODUCT, SUSPECT_PRODUCT
 
 
 def unit_normals(surface: Surface, u: Floats, v: Floats) -> Floats:
@@ -50,8 +45,12 @@ def normal_partials(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Flo
     by_u, by_v, vanished = _turning(surface, u, v, unit)
     if vanished.any():
         domain = surface.domain
-        inner_u = u[vanished] + _inwards(u[vanished], domain.u_start, domain.u_end)[:, 0] * _ASIDE * domain.size[0]
-        inner_v = v[vanished] + _inwards(v[vanished], domain.v_start, domain.v_end)[:, 0] * _ASIDE * domain.size[1]
+        inner_u = (
+            u[vanished] + _inwards(u[vanished], domain.u_start, domain.u_end)[:, 0] * ASIDE_OF_POLE * domain.size[0]
+        )
+        inner_v = (
+            v[vanished] + _inwards(v[vanished], domain.v_start, domain.v_end)[:, 0] * ASIDE_OF_POLE * domain.size[1]
+        )
         inside = unit_normals(surface, inner_u, inner_v)
         by_u[vanished], by_v[vanished], _ = _turning(surface, inner_u, inner_v, inside)
     return unit, by_u, by_v
@@ -62,7 +61,7 @@ def _turning(surface: Surface, u: Floats, v: Floats, unit: Floats) -> tuple[Floa
     along_u, along_v = surface.partials(u, v)
     uu, uv, vv = surface.second_partials(u, v)
     product = cross(along_u, along_v)
-    vanished = _length(product) <= _POLE * _bound(surface.domain, (along_u, along_v), (uu, uv, vv))
+    vanished = _length(product) <= SINGULAR_PRODUCT * _bound(surface.domain, (along_u, along_v), (uu, uv, vv))
     size = np.abs(product).max(axis=-1, keepdims=True, initial=0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
         inverse = 1.0 / (np.linalg.norm(product / size, axis=-1, keepdims=True) * size)
@@ -77,7 +76,7 @@ def _small(product: Floats, along_u: Floats, along_v: Floats, domain: Domain) ->
     """(...,) where the product is small beside the squared size of the surface, as far as partials tell it."""
     width, height = domain.size
     size = np.linalg.norm(along_u, axis=-1) * width + np.linalg.norm(along_v, axis=-1) * height
-    return np.asarray(np.linalg.norm(product, axis=-1) * width * height <= 1e-6 * size * size)
+    return np.asarray(np.linalg.norm(product, axis=-1) * width * height <= SUSPECT_PRODUCT * size * size)
 
 
 def _with_limits(surface: Surface, u: Floats, v: Floats, product: Floats) -> Floats:
@@ -91,8 +90,8 @@ def _with_limits(surface: Surface, u: Floats, v: Floats, product: Floats) -> Flo
     towards_u, towards_v = a * width * uu + b * height * uv, a * width * uv + b * height * vv
     limit = cross(towards_u, along_v) + cross(along_u, towards_v)
     bound = _bound(domain, (along_u, along_v), (uu, uv, vv))
-    vanished = _length(product) <= _POLE * bound
-    gone = vanished & (_length(limit) <= _POLE * bound)
+    vanished = _length(product) <= SINGULAR_PRODUCT * bound
+    gone = vanished & (_length(limit) <= SINGULAR_PRODUCT * bound)
     return np.where(gone[:, None], np.nan, np.where(vanished[:, None], limit, product))
 
 

@@ -12,6 +12,7 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.parameters import number, positive
 from vectorplot.errors import InputError
 from vectorplot.surfaces.surface import Domain
+from vectorplot.tolerances.of_parameters import ROUNDING_OF_DOMAIN
 
 
 class Region(Protocol):
@@ -84,7 +85,7 @@ class PolygonRegion:
     def _on_a_side(self, x: Floats, y: Floats) -> Bools:
         corners = np.asarray(self.corners)
         on = np.zeros(np.shape(x), dtype=np.bool_)
-        zero = 1e-12 * float(np.ptp(corners, axis=0).max())
+        zero = ROUNDING_OF_DOMAIN * float(np.ptp(corners, axis=0).max())
         for (ax, ay), (bx, by) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
             side = np.hypot(bx - ax, by - ay)
             if side > 0.0:

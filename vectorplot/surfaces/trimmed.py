@@ -8,8 +8,8 @@ from functools import cached_property
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.errors import InputError
-from vectorplot.geometry.tolerance import ROUNDING
 from vectorplot.surfaces.surface import Domain, Surface
+from vectorplot.tolerances.of_numbers import ROUNDING
 
 Range = tuple[float, float]
 

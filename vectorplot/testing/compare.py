@@ -8,6 +8,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import dot
+from vectorplot.tolerances.of_lengths import COVERED_OF_TOLERANCE
 from vectorplot.words import LineKind
 
 Group = tuple[int, bool]
@@ -86,7 +87,7 @@ def worst_uncovered(lines: Floats, others: Floats, tolerance: float) -> tuple[Fl
     where, owner = gaps(index, low, high, len(lines))
     length = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1)
     ends = where * length[owner][:, None]
-    real = (ends[:, 1] - ends[:, 0] > 1e-3 * tolerance) | (length[owner] == 0.0)
+    real = (ends[:, 1] - ends[:, 0] > COVERED_OF_TOLERANCE * tolerance) | (length[owner] == 0.0)
     where, owner = where[real], owner[real]
     if len(owner) == 0:
         return None

@@ -11,9 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.testing.polylines import Curves, points_of, polylines_of
-
-ACCURACY = 1e-9
-"""The default accuracy, as a part of the extent of both curves."""
+from vectorplot.tolerances.of_extent import DISTANCE_ACCURACY
 
 PAIRS = 1 << 20
 
@@ -54,7 +52,7 @@ def worst_of_both(
     middle, extent = corners.mean(axis=0), float(np.linalg.norm(np.ptp(corners, axis=0)))
     # Below the rounding of the coordinates nothing can be told.
     rounding = 16.0 * float(np.spacing(np.abs(corners).max()))
-    fine = max(ACCURACY * extent if accuracy is None else accuracy, rounding)
+    fine = max(DISTANCE_ACCURACY * extent if accuracy is None else accuracy, rounding)
     first, second = first.moved(-middle), second.moved(-middle)
     there = furthest(first, second, fine, enough, "first")
     back = furthest(second, first, fine, max(enough, there.distance), "second")

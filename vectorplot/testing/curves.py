@@ -18,11 +18,11 @@ from vectorplot.surfaces.surface import ImplicitSurface, Surface
 from vectorplot.testing.curve_distance import Worst, worst_of_both
 from vectorplot.testing.polylines import CurvePoints, Curves, points_of, polylines_of
 from vectorplot.testing.rays.nearest import nearest_places
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_lengths import ACCURACY_OF_TOLERANCE
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 AnySurface = Surface | ImplicitSurface
-
-ZERO = 1e-9
-"""Part of the extent of a curve below which a distance between its ends is none."""
 
 
 class Places(NamedTuple):
@@ -117,7 +117,7 @@ def assert_same_curve(a: Curves, b: Curves, tolerance: float, *, closed: bool = 
     Errors: AssertionError with the worst point, where it is on its curve, and its distance from the other one.
     """
     _check_tolerance(tolerance)
-    worst = worst_of_both(a, b, closed=closed, accuracy=1e-3 * tolerance, enough=tolerance)
+    worst = worst_of_both(a, b, closed=closed, accuracy=ACCURACY_OF_TOLERANCE * tolerance, enough=tolerance)
     assert worst.distance <= tolerance, _difference(worst, tolerance)
 
 
@@ -132,8 +132,8 @@ def assert_closed(curve: Curves, tolerance: float | None = None) -> None:
     extent = length(np.maximum.reduceat(found.points, first) - np.minimum.reduceat(found.points, first))
     gap = length(found.points[last] - found.points[first])
     assert (extent > 0.0).all(), f"curve {int(np.argmin(extent))} is a single place"
-    allowed = ZERO * extent if tolerance is None else np.full(len(first), tolerance)
-    worst = int(np.argmax(gap / np.maximum(allowed, np.finfo(float).tiny)))
+    allowed = ZERO_OF_EXTENT * extent if tolerance is None else np.full(len(first), tolerance)
+    worst = int(np.argmax(gap / np.maximum(allowed, LEAST_DIVISOR)))
     assert gap[worst] <= allowed[worst], (
         f"{int((gap > allowed).sum())} of {len(first)} curves are open: from {found.name(int(first[worst]))}, to "
         f"{found.name(int(last[worst]))}, there is a gap of {gap[worst]:.4g}, tolerance {allowed[worst]:.4g}"
@@ -164,7 +164,9 @@ def branch_count(curves: Curves, tolerance: float | None = None) -> BranchCount:
         return BranchCount(0, 0, 0)
     ends = points_of([end for part in parts for end in (part[:1], part[-1:])]).points
     extent = float(np.linalg.norm(np.ptp(np.concatenate(parts), axis=0)))
-    pairs = cKDTree(ends).query_pairs(ZERO * extent if tolerance is None else tolerance, output_type="ndarray")
+    pairs = cKDTree(ends).query_pairs(
+        ZERO_OF_EXTENT * extent if tolerance is None else tolerance, output_type="ndarray"
+    )
 
     def groups(links: ArrayLike, count: int) -> tuple[int, Floats]:
         i, j = np.asarray(links).reshape(-1, 2).T

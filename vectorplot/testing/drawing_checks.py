@@ -13,6 +13,7 @@ from vectorplot.testing.compare import path_segments
 from vectorplot.testing.rays.mesh_rays import edges_of_faces
 from vectorplot.testing.rays.sight import visible_by_rays
 from vectorplot.testing.stroke_points import some_of, stroke_points
+from vectorplot.tolerances.of_extent import CLEARANCE_OF_EXTENT
 from vectorplot.words import LineKind
 
 
@@ -23,7 +24,7 @@ def assert_drawing_is_right(
     *,
     samples: int = 2000,
     seed: int = 0,
-    clearance: float = 1e-6,
+    clearance: float = CLEARANCE_OF_EXTENT,
     must_show: ArrayLike | None = None,
     tolerance_mm: float = 0.01,
     margin_mm: float = 10.0,

@@ -14,6 +14,7 @@ from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.testing.rays.nearest import inside, nearest_places
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.words import LineKind
 
 STEPS = 8
@@ -21,9 +22,6 @@ STEPS = 8
 ASIDE = 10.0
 """A point found from a chord may be beside the true curve, and is compared only where the clearance is larger than so
 many times the distance of the chord from it."""
-
-ONE_POINT = 1e-9
-"""Points nearer to each other than this part of what is drawn are one."""
 
 ONE_SHEET = [int(kind) for kind in (LineKind.CONTOUR, LineKind.PARAMETER, LineKind.ISOPHOTE, LineKind.SECTION)]
 
@@ -80,7 +78,7 @@ def _where_strokes_meet(lines: Floats) -> Bools:
     if not len(lines):
         return np.zeros((0, 2), dtype=np.bool_)
     ends = lines.reshape(-1, 3)
-    near = ONE_POINT * float(np.ptp(ends, axis=0).max())
+    near = ZERO_OF_EXTENT * float(np.ptp(ends, axis=0).max())
     return np.asarray(cKDTree(ends).query_ball_point(ends, near, return_length=True).reshape(-1, 2) > 2)
 
 

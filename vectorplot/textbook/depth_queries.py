@@ -12,10 +12,11 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons
-from vectorplot.geometry.tolerance import PARALLEL_SINE, ZERO_OF_EXTENT
 from vectorplot.shading.depth.depth_buffer import DepthBuffer
 from vectorplot.shading.raster.coverage import SUBPIXELS
 from vectorplot.shading.raster.pixel_lines import line_pixels
+from vectorplot.tolerances.of_angles import PARALLEL_SINE
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 STEPS = 2.0
 """A point is not hidden by what is closer by so few steps of the depth code."""

@@ -12,7 +12,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.projection import CoordinateSystem, depth_of
 from vectorplot.geometry.clipping import Box
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.tolerance import INFINITE
+from vectorplot.tolerances.of_numbers import INFINITE
 
 _CORNERS = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)])
 _FACES = ([0, 2, 3, 1], [4, 5, 7, 6], [0, 4, 6, 2], [1, 3, 7, 5], [2, 6, 7, 3], [0, 1, 5, 4])

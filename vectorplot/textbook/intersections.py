@@ -9,9 +9,11 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.tolerance import INFINITE, PARALLEL_SINE, ROUNDING, ZERO_OF_EXTENT
 from vectorplot.geometry.vectors import cross, dot, length, point_on_line
 from vectorplot.textbook.planes import Plane
+from vectorplot.tolerances.of_angles import PARALLEL_SINE
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_numbers import INFINITE, ROUNDING
 
 
 @dataclass(frozen=True, eq=False)

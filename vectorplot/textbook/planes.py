@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.tolerance import PARALLEL_SINE, ROUNDING
 from vectorplot.geometry.vectors import cross, dot, length
+from vectorplot.tolerances.of_angles import PARALLEL_SINE
+from vectorplot.tolerances.of_numbers import ROUNDING
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.tolerance import PARALLEL_SINE
 from vectorplot.geometry.vectors import length, normalize
+from vectorplot.tolerances.of_angles import PARALLEL_SINE
 
 
 def homogeneous(points: ArrayLike) -> Floats:

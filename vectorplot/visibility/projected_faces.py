@@ -11,6 +11,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.columns import cross
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_numbers import SINGLE_BOX_LEAST, SINGLE_BOX_SHARE
 
 Floats32 = NDArray[np.float32]
 Bytes = NDArray[np.int8]
@@ -69,8 +70,8 @@ def _rounded(value: Floats, outwards: np.ufunc, out: Floats32) -> None:
     """Put values into single precision, moved up (add) or down (subtract) by a little more than its steps."""
     out[:] = value
     step = np.abs(out)
-    step *= np.float32(3e-7)
-    step += np.float32(1e-7)
+    step *= np.float32(SINGLE_BOX_SHARE)
+    step += np.float32(SINGLE_BOX_LEAST)
     outwards(out, step, out=out)
 
 

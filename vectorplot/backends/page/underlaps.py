@@ -14,6 +14,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.backends.cairo.mesh_borders import places_of
 from vectorplot.geometry import ragged
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 REACH_MICRONS = 320.0
 """So far polygons reach under others: more than a pixel of a screen of 96 dots per inch, slantwise as well."""
@@ -78,7 +79,7 @@ def underlaps(microns: Ints, offsets: Ints, covers: Bools, group: Ints) -> Under
     along = (microns[after[later]] - microns[later]).astype(np.float64)
     length = np.hypot(*along.T)
     high = [np.abs(along[:, 0] * way[:, 1] - along[:, 1] * way[:, 0]) / length for way in ways]
-    part = [np.minimum(REACH_MICRONS / np.maximum(h, 1e-9), INSIDE)[:, None] for h in high]
+    part = [np.minimum(REACH_MICRONS / np.maximum(h, LEAST_DIVISOR), INSIDE)[:, None] for h in high]
     far, near = microns[after[later]] + part[0] * ways[0], microns[later] + part[1] * ways[1]
     thin = later[np.minimum(*high) < THIN_MICRONS]
     open_ = np.zeros(count, dtype=np.bool_)

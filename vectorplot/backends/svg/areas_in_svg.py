@@ -15,6 +15,7 @@ from vectorplot.backends.svg.ramps import NONE, Ramps, item_ramps
 from vectorplot.backends.svg.strips import SHADE_ERROR, Strips, joined_strips, nearly_flat, strips_of
 from vectorplot.drawing.fills import SEAM_MM
 from vectorplot.geometry import ragged
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 ID_PREFIX = b"\7"
 """Stands for the beginning of all ids, a hash of the content, which is not known before the content."""
@@ -170,7 +171,7 @@ def _gradients(areas: Areas, shaded: Ints, ramps: Ramps, ramp: Ints, colours: Fl
     follows = np.append(False, (np.diff(shaded[on]) == 1) & (rows[1:] == rows[:-1]).all(axis=1))
     found = merged(corners[on], values, follows & (rows[:, 2] == 1.0), SHADE_ERROR / span)
     middle, value, slope = slopes(found)
-    direction = slope / np.maximum(np.hypot(*slope.T), np.finfo(float).tiny)[:, None]
+    direction = slope / np.maximum(np.hypot(*slope.T), LEAST_DIVISOR)[:, None]
     of = ragged.owner(np.diff(found.offsets))
     along = ((found.microns - middle[of]) * direction[of]).sum(axis=1)
     reach = np.stack([f.reduceat(along, found.offsets[:-1]) for f in (np.minimum, np.maximum)], axis=1)

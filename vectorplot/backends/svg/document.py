@@ -21,6 +21,8 @@ from vectorplot.backends.svg.areas_in_svg import ID_PREFIX, area_elements
 from vectorplot.backends.svg.path_data import formatted
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry import ragged
+from vectorplot.tolerances.of_parameters import ABOVE_WHOLE
+from vectorplot.tolerances.of_the_page import ARC_DECIMAL_MM
 
 _PLACE = "\0"  # cannot occur in the document: names and titles hold no control characters
 _OPEN, _LOOP, _CURVE, _END, _RING, _ARC = b"\1", b"\2", b"\3", b"\4", b"\5", b"\6"
@@ -37,9 +39,6 @@ HASH_LENGTH = 6
 _POINTS_AT_ONCE = 1 << 16
 _WIDEST_ARC = np.pi / 2.0
 """The centre of a wider arc would depend too much on the decimals of its ends and radii."""
-
-_DECIMAL = 1e-5
-"""Unit of the numbers of arcs: their radii and centres are kept better than their ends."""
 
 
 def svg_text(drawing: Drawing) -> str:
@@ -125,10 +124,10 @@ def _arc_data(lines: Lines, height: int) -> list[bytes]:
     size = np.stack((np.hypot(*arcs.first.T), np.hypot(*arcs.second.T)))
     # In the file y goes down: angles and senses of turning are mirrored. The axes of a circle have no direction.
     tilt = np.degrees(np.arctan2(-arcs.first[:, 1], arcs.first[:, 0])) % 180.0
-    tilt = np.where(np.abs(size[0] - size[1]) < _DECIMAL, 0.0, tilt)
+    tilt = np.where(np.abs(size[0] - size[1]) < ARC_DECIMAL_MM, 0.0, tilt)
     handed = arcs.first[:, 0] * arcs.second[:, 1] > arcs.first[:, 1] * arcs.second[:, 0]
     clockwise = handed != (arcs.end > arcs.start)
-    count = np.maximum(np.ceil(np.abs(arcs.end - arcs.start) / _WIDEST_ARC - 1e-9), 1.0).astype(np.intp)
+    count = np.maximum(np.ceil(np.abs(arcs.end - arcs.start) / _WIDEST_ARC - ABOVE_WHOLE), 1.0).astype(np.intp)
     owner = ragged.owner(count)
     last = np.cumsum(count) - 1
     number = np.arange(len(owner)) - np.repeat(last + 1 - count, count) + 1
@@ -144,7 +143,7 @@ def _arc_data(lines: Lines, height: int) -> list[bytes]:
 
 def _short(number: float) -> str:
     """The number with the decimals of arcs, without needless zeros."""
-    return f"{round(number / _DECIMAL) * _DECIMAL:.5f}".rstrip("0").rstrip(".")
+    return f"{round(number / ARC_DECIMAL_MM) * ARC_DECIMAL_MM:.5f}".rstrip("0").rstrip(".")
 
 
 class _Place:

@@ -15,15 +15,13 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.backends.page.areas import Areas, Polygons, rounded
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
+from vectorplot.tolerances.of_lengths import NARROW_OF_LENGTH
 
 SHADE_ERROR = 2.0
 """By how many steps of 255 a shaded piece that is painted in one colour may differ from what it should be."""
 
 SMALLEST_MICRONS, NARROWEST_MICRONS = 250.0, 60.0
 """Triangles that are no longer, or no wider, than this are painted in one colour: less than a pixel of a screen."""
-
-THINNEST = 1e-6
-"""Triangles narrower than this part of their length have colours along it only."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,7 +110,7 @@ def strips_of(corners: Floats, colours: Floats) -> Strips:
 def _slopes(corners: Floats, colours: Floats) -> Floats:
     """(t,2,3): a way on the page times it is the change of colour. Across triangles too thin for that there is none."""
     sides, changes = corners[:, 1:] - corners[:, :1], colours[:, 1:] - colours[:, :1]
-    return np.asarray(np.linalg.pinv(sides, rcond=THINNEST) @ changes)
+    return np.asarray(np.linalg.pinv(sides, rcond=NARROW_OF_LENGTH) @ changes)
 
 
 def _cut(triangles: Floats, quads: Floats) -> tuple[Ints, Ints, Ints]:

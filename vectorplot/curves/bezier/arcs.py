@@ -9,6 +9,9 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.bezier.paths import BezierPath
 from vectorplot.errors import InputError
+from vectorplot.tolerances.of_angles import LOOP_TURN, WHOLE_TURN
+from vectorplot.tolerances.of_parameters import ABOVE_WHOLE
+from vectorplot.tolerances.of_values import RANK_OF_FIT, REAL_EIGENVALUE, SINGULAR_DETERMINANT
 
 _MOST_SEGMENTS = 1 << 16
 
@@ -29,7 +32,7 @@ class EllipseArc:
     @property
     def closed(self) -> bool:
         """Whether it is the whole ellipse."""
-        return bool(abs(abs(self.end - self.start) - 2.0 * np.pi) < 1e-9)
+        return bool(abs(abs(self.end - self.start) - 2.0 * np.pi) < WHOLE_TURN)
 
     def points(self, t: Floats) -> Floats:
         """(..., d) points at t (...)."""
@@ -70,7 +73,7 @@ def arc_path(arc: EllipseArc, *, tolerance: float) -> BezierPath:
     angle = abs(arc.end - arc.start)
     if not tolerance > 0.0:
         raise InputError(f"an arc needs a positive tolerance, not {tolerance:g}")
-    count = max(int(np.ceil(angle / (np.pi / 2.0) - 1e-9)), 1)
+    count = max(int(np.ceil(angle / (np.pi / 2.0) - ABOVE_WHOLE)), 1)
     while radius * arc_error(angle / count) > tolerance:
         count += 1 + count // 64
         if count > _MOST_SEGMENTS:
@@ -115,7 +118,7 @@ def recognised_arc(points: Floats, *, tolerance: float, closed: bool = False) ->
 
 def _followed(points: Floats, centre: Floats, axes: Floats, tolerance: float, closed: bool) -> EllipseArc | None:
     """The arc of an ellipse with these semi-axes (columns) that points run along, or None if they do not."""
-    if abs(np.linalg.det(axes)) < 1e-12 * np.abs(axes).max() ** 2:
+    if abs(np.linalg.det(axes)) < SINGULAR_DETERMINANT * np.abs(axes).max() ** 2:
         return None
     unit = np.linalg.solve(axes, (points - centre).T)
     angle = np.arctan2(unit[1], unit[0])
@@ -126,9 +129,9 @@ def _followed(points: Floats, centre: Floats, axes: Floats, tolerance: float, cl
     turning = (steps * np.sign(total) > 0.0).all() and np.abs(steps).max() < np.pi / 2.0
     small = float(np.sqrt((axes * axes).sum(axis=0)).min())
     rise = small * (1.0 - np.cos(min(abs(total) / 2.0, np.pi / 2.0)))
-    if off.max() > tolerance or not turning or abs(total) > 2.0 * np.pi + 1e-9 or rise < 100.0 * tolerance:
+    if off.max() > tolerance or not turning or abs(total) > 2.0 * np.pi + WHOLE_TURN or rise < 100.0 * tolerance:
         return None
-    if closed and abs(abs(total) - 2.0 * np.pi) > 1e-6:
+    if closed and abs(abs(total) - 2.0 * np.pi) > LOOP_TURN:
         return None
     start = float(angle[0])
     end = start + (2.0 * np.pi * float(np.sign(total)) if closed else total)
@@ -138,7 +141,7 @@ def _followed(points: Floats, centre: Floats, axes: Floats, tolerance: float, cl
 def _circle(points: Floats) -> Floats | None:
     """(2,3) semi-axes and centre of the circle nearest to points."""
     system = np.column_stack((2.0 * points, np.ones(len(points))))
-    (x, y, c), _, rank, _ = np.linalg.lstsq(system, (points**2).sum(axis=1), rcond=1e-12)
+    (x, y, c), _, rank, _ = np.linalg.lstsq(system, (points**2).sum(axis=1), rcond=RANK_OF_FIT)
     square = c + x * x + y * y
     if rank < 3 or not square > 0.0:
         return None
@@ -150,13 +153,13 @@ def _ellipse(points: Floats) -> Floats | None:
     x, y = points.T
     squares = np.column_stack((x * x, x * y, y * y))
     rest = np.column_stack((x, y, np.ones(len(points))))
-    solved, _, rank, _ = np.linalg.lstsq(rest, squares, rcond=1e-12)
+    solved, _, rank, _ = np.linalg.lstsq(rest, squares, rcond=RANK_OF_FIT)
     if rank < 3:
         return None
     reduced = squares.T @ (squares - rest @ solved)
     # The ellipse has 4 a c - b^2 = 1: a small eigenvalue problem with that form.
     value, vector = np.linalg.eig(np.stack((reduced[2] / 2.0, -reduced[1], reduced[0] / 2.0)))
-    vector = np.real(vector[:, np.abs(np.imag(value)) < 1e-12])
+    vector = np.real(vector[:, np.abs(np.imag(value)) <= REAL_EIGENVALUE * np.abs(value).max()])
     form = 4.0 * vector[0] * vector[2] - vector[1] ** 2
     if not (form > 0.0).any():
         return None

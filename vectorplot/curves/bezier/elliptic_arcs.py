@@ -12,6 +12,9 @@ from vectorplot.curves.bezier.arcs import arc_error
 from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.tolerances.of_angles import LOOP_TURN, WHOLE_TURN
+from vectorplot.tolerances.of_parameters import ABOVE_WHOLE
+from vectorplot.tolerances.of_values import SINGULAR_DETERMINANT
 
 FEWEST_POINTS = 8
 """Five points are on some conic in any case; the others must agree."""
@@ -109,7 +112,7 @@ def recognised_arcs(points: Floats, offsets: Ints, closed: Bools, *, tolerance: 
     forward[last[~loop]] = 1.0
     kept = np.maximum.reduceat(off, starts) <= tolerance
     kept &= (np.minimum.reduceat(forward, starts) > 0.0) & (np.maximum.reduceat(np.abs(step), starts) < np.pi / 2.0)
-    kept &= np.where(loop, np.abs(np.abs(total) - 2.0 * np.pi) < 1e-6, np.abs(total) <= 2.0 * np.pi + 1e-9)
+    kept &= np.where(loop, np.abs(np.abs(total) - 2.0 * np.pi) < LOOP_TURN, np.abs(total) <= 2.0 * np.pi + WHOLE_TURN)
     smaller = np.sqrt((axes * axes).sum(axis=2)).min(axis=1)
     rise = smaller * (1.0 - np.cos(np.minimum(np.abs(total) / 2.0, np.pi / 2.0)))
     kept &= (np.abs(total) >= SMALLEST_ANGLE) & (rise >= SMALLEST_RISE * tolerance)
@@ -128,7 +131,7 @@ def arc_segments(arcs: EllipseArcs, closed: Bools, *, tolerance: float) -> Bezie
         raise InputError(f"an arc needs a positive tolerance, not {tolerance:g}")
     radius = np.hypot(*np.maximum(np.abs(arcs.first), np.abs(arcs.second)).T)
     angle = np.abs(arcs.end - arcs.start)
-    count = np.maximum(np.ceil(angle / (np.pi / 2.0) - 1e-9), 1.0).astype(np.intp)
+    count = np.maximum(np.ceil(angle / (np.pi / 2.0) - ABOVE_WHOLE), 1.0).astype(np.intp)
     while (coarse := radius * arc_error(angle / count) > tolerance).any():
         count = np.where(coarse, count + 1 + count // 64, count)
         if count.max() > _MOST_SEGMENTS:
@@ -173,7 +176,7 @@ def _ellipses(points: Floats, first: Ints, count: Ints, closed: Bools) -> tuple[
     at = local[:, 2]
     conic = one * _value(two, at)[:, None, None] - two * _value(one, at)[:, None, None]
     quadratic, linear = conic[:, :2, :2], conic[:, :2, 2]
-    good = np.linalg.det(quadratic) > 1e-12 * np.abs(quadratic).max(axis=(1, 2)) ** 2
+    good = np.linalg.det(quadratic) > SINGULAR_DETERMINANT * np.abs(quadratic).max(axis=(1, 2)) ** 2
     quadratic = np.where(good[:, None, None], quadratic, np.eye(2))
     centre = -np.linalg.solve(quadratic, linear[:, :, None])[:, :, 0]
     level = -(conic[:, 2, 2] + (linear * centre).sum(axis=1))

@@ -13,12 +13,12 @@ from vectorplot.curves.bezier.tangents import Directions, Lines, directions
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_lengths import FIT_OF_TOLERANCE
+from vectorplot.tolerances.of_parameters import JUST_BEFORE
 
 CORNER_ANGLE = np.radians(30.0)
 """A polyline that turns by more at one point has a corner there."""
-
-_ZERO = 1e-9
-"""Points nearer than this part of the extent are one."""
 
 _WINDOW = 8.0
 """Tangents are taken over so many tolerances to both sides, at least to the next points."""
@@ -133,7 +133,7 @@ class _Fit:
         knots[lines.first] = knots[lines.last] = True
         loop = np.flatnonzero(lines.closed & ~cornered)
         start, end = lines.length[lines.first[loop]], lines.length[lines.last[loop]]
-        quarters = start + (end - start) * (np.array([[0.25], [0.5], [0.75]]) - _ZERO)
+        quarters = start + (end - start) * (np.array([[0.25], [0.5], [0.75]]) - JUST_BEFORE)
         knots[np.searchsorted(lines.length, quarters)] = True
         return knots
 
@@ -164,7 +164,7 @@ class _Fit:
         length = self.lines.length
         start, end = length[spans.first[owner]], length[spans.last[owner]]
         # A little less than the part: where a point lies on it, rounding does not choose.
-        index = np.searchsorted(length, start + (end - start) * (number / parts[owner] - _ZERO))
+        index = np.searchsorted(length, start + (end - start) * (number / parts[owner] - JUST_BEFORE))
         knots[np.clip(index, spans.first[owner] + 1, spans.last[owner] - 1)] = True
         inside = np.flatnonzero(knots)
         first = np.sort(np.concatenate((spans.first, inside)))
@@ -175,7 +175,7 @@ class _Fit:
         """Fewer segments: neighbours that one segment replaces within the tolerance."""
         for turn in range(_MERGE_ROUNDS):
             size = self.lines.length[spans.last] - self.lines.length[spans.first]
-            error = np.maximum(spans.excess, 1e-3 * self.tolerance)
+            error = np.maximum(spans.excess, FIT_OF_TOLERANCE * self.tolerance)
             both = size[:-1] + size[1:]
             with np.errstate(all="ignore"):
                 guess = np.maximum(error[:-1] * (both / size[:-1]) ** 4, error[1:] * (both / size[1:]) ** 4)
@@ -260,7 +260,7 @@ def _lines(points: Floats, offsets: Ints, closed: Bools, tangents: Floats | None
     extent = (np.maximum.reduceat(spread, starts) - np.minimum.reduceat(spread, starts)).max(axis=1)
     step = np.linalg.norm(np.diff(spread, axis=0), axis=1)
     fresh = np.ones(len(index), dtype=np.bool_)
-    fresh[1:] = (step > _ZERO * extent[line[1:]]) | (line[1:] != line[:-1])
+    fresh[1:] = (step > ZERO_OF_EXTENT * extent[line[1:]]) | (line[1:] != line[:-1])
     # The end of a line stays; what it repeats goes, unless that is the start.
     ends = starts + sizes - 1
     fresh[np.maximum(ends - 1, starts)] &= fresh[ends] | (ends - 1 == starts)

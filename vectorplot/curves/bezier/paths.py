@@ -9,6 +9,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.tolerances.of_lengths import LENGTH_SETTLED
+from vectorplot.tolerances.of_parameters import ABOVE_WHOLE
 
 MAX_FLAT_POINTS = 10_000_000
 """Flattening refuses to make more points than this."""
@@ -140,7 +142,7 @@ def flattened(control: Floats, offsets: Ints, tolerance: float) -> tuple[Floats,
     if not tolerance > 0.0:
         raise InputError(f"flattening needs a positive tolerance, not {tolerance:g}")
     bend = np.linalg.norm(np.diff(control, n=2, axis=1), axis=2).max(axis=1, initial=0.0)
-    chords = np.maximum(np.ceil(np.sqrt(0.75 * bend / tolerance) - 1e-9), 1.0)
+    chords = np.maximum(np.ceil(np.sqrt(0.75 * bend / tolerance) - ABOVE_WHOLE), 1.0)
     if chords.sum() > MAX_FLAT_POINTS:
         raise InputError(f"a tolerance of {tolerance:g} takes more than {MAX_FLAT_POINTS} points")
     count = chords.astype(np.intp)
@@ -165,7 +167,7 @@ def lengths(control: Floats) -> Floats:
         whole = _integrated(control, node, weight)
         before, after = split(control, 0.5)
         halves = _integrated(before, node, weight) + _integrated(after, node, weight)
-        done = np.abs(whole - halves) <= 1e-13 * scale[owner]
+        done = np.abs(whole - halves) <= LENGTH_SETTLED * scale[owner]
         np.add.at(total, owner[done], halves[done])
         control, owner = np.concatenate((before[~done], after[~done])), np.tile(owner[~done], 2)
         if not len(control):

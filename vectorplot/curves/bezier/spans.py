@@ -9,10 +9,10 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.bezier.tangents import Directions, Lines
 from vectorplot.geometry import ragged
+from vectorplot.tolerances.of_angles import PARABOLA_SINE_SQUARED
+from vectorplot.tolerances.of_values import RIDGE
 
 _STEPS = 3
-_RIDGE = 1e-5
-"""Where handles hardly change the shape, as on a straight line, their steps stay small."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +103,7 @@ class _Problem:
         one, two = (self.leaving * self.chord).sum(axis=0), (self.arriving * self.chord).sum(axis=0)
         with np.errstate(all="ignore"):
             sides = np.stack((one - cosine * two, two - cosine * one)) / det
-        meet = (det > 1e-12) & (sides > 0.0).all(axis=0)
+        meet = (det > PARABOLA_SINE_SQUARED) & (sides > 0.0).all(axis=0)
         sides = np.where(meet, sides, self.size / 2.0)
         one, two = ((self._spread(side) * self.points).sum(axis=0) for side in (self.leaving, self.arriving))
         x, y = self._spread(np.where(meet, sides * det, 1.0))
@@ -151,7 +151,7 @@ class _Problem:
             b2 * b2,
         )
         a, b, c, x, y, weight_one, weight_two = (np.add.reduceat(term, self.starts) for term in terms)
-        a, c = a + _RIDGE * weight_one, c + _RIDGE * weight_two
+        a, c = a + RIDGE * weight_one, c + RIDGE * weight_two
         det = a * c - b * b
         good = (det > 0.0) & (self.counts > 3)
         det = np.where(good, det, 1.0)

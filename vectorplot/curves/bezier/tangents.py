@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.tolerances.of_lengths import SLACK_OF_LENGTH
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +117,7 @@ def _neighbour(lines: Lines, at: Ints, step: Floats, stops: Bools) -> Ints:
     total, loop = end - start, lines.closed[line]
     backwards = np.signbit(step)
     own = lines.length[at]
-    slack = 1e-11 * total
+    slack = SLACK_OF_LENGTH * total
     place = own + step
     # In a loop the place may lie beyond the seam.
     low = np.where(loop, -np.inf, start)

@@ -14,15 +14,13 @@ from vectorplot.drawing.drawing import Curves, Paths
 from vectorplot.drawing.strokes.paths import chosen, concatenated
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.tolerances.of_lengths import ARC_OF_TOLERANCE
 
 CHORD_SHARE = 0.5
 """The part of the tolerance that chords may be off their curves."""
 
 FIT_SHARE = 0.45
 """The part of the tolerance for the fit. Half of it is spent on the chords; the rest is for rounding in files."""
-
-ARC_SHARE = 1e-3
-"""An arc of an ellipse is one only if all points agree within this part of the tolerance."""
 
 CORNER_ANGLE = np.radians(60.0)
 """A smooth stroke that turns by more at one point has a cusp there: the chords of a curve that is only narrow, traced
@@ -44,7 +42,7 @@ def with_curves(paths: Paths, tolerance_mm: float) -> Paths | Curves:
     if not len(which):
         return paths
     smooth = chosen(paths, which)
-    arcs = recognised_arcs(smooth.points, smooth.offsets, smooth.closed, tolerance=ARC_SHARE * tolerance_mm)
+    arcs = recognised_arcs(smooth.points, smooth.offsets, smooth.closed, tolerance=ARC_OF_TOLERANCE * tolerance_mm)
     fit = FIT_SHARE * tolerance_mm
     round_ones = arc_segments(arcs, smooth.closed[arcs.stroke], tolerance=fit)
     others = np.setdiff1d(np.arange(len(smooth)), arcs.stroke, assume_unique=True)

@@ -13,9 +13,7 @@ from vectorplot.drawing.strokes.neighbours import Keys, companions, overlapping_
 from vectorplot.drawing.strokes.paths import chosen, sections
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
-
-CLOSE_OF_LENGTH = 1e-3
-"""A stroke is collinear with another only within this part of its length too: a short one has no direction else."""
+from vectorplot.tolerances.of_lengths import COLLINEAR_OF_LENGTH
 
 PAIRS_AT_ONCE = 1 << 18
 
@@ -95,7 +93,7 @@ class _Segments:
         """Which pairs lie on each other, and from where to where (of each loser) they do."""
         shorter = self.length[loser] <= self.length[winner]
         short, long = np.where(shorter, loser, winner), np.where(shorter, winner, loser)
-        close = np.minimum(self.tolerance, CLOSE_OF_LENGTH * self.length[short])
+        close = np.minimum(self.tolerance, COLLINEAR_OF_LENGTH * self.length[short])
         origin, unit = self.start[long], self.unit[long]
         collinear = np.ones(len(winner), dtype=np.bool_)
         for end in (self.start[short], self.end[short]):
@@ -125,7 +123,7 @@ def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> tup
     middle = (start.min(axis=0) + start.max(axis=0)) / 2.0
     width = max(2.0 * float(length.mean()), float(length.max()) / 64.0)
     # A stroke may be turned by this, and its line shifted by this in the middle of a strip it reaches.
-    turn = 4.2 * min(CLOSE_OF_LENGTH, tolerance / float(length.min()))
+    turn = 4.2 * min(COLLINEAR_OF_LENGTH, tolerance / float(length.min()))
     shift = 2.0 * tolerance + turn * width
     keys: list[Keys] = []
     owners = []

@@ -8,7 +8,6 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Paths
-from vectorplot.drawing.drawn_lines import COINCIDENT_MM
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.strokes.curved_strokes import with_curves
 from vectorplot.drawing.strokes.dashes import dashed
@@ -16,11 +15,8 @@ from vectorplot.drawing.strokes.join import joined
 from vectorplot.drawing.strokes.paths import chosen, concatenated
 from vectorplot.drawing.strokes.pen_order.order import pen_ordered
 from vectorplot.drawing.strokes.simplify import without_collinear_points
+from vectorplot.tolerances.of_the_page import COINCIDENT_MM, COLLINEAR_MM
 from vectorplot.words import LineKind
-
-COLLINEAR_MM = 1e-4
-"""A point that is no further from the straight line between its neighbours is left out. So a stroke moves by less than
-a millionth of a picture on a sheet of paper: what is drawn stays as visible as it was found to be."""
 
 DASH_MM = (2.0, 1.0)
 """Dash and gap of hidden lines."""

@@ -9,6 +9,7 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.paths import chosen, concatenated, sections, unrolled
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.tolerances.of_lengths import SUM_OF_LENGTHS
 
 
 def split_long(paths: Paths, max_mm: float, page_from_world: Floats | None = None) -> Paths:
@@ -25,7 +26,7 @@ def split_long(paths: Paths, max_mm: float, page_from_world: Floats | None = Non
     line = unrolled(paths, np.zeros(len(paths), dtype=np.intp), loops.astype(np.intp))
     along, length = _arc_length(line)
     # Rounding of the sum must not make a stroke of exactly the right length too long.
-    parts = np.ceil(length / max_mm * (1.0 - 1e-12))
+    parts = np.ceil(length / max_mm * (1.0 - SUM_OF_LENGTHS))
     cut = parts > 1.0
     if not cut.any():
         return paths

@@ -15,15 +15,10 @@ from vectorplot.drawing.strokes.duplicates import nearly_collinear, pairs_in_cro
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_extent import ONE_LINE_OF_EXTENT
+from vectorplot.tolerances.of_lengths import COLLINEAR_OF_LENGTH
 from vectorplot.visibility.polyhedra.lines import Lines, joined_lines
 from vectorplot.words import LineKind
-
-ONE_PLACE = 1e-6
-"""Lines no further apart than this part of half the scene's extent are in one place: that is more than what rounding to
-single precision does to them."""
-
-OF_LENGTH = 1e-3
-"""Nor further than this part of the shorter one's length, which has no direction else."""
 
 
 def with_shared_kinds(view: View, lines: Lines) -> Lines:
@@ -36,12 +31,12 @@ def with_shared_kinds(view: View, lines: Lines) -> Lines:
     if not len(which) or (lines.item[which] == lines.item[which[0]]).all():
         return lines
     start, end = (np.ascontiguousarray(view.image_of(p[:, which]).T) for p in (lines.start, lines.end))
-    long = np.flatnonzero(np.hypot(*(end - start).T) > ONE_PLACE)
+    long = np.flatnonzero(np.hypot(*(end - start).T) > ONE_LINE_OF_EXTENT)
     which, start, end = which[long], start[long], end[long]
     contour = lines.kind[which] == LineKind.CONTOUR
     if contour.all() or not contour.any():
         return lines
-    owner, starts = nearly_collinear(start, end, ONE_PLACE)
+    owner, starts = nearly_collinear(start, end, ONE_LINE_OF_EXTENT)
     run = ragged.owner(np.diff(starts))
     mixed = np.zeros((2, len(starts)), dtype=np.bool_)
     mixed[contour[owner].astype(np.intp), run] = True
@@ -75,10 +70,10 @@ def _common(lines: Lines, one: Ints, other: Ints) -> tuple[Bools, Floats, Floats
     arms = short - long[0]
     across = arms - (arms * unit).sum(axis=1, keepdims=True) * unit
     off = np.sqrt((across * across).sum(axis=1).max(axis=0))
-    close = np.minimum(ONE_PLACE, OF_LENGTH * np.minimum(*lengths))
+    close = np.minimum(ONE_LINE_OF_EXTENT, COLLINEAR_OF_LENGTH * np.minimum(*lengths))
     places = ((ends[0] - ends[1][0]) * ways[1]).sum(axis=1) / lengths[1] ** 2
     low, high = (np.clip(edge, 0.0, 1.0) for edge in (places.min(axis=0), places.max(axis=0)))
-    return np.asarray((off <= close) & ((high - low) * lengths[1] > ONE_PLACE)), low, high
+    return np.asarray((off <= close) & ((high - low) * lengths[1] > ONE_LINE_OF_EXTENT)), low, high
 
 
 def _promoted(view: View, lines: Lines, crease: Ints, low: Floats, high: Floats) -> Lines:
@@ -86,7 +81,7 @@ def _promoted(view: View, lines: Lines, crease: Ints, low: Floats, high: Floats)
     if not len(crease):
         return lines
     touched, number = np.unique(crease, return_inverse=True)
-    gap = ONE_PLACE / np.linalg.norm(lines.end[:, touched] - lines.start[:, touched], axis=0)
+    gap = ONE_LINE_OF_EXTENT / np.linalg.norm(lines.end[:, touched] - lines.start[:, touched], axis=0)
     number, low, high = intervals.union(number, low, high, gap)
     low, high = np.where(low <= gap[number], 0.0, low), np.where(high >= 1.0 - gap[number], 1.0, high)
     left, left_low, left_high = intervals.complement(len(touched), number, low, high, gap)

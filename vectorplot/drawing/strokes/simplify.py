@@ -10,6 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.paths import world_per_mm
 from vectorplot.geometry import ragged
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 _ROUNDS = 6
 _CROWD = 32
@@ -23,9 +24,6 @@ on these, and leave little to do for all."""
 
 _SAMPLE_TOLERANCE = 0.95
 """Between the points of the sample others lie a little further away."""
-
-_ZERO = 1e-9
-"""Lengths below this part of the extent are rounding."""
 
 
 def without_collinear_points(paths: Paths, tolerance_mm: float) -> Paths:
@@ -73,7 +71,7 @@ def _goes_straight(paths: Paths, tolerance_mm: float) -> Bools:
     chord_x, chord_y = into_x + out_x, into_y + out_y
     straight &= area * area <= tolerance_mm * tolerance_mm * (chord_x * chord_x + chord_y * chord_y)
     # Whether a step of no length goes on or back is seen along the chord only.
-    zero = (_ZERO * _extent(paths)) ** 2
+    zero = (ZERO_OF_EXTENT * _extent(paths)) ** 2
     straight |= (into_x * into_x + into_y * into_y <= zero) | (out_x * out_x + out_y * out_y <= zero)
     ends = ~paths.closed[drawn] | (counts[drawn] < 3)
     straight[first[ends]] = straight[last[ends]] = False
@@ -122,7 +120,7 @@ def _laid_out(paths: Paths, some: Ints, straight: Bools) -> tuple[Ints, _Line]:
     page, world = (
         tuple(np.ascontiguousarray(axis[source]) for axis in points.T) for points in (paths.points, paths.points3d)
     )
-    return source, _Line(page, world, offsets, ring, _ZERO * _extent(paths), world_per_mm(paths) or 1.0)
+    return source, _Line(page, world, offsets, ring, ZERO_OF_EXTENT * _extent(paths), world_per_mm(paths) or 1.0)
 
 
 def _thin(line: _Line, kept: Bools, tolerance_mm: float) -> None:

@@ -9,11 +9,12 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.chains import NO_END, chains
 from vectorplot.drawing.strokes.join import linked_ends
 from vectorplot.drawing.strokes.paths import chosen
+from vectorplot.tolerances.of_the_page import TOUCHING_AT_MM
 
 HEIGHT_SHARE = 0.05
 """Between two points a curve is known but for less than this part of its height above the chord."""
 
-TOUCHING_MM, TOUCHING_AT_MM = 3.0, 1e-4
+TOUCHING_MM = 3.0
 """A shorter part of a curve on another one only touches it, as lines of a surface touch its contour: it stays. Curves
 of a sheet of paper's size that touch in four points at once are so close over that length; where points are known less
 well, over more of it, by the fourth root."""

@@ -12,14 +12,12 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.tolerance import ROUNDING
 from vectorplot.geometry.vectors import normalize
+from vectorplot.tolerances.of_extent import IN_SURFACE_OF_DISTANCE
+from vectorplot.tolerances.of_numbers import ROUNDING, ULP
 
 MOST_STEPS = 100
 """Newton's iteration for a ray from point to point ends after so many steps; it has never been seen to take 40."""
-
-FLAT = 1e-30
-"""A point so near to the surface, as a part of the distances to the eye, is as good as in it."""
 
 
 def angle_of_refraction(alpha: ArrayLike, c: ArrayLike) -> Floats:
@@ -85,7 +83,7 @@ def tangents_of_rays(p1: ArrayLike, p2: ArrayLike, a: ArrayLike, c: ArrayLike) -
     ratio = np.where(swap, 1.0 / c, c)
     target = np.abs(p1)
     near, far = np.where(swap, a, above), np.where(swap, above, a)
-    near = np.maximum(near, FLAT * (far + target))
+    near = np.maximum(near, IN_SURFACE_OF_DISTANCE * (far + target))
     t = np.zeros(target.shape)
     excess = (ratio - 1.0) * (ratio + 1.0)
     for _ in range(MOST_STEPS):
@@ -93,7 +91,7 @@ def tangents_of_rays(p1: ArrayLike, p2: ArrayLike, a: ArrayLike, c: ArrayLike) -
         slope = near + far * (ratio / root) ** 2 / root
         step = (target - near * t - far * t / root) / slope
         before, t = t, np.maximum(t + step, t)
-        if (t - before <= np.finfo(float).eps * t).all():
+        if (t - before <= ULP * t).all():
             break
     other = t / np.sqrt(ratio * ratio + excess * t * t)
     sign = np.sign(p1)

@@ -10,21 +10,14 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.glass.refraction import seen_in_surface
 from vectorplot.geometry.columns import dot
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_extent import MET_OF_EXTENT, SETTLED_OF_EXTENT, SIGHT_DIFFERENCE, SIGHT_SETTLED
+from vectorplot.tolerances.of_lengths import SMALLEST_STEP_SHARE
 
 MOST_STEPS = 40
 """Newton's iteration ends after so many steps: from straight rays it usually takes five."""
 
-DIFFERENCE = 1e-6
-"""Step in the image over which derivatives are taken as differences, in units of the view."""
-
-ACROSS, ALONG = np.array([[[DIFFERENCE], [0.0]], [[0.0], [DIFFERENCE]]])
+ACROSS, ALONG = np.array([[[SIGHT_DIFFERENCE], [0.0]], [[0.0], [SIGHT_DIFFERENCE]]])
 """The two of them."""
-
-SETTLED = 1e-14
-"""Rays that a step moves by less, in units of the image, have been found."""
-
-SMALLEST_SHARE = 1e-3
-"""Where no larger part of a step leads nearer, nothing does."""
 
 LONGEST_STEP = 0.3
 """No step of the iteration in a perspective is longer, in units of the image."""
@@ -37,12 +30,6 @@ PAIRS_AT_ONCE = 1 << 20
 
 POINTS_AT_ONCE = 1 << 15
 """Points whose rays are looked for at once: few enough for the processor's cache."""
-
-HIT = 1e-13
-"""A ray that misses its point by less than this part of the extent needs no further step."""
-
-MET = 1e-10
-"""A ray that misses its point by less than this part of the extent meets it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,7 +132,7 @@ def virtual_points(view: View, passages: Passages, points: Floats, way: Ints | N
         image = _met(view, own, frame, there, _guesses(view, own, there, guided, way[some]))
         miss, rays, left = _missed(view, own, frame, there, image)
         behind = left * dot(own.normal[:, -1], rays.direction) >= -TOUCHING * view.tolerance
-        seen[some] = rays.passes & (np.abs(miss).max(axis=0) <= MET) & behind
+        seen[some] = rays.passes & (np.abs(miss).max(axis=0) <= MET_OF_EXTENT) & behind
         sight = sight_rays(view, image)[1]
         found[:, some] = rays.entry + (rays.path + left / float(np.prod(passages.constant))) * sight
     return found, seen
@@ -156,7 +143,7 @@ def _met(view: View, passages: Passages, frame: Floats, points: Floats, image: F
     miss, rays, _ = _missed(view, passages, frame, points, image)
     off = np.where(rays.passes, np.hypot(*miss), np.inf)
     share = np.ones(points.shape[1])
-    going = np.flatnonzero(~(off <= HIT))
+    going = np.flatnonzero(~(off <= SETTLED_OF_EXTENT))
     for _ in range(MOST_STEPS):
         if not len(going):
             break
@@ -164,18 +151,20 @@ def _met(view: View, passages: Passages, frame: Floats, points: Floats, image: F
         here, there, off_here = image[:, going], points[:, going], miss[:, going]
         across, _, _ = _missed(view, own, axes, there, here + ACROSS)
         along, _, _ = _missed(view, own, axes, there, here + ALONG)
-        step = _solved((across - off_here) / DIFFERENCE, (along - off_here) / DIFFERENCE, -off_here)
+        step = _solved((across - off_here) / SIGHT_DIFFERENCE, (along - off_here) / SIGHT_DIFFERENCE, -off_here)
         length = np.sqrt((step * step).sum(axis=0))
         longest = np.inf if view.eye is None else LONGEST_STEP
         tried = here + step * np.minimum(share[going], longest / np.maximum(length, LONGEST_STEP))
         after, rays, _ = _missed(view, own, axes, there, tried)
         # A step that leads farther off, or beyond total reflection, is halved.
         reached = np.where(rays.passes, np.hypot(*after), np.inf)
-        better = (reached < off[going]) | np.isinf(off[going]) | (length <= SETTLED)
+        better = (reached < off[going]) | np.isinf(off[going]) | (length <= SIGHT_SETTLED)
         image[:, going], miss[:, going] = np.where(better, tried, here), np.where(better, after, off_here)
         off[going] = np.where(better, reached, off[going])
         share[going] = np.where(better, np.minimum(2.0 * share[going], 1.0), 0.5 * share[going])
-        going = going[(length > SETTLED) & (share[going] > SMALLEST_SHARE) & ~(off[going] <= HIT)]
+        going = going[
+            (length > SIGHT_SETTLED) & (share[going] > SMALLEST_STEP_SHARE) & ~(off[going] <= SETTLED_OF_EXTENT)
+        ]
     return image
 
 

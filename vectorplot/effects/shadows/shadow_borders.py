@@ -14,9 +14,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.plane_cuts import PlaneBundles, cut_by_planes, planes_of
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.scene.view import View
-
-STRAIGHT_SINE = 1e-3
-"""A corner that turns by an angle with a smaller sine needs no bevel."""
+from vectorplot.tolerances.of_angles import STRAIGHT_SINE
 
 BEVEL_REACH = 2.0
 """No point of a border is farther from the box of its shadow than so many widths: two sides and the bevel between them

@@ -12,6 +12,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.scene.scene import Scene
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 FEWEST, MOST = 2, 4
 """Of transparent faces every second, third or fourth line or pixel is set."""
@@ -45,7 +46,7 @@ def sparseness(opacity: ArrayLike) -> Ints:
     Source: Glaeser, section 6.6.
     """
     given = np.asarray(opacity, dtype=np.float64)
-    nearest = np.clip(np.rint(1.0 / np.maximum(given, 1e-9)), FEWEST, MOST)
+    nearest = np.clip(np.rint(1.0 / np.maximum(given, LEAST_DIVISOR)), FEWEST, MOST)
     return np.where(given >= 1.0, 1, np.where(given > 0.0, nearest, 0.0)).astype(np.intp)
 
 

@@ -23,7 +23,6 @@ from vectorplot.features.implicit.implicit_conditions import (
 )
 from vectorplot.features.implicit.implicit_refinement import curve_in_space, refined_chords
 from vectorplot.features.implicit.implicit_tracing import (
-    FLAT,
     ImplicitCurves,
     ImplicitTracing,
     all_curves,
@@ -42,6 +41,8 @@ from vectorplot.geometry.polylines import closed_round
 from vectorplot.geometry.repair.winding import edge_uses
 from vectorplot.geometry.vectors import normalize
 from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT
+from vectorplot.tolerances.of_values import FLAT_OF_VALUES, ZERO_OF_BENDING
 
 DEFAULT = ImplicitTracing()
 
@@ -250,7 +251,7 @@ def _border(
         last[rounds.offsets[1:] - 1] = True
         plane = MeetsPlane(np.eye(3)[axis], float(box[side, axis]))
         curve = curve_in_space(surface, plane, extent)
-        tolerance = 1e-3 * extent if tracing.tolerance is None else tracing.tolerance
+        tolerance = CHORD_OF_EXTENT * extent if tracing.tolerance is None else tracing.tolerance
         most = tracing.budget.points
         points, last, unsure, enough = refined_chords(curve, points, last, tolerance, tracing.picture, most)
         points[:, axis] = box[side, axis]
@@ -291,7 +292,7 @@ def _cusps(
     known = np.isfinite(at)
     size = np.abs(at[known]).max(initial=0.0)
     changes = known & known[after] & ((at < 0.0) != (at[after] < 0.0))
-    before = np.flatnonzero(changes & (np.maximum(np.abs(at), np.abs(at[after])) > FLAT * size))
+    before = np.flatnonzero(changes & (np.maximum(np.abs(at), np.abs(at[after])) > FLAT_OF_VALUES * size))
     a, b = curves.points[before], curves.points[after[before]]
     curve = curve_in_space(surface, condition, scale)
     reach = np.linalg.norm(b - a, axis=1)
@@ -300,6 +301,6 @@ def _cusps(
         return curve.onto(a[which] + t[:, None] * (b - a)[which], reach[which])[0]
 
     w0, w1 = at[before], at[after[before]]
-    small = np.full(len(before), 1e-15 * size)
+    small = np.full(len(before), ZERO_OF_BENDING * size)
     t, _ = bracketed_zeros(lambda t, which: bending(place(t, which)), w0, w1, w0 / (w0 - w1), small)
     return place(t, np.arange(len(before))), before

@@ -15,21 +15,22 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.weld import close_points, one_each
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface
-
-DOUBLE = 1e-9
-"""Part of the size of a condition below which a critical value counts as zero."""
+from vectorplot.tolerances.of_extent import CRITICAL_SETTLED, SECOND_DIFFERENCE_IN_SPACE
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
+from vectorplot.tolerances.of_values import (
+    FIRM_DIRECTION,
+    NODE_IN_SPACE,
+    RANK_OF_BENDING,
+    SHALLOW_NODE,
+    VANISHED_GRADIENT,
+    VANISHED_VALUE,
+)
 
 ROUND_NODE = 4.0
 """Times the finest triangles: how far from a node the curve is led into it."""
 
 ROUND_SINGULAR = 1.5
 """Times the longest side of the mesh: how far from a singular point of the surface the curve is led into it."""
-
-SHALLOW = 1e-5
-"""Ratio of principal slopes below which a critical point belongs to a line of them."""
-
-STEP = 1e-5
-"""Part of the extent over which second derivatives are differences of first ones."""
 
 ROUNDS = 24
 """Steps of Newton's method for critical points."""
@@ -64,8 +65,8 @@ def special_points(curve: CurveInSpace, mesh: Mesh, band: Band) -> SpecialPoints
     middles = middles[_apart(middles, singular, 2.0 * ROUND_SINGULAR * longest)]
     heads = one_each(middles, 3.0 * finest)
     found, settled, ratio = _critical(curve, middles[heads], 10.0 * finest)
-    zero = settled & (np.abs(curve.values(found)) <= DOUBLE * curve.size)
-    crossing, point = zero & (ratio < -SHALLOW), zero & (ratio > SHALLOW)
+    zero = settled & (np.abs(curve.values(found)) <= NODE_IN_SPACE * curve.size)
+    crossing, point = zero & (ratio < -SHALLOW_NODE), zero & (ratio > SHALLOW_NODE)
     nodes, isolated = _distinct(found[crossing], finest), _distinct(found[point], finest)
     if len(nodes) + len(isolated) > MOST_ALONE:
         return SpecialPoints(singular, np.full(len(singular), ROUND_SINGULAR * longest), near, 0.0, found)
@@ -89,14 +90,16 @@ def singular_points(surface: ImplicitSurface, mesh: Mesh, reach: float) -> Float
         x = start.copy()
         for _ in range(ROUNDS):
             bends = np.nan_to_num(hessians(surface, x))
-            step = (np.linalg.pinv(bends, rcond=1e-8) @ np.nan_to_num(surface.gradients(x))[..., None])[..., 0]
-            x = x - step * np.minimum(1.0, reach / np.maximum(np.linalg.norm(step, axis=1), 1e-300))[:, None]
+            step = (np.linalg.pinv(bends, rcond=RANK_OF_BENDING) @ np.nan_to_num(surface.gradients(x))[..., None])[
+                ..., 0
+            ]
+            x = x - step * np.minimum(1.0, reach / np.maximum(np.linalg.norm(step, axis=1), LEAST_DIVISOR))[:, None]
         flatness = np.nan_to_num(np.linalg.norm(surface.gradients(x), axis=1), nan=np.inf)
-        on = np.abs(checked_values(surface, x)) <= 1e-9 * usual * reach
+        on = np.abs(checked_values(surface, x)) <= VANISHED_VALUE * usual * reach
     stays = np.linalg.norm(x - start, axis=1) <= 4.0 * reach
     low, high = np.asarray(surface.box)
     inside = ((x >= low) & (x <= high)).all(axis=1)
-    found = _distinct(x[on & stays & inside & (flatness <= 1e-6 * usual)], 0.5 * reach)
+    found = _distinct(x[on & stays & inside & (flatness <= VANISHED_GRADIENT * usual)], 0.5 * reach)
     return found if len(found) <= MOST_ALONE else found[:0]
 
 
@@ -114,19 +117,19 @@ def _critical(curve: CurveInSpace, start: Floats, reach: float) -> tuple[Floats,
             values, vectors = np.linalg.eigh(np.nan_to_num(bend))
             largest = np.abs(values).max(axis=1, keepdims=True)
             # Along a direction in which g hardly bends there is nothing to be found.
-            firm = np.abs(values) > 1e-7 * largest
+            firm = np.abs(values) > FIRM_DIRECTION * largest
             along = np.einsum("kij,ki->kj", vectors, slope)
             move = np.where(firm, -along / np.where(firm, values, 1.0), 0.0)
             step = np.einsum("kij,kj,kil->kl", vectors, move, frame)
             length = np.linalg.norm(step, axis=1)
-            step *= np.minimum(1.0, reach / np.maximum(length, 1e-300))[:, None]
+            step *= np.minimum(1.0, reach / np.maximum(length, LEAST_DIVISOR))[:, None]
             ratio = (
                 np.where(values[:, 0] * values[:, 1] < 0.0, -1.0, 1.0)
                 * np.abs(values).min(axis=1)
-                / np.maximum(largest[:, 0], 1e-300)
+                / np.maximum(largest[:, 0], LEAST_DIVISOR)
             )
         x = onto_surface(curve.surface, x + np.nan_to_num(step), reach=reach)[0]
-        settled = np.isfinite(length) & (length <= 1e-8 * curve.extent + 10.0 * curve.noise)
+        settled = np.isfinite(length) & (length <= CRITICAL_SETTLED * curve.extent + 10.0 * curve.noise)
     settled &= np.linalg.norm(x - start, axis=1) <= 2.0 * reach
     return x, settled, ratio
 
@@ -138,7 +141,7 @@ def _second_order(curve: CurveInSpace, x: Floats) -> tuple[Floats, Floats, Float
     first = np.cross(normal, axis)
     first /= np.linalg.norm(first, axis=1, keepdims=True)
     frame = np.stack([first, np.cross(normal, first)], axis=1)
-    h = STEP * curve.extent + 100.0 * curve.noise
+    h = SECOND_DIFFERENCE_IN_SPACE * curve.extent + 100.0 * curve.noise
     with np.errstate(all="ignore"):
         change = [
             (curve.condition.gradients(x + h * frame[:, k]) - curve.condition.gradients(x - h * frame[:, k]))
@@ -227,7 +230,7 @@ def _through(pieces: list[Floats], ends: Ints) -> tuple[list[Floats], list[bool]
                 for k, side in here
             ]
         )
-        inward /= np.maximum(np.linalg.norm(inward, axis=1, keepdims=True), 1e-300)
+        inward /= np.maximum(np.linalg.norm(inward, axis=1, keepdims=True), LEAST_DIVISOR)
         if len(here) % 2:
             continue
         cosine = inward @ inward.T

@@ -13,14 +13,10 @@ from vectorplot.features.implicit.polygonize import checked_values, onto_surface
 from vectorplot.features.zeros.zero_crossings import bracketed_zeros
 from vectorplot.geometry.vectors import dot
 from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.tolerances.of_extent import LAST_STEP_OF_EXTENT, RESIDUAL_OF_EXTENT
+from vectorplot.tolerances.of_values import FALLS_BESIDE
 
 Picture = Callable[[Floats], Floats]
-
-RESIDUAL = 1e-13
-"""Part of the extent that a point may lie off the surface, and of the size of g that g may be, when it has arrived."""
-
-FALLS = 1e-3
-"""Part of the values beside a change of sign below which g must come there; at a pole or a jump it does not."""
 
 ROUNDS = 16
 """Steps of Newton's method until another way is tried."""
@@ -79,7 +75,7 @@ class CurveInSpace:
             with np.errstate(all="ignore"):
                 step *= np.minimum(1.0, reach[active] / np.where(length > 0.0, length, 1.0))[:, None]
             # The last step of those that arrived costs nothing and gains digits, if it is a small one.
-            goes = usable & (~there | (length <= 1e-6 * self.extent))
+            goes = usable & (~there | (length <= LAST_STEP_OF_EXTENT * self.extent))
             x[active[goes]] += step[goes]
             active = active[usable & ~there]
         arrived &= np.linalg.norm(x - points, axis=1) <= 2.0 * reach
@@ -96,8 +92,10 @@ class CurveInSpace:
             determinant = ff * gg - fg * fg
             of_f, of_g = (gg * f - fg * g) / determinant, (ff * g - fg * f) / determinant
             step = -(of_f[:, None] * slope_f + of_g[:, None] * slope_g)
-            near = RESIDUAL * self.extent + self.noise
-            there = (np.abs(f) <= near * np.sqrt(ff)) & (np.abs(g) <= RESIDUAL * self.size + self.noise * np.sqrt(gg))
+            near = RESIDUAL_OF_EXTENT * self.extent + self.noise
+            there = (np.abs(f) <= near * np.sqrt(ff)) & (
+                np.abs(g) <= RESIDUAL_OF_EXTENT * self.size + self.noise * np.sqrt(gg)
+            )
         return step, np.asarray(there)
 
     def between(self, a: Floats, b: Floats, fixed: Bools) -> tuple[Floats, Bools]:
@@ -110,13 +108,13 @@ class CurveInSpace:
             return onto_surface(self.surface, chord, reach=reach[which], fixed=fixed[which])[0]
 
         w0, w1 = self.values(a), self.values(b)
-        small = np.full(len(a), RESIDUAL * self.size)
+        small = np.full(len(a), RESIDUAL_OF_EXTENT * self.size)
         with np.errstate(all="ignore"):
             guess = np.clip(np.nan_to_num(w0 / (w0 - w1), nan=0.5), 0.0, 1.0)
         t, rest = bracketed_zeros(lambda t, which: self.values(place(t, which)), w0, w1, guess, small)
         exact = (w0 == 0.0) | (w1 == 0.0)
         t = np.where(w0 == 0.0, 0.0, np.where(w1 == 0.0, 1.0, t))
-        falls = np.abs(rest) <= FALLS * np.minimum(np.abs(w0), np.abs(w1)) + small
+        falls = np.abs(rest) <= FALLS_BESIDE * np.minimum(np.abs(w0), np.abs(w1)) + small
         return place(t, np.arange(len(a))), np.asarray(exact | falls, dtype=np.bool_)
 
 

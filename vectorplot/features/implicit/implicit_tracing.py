@@ -22,15 +22,14 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, closed_round, indices_along, joined
 from vectorplot.surfaces.surface import ImplicitSurface
-
-FLAT = 1e-9
-"""Part of the size of a condition that user functions may be wrong by: all over a triangle, it is zero."""
+from vectorplot.tolerances.of_extent import APART_OF_EXTENT, CHORD_OF_EXTENT, DOT_OF_EXTENT
+from vectorplot.tolerances.of_lengths import WIDE_OF_AREA
+from vectorplot.tolerances.of_numbers import ROUNDING_OF_TERMS
+from vectorplot.tolerances.of_parameters import RESOLUTION
+from vectorplot.tolerances.of_values import FLAT_OF_VALUES
 
 THINNED = 0.3
 """Part of the width of triangles that crossings on their sides may follow one another in: nearer ones add nothing."""
-
-DOT = 1e-7
-"""Part of the extent below which a closed curve is a point."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +46,7 @@ class ImplicitTracing:
 
     cells: int = 48
     mesh: Mesh | None = None
-    resolution: float = 1e-3
+    resolution: float = RESOLUTION
     tolerance: float | None = None
     picture: Picture | None = None
     budget: Budget = USUAL
@@ -106,8 +105,8 @@ def curves_in_space(
 ) -> ImplicitCurves:
     """The curves of an implicit surface on which a condition g is zero, each point refined on F and g to 1e-12.
 
-    size: how large g is where it is far from zero. Where g is below FLAT of its size all over a triangle, values as
-    small as that count as zero everywhere, so that an area where g is zero is not filled with lines.
+    size: how large g is where it is far from zero. Where g is below FLAT_OF_VALUES of its size all over a triangle,
+    values as small as that count as zero everywhere, so that an area where g is zero is not filled with lines.
     Errors: InputError for a resolution or tolerance that is not positive.
     """
     _check(tracing)
@@ -133,8 +132,8 @@ def curves_in_space(
         doubts += ("the gradient vanishes along lines: curves are known to a hundredth of the box there",)
     special = special_points(curve, mesh, band)
     points, pairs, spans = _crossings(curve, band)
-    tolerance = 1e-3 * extent if tracing.tolerance is None else tracing.tolerance
-    lines, last, closed, dots = _polylines(points, pairs, spans, DOT * extent)
+    tolerance = CHORD_OF_EXTENT * extent if tracing.tolerance is None else tracing.tolerance
+    lines, last, closed, dots = _polylines(points, pairs, spans, DOT_OF_EXTENT * extent)
     lines, last, closed = without_folds(lines, last, closed)
     lines, last, closed = joined_at_nodes(lines, last, closed, special)
     lines, last, unsure, enough = refined_chords(curve, lines, last, tolerance, tracing.picture, tracing.budget.points)
@@ -144,7 +143,7 @@ def curves_in_space(
         doubts += (f"{unsure} chords of a curve on an implicit surface could not be refined",)
     if len(special.unclear):
         doubts += (f"{len(special.unclear)} places where a curve on an implicit surface is finer than the resolution",)
-    isolated = np.concatenate([special.isolated, dots[_apart(dots, special.isolated, 1e-4 * extent)]])
+    isolated = np.concatenate([special.isolated, dots[_apart(dots, special.isolated, APART_OF_EXTENT * extent)]])
     found = curves_of_lines(lines, last, closed, level=level, doubts=doubts)
     return replace(found, isolated=isolated, nodes=special.nodes)
 
@@ -166,7 +165,7 @@ def _nodes(curve: CurveInSpace, mesh: Mesh) -> tuple[Nodes, bool]:
     """The vertices with the condition, and whether it holds in some area."""
     points = mesh.vertices
     w = curve.values(points)
-    small = np.asarray((np.abs(w) <= FLAT * curve.size)[mesh.corners.reshape(-1, 3)].all(axis=1))
+    small = np.asarray((np.abs(w) <= FLAT_OF_VALUES * curve.size)[mesh.corners.reshape(-1, 3)].all(axis=1))
     area = bool(small.any()) and _is_area(curve, mesh, small)
     near = np.abs(w) <= _slack(curve, area)
     fixed = box_sides(curve.surface, points)
@@ -187,13 +186,13 @@ def _is_area(curve: CurveInSpace, mesh: Mesh, small: Bools) -> bool:
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     middle = (a + b + c) / 3.0
     on, arrived = onto_surface(curve.surface, middle, reach=float(np.sqrt(area.max())))
-    wide = area > 1e-3 * float(np.median(np.linalg.norm(mesh.area_vectors, axis=1)))
-    return bool((wide & arrived & (np.abs(curve.values(on)) <= FLAT * curve.size)).any())
+    wide = area > WIDE_OF_AREA * float(np.median(np.linalg.norm(mesh.area_vectors, axis=1)))
+    return bool((wide & arrived & (np.abs(curve.values(on)) <= FLAT_OF_VALUES * curve.size)).any())
 
 
 def _slack(curve: CurveInSpace, area: bool) -> float:
     """What values count as zero."""
-    return FLAT * curve.size if area else 4.0 * float(np.finfo(np.float64).eps) * curve.size
+    return FLAT_OF_VALUES * curve.size if area else ROUNDING_OF_TERMS * curve.size
 
 
 def _middles(curve: CurveInSpace, starts: Floats, ends: Floats, fixed: Bools, area: bool) -> Nodes:

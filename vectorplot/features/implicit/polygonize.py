@@ -14,21 +14,17 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.geometry.repair.winding import components, edge_uses
 from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.tolerances.of_extent import RESIDUAL_OF_EXTENT
+from vectorplot.tolerances.of_lengths import MERGED_OF_CELL
+from vectorplot.tolerances.of_numbers import LARGEST_OF_SINGLES, SMALLEST_OF_SINGLES
+from vectorplot.tolerances.of_parameters import ABOVE_WHOLE
+from vectorplot.tolerances.of_values import FALLS_BESIDE
 
 MOST_CELLS = 1 << 24
 """Cells of the lattice at most: their values take 200 MB."""
 
 SLAB = 1 << 18
 """Points at which F is evaluated at once."""
-
-RESIDUAL = 1e-13
-"""Part of the extent of the box that vertices lie off the surface at most, to first order."""
-
-FALLS = 1e-3
-"""Part of the values beside a change of sign below which F must come there; at a pole or a jump it does not."""
-
-MERGED = 1e-6
-"""Part of a cell below which vertices are one."""
 
 SIDE_ULPS = 8.0
 """Rounding steps of the largest coordinate that a vertex on a side of the box may be off it."""
@@ -123,7 +119,7 @@ def _lattice(surface: ImplicitSurface, cells: int) -> _Lattice:
         raise InputError(f"polygonize: {cells} cells: at least 2")
     low, high = np.asarray(surface.box, dtype=np.float64)
     size = high - low
-    counts = np.maximum(2.0, np.ceil(min(cells, MOST_CELLS) * size / size.max() - 1e-9))
+    counts = np.maximum(2.0, np.ceil(min(cells, MOST_CELLS) * size / size.max() - ABOVE_WHOLE))
     if cells > MOST_CELLS or counts.prod() > MOST_CELLS:
         raise InputError(f"polygonize: {cells} cells along the longest side: more than {MOST_CELLS} in all")
     return _Lattice(low, high, counts.astype(np.intp))
@@ -136,7 +132,7 @@ def _marched(w: Floats) -> tuple[Floats, Ints]:
     size = np.abs(w)
     # Single precision must keep every sign.
     scale = float(np.nanmedian(size[size > 0.0])) if (size > 0.0).any() else 1.0
-    volume = np.sign(w) * np.where(size > 0.0, np.clip(size / scale, 1e-30, 1e30), 0.0)
+    volume = np.sign(w) * np.where(size > 0.0, np.clip(size / scale, SMALLEST_OF_SINGLES, LARGEST_OF_SINGLES), 0.0)
     march: Any = measure.marching_cubes
     single = np.nan_to_num(volume, nan=1.0).astype(np.float32)
     places, triangles, _, _ = march(single, 0.0, gradient_direction="descent")
@@ -182,12 +178,12 @@ def _on_edges(
 
     change, extent = np.abs(w1 - w0), float((lattice.high - lattice.low).max())
     digits = float(np.spacing(np.abs(np.stack([lattice.low, lattice.high])).max()))
-    small = change * RESIDUAL * extent / float(lattice.cell.max())
+    small = change * RESIDUAL_OF_EXTENT * extent / float(lattice.cell.max())
     t, rest = bracketed_zeros(at, w0, w1, w0 / (w0 - w1), small)
     exact = (w0 == 0.0) | (w1 == 0.0)
     t = np.where(w0 == 0.0, 0.0, np.where(w1 == 0.0, 1.0, t))
     rounding = 8.0 * change * digits / float(lattice.cell.min())
-    falls = np.abs(rest) <= FALLS * np.minimum(np.abs(w0), np.abs(w1)) + small + rounding
+    falls = np.abs(rest) <= FALLS_BESIDE * np.minimum(np.abs(w0), np.abs(w1)) + small + rounding
     return lattice.points(low + t[:, None] * (high - low)), np.asarray(exact | falls, dtype=np.bool_)
 
 
@@ -201,7 +197,7 @@ def onto_surface(
     x, arrived = points.copy(), np.zeros(len(points), dtype=np.bool_)
     far = np.broadcast_to(np.asarray(reach, dtype=np.float64), len(points))
     active: Ints = np.arange(len(points))
-    enough = RESIDUAL * float(np.ptp(np.asarray(surface.box), axis=0).max())
+    enough = RESIDUAL_OF_EXTENT * float(np.ptp(np.asarray(surface.box), axis=0).max())
     for _ in range(ROUNDS):
         if not len(active):
             break
@@ -223,14 +219,14 @@ def onto_surface(
 
 
 def _compact(lattice: _Lattice, vertices: Floats, triangles: Ints) -> Mesh:
-    """The mesh with vertices closer than MERGED made one, without what that leaves of triangles; of such vertices one
-    that lies on most sides of the box stays."""
+    """The mesh with vertices closer than MERGED_OF_CELL made one, without what that leaves of triangles; of such
+    vertices one that lies on most sides of the box stays."""
     digits = SIDE_ULPS * np.spacing(np.abs(np.stack([lattice.low, lattice.high])).max())
     below, above = vertices - lattice.low <= digits, lattice.high - vertices <= digits
     vertices = np.where(below, lattice.low, np.where(above, lattice.high, vertices))
     order = np.argsort(-(below | above).sum(axis=1), kind="stable")
     heads = np.empty_like(order)
-    heads[order] = order[close_points(vertices[order], MERGED * float(lattice.cell.min()))]
+    heads[order] = order[close_points(vertices[order], MERGED_OF_CELL * float(lattice.cell.min()))]
     triangles = heads[triangles]
     a, b, c = triangles.T
     triangles = triangles[(a != b) & (b != c) & (c != a)]

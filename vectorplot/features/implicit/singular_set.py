@@ -9,6 +9,8 @@ from vectorplot.features.implicit.polygonize import checked_values
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
+from vectorplot.tolerances.of_values import VANISHED_GRADIENT
 
 REACH = 1.5
 """Longest sides of triangles from which vertices are led there: polygonised sheets that cross keep clear of each other
@@ -19,9 +21,6 @@ FIRM = 0.03
 
 ROUNDS = 8
 """Steps of Newton's method for where the gradient vanishes."""
-
-VANISHED = 1e-6
-"""Part of the usual gradient, and of what it makes of the way to go, below which gradient and value are zero."""
 
 
 def led_into_singular_set(surface: ImplicitSurface, mesh: Mesh) -> Mesh:
@@ -65,9 +64,9 @@ def _singular(surface: ImplicitSurface, points: Floats, near: Ints, usual: float
         slope = np.where(held, 0.0, np.nan_to_num(surface.gradients(x)))
         bend = np.where(held[:, None] | held[:, :, None], 0.0, np.nan_to_num(hessians(surface, x)))
         step = (np.linalg.pinv(bend, rcond=FIRM) @ slope[..., None])[..., 0]
-        x = x - step * np.minimum(1.0, reach / np.maximum(np.linalg.norm(step, axis=1), 1e-300))[:, None]
-    flat = np.linalg.norm(np.nan_to_num(surface.gradients(x), nan=np.inf), axis=1) <= VANISHED * usual
-    on = np.abs(checked_values(surface, x)) <= VANISHED * usual * reach
+        x = x - step * np.minimum(1.0, reach / np.maximum(np.linalg.norm(step, axis=1), LEAST_DIVISOR))[:, None]
+    flat = np.linalg.norm(np.nan_to_num(surface.gradients(x), nan=np.inf), axis=1) <= VANISHED_GRADIENT * usual
+    on = np.abs(checked_values(surface, x)) <= VANISHED_GRADIENT * usual * reach
     good = flat & on & (np.linalg.norm(x - start, axis=1) <= reach) & ((x >= low) & (x <= high)).all(axis=1)
     result, there = points.copy(), np.zeros(len(points), dtype=np.bool_)
     result[near[good]], there[near[good]] = x[good], True

@@ -10,16 +10,16 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.intersections.sheets import Sheet
 from vectorplot.features.intersections.triangle_pairs import overlapping_in_cells
 from vectorplot.geometry.repair.weld import close_points
-from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_lengths import CONTACT_FOUND_OF_CELL, CONTACT_SETTLED_OF_CELL, ONE_CONTACT_OF_CELL
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR, ROUNDING
+from vectorplot.tolerances.of_values import FLAT_CONTACT
 
 NEAREST = 4
 """Triangles of the other sheet from which the contact of a triangle is looked for."""
 
 STEPS = 25
 """Newton steps towards a contact."""
-
-FLAT = 1e-5
-"""A relative curvature below this part of the other one, or of one by the extent, counts as zero."""
 
 DRIFT = 3.0
 """Cells that a contact may lie from where it was looked for."""
@@ -59,7 +59,7 @@ def contacts(one: Sheet, two: Sheet, *, same: bool = False) -> Contacts:
     found = _stationary(one, two, i, j, same)
     if not len(found):
         return found
-    group = close_points(found.points, 1e-3 * float(np.median(found.cells)))
+    group = close_points(found.points, ONE_CONTACT_OF_CELL * float(np.median(found.cells)))
     return found.of(np.unique(group, return_index=True)[1])
 
 
@@ -138,12 +138,12 @@ def _stationary(one: Sheet, two: Sheet, i: Ints, j: Ints, same: bool) -> Contact
             break
         near = _Pass.between(one, two, a[active], b[active])
         steps, length = near.steps()
-        arrived[active] = length <= 1e-7 * cells[active]
+        arrived[active] = length <= CONTACT_FOUND_OF_CELL * cells[active]
         go = np.flatnonzero(np.isfinite(steps).all(axis=(0, 2)) & (length <= 20.0 * cells[active]))
         active, steps = active[go], steps[:, go]
         a[active], b[active] = one.moved(a[active], steps[0]), two.moved(b[active], steps[1])
         drifted = one.cells_apart(a[active], start_a[active]) > DRIFT
-        active = active[~drifted & ~(arrived[active] & (length[go] <= 1e-10 * cells[active]))]
+        active = active[~drifted & ~(arrived[active] & (length[go] <= CONTACT_SETTLED_OF_CELL * cells[active]))]
     good = arrived & (one.cells_apart(a, start_a) <= DRIFT) & (two.cells_apart(b, start_b) <= DRIFT)
     if same:
         good &= one.cells_apart(a, b) > 1.0
@@ -194,7 +194,7 @@ class _Pass:
         bend = self.bends[0] - self.bends[1]
         good = np.isfinite(bend).all(axis=(1, 2))
         size, turned = np.linalg.eigh(np.where(good[:, None, None], bend, 0.0))
-        steep = np.abs(size) > FLAT * np.abs(self.bends).max(axis=(0, 2, 3), initial=0.0)[:, None]
+        steep = np.abs(size) > FLAT_CONTACT * np.abs(self.bends).max(axis=(0, 2, 3), initial=0.0)[:, None]
         along = np.einsum("kji,kj->ki", turned, slope)
         with np.errstate(all="ignore"):
             x = -np.einsum("kij,kj->ki", turned, np.where(steep, along / np.where(steep, size, 1.0), 0.0))
@@ -212,7 +212,9 @@ class _Pass:
         good = np.isfinite(bend).all(axis=(1, 2)) & np.isfinite(self.frames).all(axis=(1, 2))
         size, turned = np.linalg.eigh(np.where(good[:, None, None], bend, 0.0))
         directions = np.einsum("kji,kjc->kic", turned, self.frames[:, :2])
-        least = FLAT * np.maximum(np.abs(self.bends).max(axis=(0, 2, 3), initial=0.0), 1.0 / max(extent, 1e-300))
+        least = FLAT_CONTACT * np.maximum(
+            np.abs(self.bends).max(axis=(0, 2, 3), initial=0.0), 1.0 / max(extent, LEAST_DIVISOR)
+        )
         size = np.where(np.abs(size) > least[:, None], size, 0.0)
         frames = np.concatenate([directions, self.frames[:, 2:]], axis=1)
         return size, np.where(good[:, None, None], frames, np.nan)

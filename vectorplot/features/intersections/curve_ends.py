@@ -11,20 +11,17 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.features.intersections.double_curves import Course, followed
 from vectorplot.features.intersections.sheets import Sheet, SurfaceSheet
 from vectorplot.geometry.repair.weld import close_points
-from vectorplot.geometry.tolerance import ROUNDING
+from vectorplot.tolerances.of_extent import END_RESIDUAL, END_SETTLED, ROUNDING_OF_POINTS, ZERO_OF_EXTENT
+from vectorplot.tolerances.of_lengths import ON_BORDER_OF_CELL
+from vectorplot.tolerances.of_numbers import ROUNDING
+from vectorplot.tolerances.of_parameters import PLACE_SETTLED
+from vectorplot.tolerances.of_values import RANK_OF_END
 
 NEAR_SELF = 9.0
 """Cells between the two places of an end within which a pinch point is looked for."""
 
 SHRINKING = (1.0, 0.75, 0.5, 0.375, 0.25)
 """Parts of the distance between the two places for which the curve is computed, before it is extrapolated to none."""
-
-SAME_PLACE = 1e-9
-"""Part of the extent within which two ends are one point."""
-
-
-ON_BORDER = 1e-4
-"""Cells from a border within which a place is on it."""
 
 
 SHORT = 48
@@ -101,13 +98,13 @@ def _solved(sheet: SurfaceSheet, start: _Pairs) -> _Pairs | None:
         gap = (points[0] - points[1]) / (2.0 * now.half)
         if not np.isfinite(jacobian).all() or not np.isfinite(gap).all():
             return None
-        step = np.linalg.lstsq(jacobian, -gap, rcond=1e-10)[0]
+        step = np.linalg.lstsq(jacobian, -gap, rcond=RANK_OF_END)[0]
         middle, angle = middle + step[:2], angle + float(step[2])
         if np.abs(middle - start.middle).max() > 2.0 * NEAR_SELF:
             return None
-        if np.abs(step).max() <= 1e-13 or float(np.abs(gap).max()) <= 1e-15 * size:
+        if np.abs(step).max() <= PLACE_SETTLED or float(np.abs(gap).max()) <= END_SETTLED * size:
             break
-    zero = max(1e-11 * size, 4.0 * ROUNDING * large / start.half)
+    zero = max(END_RESIDUAL * size, 4.0 * ROUNDING * large / start.half)
     return _Pairs(middle, angle, start.half) if float(np.abs(gap).max()) <= zero else None
 
 
@@ -126,7 +123,7 @@ def at_border(sheet: SurfaceSheet, *places: Floats) -> Bools:
     ends = ((domain.u_start, domain.u_end), (domain.v_start, domain.v_end))
     for axis, closed in enumerate((domain.closed_u, domain.closed_v)):
         for place in () if closed else places:
-            found |= (np.abs(place[:, axis, None] - ends[axis]) <= ON_BORDER * sheet.cell[axis]).any(axis=1)
+            found |= (np.abs(place[:, axis, None] - ends[axis]) <= ON_BORDER_OF_CELL * sheet.cell[axis]).any(axis=1)
     return found
 
 
@@ -176,7 +173,7 @@ def stitched(one: Sheet, courses: list[Course], size: float, large: float) -> li
         return courses
     places = np.array([courses[k].one[-1 if last else 0] for k, last in ends])
     points = one.points(places)
-    group = close_points(points, max(SAME_PLACE * size, 1e-14 * large))
+    group = close_points(points, max(ZERO_OF_EXTENT * size, ROUNDING_OF_POINTS * large))
     owner, last = np.array([k for k, _ in ends]), np.array([s for _, s in ends])
     mate = np.full(len(ends), -1)
     for g in np.unique(group):

@@ -9,17 +9,13 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.intersections.sheets import Sheet
 from vectorplot.features.tessellation import FREE
-from vectorplot.geometry.tolerance import ROUNDING
 from vectorplot.geometry.vectors import cross
-
-RESIDUAL = 1e-12
-"""Part of the extent that the two points of a meeting may be apart."""
+from vectorplot.tolerances.of_angles import SAME_DIRECTION_SINE
+from vectorplot.tolerances.of_extent import MEETING_RESIDUAL
+from vectorplot.tolerances.of_numbers import ROUNDING
 
 MOST_STEPS = 40
 """Newton steps; at a tangency each only halves the distance."""
-
-TANGENT = 1e-9
-"""Sine below which two tangent planes are one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +51,7 @@ def in_planes(normal: Floats, origin: Floats) -> Bound:
 def zero_between(one: Sheet, two: Sheet) -> float:
     """How far apart the points of a meeting may be: a part of the extent, but no less than rounding."""
     (size, large), (other_size, other_large) = one.size, two.size
-    return max(RESIDUAL * min(size, other_size), ROUNDING * max(large, other_large))
+    return max(MEETING_RESIDUAL * min(size, other_size), ROUNDING * max(large, other_large))
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +122,7 @@ def _steps(one: Sheet, two: Sheet, a: Floats, b: Floats, points: tuple[Floats, F
         x = heights[0] * cross(m, held) + heights[1] * cross(held, n) + heights[2] * cross(n, m)
         x = x / volume[:, None]
     # Where the planes are one there is no such point: the middle has to do.
-    flat = ~(np.abs(volume) > TANGENT)
+    flat = ~(np.abs(volume) > SAME_DIRECTION_SINE)
     x = np.where(flat[:, None], 0.0, x)
     target = middle + x
     return np.stack([target - p, target - q])

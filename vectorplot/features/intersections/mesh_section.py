@@ -17,11 +17,9 @@ from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curv
 from vectorplot.features.tessellation import finer_grids
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.surfaces.surface import Surface
+from vectorplot.tolerances.of_extent import ON_MESH_BORDER
 
 DEFAULT = Tracing()
-
-ON_BORDER = 1e-8
-"""Part of the extent of a mesh within which an end of a curve is on a border edge."""
 
 MOST_BORDERS = 1000
 """Border edges of a mesh that ends of curves are looked for on."""
@@ -87,7 +85,7 @@ def _faults(one: SurfaceSheet, two: MeshSheet, all_: Joined) -> int:
     way, arm = end - start, other[:, None] - start
     t = np.clip((arm * way).sum(axis=2) / (way * way).sum(axis=1), 0.0, 1.0)
     away = np.linalg.norm(arm - t[..., None] * way, axis=2).min(axis=1, initial=np.inf)
-    return faults + int((~at_border(one, own) & ~(away <= ON_BORDER * two.size[0])).sum())
+    return faults + int((~at_border(one, own) & ~(away <= ON_MESH_BORDER * two.size[0])).sum())
 
 
 def _section(one: SurfaceSheet, two: MeshSheet, all_: Joined, faults: int) -> MeshSection:

@@ -14,10 +14,11 @@ from vectorplot.features.tessellation import FREE, Tessellation, edges_of, surfa
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.geometry.vectors import cross
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Surface
+from vectorplot.tolerances.of_angles import LEAST_SINE_SQUARED
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 LONGEST_STEP = 2.0
 """Cells that a parameter is moved by at most in one step."""
@@ -111,7 +112,7 @@ class SurfaceSheet:
             a, b = along_u / long_u[:, None], along_v / long_v[:, None]
             a, b = (np.where(np.isfinite(x), x, 0.0) for x in (a, b))
             cosine, by_a, by_b = (a * b).sum(axis=1), (a * steps).sum(axis=1), (b * steps).sum(axis=1)
-            sine = np.maximum(1.0 - cosine * cosine, 1e-14)
+            sine = np.maximum(1.0 - cosine * cosine, LEAST_SINE_SQUARED)
             change = np.stack([(by_a - cosine * by_b) / sine / long_u, (by_b - cosine * by_a) / sine / long_v], axis=1)
         change = np.where(np.isfinite(change), change, 0.0)
         # Each parameter by itself: near a pole one of them runs far while the other hardly moves.

@@ -27,6 +27,7 @@ from vectorplot.features.tessellation import finer_grids
 from vectorplot.geometry import ragged
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.surfaces.surface import Surface
+from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT, ONE_POINT_OF_EXTENT, ZERO_OF_EXTENT
 
 DEFAULT = Tracing()
 
@@ -103,7 +104,7 @@ def joined(one: Sheet, two: Sheet, found: Piercings, touching: Contacts, tracing
     courses = stitched(one, without_copies(one, two, courses, same=same), size, large)
     courses, dots = _without_dots(one, courses, size)
     points = put_together(courses, (found.one.shape[1], found.two.shape[1]))
-    tolerance = 1e-3 * size if tracing.tolerance is None else tracing.tolerance
+    tolerance = CHORD_OF_EXTENT * size if tracing.tolerance is None else tracing.tolerance
     unsure = 0
     if tolerance > 0.0:
         points, unsure = refined(one, two, points, zero=zero, tolerance=tolerance, picture=tracing.picture)
@@ -146,14 +147,16 @@ def _of_segments(one: Sheet, two: Sheet, found: Traced) -> list[Course]:
 def _each_once(points: Floats, size: float) -> Floats:
     """The points (k,3) without those that are the same but for rounding; Newton comes slowly to where sheets shrink to
     a point."""
-    return points[np.unique(close_points(points, 1e-6 * size), return_index=True)[1]]
+    return points[np.unique(close_points(points, ONE_POINT_OF_EXTENT * size), return_index=True)[1]]
 
 
 def _without_dots(one: Sheet, courses: list[Course], size: float) -> tuple[list[Course], Floats]:
     """The courses that are more than a point, and the points (k,3) of the others."""
     spread = [np.ptp(one.points(c.one), axis=0).max() if len(c) > 1 else 0.0 for c in courses]
-    lines = [c for c, s in zip(courses, spread, strict=True) if s > 1e-9 * size]
-    dots = [one.points(c.one[:1]) for c, s in zip(courses, spread, strict=True) if s <= 1e-9 * size and len(c) > 1]
+    lines = [c for c, s in zip(courses, spread, strict=True) if s > ZERO_OF_EXTENT * size]
+    dots = [
+        one.points(c.one[:1]) for c, s in zip(courses, spread, strict=True) if s <= ZERO_OF_EXTENT * size and len(c) > 1
+    ]
     return lines, np.concatenate([np.zeros((0, 3)), *dots])
 
 

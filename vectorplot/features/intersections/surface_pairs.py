@@ -12,15 +12,13 @@ from vectorplot.features.intersections.meeting_points import Bound, meetings, si
 from vectorplot.features.intersections.sheets import Sheet
 from vectorplot.features.intersections.triangle_pairs import Piercings
 from vectorplot.geometry.outline import concat
+from vectorplot.tolerances.of_angles import TOUCHING_SHEETS_SINE
 
 DRIFT = 3.0
 """Sizes of a triangle that a point may move by on its way from the tessellation to the true surface."""
 
 BRIDGED = 2
 """Points of a course in a row that may fail without the course being cut there."""
-
-GRAZING = 1e-6
-"""Sine below which two sheets touch rather than cross: a course of such points is noise."""
 
 
 SHALLOW = 0.25
@@ -100,7 +98,7 @@ def _refined(one: Sheet, two: Sheet, found: Piercings, zero: float) -> tuple[Flo
         # Measured in space: near a pole a parameter may run far.
         for sheet, before, after in ((one, found.one, moved.one), (two, found.two, moved.two)):
             good &= np.linalg.norm(sheet.points(after) - sheet.points(before), axis=1) <= DRIFT * found.size
-        good &= sines(one, two, moved.one, moved.two) > GRAZING
+        good &= sines(one, two, moved.one, moved.two) > TOUCHING_SHEETS_SINE
     return moved.one, moved.two, np.asarray(good)
 
 

@@ -13,7 +13,8 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.columns import cross
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.repair.winding import unbalanced_vertices
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_numbers import COSINE_OF_SINGLES
 from vectorplot.words import LineKind
 
 BLOCK = 1 << 16
@@ -195,7 +196,7 @@ def _sharp_vertices(faces: Faces, angle_deg: float) -> Bools:
     """
     chosen = np.zeros(faces.points.shape[1], dtype=np.complex128)
     sharp = np.zeros(len(chosen), dtype=np.bool_)
-    limit = np.float32(np.cos(np.radians(angle_deg) / 2.0) + 1e-5)
+    limit = np.float32(np.cos(np.radians(angle_deg) / 2.0) + COSINE_OF_SINGLES)
     count = len(faces.offsets) - 1
     blocks = [slice(low, min(low + BLOCK, count)) for low in range(0, count, BLOCK)]
     normals = [_packed_normals(faces, block) for block in blocks]

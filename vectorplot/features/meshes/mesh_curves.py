@@ -24,7 +24,8 @@ from vectorplot.geometry.polylines import (
     with_points_kept,
 )
 from vectorplot.geometry.strokes import Strokes
-from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR, ROUNDING
 from vectorplot.words import LineKind
 
 NO_FACE = -1
@@ -138,7 +139,7 @@ def without_inner(curves: MeshCurves, extent: float) -> MeshCurves:
     before, after = ragged.preceding(curves.offsets), ragged.following(curves.offsets)
     here, chord = curves.points, curves.points[after] - curves.points[before]
     on = np.einsum("ij,ij->i", here - curves.points[before], curves.points[after] - here) > 0.0
-    length = np.maximum(np.linalg.norm(chord, axis=1), np.finfo(float).tiny)
+    length = np.maximum(np.linalg.norm(chord, axis=1), LEAST_DIVISOR)
     aside = np.linalg.norm(np.cross(here - curves.points[before], chord), axis=1) / length
     straight = on & (aside <= ZERO_OF_EXTENT * extent)
     inner = straight & (curves.faces == curves.faces[before]) & (curves.faces != NO_FACE)

@@ -11,6 +11,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.meshes.edges import Faces, unit_normals
 from vectorplot.geometry import ragged
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 PAIRS_AT_ONCE = 1 << 18
 """Pairs of faces handled at once."""
@@ -248,7 +249,7 @@ def _clip_by_edges(
         a = faces.points[:, faces.corners[position]]
         side = faces.points[:, faces.corners[faces.after(position)]] - a
         inward = np.cross(normal, side, axis=0)
-        inward /= np.maximum(np.sqrt((inward * inward).sum(axis=0)), np.finfo(float).tiny)
+        inward /= np.maximum(np.sqrt((inward * inward).sum(axis=0)), LEAST_DIVISOR)
         at_start, at_end = ((inward * (p - a)).sum(axis=0) for p in (start, end))
         at_start[np.abs(at_start) <= tolerance] = 0.0
         at_end[np.abs(at_end) <= tolerance] = 0.0

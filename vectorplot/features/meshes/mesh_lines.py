@@ -23,6 +23,8 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.adjacency import face_barycentres
 from vectorplot.geometry.repair.winding import edge_uses
 from vectorplot.geometry.vectors import normalize
+from vectorplot.tolerances.of_angles import NO_NORMAL
+from vectorplot.tolerances.of_numbers import ROUNDING_OF_TERMS
 
 
 def mesh_plane_sections(mesh: Mesh, normal: ArrayLike, offsets: ArrayLike) -> MeshCurves:
@@ -118,14 +120,14 @@ def vertex_normals(mesh: Mesh) -> Floats:
     weighted = mesh.face_normals[mesh.corner_face] * angle[:, None]
     total = np.stack([np.bincount(corner, weighted[:, k], len(mesh.vertices)) for k in range(3)], axis=1)
     length = np.linalg.norm(total, axis=1, keepdims=True)
-    return np.asarray(total / np.where(length > 1e-9, length, np.inf))
+    return np.asarray(total / np.where(length > NO_NORMAL, length, np.inf))
 
 
 def _across_faces(mesh: Mesh, cosine: Callable[[Floats, Floats], Floats], levels: Floats) -> MeshCurves:
     faces: FaceTriangles = face_triangles(mesh)
     normals = vertex_normals(mesh)
     w = np.where(normals.any(axis=1), cosine(mesh.vertices, normals), np.nan)
-    rounding = 4.0 * float(np.finfo(np.float64).eps)
+    rounding = ROUNDING_OF_TERMS
     return all_mesh_curves([curves_of_values(faces, _snapped(w - c, rounding), c) for c in levels.tolist()])
 
 

@@ -7,10 +7,11 @@ from numpy.typing import ArrayLike
 
 from vectorplot.curves.parameters import vector
 from vectorplot.features.parametric.conditions import CentralContour, ParallelContour
-from vectorplot.features.parametric.curve_tracing import VALUE_ROUNDING, Tracing, curves_where_zero, samples
+from vectorplot.features.parametric.curve_tracing import Tracing, curves_where_zero, samples
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.surfaces.surface import Surface
+from vectorplot.tolerances.of_numbers import ROUNDING_OF_TERMS
 
 DEFAULT = Tracing()
 
@@ -31,7 +32,7 @@ def contour(surface: Surface, eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> 
     size = float(np.linalg.norm(points - centre, axis=1).max())
     large = float(np.abs(points).max() + np.abs(centre).max())
     condition = CentralContour(surface, centre)
-    return curves_where_zero(surface, condition, size=size, rounding=VALUE_ROUNDING * large, tracing=tracing)
+    return curves_where_zero(surface, condition, size=size, rounding=ROUNDING_OF_TERMS * large, tracing=tracing)
 
 
 def parallel_contour(surface: Surface, direction: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
@@ -44,7 +45,7 @@ def parallel_contour(surface: Surface, direction: ArrayLike, *, tracing: Tracing
     Source: Glaeser, section 8.4, equation 27 for an eye at infinity.
     """
     condition = ParallelContour(surface, direction)
-    return curves_where_zero(surface, condition, size=1.0, rounding=VALUE_ROUNDING, tracing=tracing)
+    return curves_where_zero(surface, condition, size=1.0, rounding=ROUNDING_OF_TERMS, tracing=tracing)
 
 
 def contour_in_view(surface: Surface, camera: Camera, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:

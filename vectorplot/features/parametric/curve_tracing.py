@@ -14,14 +14,11 @@ from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.features.zeros.zero_manifold import zero_manifold_of_f_uv
 from vectorplot.geometry.budget import USUAL, Budget
 from vectorplot.surfaces.surface import Domain, Surface
+from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT
+from vectorplot.tolerances.of_parameters import RESOLUTION
+from vectorplot.tolerances.of_values import FLAT_OF_VALUES
 
 Picture = Callable[[Floats], Floats]
-
-FLAT = 1e-9
-"""Part of the size of a condition that differences of user functions may be wrong by: all over a cell, it is zero."""
-
-VALUE_ROUNDING = 4.0 * float(np.finfo(np.float64).eps)
-"""Part of the largest of its terms that the value of a condition is wrong by."""
 
 TURN = 0.0137
 """Part of a closed direction by which the grid is turned."""
@@ -39,7 +36,7 @@ class Tracing:
 
     columns: int = 47
     rows: int = 45
-    resolution: float = 1e-3
+    resolution: float = RESOLUTION
     tolerance: float | None = None
     picture: Picture | None = None
     budget: Budget = USUAL
@@ -83,16 +80,16 @@ def curves_where_zero(
     """The curves on a surface along which a condition f(u, v) = 0 holds.
 
     size: how large f is where it is far from zero; rounding: the error that f is computed with: smaller values count as
-    zero. Where f is below FLAT of its size all over a cell of the grid, values as small as that count as zero
+    zero. Where f is below FLAT_OF_VALUES of its size all over a cell of the grid, values as small as that count as zero
     everywhere, so that an area where f is zero is not filled with lines.
     Errors: InputError for a grid that is too coarse.
     """
     domain = surface.domain
     u, v = (a.ravel() for a in np.meshgrid(*domain.grid(tracing.columns, tracing.rows), indexing="ij"))
     on_grid = np.asarray(condition.values(u, v), dtype=np.float64)
-    small = (np.abs(on_grid) <= FLAT * size).reshape(tracing.columns + 1, tracing.rows + 1)
+    small = (np.abs(on_grid) <= FLAT_OF_VALUES * size).reshape(tracing.columns + 1, tracing.rows + 1)
     flat = (small[1:, 1:] & small[1:, :-1] & small[:-1, 1:] & small[:-1, :-1]).any()
-    noise = max(rounding, FLAT * size if flat else 0.0)
+    noise = max(rounding, FLAT_OF_VALUES * size if flat else 0.0)
 
     def snapped(u: Floats, v: Floats) -> Floats:
         w = np.asarray(condition.values(*wrapped(domain, u, v)), dtype=np.float64)
@@ -102,7 +99,7 @@ def curves_where_zero(
         points = surface.points(*wrapped(domain, u, v))
         return points if tracing.picture is None else tracing.picture(points)
 
-    tolerance = 1e-3 * extent(surface)[0] if tracing.tolerance is None else tracing.tolerance
+    tolerance = CHORD_OF_EXTENT * extent(surface)[0] if tracing.tolerance is None else tracing.tolerance
     found = zero_manifold_of_f_uv(
         snapped,
         _turned(domain),

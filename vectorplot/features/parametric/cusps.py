@@ -13,19 +13,13 @@ from vectorplot.features.parametric.surface_curves import SurfaceCurves, with_po
 from vectorplot.geometry.vectors import dot, normalize
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Domain
-
-STEP = 2.0**-16
-"""Part of the domain that a difference of curvatures spans: only the speed of Newton's method depends on it."""
-
-LEVEL = 1e-9
-"""Part of the largest curvature along a contour below which one is rounding."""
+from vectorplot.tolerances.of_lengths import BESIDE_POLE, BEYOND_END
+from vectorplot.tolerances.of_parameters import CURVATURE_DIFFERENCE, CUSP_FOUND, CUSP_SETTLED, ROUNDING_OF_DOMAIN
+from vectorplot.tolerances.of_values import LEVEL_CURVATURE
 
 NEAR = 0.5
 """Part of a smallest curvature among points down to which the parabola through it and its neighbours must come, for
 two cusps to be looked for there."""
-
-BESIDE = 1e-9
-"""So many lengths of a piece beyond its end count as the end."""
 
 PARTS = 8
 """Parts of a piece of a curve among whose ends the least curvature is looked for."""
@@ -114,7 +108,7 @@ def _changing(contour: Contour, curves: SurfaceCurves) -> _Pieces:
     """The pieces along which the curvature changes its sign."""
     pieces = _segments(contour, curves)
     sizes = np.abs(np.stack([pieces.low, pieces.high]))
-    flat = LEVEL * np.nanmax(sizes, initial=0.0)
+    flat = LEVEL_CURVATURE * np.nanmax(sizes, initial=0.0)
     doubtful = pieces.chosen(np.flatnonzero(_may_dip(contour.surface.domain, curves, pieces)))
     change = ((pieces.low < 0.0) != (pieces.high < 0.0)) & (sizes.max(axis=0) > flat)
     plain = pieces.chosen(np.flatnonzero(change))
@@ -143,7 +137,7 @@ def _segments(contour: Contour, curves: SurfaceCurves) -> _Pieces:
     for ends, own, other in ((low, start, end), (high, end, start)):
         # Right beside a pole there is a curvature.
         pole = np.isnan(ends)
-        ends[pole] = _curvatures(contour, (own + 1e-3 * (other - own))[pole])
+        ends[pole] = _curvatures(contour, (own + BESIDE_POLE * (other - own))[pole])
     real &= np.isfinite(low) & np.isfinite(high)
     return _Pieces(start, end, low, high, first).chosen(np.flatnonzero(real))
 
@@ -242,21 +236,24 @@ def _by_newton(contour: Contour, pieces: _Pieces) -> tuple[Floats, Bools]:
         step = np.where(np.isfinite(step), step, 0.0)
         length = np.where(np.isfinite(det) & (det != 0.0), np.abs(step).max(axis=1), np.inf)
         at = _inside(domain, at - step * size)
-        if (length <= 1e-15).all():
+        if (length <= CUSP_SETTLED).all():
             break
     # The root beside a piece is that of its neighbour.
     way = (pieces.end - pieces.start) / size
     square = (way * way).sum(axis=1)
     along = ((at - pieces.start) / size * way).sum(axis=1)
-    own = (along >= -BESIDE * square) & (along <= (1.0 + BESIDE) * square)
-    near = np.abs((at - start) / size).max(axis=1, initial=0.0) <= np.abs(way).max(axis=1, initial=0.0) + 1e-12
-    return at, np.asarray((length <= 1e-7) & own & near, dtype=np.bool_)
+    own = (along >= -BEYOND_END * square) & (along <= (1.0 + BEYOND_END) * square)
+    near = (
+        np.abs((at - start) / size).max(axis=1, initial=0.0)
+        <= np.abs(way).max(axis=1, initial=0.0) + ROUNDING_OF_DOMAIN
+    )
+    return at, np.asarray((length <= CUSP_FOUND) & own & near, dtype=np.bool_)
 
 
 def _curvature_slopes(contour: Contour, at: Floats) -> tuple[Floats, Floats]:
     """(k,) derivatives of the curvature along the sight, for parameters of which the domain spans one."""
     domain, slopes = contour.surface.domain, []
-    for step in np.diag(STEP * np.array(domain.size)):
+    for step in np.diag(CURVATURE_DIFFERENCE * np.array(domain.size)):
         low, high = _inside(domain, at - step), _inside(domain, at + step)
         span = ((high - low) / np.array(domain.size)).sum(axis=1)
         slopes.append((_curvatures(contour, high) - _curvatures(contour, low)) / span)

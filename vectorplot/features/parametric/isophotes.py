@@ -10,9 +10,10 @@ from numpy.typing import ArrayLike
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
 from vectorplot.features.parametric.conditions import Isophote, PointIsophote
-from vectorplot.features.parametric.curve_tracing import VALUE_ROUNDING, Tracing, curves_where_zero, samples
+from vectorplot.features.parametric.curve_tracing import Tracing, curves_where_zero, samples
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
 from vectorplot.surfaces.surface import Surface
+from vectorplot.tolerances.of_numbers import ROUNDING_OF_TERMS
 
 DEFAULT = Tracing()
 
@@ -27,7 +28,7 @@ def isophotes(surface: Surface, light: ArrayLike, cosines: ArrayLike, *, tracing
     the light.
     Source: Glaeser, section 8.4, equation 28, figure 15.
     """
-    return _isophotes(surface, [Isophote(surface, light, c) for c in _levels(cosines)], VALUE_ROUNDING, tracing)
+    return _isophotes(surface, [Isophote(surface, light, c) for c in _levels(cosines)], ROUNDING_OF_TERMS, tracing)
 
 
 def point_light_isophotes(
@@ -43,7 +44,7 @@ def point_light_isophotes(
     if not len(points):
         return no_curves()
     nearest = float(np.linalg.norm(points - lamp, axis=1).min()) or np.inf
-    rounding = VALUE_ROUNDING * max(1.0, min(float(np.abs(points).max() + np.abs(lamp).max()) / nearest, 1e6))
+    rounding = ROUNDING_OF_TERMS * max(1.0, min(float(np.abs(points).max() + np.abs(lamp).max()) / nearest, 1e6))
     return _isophotes(surface, [PointIsophote(surface, lamp, c) for c in levels], rounding, tracing)
 
 

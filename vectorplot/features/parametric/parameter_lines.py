@@ -16,6 +16,8 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.polylines import some
 from vectorplot.surfaces.surface import Domain, Surface
+from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT, ZERO_OF_EXTENT
+from vectorplot.tolerances.of_parameters import JUMP_OF_DOMAIN
 
 DEFAULT = Tracing()
 
@@ -25,10 +27,6 @@ PROBES = (0.35, 0.7)
 MISSED = 0.8
 """Part of the largest deviation of a parabola that the probes see at least."""
 
-
-JUMP = 1e-8
-"""Part of the domain over which a surface jumps where points are farther apart than the tolerance: on the way there the
-parts of the domain were cut by three at least fifteen times."""
 
 LINES_A_BUDGET = 16
 """Lines to which the budget's points go; more lines may have more points, each as many as one of these."""
@@ -132,7 +130,7 @@ def _without_holes(surface: Surface, axis: int, bundle: _Bundle) -> _Bundle:
 def _refined(surface: Surface, axis: int, bundle: _Bundle, tracing: Tracing, size: float) -> tuple[_Bundle, bool]:
     """The lines with points put in until chords stay within the tolerance, interrupted where the surface jumps; and
     whether the budget's points sufficed."""
-    tolerance = 1e-3 * size if tracing.tolerance is None else tracing.tolerance
+    tolerance = CHORD_OF_EXTENT * size if tracing.tolerance is None else tracing.tolerance
     fixed, running, last = bundle.fixed, bundle.running, bundle.last
 
     def places(fixed: Floats, running: Floats) -> Floats:
@@ -156,7 +154,7 @@ def _refined(surface: Surface, axis: int, bundle: _Bundle, tracing: Tracing, siz
         at = np.repeat(split + 1, 2)
         running, fixed = np.insert(running, at, new), np.insert(fixed, at, np.repeat(own[bad], 2))
         last, open_ = np.insert(last, at, False), np.insert(open_, at, True)
-    short = JUMP * surface.domain.size[1 - axis]
+    short = JUMP_OF_DOMAIN * surface.domain.size[1 - axis]
     at = np.flatnonzero((running[1:] - running[:-1] <= short) & ~last[:-1])
     a, b = places(fixed[at], running[at]), places(fixed[at], running[at + 1])
     at = at[np.sqrt(((b - a) ** 2).sum(axis=1)) > tolerance]
@@ -206,5 +204,5 @@ def _without_points(curves: SurfaceCurves, size: float) -> SurfaceCurves:
     counts: Ints = np.diff(curves.offsets)
     start = curves.offsets[:-1]
     away = np.linalg.norm(curves.points - np.repeat(curves.points[start], counts, axis=0), axis=1)
-    real = np.maximum.reduceat(away, start) > 1e-9 * size
+    real = np.maximum.reduceat(away, start) > ZERO_OF_EXTENT * size
     return curves if real.all() else some(curves, real)

@@ -7,10 +7,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.zeros.scalar_field import POLE_STEP
-from vectorplot.features.zeros.zero_manifold import DOUBLE, ZeroManifold
+from vectorplot.features.zeros.zero_manifold import ZeroManifold
 from vectorplot.geometry import ragged
 from vectorplot.surfaces.surface import Domain, Surface
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_parameters import BORDER_SEEN_FROM
+from vectorplot.tolerances.of_values import NODE_OF_VALUES
 
 STRAIGHT = -0.9999
 """Cosine of the directions of two curves into a pole from which on they are one curve."""
@@ -39,7 +41,7 @@ def poles(surface: Surface) -> list[Pole]:
             along = np.linspace(lows[1 - axis], highs[1 - axis], 17)
             near = _points(surface, axis, along, place)
             away = _points(surface, axis, along, place + inwards * 0.1 * domain.size[axis])
-            if _spread(near) <= 1e-9 * _spread(np.concatenate([near, away])):
+            if _spread(near) <= ZERO_OF_EXTENT * _spread(np.concatenate([near, away])):
                 found.append(Pole(axis, place, inwards, domain.size[axis]))
     return found
 
@@ -103,7 +105,7 @@ def _away(own: list[Pole], points: Floats) -> Floats:
 
 def _is_at(pole: Pole, points: Floats) -> Bools:
     """(...,) whether points (..., 2) are the pole."""
-    return np.asarray(np.abs(points[..., pole.axis] - pole.place) <= 8.0 * POLE_STEP * pole.size)
+    return np.asarray(np.abs(points[..., pole.axis] - pole.place) <= 8.0 * BORDER_SEEN_FROM * pole.size)
 
 
 def _is_zero_at(pole: Pole, found: ZeroManifold) -> bool:
@@ -112,7 +114,7 @@ def _is_zero_at(pole: Pole, found: ZeroManifold) -> bool:
     border, inner = (w[0], w[1]) if pole.inwards > 0.0 else (w[-1], w[-2])
     one_sign = (inner > 0.0).all() or (inner < 0.0).all()
     scale = np.nanmax(np.abs(w), initial=0.0)
-    return bool(one_sign and (np.abs(border) <= DOUBLE * scale).all())
+    return bool(one_sign and (np.abs(border) <= NODE_OF_VALUES * scale).all())
 
 
 def _middle(pole: Pole, domain: Domain) -> Floats:

@@ -9,9 +9,10 @@ from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.parametric.conditions import ImplicitSection, PlaneSection
-from vectorplot.features.parametric.curve_tracing import VALUE_ROUNDING, Tracing, curves_where_zero, extent, samples
+from vectorplot.features.parametric.curve_tracing import Tracing, curves_where_zero, extent, samples
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
+from vectorplot.tolerances.of_numbers import ROUNDING_OF_TERMS
 
 DEFAULT = Tracing()
 
@@ -35,7 +36,7 @@ def section_by_implicit(surface: Surface, other: ImplicitSurface, *, tracing: Tr
         surface,
         ImplicitSection(surface, other),
         size=slope * size,
-        rounding=VALUE_ROUNDING * slope * large,
+        rounding=ROUNDING_OF_TERMS * slope * large,
         tracing=tracing,
     )
     return _warned(curves)
@@ -61,7 +62,7 @@ def plane_sections(
                     surface,
                     plane,
                     size=size,
-                    rounding=VALUE_ROUNDING * (large + abs(plane.offset)),
+                    rounding=ROUNDING_OF_TERMS * (large + abs(plane.offset)),
                     tracing=tracing,
                     level=plane.offset,
                 )

@@ -12,11 +12,10 @@ from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curv
 from vectorplot.geometry.polylines import some
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.surfaces.surface import Domain, Surface, normals
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_values import SINGULAR_PRODUCT
 
 DEFAULT = Tracing()
-
-SINGULAR = 1e-9
-"""Part of the size of the cross product of the partials below which it vanishes."""
 
 HALVINGS = 50
 """How often the way between two points is halved until a cusp is found."""
@@ -159,13 +158,13 @@ def _singular_only(surface: Surface, found: SurfaceCurves, size: float) -> Surfa
     kept, single = [], []
     for k in range(len(found)):
         own = slice(int(found.offsets[k]), int(found.offsets[k + 1]))
-        if not rest[own].max(initial=0.0) <= SINGULAR * size:
+        if not rest[own].max(initial=0.0) <= SINGULAR_PRODUCT * size:
             continue
-        if np.ptp(found.points[own], axis=0).max() <= SINGULAR * extent:
+        if np.ptp(found.points[own], axis=0).max() <= ZERO_OF_EXTENT * extent:
             single.append(np.array([home[0][own][0], home[1][own][0]]))
         else:
             kept.append(k)
-    own_nodes = np.linalg.norm(normals(surface, *found.nodes.T), axis=-1) <= SINGULAR * size
+    own_nodes = np.linalg.norm(normals(surface, *found.nodes.T), axis=-1) <= SINGULAR_PRODUCT * size
     return replace(
         some(found, np.array(kept, dtype=np.intp)),
         isolated=np.array(single).reshape(-1, 2),

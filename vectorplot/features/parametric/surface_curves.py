@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, indices_along, joined
+from vectorplot.tolerances.of_parameters import REPEATED_OF_DOMAIN
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +70,7 @@ def with_points(curves: SurfaceCurves, after: Ints, u: Floats, v: Floats, points
     last = curves.offsets[curve + 1] - 1
     for neighbour in (place, np.where(place < last, place + 1, place)):
         apart = np.abs(np.stack([u - curves.u[neighbour], v - curves.v[neighbour]], axis=1))
-        gone[old_to_new[neighbour[(apart <= 1e-9 * span).all(axis=1)]]] = True
+        gone[old_to_new[neighbour[(apart <= REPEATED_OF_DOMAIN * span).all(axis=1)]]] = True
     kept = ~gone
     sizes = np.diff(curves.offsets) + np.bincount(curve, minlength=len(curves))
     bounds = ragged.offsets(sizes)

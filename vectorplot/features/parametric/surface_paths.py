@@ -11,6 +11,8 @@ from vectorplot.features.parametric.curve_tracing import Tracing, extent, wrappe
 from vectorplot.features.parametric.parameter_lines import DEFAULT, MISSED, PROBES
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
 from vectorplot.surfaces.surface import Surface
+from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT, ZERO_OF_EXTENT
+from vectorplot.tolerances.of_parameters import ON_BORDER_OF_DOMAIN
 
 FIRST_POINTS = 65
 """A path is looked at in so many places before it is divided where it bends."""
@@ -20,9 +22,6 @@ ROUNDS = 16
 
 HALVINGS = 50
 """So often the parameter where a path leaves the surface is halved."""
-
-BACK = 1e-9
-"""A path that comes back to within this part of the surface's size is closed."""
 
 
 def surface_path(
@@ -49,12 +48,15 @@ def _run(surface: Surface, path: Callable[[Floats], Floats], t: Floats, size: fl
     """One piece of a path without holes."""
     u, v = path(t).T
     points = surface.points(*wrapped(surface.domain, u, v))
-    if np.ptp(points, axis=0).max() <= BACK * size:
+    if np.ptp(points, axis=0).max() <= ZERO_OF_EXTENT * size:
         return no_curves()
     domain = surface.domain
     way = np.array([u[-1] - u[0], v[-1] - v[0]]) / domain.size
     turns = np.rint(way).astype(np.intp) * (domain.closed_u, domain.closed_v)
-    closed = bool(np.abs(points[-1] - points[0]).max() <= BACK * size and np.abs(way - turns).max() <= BACK)
+    closed = bool(
+        np.abs(points[-1] - points[0]).max() <= ZERO_OF_EXTENT * size
+        and np.abs(way - turns).max() <= ON_BORDER_OF_DOMAIN
+    )
     kept = slice(0, len(t) - closed)
     none = np.zeros((0, 2))
     return SurfaceCurves(
@@ -78,7 +80,7 @@ def _points(surface: Surface, path: Callable[[Floats], Floats], t: Floats) -> Fl
     u, v = wrapped(domain, places[:, 0], places[:, 1])
     inside: Bools = np.isfinite(u) & np.isfinite(v)
     for value, low, high in ((u, domain.u_start, domain.u_end), (v, domain.v_start, domain.v_end)):
-        slack = BACK * (high - low)
+        slack = ON_BORDER_OF_DOMAIN * (high - low)
         inside &= (value >= low - slack) & (value <= high + slack)
     points = np.full((len(t), 3), np.nan)
     points[inside] = surface.points(u[inside], v[inside])
@@ -100,7 +102,7 @@ def _without_gaps(surface: Surface, path: Callable[[Floats], Floats], t: Floats)
 
 def _refined(surface: Surface, path: Callable[[Floats], Floats], t: Floats, tracing: Tracing, size: float) -> Floats:
     """The parameters with more of them until chords stay within the tolerance."""
-    tolerance = 1e-3 * size if tracing.tolerance is None else tracing.tolerance
+    tolerance = CHORD_OF_EXTENT * size if tracing.tolerance is None else tracing.tolerance
 
     def places(t: Floats) -> Floats:
         points = _points(surface, path, t)

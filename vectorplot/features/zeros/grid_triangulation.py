@@ -9,6 +9,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross
+from vectorplot.tolerances.of_values import SYMMETRIC_DEVIATION
 
 
 def average_normals(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = False) -> Floats:
@@ -82,7 +83,7 @@ def other_diagonal(points: Floats, normals: Floats) -> Bools:
     main = _deviation(points, normals, (0, 1, 2)) + _deviation(points, normals, (2, 3, 0))
     other = _deviation(points, normals, (0, 1, 3)) + _deviation(points, normals, (1, 2, 3))
     # Equal up to rounding is equal: what is symmetric is cut everywhere the same way.
-    return np.asarray(other < main - 1e-9, dtype=np.bool_)
+    return np.asarray(other < main - SYMMETRIC_DEVIATION, dtype=np.bool_)
 
 
 def _deviation(points: Floats, normals: Floats, corners: tuple[int, int, int]) -> Floats:

@@ -10,18 +10,11 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
 from vectorplot.surfaces.surface import Domain
+from vectorplot.tolerances.of_parameters import BORDER_SEEN_FROM, FIRST_DIFFERENCE, SECOND_DIFFERENCE
+from vectorplot.tolerances.of_values import VANISHED_ON_BORDER
 
 Function = Callable[[Floats, Floats], Floats]
 Gradient = Callable[[Floats, Floats], tuple[Floats, Floats]]
-
-FIRST_STEP = 2.0**-17
-"""Part of the domain that a first difference spans: about the third root of the rounding."""
-
-SECOND_STEP = 2.0**-12
-"""Part of the domain that a second difference spans: about the fourth root of the rounding."""
-
-POLE_STEP = 1e-7
-"""Part of the domain by which a border that is a single point of the surface is looked at from inside."""
 
 
 @dataclass(frozen=True)
@@ -103,13 +96,13 @@ class ScalarField:
             with np.errstate(all="ignore"):
                 by_u, by_v = self.gradient(at[:, 0], at[:, 1])
             return np.stack(np.broadcast_arrays(by_u, by_v, at[:, 0])[:2], axis=1).astype(np.float64)
-        ends = self._stencil(points, FIRST_STEP)
+        ends = self._stencil(points, FIRST_DIFFERENCE)
         w = self.values(ends.reshape(-1, 2)).reshape(4, -1)
         return np.stack([(w[2 * k + 1] - w[2 * k]) / (ends[2 * k + 1] - ends[2 * k])[:, k] for k in (0, 1)], axis=1)
 
     def hessians(self, points: Floats) -> Floats:
         """(k,2,2) second derivatives, by central differences of the gradients."""
-        ends = self._stencil(points, SECOND_STEP)
+        ends = self._stencil(points, SECOND_DIFFERENCE)
         g = self.gradients(ends.reshape(-1, 2)).reshape(4, -1, 2)
         rows = [(g[2 * k + 1] - g[2 * k]) / (ends[2 * k + 1] - ends[2 * k])[:, k : k + 1] for k in (0, 1)]
         h = np.stack(rows, axis=1)
@@ -157,7 +150,7 @@ def grid_values(field: ScalarField, columns: int, rows: int) -> tuple[ScalarFiel
         for side, limits, inwards in ((0, low, 1), (-1, high, -1)):
             border, inner = np.take(w, side, axis=axis), np.take(w, side + inwards, axis=axis)
             if not closed and _vanishes(border, inner):
-                limits[axis] += inwards * POLE_STEP * field.size[axis]
+                limits[axis] += inwards * BORDER_SEEN_FROM * field.size[axis]
     if (tuple(low), tuple(high)) != (field.low, field.high):
         field = replace(field, low=(low[0], low[1]), high=(high[0], high[1]))
         w = field.on_grid(columns, rows)
@@ -176,12 +169,12 @@ def grid_points(field: ScalarField, columns: int, rows: int) -> Floats:
 def next_to(field: ScalarField, points: Floats, cell: Floats) -> Floats:
     """(k,) values of f a little to the inside of points (k,2) where f is not defined; NaN in a true hole."""
     middle = field.start + field.size / 2.0
-    inwards = np.where(points > middle, -1.0, 1.0) * (POLE_STEP, POLE_STEP * 0.618)
+    inwards = np.where(points > middle, -1.0, 1.0) * (BORDER_SEEN_FROM, BORDER_SEEN_FROM * 0.618)
     return field.values(points + inwards * cell)
 
 
 def _vanishes(border: Floats, inner: Floats) -> bool:
     """Whether f is zero or undefined all along a border, and not so next to it."""
     size = np.nanmax(np.abs(inner), initial=0.0)
-    empty: Bools = np.isnan(border) | (np.abs(border) <= 1e-14 * size)
+    empty: Bools = np.isnan(border) | (np.abs(border) <= VANISHED_ON_BORDER * size)
     return bool(empty.all() and size > 0.0 and not np.isnan(inner).all())

@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.tolerances.of_numbers import BRACKET_USED_UP
+from vectorplot.tolerances.of_parameters import CENTRAL_DIFFERENCE, CUBIC_SETTLED, NEWTON_SETTLED
 
 ROUNDS = 80
 """Evaluations after which a bracket of doubles is surely used up."""
@@ -24,7 +26,7 @@ def cubic_parabola(w1: ArrayLike, w2: ArrayLike, k1: ArrayLike, k2: ArrayLike) -
     return np.stack([start + end - 2.0 * rise, 3.0 * rise - 2.0 * start - end, start, low], axis=-1)
 
 
-def zero_of_cubic_parabola(coefficients: ArrayLike, *, tolerance: float = 1e-14) -> Floats:
+def zero_of_cubic_parabola(coefficients: ArrayLike, *, tolerance: float = CUBIC_SETTLED) -> Floats:
     """(...) zeros within 0 <= t <= 1 of cubic parabolas (..., 4): by Newton from the chord's zero, by bisection where
     Newton leaves the interval or does not settle.
 
@@ -57,7 +59,7 @@ def zero_by_newton(
     start: ArrayLike,
     *,
     derivative: Callable[[Floats], Floats] | None = None,
-    tolerance: float = 1e-12,
+    tolerance: float = NEWTON_SETTLED,
     rounds: int = 20,
 ) -> tuple[Floats, Bools]:
     """Zeros of f near start (...), and which of them settled: whose last step is at most tolerance times 1 + |x|.
@@ -69,7 +71,7 @@ def zero_by_newton(
     x = np.array(start, dtype=np.float64)
     settled = np.zeros(x.shape, dtype=np.bool_)
     for _ in range(rounds):
-        step = 6e-6 * (1.0 + np.abs(x))
+        step = CENTRAL_DIFFERENCE * (1.0 + np.abs(x))
         with np.errstate(all="ignore"):
             w = np.asarray(f(x), dtype=np.float64)
             slope = (f(x + step) - f(x - step)) / (2.0 * step) if derivative is None else derivative(x)
@@ -83,7 +85,7 @@ def zero_by_newton(
 
 
 def zero_by_bisection(
-    f: Callable[[Floats], Floats], low: ArrayLike, high: ArrayLike, *, tolerance: float = 1e-12
+    f: Callable[[Floats], Floats], low: ArrayLike, high: ArrayLike, *, tolerance: float = NEWTON_SETTLED
 ) -> Floats:
     """Where f changes its sign between low and high (...), to tolerance times the length of the bracket.
 
@@ -123,7 +125,7 @@ def bracketed_zeros(
     for round_ in range(ROUNDS):
         fx = f(x, which)
         t[which], w[which] = x, fx
-        done = ~(np.abs(fx) > small[which]) | (b - a <= 4e-16)
+        done = ~(np.abs(fx) > small[which]) | (b - a <= BRACKET_USED_UP)
         # The point that leaves the bracket serves the parabola once more.
         left = (fx < 0.0) == (fa < 0.0)
         old, f_old = np.where(left, a, b), np.where(left, fa, fb)

@@ -37,19 +37,19 @@ from vectorplot.features.zeros.zero_refinement import (
     up_to_holes,
     without_repeats,
 )
-from vectorplot.features.zeros.zero_segments import NOISE, RESIDUAL, Segments, crossing_segments
+from vectorplot.features.zeros.zero_segments import Segments, crossing_segments
 from vectorplot.features.zeros.zero_triangles import triangles_near
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
 from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, closed_round
 from vectorplot.surfaces.surface import Domain
+from vectorplot.tolerances.of_numbers import LARGEST
+from vectorplot.tolerances.of_parameters import ABOVE_WHOLE, ON_BORDER_OF_DOMAIN, RESOLUTION, ROUNDING_OF_DOMAIN
+from vectorplot.tolerances.of_values import GRID_NOISE, NODE_OF_VALUES, ZERO_RESIDUAL
 
 JUMPS = "f changes its sign without being zero"
 """How the doubt about poles and jumps of f begins."""
-
-DOUBLE = 1e-10
-"""Part of the scale of f below which a critical value counts as zero."""
 
 FAR_APART = 32.0
 """Smallest cells beyond which what looks like a part of one line belongs to another."""
@@ -106,7 +106,7 @@ def zero_manifold_of_f_uv(
     columns: int,
     rows: int,
     gradient: Gradient | None = None,
-    resolution: float = 1e-3,
+    resolution: float = RESOLUTION,
     positions: Positions | None = None,
     tolerance: float | None = None,
     budget: Budget = USUAL,
@@ -133,12 +133,12 @@ def zero_manifold_of_f_uv(
     unit = _unit(scale)
     field, w, scale = in_units(field, unit), w / unit, scale / unit
     zero = _zero(field, scale)
-    w[np.abs(w) <= NOISE * scale] = 0.0
+    w[np.abs(w) <= GRID_NOISE * scale] = 0.0
     near, odd = near_cells(w, field.closed)
     lattice = Lattice(field, columns, rows, _levels(columns, rows, resolution))
-    flat = flat_cells(lattice, w, NOISE * scale)
+    flat = flat_cells(lattice, w, GRID_NOISE * scale)
     # Along the border of an area where f is zero slopes say nothing.
-    subdivision = subdivided(lattice, odd & ~beside(flat, field.closed), NOISE * scale, budget.cells)
+    subdivision = subdivided(lattice, odd & ~beside(flat, field.closed), GRID_NOISE * scale, budget.cells)
     traced = crossing_segments(lattice, triangles_near(subdivision, w, near), scale, zero)
     subdivision, traced, tangled = without_tangles(subdivision, traced)
     found = _found(subdivision, traced, scale)
@@ -174,7 +174,7 @@ def _found(subdivision: Subdivision, traced: Segments, scale: float) -> _Found:
     lattice, odd = subdivision.lattice, subdivision.odd
     field, cell = lattice.field, _smallest_cell(subdivision.lattice)
     middles = field.start + (np.stack([odd.i, odd.j], axis=1) + 0.5) * cell
-    doubles = double_points(field, middles, cell, max(DOUBLE * scale, _zero(field, scale)), NOISE * scale)
+    doubles = double_points(field, middles, cell, max(NODE_OF_VALUES * scale, _zero(field, scale)), GRID_NOISE * scale)
     line = doubles.flat & (doubles.flat.sum() > MOST_ALONE)
     single, reach = doubles.points[~line], doubles.radii[~line, None] * cell
     joined = joined_at_nodes(field, traced.points, traced.pairs, single, reach)
@@ -213,7 +213,7 @@ def _without_beads(field: ScalarField, lines: Polylines, cell: Floats) -> tuple[
         for x in (0.5 * turn, np.sqrt((step * step).sum(axis=1)))
     )
     back = np.abs(p[last] - p[first]) / field.size
-    thin = np.flatnonzero((back <= 1e-12).all(axis=1) & (2.0 * np.abs(area) < length) & (last - first > 1))
+    thin = np.flatnonzero((back <= ROUNDING_OF_DOMAIN).all(axis=1) & (2.0 * np.abs(area) < length) & (last - first > 1))
     sums = [np.bincount(path, weights=x, minlength=len(first))[thin] for x in p.T]
     middles = field.wrapped(np.stack(sums, axis=1) / (last - first + 1)[thin, None])
     reach = np.broadcast_to(FAR_APART * cell, middles.shape)
@@ -258,18 +258,22 @@ def _scale(field: ScalarField, w: Floats) -> float:
 
 def _unit(scale: float) -> float:
     """The power of two to measure f in, so that squares of values neither overflow nor vanish; mostly one."""
-    return 1.0 if scale == 0.0 or 1e-60 < scale < 1e60 else float(2.0 ** np.clip(np.round(np.log2(scale)), -1000, 1000))
+    return (
+        1.0
+        if scale == 0.0 or 1.0 / LARGEST < scale < LARGEST
+        else float(2.0 ** np.clip(np.round(np.log2(scale)), -1000, 1000))
+    )
 
 
 def _zero(field: ScalarField, scale: float) -> float:
-    """The |f| that points are brought down to; more than RESIDUAL where parameters are large and rounded."""
+    """The |f| that points are brought down to; more than ZERO_RESIDUAL where parameters are large and rounded."""
     rounding = np.spacing(np.abs(field.start) + field.size) / field.size
-    return scale * max(RESIDUAL, 64.0 * float(rounding.max()))
+    return scale * max(ZERO_RESIDUAL, 64.0 * float(rounding.max()))
 
 
 def _levels(columns: int, rows: int, resolution: float) -> int:
     """How often a cell is halved until it is no larger than resolution."""
-    return int(np.clip(np.ceil(np.log2(1.0 / (min(columns, rows) * resolution)) - 1e-9), 0, 20))
+    return int(np.clip(np.ceil(np.log2(1.0 / (min(columns, rows) * resolution)) - ABOVE_WHOLE), 0, 20))
 
 
 def _polylines(field: ScalarField, points: Floats, segments: Ints) -> Polylines:
@@ -313,13 +317,17 @@ def _to_holes(field: ScalarField, lines: Polylines, cell: Floats, zero: float) -
 def _on_border(field: ScalarField, points: Floats) -> Bools:
     """(k,) points on an open border of the domain."""
     part = (points - field.start) / field.size
-    return np.asarray(((np.abs(part - 0.5) >= 0.5 - 1e-9) & ~np.array(field.closed)).any(axis=1), dtype=np.bool_)
+    return np.asarray(
+        ((np.abs(part - 0.5) >= 0.5 - ON_BORDER_OF_DOMAIN) & ~np.array(field.closed)).any(axis=1), dtype=np.bool_
+    )
 
 
 def _is_closed(field: ScalarField, first: Floats, last: Floats) -> Bools:
     """(b,) polylines that end where they start, whole periods aside."""
     turned = (last - first) / field.size
-    return np.asarray((np.abs(turned - np.where(field.closed, np.round(turned), 0.0)) <= 1e-12).all(axis=1))
+    return np.asarray(
+        (np.abs(turned - np.where(field.closed, np.round(turned), 0.0)) <= ROUNDING_OF_DOMAIN).all(axis=1)
+    )
 
 
 def _result(field: ScalarField, lines: Polylines, found: _Found, doubts: tuple[str, ...], grid: Floats) -> ZeroManifold:

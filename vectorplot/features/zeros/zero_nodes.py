@@ -10,9 +10,9 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.zeros.scalar_field import ScalarField
 from vectorplot.geometry import ragged
 from vectorplot.geometry.repair.weld import close_points
-
-FLAT = 1e-4
-"""A curvature of f below this part of the other one counts as zero."""
+from vectorplot.tolerances.of_lengths import NODE_SETTLED_OF_CELL
+from vectorplot.tolerances.of_parameters import ON_BORDER_OF_DOMAIN
+from vectorplot.tolerances.of_values import FLAT_NODE, STEEP_DIRECTION
 
 NODE_RADIUS = 2.0
 """Smallest cells around a node in which its branches are replaced by straight pieces to the node."""
@@ -60,7 +60,7 @@ def double_points(field: ScalarField, starts: Floats, cell: Floats, zero: float,
     good &= ~_in_area(field, points, cell, noise)
     points, curvature, bent = points[good], curvature[good], bent[good]
     size = np.sort(np.abs(curvature), axis=1)
-    flat = size[:, 0] <= FLAT * size[:, 1]
+    flat = size[:, 0] <= FLAT_NODE * size[:, 1]
     many = (size[:, 1] <= BENT * bent) & ~flat
     kept = _singled(field, points, cell, flat | many, flat.sum() > MOST_ALONE)
     return DoublePoints(points[kept], np.asarray(flat[kept], dtype=np.bool_), _radii(curvature[kept]), ovals)
@@ -80,7 +80,7 @@ def _singled(field: ScalarField, points: Floats, cell: Floats, slow: Bools, line
 def _radii(curvature: Floats) -> Floats:
     """(k,) cells around nodes of principal curvatures (k,2) within which two branches are not told apart."""
     size = np.sort(np.abs(curvature), axis=1)
-    crossing = (curvature[:, 0] * curvature[:, 1] < 0.0) & (size[:, 0] > FLAT * size[:, 1])
+    crossing = (curvature[:, 0] * curvature[:, 1] < 0.0) & (size[:, 0] > FLAT_NODE * size[:, 1])
     # Half the angle between the branches has the tangent sqrt(size0 / size1) or its inverse.
     with np.errstate(invalid="ignore", divide="ignore"):
         sine = np.sqrt(size[:, 0] / (size[:, 0] + size[:, 1]))
@@ -107,7 +107,7 @@ def _around(field: ScalarField, points: Floats) -> Floats:
     at = field.wrapped(points) - field.start
     for axis in (0, 1):
         if field.closed[axis]:
-            at[:, axis] = np.where(at[:, axis] > field.size[axis] * (1.0 - 1e-9), 0.0, at[:, axis])
+            at[:, axis] = np.where(at[:, axis] > field.size[axis] * (1.0 - ON_BORDER_OF_DOMAIN), 0.0, at[:, axis])
     return at
 
 
@@ -128,7 +128,7 @@ def _critical(field: ScalarField, starts: Floats, cell: Floats) -> tuple[Floats,
         curvature[active] = bend
         bent[active] = np.where(np.isnan(bent[active]), np.abs(bend).max(axis=1, initial=0.0), bent[active])
         # Along a flat direction there is nothing to solve for, and the difference quotients are noise.
-        steep = np.abs(bend) > 1e-6 * np.abs(bend).max(axis=1, initial=0.0)[:, None]
+        steep = np.abs(bend) > STEEP_DIRECTION * np.abs(bend).max(axis=1, initial=0.0)[:, None]
         along = np.einsum("kji,kj->ki", axes, g)
         step = -np.einsum("kij,kj->ki", axes, np.where(steep, along / np.where(steep, bend, 1.0), 0.0))
         length = np.sqrt((step * step).sum(axis=1))
@@ -139,7 +139,7 @@ def _critical(field: ScalarField, starts: Floats, cell: Floats) -> tuple[Floats,
             np.where(field.closed, np.inf, field.high),
         )
         strayed = np.abs((points[active] - starts[active]) / cell).max(axis=1, initial=0.0) > 4.0
-        active = active[(length > 1e-9) & ~strayed]
+        active = active[(length > NODE_SETTLED_OF_CELL) & ~strayed]
     return points, curvature, bent
 
 

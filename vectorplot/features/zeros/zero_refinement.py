@@ -11,10 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.zeros.scalar_field import ScalarField
 from vectorplot.features.zeros.zero_crossings import bracketed_zeros
 from vectorplot.geometry import ragged
-
-JUMP = 1e-8
-"""Part of the domain over which positions jump where they are farther apart than the tolerance: on the way there the
-parts of the domain were cut by three at least seventeen times."""
+from vectorplot.tolerances.of_parameters import DOT_OF_DOMAIN, JUMP_OF_DOMAIN, REPEATED_OF_DOMAIN
 
 Positions = Callable[[Floats, Floats], Floats]
 
@@ -122,7 +119,7 @@ def _torn(field: ScalarField, lines: Polylines, positions: Positions, tolerance:
     """The polylines, interrupted where positions jump, without what is only a point then."""
     p, last = lines.points, lines.last.copy()
     step = np.abs(np.diff(p, axis=0)) / field.size
-    at = np.flatnonzero((step <= JUMP).all(axis=1) & (step > 0.0).any(axis=1) & ~last[:-1])
+    at = np.flatnonzero((step <= JUMP_OF_DOMAIN).all(axis=1) & (step > 0.0).any(axis=1) & ~last[:-1])
     at = at[_lengths(positions, p[at], p[at + 1]) > tolerance]
     if not len(at):
         return lines
@@ -194,7 +191,7 @@ def without_repeats(lines: Polylines, size: Floats) -> tuple[Polylines, Floats]:
         return lines, lines.points
     step = (np.abs(np.diff(lines.points, axis=0)) / size).max(axis=1)
     step[lines.last[:-1]] = np.inf
-    drop = np.concatenate([[False], step <= 1e-9])
+    drop = np.concatenate([[False], step <= REPEATED_OF_DOMAIN])
     # The last point stays: the one before it goes instead.
     swap = np.flatnonzero(drop & lines.last)
     drop[swap], drop[swap - 1] = False, True
@@ -202,7 +199,7 @@ def without_repeats(lines: Polylines, size: Floats) -> tuple[Polylines, Floats]:
     drop[first] = False
     path = ragged.owner(np.diff(np.append(first, len(drop))))
     step[lines.last[:-1]] = 0.0
-    dot = np.bincount(path[1:], weights=step, minlength=len(first)) <= 1e-8
+    dot = np.bincount(path[1:], weights=step, minlength=len(first)) <= DOT_OF_DOMAIN
     kept = ~drop & ~dot[path]
     return Polylines(lines.points[kept], lines.last[kept]), lines.points[first[dot]]
 

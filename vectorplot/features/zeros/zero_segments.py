@@ -10,18 +10,11 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.zeros.zero_cells import Lattice
 from vectorplot.features.zeros.zero_crossings import bracketed_zeros, cubic_parabola, zero_of_cubic_parabola
 from vectorplot.features.zeros.zero_triangles import Corners
+from vectorplot.tolerances.of_parameters import FIRST_GUESS
+from vectorplot.tolerances.of_values import FALLS_BESIDE, GRID_NOISE, ZERO_RESIDUAL
 
-RESIDUAL = 1e-12
-"""Part of the scale of f down to which |f| is brought at every point."""
-
-NOISE = 2.0**-46
-"""Part of the scale of f below which a value at a grid point is rounding and counts as zero."""
-
-SETTLED = RESIDUAL / 16.0
+SETTLED = ZERO_RESIDUAL / 16.0
 """Part of the scale of f below which a point need not come nearer to zero, however small f is beside it."""
-
-FALLS = 1e-3
-"""Part of the values beside a change of sign below which f must come there; at a pole or a jump it does not."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +45,7 @@ def crossing_segments(lattice: Lattice, corners: Corners, scale: float, zero: fl
     corner or along a side is met in one triangle of those around it, as one line.
     Source: Glaeser, section 8.4; errata G8-08, G8-14.
     """
-    w = np.where(np.abs(corners.w) <= NOISE * scale, 0.0, corners.w)
+    w = np.where(np.abs(corners.w) <= GRID_NOISE * scale, 0.0, corners.w)
     negative = w < 0.0
     count = negative.sum(axis=1)
     row = np.flatnonzero((count % 3 != 0) & ~np.isnan(w).any(axis=1))
@@ -93,7 +86,7 @@ def _zeros(lattice: Lattice, sides: Sides, scale: float, zero: float) -> tuple[F
     """The points (k,2) of the curve on the sides, and which of them are zeros of f indeed."""
     w0, w1 = sides.w.T
     size = np.maximum(np.abs(w0), np.abs(w1))
-    small = np.minimum(np.maximum(RESIDUAL / 8.0 * size, SETTLED * scale), zero)
+    small = np.minimum(np.maximum(ZERO_RESIDUAL / 8.0 * size, SETTLED * scale), zero)
 
     def at(t: Floats, which: Ints) -> Floats:
         i, j = (sides.start[which] + t[:, None] * sides.along[which]).T
@@ -102,7 +95,9 @@ def _zeros(lattice: Lattice, sides: Sides, scale: float, zero: float) -> tuple[F
     t, rest = bracketed_zeros(at, w0, w1, _guess(sides), small)
     exact = (w0 == 0.0) | (w1 == 0.0)
     t = np.where(w0 == 0.0, 0.0, np.where(w1 == 0.0, 1.0, t))
-    falls = np.abs(rest) <= np.maximum(FALLS * np.minimum(np.abs(w0), np.abs(w1)), _rounding(lattice, sides) + zero)
+    falls = np.abs(rest) <= np.maximum(
+        FALLS_BESIDE * np.minimum(np.abs(w0), np.abs(w1)), _rounding(lattice, sides) + zero
+    )
     i, j = (sides.start + t[:, None] * sides.along).T
     return lattice.points((i, j)), np.asarray(exact | falls, dtype=np.bool_)
 
@@ -125,5 +120,5 @@ def _guess(sides: Sides) -> Floats:
     guess = w0 / (w0 - w1)
     known = np.isfinite(sides.slope).all(axis=1)
     cubic = cubic_parabola(w0[known], w1[known], sides.slope[known, 0], sides.slope[known, 1])
-    guess[known] = zero_of_cubic_parabola(cubic, tolerance=1e-3)
+    guess[known] = zero_of_cubic_parabola(cubic, tolerance=FIRST_GUESS)
     return np.asarray(guess)

@@ -12,6 +12,7 @@ from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.lens import field_of_vision_deg
 from vectorplot.geometry.rotations import euler_angles, rotation_x, rotation_z
+from vectorplot.tolerances.of_angles import NO_AZIMUTH_SINE, SAME_DIRECTION_SINE, VERTICAL_SINE
 
 Point = tuple[float, float, float]
 
@@ -76,7 +77,7 @@ class Camera:
         if self.up is not None:
             length = float(np.linalg.norm(self.up))
             across = np.linalg.norm(np.cross(self.up, self.direction))
-            if not across > 1e-9 * length:
+            if not across > SAME_DIRECTION_SINE * length:
                 raise InputError("camera: the up vector lies along the view")
 
     @cached_property
@@ -97,7 +98,7 @@ class Camera:
         back = self.direction
         if self.up is not None:
             right = np.cross(self.up, back)
-        elif np.hypot(back[0], back[1]) <= 1e-15:
+        elif np.hypot(back[0], back[1]) <= VERTICAL_SINE:
             right = np.array([0.0, 1.0, 0.0])
         else:
             right = np.array([-back[1], back[0], 0.0])
@@ -146,7 +147,7 @@ class Camera:
         axes = rotation_z(alpha) @ rotation_x(beta) @ rotation_z(gamma)
         x, y, z = (float(t) + distance * float(w) for t, w in zip(target, axes[2], strict=True))
         # Near the zenith the eye's azimuth has no digits: there the up vector says how the picture stands.
-        upright = float(np.hypot(axes[2, 0], axes[2, 1])) < 1e-6
+        upright = float(np.hypot(axes[2, 0], axes[2, 1])) < NO_AZIMUTH_SINE
         up = (float(axes[1, 0]), float(axes[1, 1]), float(axes[1, 2])) if upright else None
         twist = 0.0 if upright else float(np.degrees(euler_angles(axes)[0]))
         return cls((x, y, z), target, up, twist, fov_deg, parallel, height)

@@ -15,10 +15,10 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.unit_projection import NEAR_OF_DISTANCE
 from vectorplot.geometry.rotations import look_rotation
-from vectorplot.geometry.tolerance import INFINITE
 from vectorplot.geometry.vectors import length
+from vectorplot.tolerances.of_extent import NEAR_OF_DISTANCE
+from vectorplot.tolerances.of_numbers import INFINITE
 
 
 def project(points: ArrayLike, distance: float) -> Floats:

@@ -10,16 +10,11 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_extent import NEAR_OF_DISTANCE, NO_DIGITS_OF_EXTENT, ZERO_OF_EXTENT
+from vectorplot.tolerances.of_numbers import LARGEST_VIEW, ULP
 
 ULPS = 16.0
 """Fewer rounding steps of the largest coordinate than these count as zero too."""
-
-LARGEST = 1e100
-"""Beyond this, and below its inverse, products of lengths leave the range of floating point numbers."""
-
-NEAR_OF_DISTANCE = 1e-4
-"""The near plane, as a part of the smaller of the eye's distance from its target and the scene's extent."""
 
 WIDEST_DEG = 60.0
 """A picture that is fitted to the page shows what lies up to so many degrees off the principal ray."""
@@ -112,11 +107,11 @@ def projection_of(camera: Camera, bounds: Floats) -> Projection:
         centre, scale = (low + high) / 2.0, float((high - low).max()) / 2.0
     if not scale > 0.0:
         scale = camera.distance if not camera.parallel or camera.height is None else camera.height
-    if not 1.0 / LARGEST < scale < LARGEST or not camera.distance < LARGEST:
+    if not 1.0 / LARGEST_VIEW < scale < LARGEST_VIEW or not camera.distance < LARGEST_VIEW:
         raise InputError(f"an extent of {2.0 * scale:g}, seen from {camera.distance:g} away, is out of range")
     largest = max(float(np.abs(low).max()), float(np.abs(high).max()))
-    noise = ULPS * np.finfo(float).eps * largest / scale
-    if noise > 1e-3:
+    noise = ULPS * ULP * largest / scale
+    if noise > NO_DIGITS_OF_EXTENT:
         raise InputError("the scene is too small for its distance from the origin: its coordinates have no digits left")
     axes = camera.axes
     eye = None if camera.parallel else axes @ ((np.asarray(camera.eye) - centre) / scale)

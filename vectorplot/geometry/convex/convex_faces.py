@@ -11,10 +11,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputWarning
 from vectorplot.geometry import ragged
 from vectorplot.geometry.columns import cross, dot
-from vectorplot.geometry.tolerance import ROUNDING
-
-PLANE = 1e-6
-"""Halves of a plane quadrilateral turn from each other by an angle with a square below this."""
+from vectorplot.tolerances.of_angles import FOLDED_ANGLE_SQUARED
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR, ROUNDING
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +79,7 @@ def _planar_convex(p: list[Floats], tolerance: float) -> Bools:
     longest = np.max([dot(s, s) for s in side], axis=0)
     # The two halves of a bow tie cancel out.
     has_area = np.sqrt(dot(normal, normal)) > ROUNDING * longest
-    normal = normal / np.maximum(np.sqrt(dot(normal, normal)), np.finfo(float).tiny)
+    normal = normal / np.maximum(np.sqrt(dot(normal, normal)), LEAST_DIVISOR)
     planar = np.ones(normal.shape[1], dtype=np.bool_)
     left = np.ones(normal.shape[1], dtype=np.bool_)
     length = [np.sqrt(dot(s, s)) for s in side]
@@ -123,10 +121,10 @@ def _crossing_quads(p: Floats) -> Bools:
     normals = np.stack([cross(p[:, :, b] - p[:, :, a], p[:, :, c] - p[:, :, a]) for a, b, c in halves])
     sizes = (normals * normals).sum(axis=1)
     largest = normals[sizes.argmax(axis=0), :, np.arange(p.shape[1])]
-    size = np.maximum(sizes.max(axis=0), np.finfo(float).tiny)
+    size = np.maximum(sizes.max(axis=0), LEAST_DIVISOR)
     heights = np.einsum("hkq,qk->hq", normals, largest) / size
     # Halves of a quadrilateral in space turn away from the plane of the largest one.
-    plane = (heights * heights >= (1.0 - PLANE) * sizes / size).all(axis=0)
+    plane = (heights * heights >= (1.0 - FOLDED_ANGLE_SQUARED) * sizes / size).all(axis=0)
     one, two, three, four = heights
     return np.asarray((one * two < 0.0) & (three * four < 0.0) & plane, dtype=np.bool_)
 
@@ -178,10 +176,10 @@ def _in_mean_plane(p: Floats, starts: Ints, owner: Ints) -> Floats:
     following = ragged.following(starts)
     arm = p - p[:, starts[:-1]][:, owner]
     normal = np.add.reduceat(np.cross(arm, arm[:, following], axis=0), starts[:-1], axis=1)
-    normal = normal / np.maximum(np.sqrt((normal * normal).sum(axis=0)), np.finfo(float).tiny)
+    normal = normal / np.maximum(np.sqrt((normal * normal).sum(axis=0)), LEAST_DIVISOR)
     helper = np.eye(3)[np.argmin(np.abs(normal), axis=0)].T
     u = np.cross(helper, normal, axis=0)
-    u = u / np.sqrt(np.maximum((u * u).sum(axis=0), np.finfo(float).tiny))
+    u = u / np.sqrt(np.maximum((u * u).sum(axis=0), LEAST_DIVISOR))
     w = np.cross(normal, u, axis=0)
     return np.stack([(arm * u[:, owner]).sum(axis=0), (arm * w[:, owner]).sum(axis=0)], axis=1)
 

@@ -10,7 +10,7 @@ from vectorplot.errors import InputError
 from vectorplot.exact.predicates import orient2d
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 BOTTOM, TOP = 0, 1
 

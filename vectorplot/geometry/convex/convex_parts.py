@@ -13,7 +13,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.bodies_of_revolution import FULL_TURN, HALF_TURN, revolution
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import checked_points, polyhedron, prism
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 
 def convex_polygon_parts(outline: ArrayLike, holes: Sequence[ArrayLike] = ()) -> list[Ints]:

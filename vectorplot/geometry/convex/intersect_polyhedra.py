@@ -12,7 +12,7 @@ from vectorplot.geometry.convex.convex_parts import convex_polygon_parts, plane_
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.winding import is_closed_oriented
 from vectorplot.geometry.solids import has_convex_outline, zero_distance
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 MAX_PLANES = 10_000
 """The largest number of faces of the convex polyhedron: the other one is cut once for each."""

@@ -17,10 +17,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
-
-FLAT_THICKNESS = 2e-4
-"""A box thinner than this part of its largest side is made that thick."""
+from vectorplot.tolerances.of_extent import THINNEST_BOX, ZERO_OF_EXTENT
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 NOT_FOUND, FIRST_ABOVE, FIRST_BELOW, USE_SPHERES = 0, 1, -1, 2
 """What is known of a pair: nothing; the first shape on the side the plane's normal points to, or on the other one;
@@ -43,7 +41,7 @@ def own_box(points: ArrayLike) -> Floats:
     if p.ndim != 2 or p.shape[1:] != (3,) or not len(p) or not np.isfinite(p).all():
         raise InputError("a box needs points of three finite coordinates")
     low, high = p.min(axis=0), p.max(axis=0)
-    least = FLAT_THICKNESS * float((high - low).max())
+    least = THINNEST_BOX * float((high - low).max())
     pad = np.maximum(least - (high - low), 0.0) / 2.0
     ends = np.stack([low - pad, high + pad])
     bits = np.arange(8)
@@ -189,7 +187,7 @@ def _between_boxes(around: Surroundings, one: Ints, two: Ints, limit: Floats) ->
     """Which pairs have a side of the first one's box with the second one's box beyond it, and (p,4) its plane."""
     box = around.boxes[one]
     edges = np.stack([box[:, 1] - box[:, 0], box[:, 2] - box[:, 0], box[:, 4] - box[:, 0]], axis=1)
-    normal = edges / np.maximum(np.linalg.norm(edges, axis=2), np.finfo(float).tiny)[:, :, None]
+    normal = edges / np.maximum(np.linalg.norm(edges, axis=2), LEAST_DIVISOR)[:, :, None]
     normal = np.concatenate([-normal, normal], axis=1)
     constant = np.concatenate(
         [np.einsum("pak,pk->pa", normal[:, :3], box[:, 0]), np.einsum("pak,pk->pa", normal[:, 3:], box[:, 7])], axis=1

@@ -7,10 +7,10 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.tolerances.of_lengths import THIN_OF_LENGTH
+from vectorplot.tolerances.of_numbers import ULP
 
 _PIECE = 1 << 15
-# Below this ratio of height to longest side a triangle has no direction any more (a sliver of 1:1e8 still has).
-_THIN = 1e-10
 _ROUNDS = 8
 
 
@@ -92,13 +92,13 @@ def _thin_faces(mesh: Mesh) -> Bools:
     extent = float((high - low).max())
     if extent == 0.0 or mesh.face_count == 0:
         return np.asarray(~thin)
-    noise = 4.0 * np.finfo(np.float64).eps * float(np.abs(mesh.bounds).max()) / extent
+    noise = 4.0 * ULP * float(np.abs(mesh.bounds).max()) / extent
     for start in range(0, mesh.face_count, _PIECE):
         end = min(start + _PIECE, mesh.face_count)
         corners = mesh.corners[mesh.offsets[start] : mesh.offsets[end]]
         offsets = mesh.offsets[start : end + 1] - mesh.offsets[start]
         area, length = _squares(mesh.vertices, corners, offsets, 1.0 / extent)
-        thin[start:end] = (area <= _THIN**2 * length * length) | (area <= noise**2 * length)
+        thin[start:end] = (area <= THIN_OF_LENGTH**2 * length * length) | (area <= noise**2 * length)
     return thin
 
 

@@ -21,6 +21,8 @@ from vectorplot.geometry.repair.winding import (
     repeated_faces,
     turned_faces,
 )
+from vectorplot.tolerances.of_angles import SOLID_ANGLE_ROUNDING
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 __all__ = [
     "Mending",
@@ -123,7 +125,7 @@ def _is_convex(mesh: Mesh, uses: EdgeUses) -> bool:
     and embedded, hence convex (Tietze, Nakajima).
     """
     low, high = mesh.bounds
-    zero = 1e-9 * float((high - low).max())
+    zero = ZERO_OF_EXTENT * float((high - low).max())
     corner = uses.corner.reshape(-1, 2)
     face = mesh.corner_face[corner]
     normals, starts = mesh.face_normals, mesh.vertices[mesh.corners[mesh.offsets[:-1]]]
@@ -139,7 +141,7 @@ def _is_convex(mesh: Mesh, uses: EdgeUses) -> bool:
     centre = mesh.vertices[np.unique(mesh.corners)].mean(axis=0)
     if (np.einsum("ij,ij->i", starts - centre, normals) < -zero).any():
         return False
-    return abs(float(_solid_angles(mesh, centre).sum()) - 4.0 * np.pi) < 1e-3
+    return abs(float(_solid_angles(mesh, centre).sum()) - 4.0 * np.pi) < SOLID_ANGLE_ROUNDING
 
 
 def _solid_angles(mesh: Mesh, eye: Floats) -> Floats:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.mesh import Mesh, next_positions
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 _PIECE = 1 << 15
 
@@ -269,7 +270,7 @@ def signed_volumes(mesh: Mesh) -> Floats:
     Their sum over a closed piece is six times its volume; in units of the cube of the extent.
     """
     low, high = mesh.bounds
-    scale = 1.0 / max(float((high - low).max()), np.finfo(np.float64).tiny)
+    scale = 1.0 / max(float((high - low).max()), LEAST_DIVISOR)
     volumes = np.zeros(mesh.face_count)
     for start in range(0, mesh.face_count, _PIECE):
         end = min(start + _PIECE, mesh.face_count)

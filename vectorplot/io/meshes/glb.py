@@ -14,7 +14,8 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.weld import distinct_points
-from vectorplot.io.meshes.mesh_file import FLOAT32, MeshFile, file_bytes, shown
+from vectorplot.io.meshes.mesh_file import MeshFile, file_bytes, shown
+from vectorplot.tolerances.of_numbers import SINGLE_ULP
 
 MAX_TRIANGLES = 20_000_000
 """Nodes that show one mesh many times show no more triangles together than this, or than the file has bytes."""
@@ -54,7 +55,7 @@ def read_glb(path: Path) -> MeshFile:
     triangles = np.concatenate([part[2] + start for part, start in zip(parts, vertex_starts[:-1], strict=True)])
     mesh = Mesh.from_triangles(np.concatenate([vertices for _, vertices, _ in parts]), triangles)
     names = tuple(part[0] or path.stem for part in parts)
-    return MeshFile(mesh, names, tuple(first_faces[:-1].tolist()), FLOAT32)
+    return MeshFile(mesh, names, tuple(first_faces[:-1].tolist()), SINGLE_ULP)
 
 
 def _fail(name: str, cause: str) -> NoReturn:

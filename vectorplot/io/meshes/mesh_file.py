@@ -15,8 +15,6 @@ from vectorplot.errors import InputError, printable
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.meshes.numerals import PAD, Bytes, NumeralError, decimals, integers, padded
 
-FLOAT32 = 2.0**-23
-FLOAT64 = 2.0**-52
 # A blank that stands for the end of a line joined to the next one.
 JOINT = b"\v"
 

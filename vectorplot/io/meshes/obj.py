@@ -9,7 +9,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.io.meshes.mesh_file import FLOAT64, JOINT, Lines, MeshFile, TextFile, joined, polygon_mesh, text_file
+from vectorplot.io.meshes.mesh_file import JOINT, Lines, MeshFile, TextFile, joined, polygon_mesh, text_file
+from vectorplot.tolerances.of_numbers import ULP
 
 
 @dataclass
@@ -42,7 +43,7 @@ def read_obj(path: Path) -> MeshFile:
     vertices = joined(found.vertices, 3)
     _check_indices(text, found)
     names, first_faces = _parts(path, found)
-    return MeshFile(polygon_mesh(vertices, found.corners, found.sizes), names, first_faces, FLOAT64)
+    return MeshFile(polygon_mesh(vertices, found.corners, found.sizes), names, first_faces, ULP)
 
 
 def _with_joined_lines(text: TextFile) -> TextFile:

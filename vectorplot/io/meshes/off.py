@@ -10,16 +10,8 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.io.meshes.mesh_file import (
-    FLOAT64,
-    Lines,
-    MeshFile,
-    TextFile,
-    check_announced,
-    joined,
-    polygon_mesh,
-    text_file,
-)
+from vectorplot.io.meshes.mesh_file import Lines, MeshFile, TextFile, check_announced, joined, polygon_mesh, text_file
+from vectorplot.tolerances.of_numbers import ULP
 
 # The keyword may be missing, or stand in one line with the counts (ModelNet writes it without a blank). What a part of
 # this pattern has taken it keeps (++ and *+): a header that does not fit is refused after one reading.
@@ -50,7 +42,7 @@ def read_off(path: Path) -> MeshFile:
             sizes.append(found[1])
     if not any(len(piece) for piece in sizes):
         text.fail_at_end("no faces in this file")
-    return MeshFile(polygon_mesh(joined(vertices, 3), corners, sizes), (path.stem,), (0,), FLOAT64)
+    return MeshFile(polygon_mesh(joined(vertices, 3), corners, sizes), (path.stem,), (0,), ULP)
 
 
 def _header(text: TextFile) -> tuple[TextFile, int, int]:

@@ -12,18 +12,9 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.io.meshes.mesh_file import (
-    FLOAT32,
-    FLOAT64,
-    MeshFile,
-    TextFile,
-    check_announced,
-    file_bytes,
-    joined,
-    polygon_mesh,
-    shown,
-)
+from vectorplot.io.meshes.mesh_file import MeshFile, TextFile, check_announced, file_bytes, joined, polygon_mesh, shown
 from vectorplot.io.meshes.off import face_corners
+from vectorplot.tolerances.of_numbers import SINGLE_ULP, ULP
 
 _TYPES = {
     **{
@@ -94,7 +85,7 @@ def read_ply(path: Path) -> MeshFile:
         raise InputError("no faces in this file", file=text.name)
     single = all(vertex.properties[axis].kind == "f4" for axis in axes)
     mesh = polygon_mesh(vertices, corners, sizes)
-    return MeshFile(mesh, (path.stem,), (0,), FLOAT32 if single else FLOAT64)
+    return MeshFile(mesh, (path.stem,), (0,), SINGLE_ULP if single else ULP)
 
 
 def _element(text: TextFile, header: _Header, name: str) -> _Element:

@@ -11,7 +11,8 @@ from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.weld import distinct_points
-from vectorplot.io.meshes.mesh_file import FLOAT32, MeshFile, check_announced, check_file, joined, shown, text_file
+from vectorplot.io.meshes.mesh_file import MeshFile, check_announced, check_file, joined, shown, text_file
+from vectorplot.tolerances.of_numbers import SINGLE_ULP
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("points", "<f4", 9), ("attribute", "<u2")])
 _HEAD = 84
@@ -40,7 +41,7 @@ def read_stl(path: Path) -> MeshFile:
     vertices = points[first].astype(np.float64) + 0.0  # makes -0 to 0
     del points
     mesh = Mesh(vertices, corners, np.arange(0, len(corners) + 1, 3))
-    return MeshFile(mesh, (path.stem,), (0,), FLOAT32)
+    return MeshFile(mesh, (path.stem,), (0,), SINGLE_ULP)
 
 
 def _binary_points(path: Path, size: int, count: int) -> NDArray[np.float32]:

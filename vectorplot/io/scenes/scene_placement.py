@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from vectorplot.geometry.solids import IDENTITY
-from vectorplot.geometry.tolerance import LARGEST
 from vectorplot.io.scenes.scene_words import Words
+from vectorplot.tolerances.of_numbers import LARGEST
 
 Placement = tuple[float, ...]
 """The first three rows of a matrix (4,4), row by row."""

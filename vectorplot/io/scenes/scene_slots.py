@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.tolerance import LARGEST
 from vectorplot.io.expressions.expression import Expression, parse_expression
 from vectorplot.io.scenes.scene_formulas import Formulas
 from vectorplot.io.scenes.scene_words import Words
+from vectorplot.tolerances.of_numbers import LARGEST
 
 Reader = Callable[[Words, int, str, str], tuple[Any, int]]
 """Reads what stands at a word: (words, at, owner, what it is for) -> (value, the word behind it)."""

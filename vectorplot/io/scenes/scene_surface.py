@@ -12,7 +12,6 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.geometry.solids import IDENTITY
-from vectorplot.geometry.tolerance import ROUNDING, ZERO_OF_EXTENT
 from vectorplot.io.scenes.scene_curves import AXES, CurveDraft
 from vectorplot.io.scenes.scene_families import SURFACES
 from vectorplot.io.scenes.scene_slots import read_family
@@ -21,6 +20,8 @@ from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.surface_lines import Section, SurfaceLines, Vector
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_numbers import ROUNDING
 from vectorplot.words import nearest
 
 HOLE_GRID = 16

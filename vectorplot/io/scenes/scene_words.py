@@ -10,7 +10,7 @@ from operator import itemgetter
 from typing import NoReturn
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.tolerance import LARGEST
+from vectorplot.tolerances.of_numbers import LARGEST
 
 SOLID_WORDS = ("solid", "voll")
 FORM_WORDS = ("convex", *SOLID_WORDS, "hollow", "general", "concave")

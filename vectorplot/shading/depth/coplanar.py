@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.scene.view import View
 from vectorplot.shading.light.face_shades import face_normals
 from vectorplot.shading.raster.scene_triangles import SceneTriangles
 from vectorplot.shading.raster.screen import ScreenTriangles, front_facing
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.visibility.painter.image_faces import image_faces
 
 SAME_NORMAL, SAME_DISTANCE = 4.0 * ZERO_OF_EXTENT, ZERO_OF_EXTENT

@@ -12,8 +12,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.tolerance import ROUNDING
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_numbers import ROUNDING
 
 
 @dataclass(frozen=True, eq=False)

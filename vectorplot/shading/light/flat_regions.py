@@ -8,11 +8,9 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
 from vectorplot.shading.light.face_shades import face_middles
+from vectorplot.tolerances.of_extent import FLAT_OF_EXTENT
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.visibility.projected_faces import newell
-
-FLAT_OF_EXTENT = 1e-6
-"""Faces lie in one plane where no corner is farther off it than this part of the scene: coordinates in files of single
-precision are off by a tenth of it."""
 
 
 def plane_numbers(view: View) -> Ints:
@@ -55,7 +53,7 @@ def plane_middles(view: View, plane: Ints) -> Floats:
         return middle
     normal, _, _ = newell(view, several)
     # A part without area still has a place.
-    weight = np.sqrt((normal * normal).sum(axis=0)) + np.finfo(float).tiny
+    weight = np.sqrt((normal * normal).sum(axis=0)) + LEAST_DIVISOR
     total = np.bincount(plane[several], weight, minlength=len(count))
     result = middle.copy()
     for row, out in zip(middle, result, strict=True):

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
 from vectorplot.scene.scene import Light
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 AMBIENT = 0.2
 """The part of the palette that is kept for ambient light (decision D-5)."""
@@ -142,7 +143,7 @@ def towards(points: ArrayLike, source: ArrayLike) -> Floats:
     p, s = np.asarray(points, dtype=np.float64), np.asarray(source, dtype=np.float64)
     if s.shape != (4,) or not np.isfinite(s).all():
         raise InputError("a light or an eye needs four finite homogeneous coordinates")
-    ray = s[:3] - p if s[3] != 0.0 else np.broadcast_to(s[:3] / np.abs(s[:3]).max(initial=1e-300), p.shape)
+    ray = s[:3] - p if s[3] != 0.0 else np.broadcast_to(s[:3] / np.abs(s[:3]).max(initial=LEAST_DIVISOR), p.shape)
     length = np.sqrt(np.einsum("ij,ij->i", ray, ray))
     return np.asarray(ray / np.where(length > 0.0, length, 1.0)[:, None])
 

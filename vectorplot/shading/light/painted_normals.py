@@ -15,9 +15,7 @@ from vectorplot.shading.light.corner_normals import at_corners, view_normals
 from vectorplot.shading.light.face_shades import decal_shades, face_middles, face_normals
 from vectorplot.shading.light.illumination import DIRECT_SHARE, shades
 from vectorplot.shading.light.palettes import PALETTE_SIZE
-
-FLAT_COSINE = 1.0 - 1e-8
-"""Of the angle between a normal and that of its face where the face is flat: less than a hundredth of a degree."""
+from vectorplot.tolerances.of_angles import FLAT_COSINE
 
 VARIED = 2.0 / PALETTE_SIZE
 """By so much of a palette light varies on planes that are not shown in one shade: by two shades of a usual one."""

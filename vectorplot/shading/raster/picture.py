@@ -9,13 +9,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.cameras.projection import CoordinateSystem
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
 from vectorplot.shading.depth.coplanar import CoplanarFaces, ranked
 from vectorplot.shading.depth.depth_buffer import DepthBuffer, layers_before, strip
 from vectorplot.shading.light.lighting import Lighting, shaded_points
 from vectorplot.shading.raster.barycentrics import points_in_pixels, visible_points
 from vectorplot.shading.raster.scene_triangles import SceneTriangles
 from vectorplot.shading.raster.screen import HalfSpace, ScreenTriangles, front_facing, screen_triangles
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 Colours = NDArray[np.float32]
 

@@ -12,12 +12,12 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.projection import CoordinateSystem, PixelWindow
-from vectorplot.geometry.cameras.unit_projection import NEAR_OF_DISTANCE
-from vectorplot.geometry.tolerance import INFINITE
 from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture
 from vectorplot.scene.scene import Page
 from vectorplot.scene.view import View
 from vectorplot.shading.raster.coverage import GUARD_BAND
+from vectorplot.tolerances.of_extent import NEAR_OF_DISTANCE
+from vectorplot.tolerances.of_numbers import INFINITE
 
 BORDER = 0.03
 """Part of each side that a fitted picture leaves free."""

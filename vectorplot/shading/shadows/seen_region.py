@@ -12,9 +12,10 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.projection import CoordinateSystem, depth_of
-from vectorplot.geometry.tolerance import INFINITE, ZERO_OF_EXTENT
 from vectorplot.shading.raster.screen import HalfSpace, screen_triangles
 from vectorplot.shading.shadows.trapezoid import FOCUS_LINE
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_numbers import INFINITE
 
 FOCUS = 0.3
 """Part of the seen depth that is in focus unless said otherwise."""

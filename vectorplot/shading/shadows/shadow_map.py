@@ -18,23 +18,20 @@ from numpy.typing import ArrayLike, NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.projection import CoordinateSystem
-from vectorplot.geometry.cameras.unit_projection import NEAR_OF_DISTANCE
-from vectorplot.geometry.tolerance import INFINITE, ZERO_OF_EXTENT
 from vectorplot.shading.depth.depth_buffer import depth_codes
 from vectorplot.shading.depth.depth_code import DepthCode
 from vectorplot.shading.raster.screen import HalfSpace, screen_triangles
 from vectorplot.shading.shadows.seen_region import SeenRegion
 from vectorplot.shading.shadows.trapezoid import Axis, focus_distance, line_of_sight, taper_of_focus, tapered_map
 from vectorplot.shading.shadows.trapezoid_matrix import four_by_four
+from vectorplot.tolerances.of_extent import MAP_BIAS, NEAR_OF_DISTANCE, ZERO_OF_EXTENT
+from vectorplot.tolerances.of_numbers import INFINITE, LEAST_DIVISOR
 
 STEEPEST = 0.5
 """Casters are cut where the map's weight is half of that at its top line: nearer its pole depths lose their digits."""
 
 SLOPE_BIAS = 1.0
 """Depth by which a plane rises from one texel to the next, so many times: it does not hide itself."""
-
-CONSTANT_BIAS = 1e-5
-"""Part of the depth of the map that is added to the bias."""
 
 BITS = (8, 16, 32)
 """Sizes of a stored depth."""
@@ -248,10 +245,10 @@ def _constant_bias(found: ShadowMap, depth: Floats) -> Floats:
     wide = float(np.hypot(texel[0, 0], texel[1, 0])) * columns + float(np.hypot(texel[0, 1], texel[1, 1])) * rows
     if d == INFINITE:
         rounding = ZERO_OF_EXTENT * (wide + np.abs(depth))
-        return np.asarray(CONSTANT_BIAS * (code.maximum - code.minimum) + code.step + rounding)
+        return np.asarray(MAP_BIAS * (code.maximum - code.minimum) + code.step + rounding)
     rounding = ZERO_OF_EXTENT * (wide / d + 1.0 + np.abs(depth))
     nearest, farthest = d / (1.0 + code.maximum), d / (1.0 + code.minimum)
-    return np.asarray(CONSTANT_BIAS * (farthest - nearest) / d * (1.0 + depth) ** 2 + code.step + rounding)
+    return np.asarray(MAP_BIAS * (farthest - nearest) / d * (1.0 + depth) ** 2 + code.step + rounding)
 
 
 def slopes(system: CoordinateSystem, points: Floats, normals: Floats) -> tuple[Floats, Floats]:
@@ -262,7 +259,7 @@ def slopes(system: CoordinateSystem, points: Floats, normals: Floats) -> tuple[F
         facing = n[:, 2]
     else:
         facing = n[:, 2] * system.distance - np.einsum("ij,ij->i", n, system.rotated(points))
-    tiny = np.finfo(np.float64).tiny
+    tiny = LEAST_DIVISOR
     facing = np.where(np.abs(facing) > tiny, facing, tiny)
     with np.errstate(over="ignore"):
         return np.asarray(-n[:, 0] / facing), np.asarray(-n[:, 1] / facing)

@@ -16,11 +16,12 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.cameras.projection import CoordinateSystem
-from vectorplot.geometry.tolerance import INFINITE, ZERO_OF_EXTENT
 from vectorplot.scene.scene import Light
 from vectorplot.shading.raster.screen import ScreenTriangles, screen_triangles
 from vectorplot.shading.shadows.shadow_buffer import SIDES, is_inside, light_system
 from vectorplot.shading.shadows.shadow_map import standard_frame
+from vectorplot.tolerances.of_extent import LAMP_OF_EXTENT, ZERO_OF_EXTENT
+from vectorplot.tolerances.of_numbers import INFINITE
 
 Blocks = Callable[[Floats, Floats, Ints], Bools]
 
@@ -32,9 +33,6 @@ MOST_CELLS = 2048
 
 PAIRS_AT_ONCE = 1 << 20
 """So many pairs are looked at at a time."""
-
-LAMP_PART = 1e-6
-"""What is nearer to a lamp than this part of the scene's extent, along the middle of its view, casts no shadow."""
 
 
 def blocked_exactly(light: Light, points: ArrayLike, triangle: Ints, vertices: ArrayLike, corners: Ints) -> Bools:
@@ -84,7 +82,7 @@ def _blocked(
 ) -> Bools:
     """As blocked_exactly, from the side of one system; reach: only what lies within this square of the image plane."""
     h = system.homogeneous(points)
-    ahead = h[:, 3] > LAMP_PART
+    ahead = h[:, 3] > LAMP_OF_EXTENT
     flat = h[:, :3] / np.where(ahead, h[:, 3], 1.0)[:, None]
     if reach is not None:
         ahead &= np.abs(flat[:, :2]).max(axis=1) <= reach * (1.0 + ZERO_OF_EXTENT)
@@ -99,7 +97,7 @@ def _blocked(
     places = np.column_stack([flat[here, :2] @ frame[:2, :2].T + frame[:2, 2], flat[here, 2]])
     light = system.homogeneous(v)
     light[:, [0, 1]] = light[:, [0, 1, 3]] @ frame[:2].T
-    triangles = screen_triangles(light, corners, near=LAMP_PART)
+    triangles = screen_triangles(light, corners, near=LAMP_OF_EXTENT)
     cells = _sorted_into_cells(places, side)
     for tri, point in _candidates(cells, triangles, places):
         source = triangles.source[tri]

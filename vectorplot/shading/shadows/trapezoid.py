@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 FOCUS_LINE = 0.8
 """Part of the map, from the top line on, that shows what is nearer than the focus."""

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.tolerance import PARALLEL_SINE
+from vectorplot.tolerances.of_angles import PARALLEL_SINE
 
 LARGEST_SHIFT = 1e4
 """Sides that meet farther away than this, in widths, run parallel: the map is affine."""

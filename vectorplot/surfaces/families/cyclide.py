@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
 from vectorplot.errors import InputError
-from vectorplot.geometry.tolerance import ROUNDING
 from vectorplot.surfaces.families.quadric import checked_box
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.inversion import InvertedSurface
+from vectorplot.tolerances.of_numbers import ROUNDING
 
 
 def dupin_cyclide(major: float, minor: float, centre: ArrayLike, radius: float) -> InvertedSurface:

@@ -16,6 +16,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import is_whole_turns, number
 from vectorplot.errors import InputError
 from vectorplot.surfaces.surface import Domain
+from vectorplot.tolerances.of_angles import RIGHT_ANGLE_COSINE
 
 Complexes = NDArray[np.complex128]
 
@@ -121,7 +122,7 @@ def helicoid_to_catenoid(
     do not. Errors: InputError for an empty range. Source: Glaeser, section 8.2, figure 8; GLAE88/2.
     """
     number("bending", bending)
-    closed = abs(np.cos(bending)) < 1e-12 and is_whole_turns(end - start)
+    closed = abs(np.cos(bending)) < RIGHT_ANGLE_COSINE and is_whole_turns(end - start)
     return MinimalSurface(HelicoidCurve(), bending, Domain(-width, width, start, end, closed_v=closed))
 
 

@@ -9,8 +9,10 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface
-from vectorplot.testing.rays.mesh_rays import CONTACT, REACH, Rays
-from vectorplot.testing.rays.surface_rays import AROUND, ON_CONTOUR, ON_SURFACE, OWN, Hiding
+from vectorplot.testing.rays.mesh_rays import Rays
+from vectorplot.testing.rays.surface_rays import AROUND, Hiding
+from vectorplot.tolerances.of_angles import ON_CONTOUR_SINE
+from vectorplot.tolerances.of_extent import ON_SURFACE, OWN_HIT, REACH_OF_CLEARANCE, ZERO_OF_EXTENT
 
 STEPS = 1500
 """Steps across the whole scene."""
@@ -22,7 +24,7 @@ POINTS_AT_ONCE = 1 << 19
 def implicit_hides(surface: ImplicitSurface, rays: Rays, middle: Floats, size: float) -> Hiding:
     """Which points an implicit surface hides within its box."""
     hidden, touched = np.zeros((2, len(rays.length)), dtype=np.bool_)
-    clearance = np.full(len(rays.length), REACH)
+    clearance = np.full(len(rays.length), REACH_OF_CLEARANCE)
     portion = max(1, POINTS_AT_ONCE // STEPS)
     for first in range(0, len(rays.length), portion):
         part = slice(first, first + portion)
@@ -65,15 +67,15 @@ def _walk(field: _Field, rays: Rays) -> Hiding:
     # No step may end in the point itself, where the sign of F is rounding.
     t = t + (0.5 - (-t[0] / (t[1] - t[0])) % 1.0) * (t[1] - t[0])
     at = rays.origin[:, None] + t[:, None] * rays.direction[:, None]
-    inside = field.outside(at) < 2.0 * REACH
+    inside = field.outside(at) < 2.0 * REACH_OF_CLEARANCE
     row, column = np.nonzero(inside)
     value, slope = (np.full(at.shape[:2], np.nan) for _ in range(2))
     there = at[row, column]
     value[row, column] = field.values(there)
     slope[row, column] = (field.gradients(there) * rays.direction[row]).sum(axis=-1)
     on_surface, on_contour, unsure = _feet(field, rays)
-    hidden, clearance = np.zeros(len(at), dtype=np.bool_), np.full(len(at), REACH)
-    own = np.where(on_surface, OWN, CONTACT)
+    hidden, clearance = np.zeros(len(at), dtype=np.bool_), np.full(len(at), REACH_OF_CLEARANCE)
+    own = np.where(on_surface, OWN_HIT, ZERO_OF_EXTENT)
     ray, along = _roots(field, rays, t, value)
     box = field.outside(rays.origin[ray] + along[:, None] * rays.direction[ray])
     free = np.abs(along) > own[ray]
@@ -107,7 +109,7 @@ def _zeros(
 
 def _extremes(field: _Field, rays: Rays, t: Floats, slope: Floats, on_contour: Bools) -> Floats:
     """(n,) how near rays come to touching the surface, to first order; where contour points touch it does not count."""
-    near = np.full(len(slope), REACH)
+    near = np.full(len(slope), REACH_OF_CLEARANCE)
     ray, step = np.nonzero(slope[:, :-1] * slope[:, 1:] <= 0.0)
     direction = rays.direction[ray]
 
@@ -118,9 +120,9 @@ def _extremes(field: _Field, rays: Rays, t: Floats, slope: Floats, on_contour: B
     at = rays.origin[ray] + along[:, None] * direction
     with np.errstate(divide="ignore", invalid="ignore"):
         away = np.abs(field.values(at)) / np.linalg.norm(field.gradients(at), axis=-1)
-    counts = (along > -OWN) & (along < rays.length[ray] + OWN) & (field.outside(at) < REACH)
+    counts = (along > -OWN_HIT) & (along < rays.length[ray] + OWN_HIT) & (field.outside(at) < REACH_OF_CLEARANCE)
     counts &= ~on_contour[ray] | (np.abs(along) > AROUND)
-    np.minimum.at(near, ray[counts], np.nan_to_num(away, nan=0.0, posinf=REACH)[counts])
+    np.minimum.at(near, ray[counts], np.nan_to_num(away, nan=0.0, posinf=REACH_OF_CLEARANCE)[counts])
     return near
 
 
@@ -132,10 +134,10 @@ def _feet(field: _Field, rays: Rays) -> tuple[Bools, Bools, Bools]:
         on_surface = np.abs(field.values(rays.origin)) / steep <= ON_SURFACE
         sine = (gradient * rays.direction).sum(axis=-1) / steep
     bend = field.bends(rays.origin, rays.direction)
-    on_contour = on_surface & (np.abs(sine) < ON_CONTOUR)
+    on_contour = on_surface & (np.abs(sine) < ON_CONTOUR_SINE)
     alike = np.isfinite(bend)
     for away in (-4.0 * AROUND, -2.0 * AROUND, 2.0 * AROUND, 4.0 * AROUND):
         alike &= field.bends(rays.origin + away * rays.direction, rays.direction) * bend > 0.0
     with np.errstate(divide="ignore", invalid="ignore"):
-        apart = np.abs(2.0 * sine / bend) > 4.0 * OWN
+        apart = np.abs(2.0 * sine / bend) > 4.0 * OWN_HIT
     return on_surface, on_contour, on_surface & np.where(on_contour, ~alike, ~apart)

@@ -16,12 +16,9 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Scene
 from vectorplot.testing.rays.triangles import triangulated
-
-CONTACT = 1e-9
-"""A triangle no further from a point than this part of the scene's extent touches it, and does not hide it."""
-
-REACH = 1e-3
-"""Clearances are measured up to this part of the extent."""
+from vectorplot.tolerances.of_angles import PARALLEL_SINE
+from vectorplot.tolerances.of_extent import REACH_OF_CLEARANCE, ZERO_OF_EXTENT
+from vectorplot.tolerances.of_parameters import IN_TRIANGLE
 
 CHUNK = 1 << 18
 CLUSTER = 64
@@ -101,7 +98,7 @@ def near_together(corners: Floats, item: Ints) -> Solids:
 
 
 def near_pairs(rays: Rays, solids: Solids) -> Iterator[tuple[Ints, Ints]]:
-    """Pairs (ray, simplex) in portions; every pair that is no further apart than REACH is among them."""
+    """Pairs (ray, simplex) in portions; every pair that is no further apart than REACH_OF_CLEARANCE is among them."""
     centre = solids.corners.mean(axis=1)
     radius = np.sqrt(((solids.corners - centre[:, None]) ** 2).sum(axis=2).max(axis=1, initial=0.0))
     starts = np.arange(0, len(solids), CLUSTER)
@@ -129,17 +126,17 @@ def near_pairs(rays: Rays, solids: Solids) -> Iterator[tuple[Ints, Ints]]:
 
 
 def near(rays: Rays, ray: Ints, centre: Floats, radius: Floats) -> Ints:
-    """Indices of the pairs whose ray comes nearer to the sphere than REACH."""
+    """Indices of the pairs whose ray comes nearer to the sphere than REACH_OF_CLEARANCE."""
     arm = centre - rays.origin[ray]
     along = np.einsum("ij,ij->i", arm, rays.direction[ray])
     foot = np.clip(along, 0.0, rays.length[ray])
     square = np.einsum("ij,ij->i", arm, arm) - foot * (2.0 * along - foot)
-    return np.flatnonzero(square <= (radius + 2.0 * REACH) ** 2)
+    return np.flatnonzero(square <= (radius + 2.0 * REACH_OF_CLEARANCE) ** 2)
 
 
 def hits(rays: Rays, triangles: Solids, item_count: int) -> tuple[Ints, Floats]:
     """How many items each ray meets, and the distance from its point to the nearest triangle on its line."""
-    clearance = np.full(len(rays.length), REACH)
+    clearance = np.full(len(rays.length), REACH_OF_CLEARANCE)
     met = [np.zeros(0, dtype=np.int64)]
     for ray, index in near_pairs(rays, triangles):
         a, b, c = (triangles.corners[index, k] for k in range(3))
@@ -148,7 +145,7 @@ def hits(rays: Rays, triangles: Solids, item_count: int) -> tuple[Ints, Floats]:
         on_line = np.isfinite(along)
         ray, index, along, length = ray[on_line], index[on_line], along[on_line], length[on_line]
         distance = distance_to_triangle(origin[on_line], a[on_line], b[on_line], c[on_line])
-        free = distance > CONTACT
+        free = distance > ZERO_OF_EXTENT
         np.minimum.at(clearance, ray[free], distance[free])
         if rays.ends_in_eye:
             np.minimum.at(clearance, ray[free], np.abs(length - along)[free])
@@ -164,7 +161,7 @@ def meeting(origin: Floats, direction: Floats, a: Floats, b: Floats, c: Floats) 
     normal = np.cross(u, v)
     length = np.linalg.norm(normal, axis=1)
     slope = np.einsum("ij,ij->i", normal, direction)
-    crossing = np.abs(slope) > 1e-12 * length
+    crossing = np.abs(slope) > PARALLEL_SINE * length
     safe = np.where(crossing, slope, 1.0)
     arm = origin - a
     along = -np.einsum("ij,ij->i", normal, arm) / safe
@@ -172,7 +169,7 @@ def meeting(origin: Floats, direction: Floats, a: Floats, b: Floats, c: Floats) 
     # Barycentric coordinates of the meeting point, from the volumes that the line spans with the edges.
     second = np.einsum("ij,ij->i", v, turned) / safe
     third = -np.einsum("ij,ij->i", u, turned) / safe
-    inside = (second >= -1e-12) & (third >= -1e-12) & (second + third <= 1.0 + 1e-12)
+    inside = (second >= -IN_TRIANGLE) & (third >= -IN_TRIANGLE) & (second + third <= 1.0 + IN_TRIANGLE)
     return np.where(crossing & inside, along, np.nan)
 
 
@@ -198,15 +195,15 @@ def distance_to_segment(point: Floats, a: Floats, b: Floats) -> Floats:
 
 
 def edge_distances(rays: Rays, edges: Solids, own: Floats | None = None, off: Floats | None = None) -> Floats:
-    """(n,) distance from each ray to the nearest edge that its point does not touch, at most REACH.
+    """(n,) distance from each ray to the nearest edge that its point does not touch, at most REACH_OF_CLEARANCE.
 
     own (n,): edges no further from the point than this do not count either; None: those that touch it. off (m,): how
     far edges may be off; the distances are less by that, but no less than 0. None: they are exact.
     """
-    touching = np.full(len(rays.length), CONTACT) if own is None else own
+    touching = np.full(len(rays.length), ZERO_OF_EXTENT) if own is None else own
     nearer = np.zeros(len(edges)) if off is None else off
     # Edges beyond the reach are not looked at; they may be nearer than that.
-    clearance = np.full(len(rays.length), REACH - nearer.max(initial=0.0))
+    clearance = np.full(len(rays.length), REACH_OF_CLEARANCE - nearer.max(initial=0.0))
     for ray, index in near_pairs(rays, edges):
         start, end = edges.corners[index, 0], edges.corners[index, 1]
         free = distance_to_segment(rays.origin[ray], start, end) > touching[ray]
@@ -223,7 +220,7 @@ def distance_of_segments(a: Floats, b: Floats, c: Floats, d: Floats) -> Floats:
     normal = np.cross(u, v)
     square = np.einsum("ij,ij->i", normal, normal)
     bound = np.einsum("ij,ij->i", u, u) * np.einsum("ij,ij->i", v, v)
-    askew = square > 1e-24 * bound
+    askew = square > PARALLEL_SINE**2 * bound
     safe = np.where(askew, square, 1.0)
     s = np.einsum("ij,ij->i", np.cross(w, v), normal) / safe
     t = np.einsum("ij,ij->i", np.cross(w, u), normal) / safe

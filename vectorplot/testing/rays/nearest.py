@@ -9,15 +9,12 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.surfaces.surface import Domain, Surface, is_hole
+from vectorplot.tolerances.of_extent import FOOT_OF_EXTENT, FOOT_REACHED, GAUSS_OF_EXTENT
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
+from vectorplot.tolerances.of_parameters import FIRST_DAMPING, FOOT_NO_BETTER, FOOT_SETTLED, LEAST_DAMPING
 
 CELLS = (48, 256)
 """Columns and rows of the grids that starts are taken from; the finer one for points the coarser left far away."""
-
-AWAY = 1e-9
-"""A point that is further from the surface than this part of the extent may have been led to the wrong place."""
-
-FAR = 1e-6
-"""Below this part of the extent Gauss's and Newton's method are the same in all but name."""
 
 STARTS = 8
 AROUND = 16
@@ -48,14 +45,14 @@ class Feet(NamedTuple):
 def nearest_places(surface: Surface, points: Floats) -> Feet:
     """The places of a surface where the distance from points (n,3) is smallest, as far as a grid of starts finds them.
 
-    Points that stay further away than 1e-9 of the extent are tried again from a finer grid.
+    Points that stay further away than FOOT_OF_EXTENT of the extent are tried again from a finer grid.
     Error: parameters of points on the surface are good to rounding; of points at a distance d to about 1e-8 d.
     Degenerate: holes are never a place; at a pole one of its parameters is arbitrary.
     Errors: InputError for a surface that is nowhere finite.
     """
     feet = _from_grid(surface, points, CELLS[0])
     for again in (_from_finer_grid, _from_around):
-        left = np.flatnonzero(feet.distance.min(axis=1, initial=np.inf) > AWAY * feet.extent)
+        left = np.flatnonzero(feet.distance.min(axis=1, initial=np.inf) > FOOT_OF_EXTENT * feet.extent)
         if len(left):
             new = again(surface, points[left], feet.rows(left))
             better = new.distance.min(axis=1) < feet.distance[left].min(axis=1)
@@ -121,20 +118,24 @@ def _descended(surface: Surface, target: Floats, u: Floats, v: Floats, extent: f
     arm = surface.points(u, v) - target
     square = (arm * arm).sum(axis=1)
     square = np.where(np.isnan(square), np.inf, square)
-    damping = np.full(len(at), 1e-3)
+    damping = np.full(len(at), FIRST_DAMPING)
     active = np.flatnonzero(square < np.inf)
     for _ in range(STEPS):
-        step = _step(surface, at[active], arm[active], damping[active], FAR * extent)
+        step = _step(surface, at[active], arm[active], damping[active], GAUSS_OF_EXTENT * extent)
         trial = inside(surface.domain, at[active] + step)
         new = surface.points(trial[:, 0], trial[:, 1]) - target[active]
         new_square = (new * new).sum(axis=1)
         better = new_square < square[active]
         won = active[better]
         at[won], arm[won], square[won] = trial[better], new[better], new_square[better]
-        damping[active] = np.clip(damping[active] * np.where(better, 0.05, 20.0), 1e-16, 1e12)
+        damping[active] = np.clip(damping[active] * np.where(better, 0.05, 20.0), LEAST_DAMPING, 1e12)
         size = np.abs(step / np.array(surface.domain.size)).max(axis=1)
         # A step that no longer helps is rounding, unless a smaller one might.
-        done = (size < 1e-15) | (~better & (size < 1e-9)) | (square[active] < (1e-17 * extent) ** 2)
+        done = (
+            (size < FOOT_SETTLED)
+            | (~better & (size < FOOT_NO_BETTER))
+            | (square[active] < (FOOT_REACHED * extent) ** 2)
+        )
         active = active[~done]
         if not len(active):
             break
@@ -154,7 +155,7 @@ def _step(surface: Surface, at: Floats, arm: Floats, damping: Floats, far: float
     e, f, g = _curved((p * p).sum(axis=1), (p * q).sum(axis=1), (q * q).sum(axis=1), surface, at, arm, far)
     a, b = (p * arm).sum(axis=1), (q * arm).sum(axis=1)
     # Relative to the larger slope, so that the direction in which a pole does not move stands still.
-    extra = damping * np.maximum(np.maximum(e, g), np.finfo(float).tiny)
+    extra = damping * np.maximum(np.maximum(e, g), LEAST_DIVISOR)
     e, g = e + extra, g + extra
     below = e * g - f * f
     below = np.where(below > 0.0, below, np.inf)

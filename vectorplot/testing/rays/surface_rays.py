@@ -15,26 +15,14 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Surface, is_hole
-from vectorplot.testing.rays.mesh_rays import CONTACT, REACH, Rays, edge_distances, meeting, near_pairs, near_together
+from vectorplot.testing.rays.mesh_rays import Rays, edge_distances, meeting, near_pairs, near_together
 from vectorplot.testing.rays.nearest import inside, nearest_places
-
-NET_ERROR = 5e-6
-"""The net is made so fine that it is within this part of the scene's extent, as far as MOST_CELLS allow."""
+from vectorplot.tolerances.of_angles import ON_CONTOUR_SINE
+from vectorplot.tolerances.of_extent import NET_ERROR, ON_SURFACE, OWN_HIT, REACH_OF_CLEARANCE, SAME_HIT, ZERO_OF_EXTENT
+from vectorplot.tolerances.of_parameters import ON_BORDER_OF_DOMAIN, ROUNDING_OF_DOMAIN
 
 MOST_CELLS = 120_000
 FIRST_CELLS = 64
-
-ON_SURFACE = 1e-7
-"""A point no further from a surface than this part of the extent lies on it."""
-
-ON_CONTOUR = 1e-6
-"""Sight rays that make a smaller angle with the tangent plane touch the surface: the point is one of its contour."""
-
-OWN = 1e-3
-"""A hit nearer to a point on the surface than this part of the extent is the point itself."""
-
-SAME = 1e-6
-"""A refined hit farther from it than this part of the extent is another sheet."""
 
 STEEP = 0.1
 """Sine of an angle with the tangent plane above which a ray does not meet the surface next to its contour."""
@@ -125,7 +113,7 @@ class Net:
         mixed = hole[self._cells].any(axis=1)
         ends += [np.stack(pair, axis=1)[mixed] for pair in ((a, b), (b, c), (c, d), (d, a), (a, c), (b, d))]
         segments, errors = self.points[np.concatenate(ends)], self.errors[np.concatenate(ends)].max(axis=1, initial=0.0)
-        long = np.linalg.norm(segments[:, 1] - segments[:, 0], axis=1) > CONTACT
+        long = np.linalg.norm(segments[:, 1] - segments[:, 0], axis=1) > ZERO_OF_EXTENT
         return segments[long], errors[long]
 
     def contour(self, eye: Floats | None, direction: Floats) -> tuple[Floats, Floats]:
@@ -193,18 +181,18 @@ def surface_hides(surface: Surface, eye: Floats | None, rays: Rays, middle: Floa
     direction = rays.direction[0] if len(rays.direction) else np.array([0.0, 0.0, 1.0])
     for (segments, errors), own in ((net.contour(eye, direction), feet.on_contour), (net.borders(), feet.on_border)):
         edges = near_together(segments, np.arange(len(segments)))
-        touching = np.where(own, max(AROUND, 0.5 * net.longest), CONTACT)
+        touching = np.where(own, max(AROUND, 0.5 * net.longest), ZERO_OF_EXTENT)
         clearance = np.minimum(clearance, edge_distances(rays, edges, touching, 2.0 * errors[edges.item]))
     return Hiding(hidden, np.where(feet.unsure, 0.0, clearance), feet.on_contour)
 
 
 def _hits(net: Net, rays: Rays, feet: Feet) -> tuple[Bools, Floats]:
     """Whether each ray meets the surface, and the distance from its point to the nearest sheet on its line."""
-    hidden, clearance = np.zeros(len(rays.length), dtype=np.bool_), np.full(len(rays.length), REACH)
+    hidden, clearance = np.zeros(len(rays.length), dtype=np.bool_), np.full(len(rays.length), REACH_OF_CLEARANCE)
     corners = net.triangles
     solids = near_together(net.points[corners], np.arange(len(corners)))
     # A ray that touches the surface meets the net, which is a little beside it, well away from its point.
-    own = np.where(feet.on_contour, AROUND, np.where(feet.on_surface, OWN, CONTACT))
+    own = np.where(feet.on_contour, AROUND, np.where(feet.on_surface, OWN_HIT, ZERO_OF_EXTENT))
     for ray, index in near_pairs(rays, solids):
         a, b, c = (solids.corners[index, k] for k in range(3))
         along = meeting(rays.origin[ray], rays.direction[ray], a, b, c)
@@ -215,7 +203,7 @@ def _hits(net: Net, rays: Rays, feet: Feet) -> tuple[Bools, Floats]:
         clearance[ray[lost & (np.abs(along) > own[ray])]] = 0.0
         ray, along, steep = ray[there], along[there], steep[there]
         # Beside a cuspidal edge or a self-intersection another sheet may be that near.
-        other = (~feet.on_contour[ray] | steep) & (np.abs(along) > SAME) & (np.abs(along) <= own[ray])
+        other = (~feet.on_contour[ray] | steep) & (np.abs(along) > SAME_HIT) & (np.abs(along) <= own[ray])
         clearance[ray[other]] = 0.0
         free = np.abs(along) > own[ray]
         np.minimum.at(clearance, ray[free], np.abs(along[free]))
@@ -244,12 +232,12 @@ def _refined(net: Net, rays: Rays, ray: Ints, along: Floats, start: Floats) -> t
             )
             at, t = at + step / square[:, None], t + forward
     rest = origin + t[:, None] * direction - net.at(at[:, 0], at[:, 1])
-    good = (np.linalg.norm(rest, axis=1) < CONTACT) & (np.abs(t - along) < max(8.0 * net.longest, OWN))
+    good = (np.linalg.norm(rest, axis=1) < ZERO_OF_EXTENT) & (np.abs(t - along) < max(8.0 * net.longest, OWN_HIT))
     domain = net.surface.domain
     limits = ((domain.u_start, domain.u_end, domain.closed_u), (domain.v_start, domain.v_end, domain.closed_v))
     within = np.ones(len(t), dtype=np.bool_)
     for axis, (low, high, closed) in enumerate(limits):
-        rounding = 1e-12 * (high - low)
+        rounding = ROUNDING_OF_DOMAIN * (high - low)
         within &= closed | ((at[:, axis] >= low - rounding) & (at[:, axis] <= high + rounding))
     steep = good & (np.abs(slope) > STEEP * np.sqrt(square))
     return np.where(good, t, along), within | ~good, ~good, steep
@@ -262,25 +250,25 @@ def feet_on(net: Net, rays: Rays) -> Feet:
     on_surface, on_contour, on_border, unsure = (np.zeros(len(rays.length), dtype=np.bool_) for _ in range(4))
     there = ~is_hole(net.points)
     distance, _ = cKDTree(net.points[there]).query(rays.origin)
-    near = np.flatnonzero(distance <= 2.0 * net.longest + CONTACT)
+    near = np.flatnonzero(distance <= 2.0 * net.longest + ZERO_OF_EXTENT)
     if not len(near):
         return Feet(on_surface, on_contour, on_border, unsure)
     places = nearest_places(net.surface, rays.origin[near] * net.size + net.middle)
     row, column = np.nonzero(places.distance <= ON_SURFACE * net.size)
     ray, u, v = near[row], places.u[row, column], places.v[row, column]
     slope, bend = bending(net, u, v, rays.direction[ray])
-    touching = np.abs(slope) < ON_CONTOUR
+    touching = np.abs(slope) < ON_CONTOUR_SINE
     # The second hit of a ray that leaves a curved sheet, and for a ray that touches it the third.
     with np.errstate(divide="ignore", invalid="ignore"):
         second = np.abs(2.0 * slope / bend)
-    vague = np.where(touching, ~_bends_alike(net, u, v, rays.direction[ray], bend), ~(second > 4.0 * OWN))
+    vague = np.where(touching, ~_bends_alike(net, u, v, rays.direction[ray], bend), ~(second > 4.0 * OWN_HIT))
     on_surface[ray], on_contour[ray[touching]], unsure[ray[vague]] = True, True, True
     domain = net.surface.domain
     for x, low, high, closed in (
         (u, domain.u_start, domain.u_end, domain.closed_u),
         (v, domain.v_start, domain.v_end, domain.closed_v),
     ):
-        at_end = (np.minimum(x - low, high - x) <= 1e-9 * (high - low)) & (not closed)
+        at_end = (np.minimum(x - low, high - x) <= ON_BORDER_OF_DOMAIN * (high - low)) & (not closed)
         on_border[ray[at_end]] = True
     return Feet(on_surface, on_contour, on_border, unsure)
 

@@ -8,14 +8,9 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.tolerance import ZERO_OF_EXTENT
-
-FLAT = 1e-12
-"""A corner whose sine is smaller counts as straight."""
-
-NO_AREA = 1e-9
-"""An ear of less area, as a part of its longest side squared, is none: its corner is straight but for rounding, and no
-ray can say whether it meets it."""
+from vectorplot.tolerances.of_angles import PARALLEL_SINE
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_lengths import NO_AREA
 
 
 def triangulated(mesh: Mesh) -> tuple[Ints, Ints]:
@@ -65,7 +60,7 @@ def faces_are_convex(mesh: Mesh) -> Bools:
     arriving[mesh.next_corner] = leaving
     turn = np.cross(arriving, leaving)
     scale = np.linalg.norm(arriving, axis=1) * np.linalg.norm(leaving, axis=1)
-    left = np.einsum("ij,ij->i", turn, mesh.face_normals[mesh.corner_face]) >= -FLAT * scale
+    left = np.einsum("ij,ij->i", turn, mesh.face_normals[mesh.corner_face]) >= -PARALLEL_SINE * scale
     return np.asarray(np.bincount(mesh.corner_face[~left], minlength=mesh.face_count) == 0)
 
 
@@ -104,7 +99,7 @@ def next_ear(plane: Floats, left: list[int]) -> int:
     before, after = np.roll(here, 1, axis=0), np.roll(here, -1, axis=0)
     turns = area(before, here, after)
     scale = np.linalg.norm(here - before, axis=1) * np.linalg.norm(after - here, axis=1)
-    straight = np.flatnonzero(np.abs(turns) <= FLAT * scale)
+    straight = np.flatnonzero(np.abs(turns) <= PARALLEL_SINE * scale)
     if len(straight):
         return int(straight[0])
     for k in np.flatnonzero(turns > 0.0).tolist():

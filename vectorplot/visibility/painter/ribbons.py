@@ -17,6 +17,7 @@ from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_angles import ABOUT_AXIS
 from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
 from vectorplot.visibility.painter.image_faces import ImageFaces, mapped, polygons_of, unmapped
 from vectorplot.visibility.painter.mikado import component_ranks
@@ -27,9 +28,6 @@ from vectorplot.visibility.painter.splitting import dense
 from vectorplot.visibility.projected_faces import Bytes
 
 TURN = 2.0 * np.pi
-
-CLOSE = 1e-9
-"""Angles and distances about the axis that differ by less, as a part of a turn and of the scene, may be the same."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,8 +124,8 @@ def ribbon_order(view: View, slices: Slices, found: Ribbons) -> ImageFaces:
     """
     faces, of = slices.faces, found.of_piece
     first, second = _overlapping_sectors(found)
-    decided = (found.nearest[first] > found.farthest[second] + CLOSE) | (
-        found.nearest[second] > found.farthest[first] + CLOSE
+    decided = (found.nearest[first] > found.farthest[second] + ABOUT_AXIS) | (
+        found.nearest[second] > found.farthest[first] + ABOUT_AXIS
     )
     farther = found.nearest[first] > found.farthest[second]
     before = [np.where(farther, first, second)[decided]]
@@ -210,7 +208,7 @@ def _about_axis(view: View, slices: Slices) -> tuple[Floats, Floats, Floats, Flo
     double = arm[0] * after[1] - arm[1] * after[0]
     around = (np.minimum.reduceat(double, offsets[:-1]) > 0.0) | (np.maximum.reduceat(double, offsets[:-1]) < 0.0)
     # What the axis meets, or all but meets, is in all directions from it.
-    around |= nearest <= CLOSE * (1.0 + farthest)
+    around |= nearest <= ABOUT_AXIS * (1.0 + farthest)
     return (
         np.where(around, 0.0, low),
         np.where(around, TURN, high),
@@ -249,7 +247,7 @@ def _overlapping_sectors(found: Ribbons) -> tuple[Ints, Ints]:
     number = np.concatenate([np.arange(count), over])
     back = np.concatenate([np.zeros(count), np.full(len(over), TURN)])
     place = found.place[number].astype(np.float64)
-    box = np.stack([found.low[number] - back - CLOSE, found.high[number] - back + CLOSE, place, place + 0.5])
+    box = np.stack([found.low[number] - back - ABOUT_AXIS, found.high[number] - back + ABOUT_AXIS, place, place + 0.5])
     lots = [number[np.stack(pair)] for pair in box_pairs(box, 0.0)]
     pairs = np.sort(np.concatenate([np.zeros((2, 0), dtype=np.intp), *lots], axis=1), axis=0)
     key = np.unique(pairs[0] * count + pairs[1])

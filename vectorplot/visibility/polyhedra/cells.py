@@ -9,12 +9,10 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_extent import COVERED_MARGIN
 from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra.grid import MAX_COVER_TESTS, Entries, Floats32, Grid
 from vectorplot.visibility.polyhedra.occluders import Occluders
-
-MARGIN = 1e-7
-"""A cell counts as covered only where it is so far inside, as free only where it is so far outside."""
 
 LARGE_LEVEL, FINER = 2, 3
 """What is entered at this level or a coarser one is entered so many levels finer, but only in cells that its outline
@@ -27,7 +25,7 @@ def covered_cells(view: View, grid: Grid, occluders: Occluders) -> Floats32:
     table = np.full(int(grid.first[-1]), np.inf, dtype=np.float32)
     occluder, column, row, level = _inner_cells(grid, occluders.box)
     if len(occluder):
-        whole = _inside_outline(view, grid, occluders, (occluder, column, row, level), np.minimum, MARGIN)
+        whole = _inside_outline(view, grid, occluders, (occluder, column, row, level), np.minimum, COVERED_MARGIN)
         cell = grid.numbers(column[whole], row[whole], level[whole])
         np.minimum.at(table, cell, occluders.farthest[occluder[whole]])
     for level_above in range(grid.levels - 1, 0, -1):
@@ -50,7 +48,7 @@ def entered(view: View, grid: Grid, occluders: Occluders, which: Ints) -> Entrie
     if len(doubtful):
         cells = tuple(part[doubtful] for part in (occluder, column, row, level))
         kept = np.ones(len(thing), dtype=np.bool_)
-        kept[doubtful] = _inside_outline(view, grid, occluders, cells, np.maximum, -MARGIN)
+        kept[doubtful] = _inside_outline(view, grid, occluders, cells, np.maximum, -COVERED_MARGIN)
         occluder, column, row, level = occluder[kept], column[kept], row[kept], level[kept]
     return grids.entries(grid, occluder, column, row, level)
 

@@ -10,14 +10,12 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.tolerances.of_extent import SMALLEST_CELL
 
 Floats32 = NDArray[np.float32]
 
 MAX_CELLS = 1 << 20
 """Of the finest grid."""
-
-SMALLEST_CELL = 1e-9
-"""In units of the image, in which the scene is about 1 wide."""
 
 PIECES_PER_SEGMENT = 2.0
 """How finely segments may be cut at cell borders, on the average."""

@@ -11,6 +11,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.columns import cross
 from vectorplot.geometry.repair.winding import unbalanced_vertices
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_numbers import SINGLE_DEPTH_LEAST, SINGLE_DEPTH_SHARE
 from vectorplot.visibility.projected_faces import Floats32, ProjectedFaces, newell
 
 MAX_SOLID_FACES = 128
@@ -204,4 +205,4 @@ def _farthest(view: View, which: Ints) -> Floats32:
         return np.zeros(0, dtype=np.float32)
     position = ragged.ranges(view.offsets[which], sizes)
     depth = np.maximum.reduceat(view.depth[view.corners[position]], ragged.starts(sizes))
-    return (depth + 2e-7 * np.abs(depth) + 1e-7).astype(np.float32)
+    return (depth + SINGLE_DEPTH_SHARE * np.abs(depth) + SINGLE_DEPTH_LEAST).astype(np.float32)

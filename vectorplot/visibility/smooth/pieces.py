@@ -8,14 +8,12 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_extent import SAFE_IN_IMAGE
 from vectorplot.visibility.smooth.events.events import Events
 from vectorplot.visibility.smooth.rays import Samples, counts_in_front
 from vectorplot.visibility.smooth.sheets import projection
 from vectorplot.visibility.smooth.targets import Target
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
-
-SAFE = 1e-3
-"""A sight line that passes all edges at this distance in the image, of a scene about 1 large, is trusted."""
 
 CANDIDATES = (0.5, 0.3, 0.7, 0.12, 0.88)
 """Parts of a piece at which its safest point is looked for."""
@@ -96,7 +94,7 @@ def counted(
     samples, clearance = _safest(view, curves, edges, edge_on, pieces)
     in_front, looked = counts_in_front(view, targets, samples, items, pairs)
     unlooked = np.asarray((~looked).any(axis=0), dtype=np.bool_)
-    return Counts(in_front, np.asarray((clearance > SAFE) & looked.all(axis=1)), unlooked)
+    return Counts(in_front, np.asarray((clearance > SAFE_IN_IMAGE) & looked.all(axis=1)), unlooked)
 
 
 def carried(pieces: Pieces, counts: Counts) -> Ints:

@@ -9,6 +9,16 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_angles import GRAZING_ANGLE
+from vectorplot.tolerances.of_extent import (
+    CONTACT_MEETING,
+    LOCAL_MEETING,
+    MET_OF_EXTENT,
+    ONE_MEETING,
+    SETTLED_OF_EXTENT,
+    TOUCHING_OF_EXTENT,
+)
+from vectorplot.tolerances.of_parameters import CONTACT_PLACES, ONE_MEETING_PLACES
 from vectorplot.visibility.smooth.blocks import Block, in_blocks
 from vectorplot.visibility.smooth.sheets import projection
 from vectorplot.visibility.smooth.sheets.sheet import Sheet
@@ -16,27 +26,8 @@ from vectorplot.visibility.smooth.targets import Target, distance_to, inside, we
 
 ROUNDS = 12
 
-MET = 1e-10
-"""A sight line meets a sheet where they come closer than this; the scene is about 1 large."""
-
-SETTLED, ULPS = 1e-13, 16.0
+ULPS = 16.0
 """Below the one there is nothing to gain; so many times the rounding of points is met too."""
-
-TOUCHING = 1e-7
-"""A sheet less than this in front of a point is one that the point lies on, or touches."""
-
-LOCAL = 1e-3
-"""Nearer than this, the second meeting of a sight line with the sheet of its point is told by curvature."""
-
-CONTACT, CONTACT_PLACES = 1e-4, 1e-3
-"""From a contour, meetings nearer than the one, or at places nearer than the other, are the contour itself."""
-
-GRAZING = 1e-4
-"""Sight lines that meet a sheet at a smaller angle than this, in radians, only touch it: there they are no farther
-behind it than points are known."""
-
-ONE_MEETING = 1e-6
-"""Meetings closer together than this, in space and as places, are one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,8 +88,8 @@ def _in_front(view: View, target: Target, number: int, samples: Samples, pairs: 
     long = np.linalg.norm(way, axis=1)
     sample, meeting, places = _meetings(view, target, samples, way, number, pairs)
     distance = meeting * long[sample]
-    grazing = np.abs(dot(target.sheet.normals(places), way[sample])) <= GRAZING * long[sample]
-    front = (distance > TOUCHING) & ~grazing
+    grazing = np.abs(dot(target.sheet.normals(places), way[sample])) <= GRAZING_ANGLE * long[sample]
+    front = (distance > TOUCHING_OF_EXTENT) & ~grazing
     if view.eye is not None:
         front &= meeting < 1.0
     count = np.zeros(len(samples), dtype=np.intp)
@@ -109,14 +100,14 @@ def _in_front(view: View, target: Target, number: int, samples: Samples, pairs: 
         mine = own[sample] == number
         edge = mine & contour[sample]
         apart = target.sheet.apart(places, own_places[sample])
-        front &= ~(edge & ((distance < CONTACT) | (apart < CONTACT_PLACES)))
+        front &= ~(edge & ((distance < CONTACT_MEETING) | (apart < CONTACT_PLACES)))
         local = mine & ~contour[sample]
         # The sheet itself and its second meeting nearby: the one is no meeting, the other is told below.
         here = np.flatnonzero((own == number) & ~contour)
         again = np.full(len(samples), np.inf)
         again[here] = _second_meeting(target.sheet, way[here], own_places[here]) * long[here]
-        nearby = np.abs(again) < LOCAL
-        reach = np.where(nearby, 2.0, 0.5) * LOCAL
+        nearby = np.abs(again) < LOCAL_MEETING
+        reach = np.where(nearby, 2.0, 0.5) * LOCAL_MEETING
         front &= ~(local & (np.abs(distance) < reach[sample]) & (apart < 0.05))
         into = dot(target.sheet.inwards(own_places[here]), way[here]) >= 0.0
         count[here] += nearby[here] & (again[here] > 0.0) & into
@@ -159,8 +150,8 @@ def _meetings(
         t[active], places[active] = target.sheet.missed(points[active], ways[active], places[active])
         away = points[active] + t[active, None] * ways[active] - target.sheet.points(places[active])
         off[active] = np.sqrt(dot(away, away))
-        active = active[(off[active] > SETTLED) & np.isfinite(off[active])]
-    met = (off <= max(MET, ULPS * projection.rounding(view))) & target.sheet.on_sheet(places)
+        active = active[(off[active] > SETTLED_OF_EXTENT) & np.isfinite(off[active])]
+    met = (off <= max(MET_OF_EXTENT, ULPS * projection.rounding(view))) & target.sheet.on_sheet(places)
     sample, t, places = sample[met], t[met], places[met]
     return _different(target.sheet, sample, t * np.linalg.norm(ways[met], axis=1), t, places)
 
@@ -173,7 +164,7 @@ def _different(sheet: Sheet, sample: Ints, distance: Floats, t: Floats, places: 
         if len(sample) < 2:
             break
         same = (sample[1:] == sample[:-1]) & (distance[1:] - distance[:-1] < ONE_MEETING)
-        same &= sheet.apart(places[1:], places[:-1]) < 1e-4
+        same &= sheet.apart(places[1:], places[:-1]) < ONE_MEETING_PLACES
         kept = np.concatenate([[True], ~same])
         sample, distance, t, places = sample[kept], distance[kept], t[kept], places[kept]
     return sample, t, places

@@ -16,9 +16,8 @@ import numpy as np
 from vectorplot.arrays import Ints
 from vectorplot.drawing.strokes.pen_order.tour_ends import Places, extent, mutual_nearest, neighbours
 from vectorplot.geometry import ragged
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
-# Ends closer than this part of the extent are one node.
-_ZERO = 1e-9
 # Rounds in which jumps exchange partners.
 _EXCHANGES = 100
 
@@ -46,7 +45,7 @@ def trails(ends: Places, spread: Places) -> Ints:
 
 def _nodes(ends: Places) -> tuple[Ints, Ints]:
     """The ends sorted by node, and (n,) the node of each."""
-    unit = (ends - complex(ends.real.min(), ends.imag.min())) / ((extent(ends) or 1.0) * _ZERO)
+    unit = (ends - complex(ends.real.min(), ends.imag.min())) / ((extent(ends) or 1.0) * ZERO_OF_EXTENT)
     key = np.rint(unit.real).astype(np.int64) << 31 | np.rint(unit.imag).astype(np.int64)
     order = np.argsort(key, kind="stable")
     node = np.zeros(len(ends), dtype=np.intp)
@@ -126,7 +125,7 @@ def _exchanged(link: Ints, odd: Ints, part: Ints, spread: Places) -> Ints:
         between = np.fmax(np.abs(spots[mate[one]] - spots[mate[other]]), 0.0)
         gain = jump[one] + jump[other] - apart - between
         inside = (mate < 0) | (of == of[mate])
-        good = np.flatnonzero((gain > _ZERO) & (mate[one] != other) & inside[one] & inside[other])
+        good = np.flatnonzero((gain > ZERO_OF_EXTENT) & (mate[one] != other) & inside[one] & inside[other])
         if not len(good):
             break
         good = good[np.argsort(gain[good], kind="stable")]

@@ -15,6 +15,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.strokes.pen_order.touching import trails
 from vectorplot.drawing.strokes.pen_order.tour_ends import Places, extent, mutual_nearest
+from vectorplot.tolerances.of_extent import DRAWN_TOGETHER_OF_EXTENT, SPREAD_OF_EXTENT
 
 
 def greedy_tour(ends: Places) -> Ints:
@@ -47,12 +48,12 @@ def _spread(ends: Places) -> Places:
     low, high = mixed & np.uint64(0xFFFFFFFF), mixed >> np.uint64(32)
     size = extent(ends) or 1.0
     spread: Places = (ends - ends.mean()) / size
-    spread += (low.astype(np.float64) + 1j * high.astype(np.float64)) * (1e-10 / 2**32)
+    spread += (low.astype(np.float64) + 1j * high.astype(np.float64)) * (SPREAD_OF_EXTENT / 2**32)
     # Pairs of first ends of strokes 2 k, 2 k + 1 and of last ends of 2 k + 1, 2 k + 2 come together a little.
     for side in (0, 1):
         one = np.arange(side, len(ends) // 2 - 1, 2) * 2 + side
         way = ends[one + 2] - ends[one]
-        way = way * (1e-7 / np.maximum(np.abs(way), 1e-7 * size))
+        way = way * (DRAWN_TOGETHER_OF_EXTENT / np.maximum(np.abs(way), DRAWN_TOGETHER_OF_EXTENT * size))
         spread[one] += way
         spread[one + 2] -= way
     return spread

@@ -17,6 +17,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.strokes.pen_order.tour_ends import Places, extent, neighbours
 from vectorplot.geometry import ragged
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 # So many of the ends near an end are tried as its neighbours.
 _NEAREST = 10
@@ -29,8 +30,6 @@ _PASSES = 20
 # Rounds; shorter tours get more.
 _ROUNDS = 6
 _MORE_ROUNDS = 40000
-# Gains below this part of the extent are rounding.
-_ZERO = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +56,7 @@ def shortened(ends: Places, tour: Ints) -> Ints:
     """The tour after rounds of moves that shorten it."""
     if len(tour) < 3:
         return tour
-    zero = _ZERO * extent(ends)
+    zero = ZERO_OF_EXTENT * extent(ends)
     near, apart = _neighbours(ends)
     everything = awake = np.arange(len(ends))
     for _ in range(_ROUNDS + _MORE_ROUNDS // len(tour)):

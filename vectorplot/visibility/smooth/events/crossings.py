@@ -11,6 +11,10 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_angles import ALONG_EDGE_SINE
+from vectorplot.tolerances.of_extent import CROSSING_RESIDUAL, FOLDS_GAP, GAP_IN_FRONT, MODEL_RESIDUAL
+from vectorplot.tolerances.of_lengths import CROSSING_SETTLED, MODEL_RESIDUAL_OF_GAP, RESIDUAL_OF_GAP
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.visibility.smooth.blocks import Block, in_blocks
 from vectorplot.visibility.smooth.events.cubics import cubics
 from vectorplot.visibility.smooth.events.edge_sides import covered_sides, turn
@@ -26,31 +30,8 @@ if TYPE_CHECKING:
 ROUNDS, HOPS = 8, 3
 """Steps of Newton on one pair of chords; how often the pair may go over to neighbouring chords."""
 
-SETTLED = 1e-10
-"""Newton's next step after one of this part of a chord is rounding."""
-
-RESIDUAL = 1e-11
-"""How far the images of a crossing may be apart; the scene is about 1 large."""
-
 ULPS = 16.0
 """So many times the rounding of points it may be too."""
-
-GAP = 1e-6
-"""An edge less than this in front of a curve is one that the curve touches."""
-
-FOLDS_GAP = 1e-3
-"""The same for two parts of one contour: on both sides of a cusp they are as close as rounding long before that."""
-
-RESIDUAL_OF_GAP = 1e-3
-"""Part of the cube of the gap that the residual of a crossing may be: two curves that touch come as close as they
-like, but not at a distance."""
-
-MODEL_RESIDUAL, MODEL_RESIDUAL_OF_GAP = 1e-6, 1e-3
-"""The same while the curves are replaced by cubic arcs, and as a part of the square of the gap: towards a place where
-two curves touch they come together like the square of what is left of the gap."""
-
-PARALLEL = 1e-6
-"""Sine of an angle below which a curve does not cross an edge but runs along it in the image."""
 
 NEAR_CUSPS = 0.1
 """Part of the largest bending along an edge below which a cusp is near."""
@@ -150,7 +131,7 @@ def _near_cusps(view: View, sheets: tuple[Sheet, ...], edges: Curves) -> Bools:
         at = np.flatnonzero(fold & (edges.sheet[edges.owner] == number))
         bend[at] = np.abs(sheet.bends(edges.places[at], projection.sight(view, edges.points[at])))
         if len(at):
-            bend[at] /= max(float(bend[at].max()), np.finfo(np.float64).tiny)
+            bend[at] /= max(float(bend[at].max()), LEAST_DIVISOR)
     little = bend < NEAR_CUSPS
     return np.asarray(little | np.append(little[1:], False))
 
@@ -205,8 +186,8 @@ def _approach(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Float
     s = np.clip(np.where(np.isfinite(s), s, 0.5), 0.0, 1.0)
     t = np.clip(np.where(np.isfinite(t), t, 0.5), 0.0, 1.0)
     for _ in range(2):
-        t = np.clip(dot(a + s[:, None] * ab - c, cd) / dot(cd, cd).clip(1e-300), 0.0, 1.0)
-        s = np.clip(dot(c + t[:, None] * cd - a, ab) / dot(ab, ab).clip(1e-300), 0.0, 1.0)
+        t = np.clip(dot(a + s[:, None] * ab - c, cd) / dot(cd, cd).clip(LEAST_DIVISOR), 0.0, 1.0)
+        s = np.clip(dot(c + t[:, None] * cd - a, ab) / dot(ab, ab).clip(LEAST_DIVISOR), 0.0, 1.0)
     away = a + s[:, None] * ab - c - t[:, None] * cd
     return s, t, np.sqrt(dot(away, away))
 
@@ -224,7 +205,9 @@ def _roughly_met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pai
         off, gap = np.sqrt(dot(away, away)), (p - q)[:, 2]
         s, t = _step(away, a, b)
         part, edge_part = np.clip(part + s, -0.5, 1.5), np.clip(edge_part + t, -0.5, 1.5)
-    met = np.flatnonzero((off <= np.minimum(MODEL_RESIDUAL, MODEL_RESIDUAL_OF_GAP * gap**2)) & (gap > 0.5 * GAP))
+    met = np.flatnonzero(
+        (off <= np.minimum(MODEL_RESIDUAL, MODEL_RESIDUAL_OF_GAP * gap**2)) & (gap > 0.5 * GAP_IN_FRONT)
+    )
     found = Pairs(pairs.chord, part, pairs.edge, edge_part).some(met)
     return found.some(once(curves, found.chord, found.part, found.edge + found.edge_part))
 
@@ -252,10 +235,10 @@ def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
         s, t = _step(gap, a, b)
         part[active] = np.clip(part[active] + s, -1.5, 2.5)
         edge_part[active] = np.clip(edge_part[active] + t, -1.5, 2.5)
-        active = active[(np.abs(s) > SETTLED) | (np.abs(t) > SETTLED)]
+        active = active[(np.abs(s) > CROSSING_SETTLED) | (np.abs(t) > CROSSING_SETTLED)]
     # Beyond the chords' ends the search goes on with the neighbours, whatever the residual.
     beyond = (part < 0.0) | (part > 1.0) | (edge_part < 0.0) | (edge_part > 1.0)
-    kept = (off <= 100.0 * max(RESIDUAL, ULPS * projection.rounding(view))) | (beyond & (off < np.inf))
+    kept = (off <= 100.0 * max(CROSSING_RESIDUAL, ULPS * projection.rounding(view))) | (beyond & (off < np.inf))
     return Pairs(pairs.chord, part, pairs.edge, edge_part).some(kept)
 
 
@@ -269,11 +252,13 @@ def _events(
     gap = projection.depth(view, one.points) - projection.depth(view, two.points)
     curve, edge = curves.owner[pairs.chord], edges.owner[pairs.edge]
     alike = edge_on[curve] & (curves.sheet[curve] == edges.sheet[edge]) & (edges.kind[edge] == LineKind.CONTOUR)
-    exact = max(RESIDUAL, ULPS * projection.rounding(view))
-    real = (gap > np.where(alike, FOLDS_GAP, GAP)) & (residual <= exact) & (residual <= RESIDUAL_OF_GAP * gap**3)
+    exact = max(CROSSING_RESIDUAL, ULPS * projection.rounding(view))
+    real = (
+        (gap > np.where(alike, FOLDS_GAP, GAP_IN_FRONT)) & (residual <= exact) & (residual <= RESIDUAL_OF_GAP * gap**3)
+    )
     direction = projection.image_slopes(view, one.points, one.slopes)
     along = projection.image_slopes(view, two.points, two.slopes)
-    real &= np.abs(turn(along, direction)) > PARALLEL * np.sqrt(dot(along, along) * dot(direction, direction))
+    real &= np.abs(turn(along, direction)) > ALONG_EDGE_SINE * np.sqrt(dot(along, along) * dot(direction, direction))
     pairs, points, places, edge = pairs.some(real), two.points[real], two.places[real], edge[real]
     direction, along = direction[real], along[real]
     kind = edges.kind[edge]

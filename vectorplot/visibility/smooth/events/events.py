@@ -8,13 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.tolerances.of_lengths import BEYOND_END, SAME_EVENT
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
-
-SAME = 1e-6
-"""Parts of a chord that differ by less are one."""
-
-BEYOND_END = 1e-9
-"""So many parts of a chord beyond the end of its curve count as the end."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,13 +60,13 @@ def once(curves: Curves, chord: Ints, part: Floats, other: Floats) -> Ints:
     """The indices of different places: of several that agree, along the curve and in other (k,), one stays."""
     owner = curves.owner[chord]
     # The end of a closed curve is its start.
-    last = curves.closed[owner] & (chord == curves.offsets[owner + 1] - 2) & (part > 1.0 - SAME)
+    last = curves.closed[owner] & (chord == curves.offsets[owner + 1] - 2) & (part > 1.0 - SAME_EVENT)
     where = np.where(last, curves.offsets[owner] + (part - 1.0), chord + part)
     kept = np.lexsort((other, where, owner))
     for _ in range(2):
         # Places that agree along the curve stand together; those that differ in other may stand between them.
         o, w, x = owner[kept], where[kept], other[kept]
-        same = (o[1:] == o[:-1]) & (np.abs(w[1:] - w[:-1]) < SAME) & (np.abs(x[1:] - x[:-1]) < SAME)
+        same = (o[1:] == o[:-1]) & (np.abs(w[1:] - w[:-1]) < SAME_EVENT) & (np.abs(x[1:] - x[:-1]) < SAME_EVENT)
         kept = kept[np.concatenate([[True], ~same])] if len(kept) else kept
         kept = kept[np.lexsort((where[kept], other[kept], owner[kept]))]
     return kept

@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_angles import EDGE_ON_SINE
 from vectorplot.visibility.smooth.events.events import Events, all_events
 from vectorplot.visibility.smooth.events.roots import roots_along
 from vectorplot.visibility.smooth.sheets import projection
@@ -16,9 +17,6 @@ from vectorplot.visibility.smooth.sheets.family import Along
 from vectorplot.visibility.smooth.sheets.sheet import Sheet
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.words import LineKind
-
-EDGE_ON = 1e-9
-"""Cosine of the angle between sight line and tangent plane below which a curve lies on the contour."""
 
 
 def edge_on_curves(view: View, sheets: tuple[Sheet, ...], curves: Curves) -> Bools:
@@ -37,7 +35,7 @@ def _is_edge_on(view: View, sheets: tuple[Sheet, ...], curves: Curves) -> Bools:
     for number in np.unique(own[own >= 0]).tolist():
         at = np.flatnonzero(own == number)
         facing[at] = _facing(view, sheets[number], curves.points[at], curves.places[at])
-    return np.asarray(~(np.abs(facing) > EDGE_ON))
+    return np.asarray(~(np.abs(facing) > EDGE_ON_SINE))
 
 
 def _facing(view: View, sheet: Sheet, points: Floats, places: Floats) -> Floats:

@@ -7,6 +7,10 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_angles import ALONG_SHEET_SINE
+from vectorplot.tolerances.of_extent import MET_OF_EXTENT, NEARLY_MET, SETTLED_OF_EXTENT
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
+from vectorplot.tolerances.of_parameters import APART_OF_DOMAIN
 from vectorplot.visibility.smooth.blocks import Block, in_blocks
 from vectorplot.visibility.smooth.events.events import Events, all_events, hopped, on_chord, once
 from vectorplot.visibility.smooth.events.unmet import unmet_stretches
@@ -18,19 +22,12 @@ from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 ROUNDS, HOPS = 10, 3
 """Steps of Newton; how often a place may go over to a neighbouring chord."""
 
-MET, NEARLY_MET, SETTLED = 1e-10, 1e-7, 1e-13
-"""A curve meets a sheet where they come closer than the first; the scene is about 1 large. The search goes on from what
-is nearer than the second, until nothing is farther than the third."""
-
 ULPS = 16.0
 """So many times the rounding of points may be between them too."""
 
-APART_AT_FIRST, APART = 0.04, 1e-3
+APART_AT_FIRST = 0.04
 """Where a sheet meets itself, parts of its domain that the two places are apart at least: at the start of the search,
 and at its end."""
-
-ALONG = 1e-7
-"""A curve that makes a smaller angle with the sheet touches it."""
 
 SHARPEST = 1e3
 """Where a sheet bends more strongly, in a scene about 1 large, its normal tells nothing about the sides of it: it is at
@@ -64,7 +61,7 @@ def piercings(
                 kept = _elsewhere(target.sheet, number, curves, chord, part, places, APART_AT_FIRST)
                 chord, part, places, reach = chord[kept], part[kept], places[kept], reach[kept]
                 at, at_part, met = _met(view, target.sheet, curves, chord, part, places)
-                kept = _elsewhere(target.sheet, number, curves, at, at_part, met, APART)
+                kept = _elsewhere(target.sheet, number, curves, at, at_part, met, APART_OF_DOMAIN)
                 return Block((chord, part, reach, at[kept], at_part[kept], met[kept]), block.partners, len(chord))
 
             found, done = in_blocks(chord, pairs, look)
@@ -155,7 +152,7 @@ def _met(
             step, places[active] = sheet.missed(at.points, at.slopes, places[active])
             step = np.clip(np.where(np.isfinite(step), step, 0.0), -0.7, 0.7)
             part[active] = np.clip(part[active] + step, -1.5, 2.5)
-            active = active[off[active] > SETTLED]
+            active = active[off[active] > SETTLED_OF_EXTENT]
         kept = np.isfinite(places).all(axis=1) & ((off <= NEARLY_MET) | (part < 0.0) | (part > 1.0))
         chord, part, places = chord[kept], part[kept], places[kept]
         now, part = hopped(curves, chord, part)
@@ -164,7 +161,7 @@ def _met(
         if not moved:
             break
     away = curves.at(chord, part).points - sheet.points(places)
-    met = (np.sqrt(dot(away, away)) <= max(MET, ULPS * projection.rounding(view))) & sheet.on_sheet(places)
+    met = (np.sqrt(dot(away, away)) <= max(MET_OF_EXTENT, ULPS * projection.rounding(view))) & sheet.on_sheet(places)
     on, part = on_chord(part)
     kept = met & on
     return chord[kept], part[kept], places[kept]
@@ -176,9 +173,9 @@ def _pierced(view: View, sheet: Sheet, curves: Curves, chord: Ints, part: Floats
     kept = once(curves, chord, part, np.zeros(len(chord)))
     chord, part, places = chord[kept], part[kept], places[kept]
     at, normal = curves.at(chord, part), sheet.normals(places)
-    through = dot(at.slopes, normal) / np.linalg.norm(at.slopes, axis=1).clip(1e-300)
+    through = dot(at.slopes, normal) / np.linalg.norm(at.slopes, axis=1).clip(LEAST_DIVISOR)
     towards = dot(projection.sight(view, at.points), normal)
-    crosses = (np.abs(through) > ALONG) & ~_sharp(sheet, places)
+    crosses = (np.abs(through) > ALONG_SHEET_SINE) & ~_sharp(sheet, places)
     change = np.where(crosses, -np.sign(through * towards), 0.0)
     change = np.where(np.isfinite(change), change, 0.0).astype(np.intp)
     return Events(chord, part, np.full(len(chord), sheet.item), change)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry.tolerance import ROUNDING
+from vectorplot.tolerances.of_numbers import ROUNDING
 from vectorplot.visibility.smooth.sheets.family import Along
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 

@@ -11,14 +11,13 @@ from vectorplot.arrays import Floats
 from vectorplot.features.implicit.implicit_conditions import SpatialCondition
 from vectorplot.features.parametric.conditions import Condition
 from vectorplot.geometry.vectors import dot
+from vectorplot.tolerances.of_lengths import FAMILY_SETTLED
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
 
 ROUNDS, RENEWED = 8, 4
 """Steps of Newton from a chord to its curve; the one at which slopes are computed anew."""
-
-SETTLED = 1e-9
-"""The step of Newton after one of this part of a chord is rounding."""
 
 FARTHEST = 0.5
 """So many lengths of its chord a curve may be away from it."""
@@ -123,7 +122,7 @@ class ConditionCurves:
                 step = (self.condition.values(u, v) - chords.level) / (slopes * across).sum(axis=1)
             step = np.clip(np.where(np.isfinite(step), step, 0.0), -FARTHEST, FARTHEST)
             off = np.clip(off - step, -FARTHEST, FARTHEST)
-            if not (np.abs(step) > SETTLED).any():
+            if not (np.abs(step) > FAMILY_SETTLED).any():
                 break
         at = base + off[:, None] * across
         tangent = np.stack([-slopes[:, 1], slopes[:, 0]], axis=1)
@@ -168,7 +167,7 @@ class SpatialCurves:
                 step = -(f[:, None] * across_one + g[:, None] * across_two) / volume[:, None]
                 step = no_longer(step, farthest)
                 off = no_longer(off + step, farthest)
-                if not (np.sqrt(dot(step, step)) > SETTLED * farthest).any():
+                if not (np.sqrt(dot(step, step)) > FAMILY_SETTLED * farthest).any():
                     break
             tangent = np.cross(one, two)
             tangent = tangent * (dot(way, way) / dot(tangent, way))[:, None]
@@ -201,4 +200,4 @@ def no_longer(steps: Floats, longest: Floats) -> Floats:
     """(k,3) the steps, those longer than this (k,) shortened; none where they are not finite."""
     steps = np.where(np.isfinite(steps.sum(axis=1, keepdims=True)), steps, 0.0)
     long = np.sqrt(dot(steps, steps))
-    return np.asarray(steps * np.minimum(1.0, longest / np.maximum(long, 1e-300))[:, None])
+    return np.asarray(steps * np.minimum(1.0, longest / np.maximum(long, LEAST_DIVISOR))[:, None])

@@ -9,11 +9,13 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.polygonize import settled_mesh
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.tolerance import ROUNDING
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.surfaces.placed import PlacedImplicit
 from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.tolerances.of_angles import SAME_DIRECTION_SINE
+from vectorplot.tolerances.of_numbers import ROUNDING
+from vectorplot.tolerances.of_parameters import OUTSIDE_DOMAIN
 
 FEWEST, MOST = 48, 192
 """Cells along the longest side of the box on which a surface is polygonised, at least and at most."""
@@ -26,12 +28,6 @@ MOST_OF_ALL = 0.99
 
 LONGEST_STEP = 0.05
 """Part of half the scene that one step of Newton may go: a longer one leads anywhere."""
-
-BEYOND = 1e-9
-"""Part of the box that a place may be outside of it."""
-
-FLAT_ON_SIDE = 1e-9
-"""Sine of the angle between the borders on two sides of the box below which they have one direction."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +97,7 @@ class ImplicitSheet:
         normals = np.nan_to_num(self.normals(places[at]))
         along = sides[at, :, None] * self.view.axes.T
         along = along - np.einsum("kij,kj->ki", along, normals)[:, :, None] * normals[:, None]
-        inner[at] = np.einsum("kij,kj->ki", np.linalg.pinv(along, rcond=FLAT_ON_SIDE), np.abs(sides[at]))
+        inner[at] = np.einsum("kij,kj->ki", np.linalg.pinv(along, rcond=SAME_DIRECTION_SINE), np.abs(sides[at]))
         return inner
 
     def turnings(self, places: Floats) -> Floats:
@@ -142,7 +138,7 @@ class ImplicitSheet:
     def _beyond(self) -> Floats:
         """(3,) what rounding may make of these."""
         low, high = np.asarray(self.home.box, dtype=np.float64)
-        return np.asarray(BEYOND + 16.0 * ROUNDING * np.maximum(np.abs(low), np.abs(high)) / (high - low))
+        return np.asarray(OUTSIDE_DOMAIN + 16.0 * ROUNDING * np.maximum(np.abs(low), np.abs(high)) / (high - low))
 
 
 def implicit_sheet(view: View, surface: ImplicitSurface, item: int, hides: bool) -> ImplicitSheet:

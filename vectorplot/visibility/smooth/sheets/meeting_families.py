@@ -9,10 +9,10 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.features.parametric.conditions import Slopes
 from vectorplot.geometry.vectors import dot
+from vectorplot.tolerances.of_lengths import FAMILY_SETTLED, MISSED_OF_CHORD
 from vectorplot.visibility.smooth.sheets.family import (
     FARTHEST,
     ROUNDS,
-    SETTLED,
     Along,
     Chords,
     ConditionCurves,
@@ -22,10 +22,6 @@ from vectorplot.visibility.smooth.sheets.family import (
 )
 from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
-
-MISSED = 1e-6
-"""Where the sheets, or the last two steps, are still apart by this part of a chord the sheets do not cross, but touch,
-as in a pinch point: there the first one has to do."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,13 +54,13 @@ class SheetsMeet:
                 at = _finite(one.moved(at, steps[0]), at)
                 there = _finite(two.moved(there, steps[1]), there)
                 last = np.sqrt(np.fmax(dot(steps[0], steps[0]), dot(steps[1], steps[1])))
-                if not (last > SETTLED * long).any():
+                if not (last > FAMILY_SETTLED * long).any():
                     break
             tangent = np.cross(n, m)
             tangent *= (dot(way, way) / dot(tangent, way))[:, None]
         p, q = one.points(at), two.points(there)
         roughly = ParameterCurves(one, self.sheet).between(chords, part)
-        met = (last <= MISSED * long) & (np.sqrt(dot(p - q, p - q)) <= MISSED * long)
+        met = (last <= MISSED_OF_CHORD * long) & (np.sqrt(dot(p - q, p - q)) <= MISSED_OF_CHORD * long)
         a, b = chords.second_places
         places, second = (
             np.where(met[:, None], at, roughly.places),

@@ -12,6 +12,8 @@ from vectorplot.geometry.vectors import cross, dot
 from vectorplot.surfaces.jumps import jumping_cells, jumps
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Domain, Surface
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
+from vectorplot.tolerances.of_parameters import OUTSIDE_DOMAIN
 from vectorplot.visibility.smooth.sheets.sheet import solved
 
 FEWEST, MOST = 32, 512
@@ -28,9 +30,6 @@ vain; after so many times nothing finer is tried. At a vertical tangent they lea
 
 LONGEST_STEP = 0.05
 """Part of the domain that one step of Newton may go: a longer one leads anywhere."""
-
-BEYOND = 1e-9
-"""Part of the domain that a place may be outside of it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +88,7 @@ class ParametricSheet:
         ):
             if not closed:
                 part = (places[:, axis] - start) / size
-                inner += (part <= BEYOND)[:, None] * along - (part >= 1.0 - BEYOND)[:, None] * along
+                inner += (part <= OUTSIDE_DOMAIN)[:, None] * along - (part >= 1.0 - OUTSIDE_DOMAIN)[:, None] * along
         return inner
 
     def turnings(self, places: Floats) -> Floats:
@@ -117,7 +116,7 @@ class ParametricSheet:
         width, height = self.surface.domain.size
         with np.errstate(invalid="ignore"):
             long = np.maximum(np.abs(step[:, 0]) / width, np.abs(step[:, 1]) / height)
-            step *= np.minimum(1.0, LONGEST_STEP / np.maximum(long, 1e-300))[:, None]
+            step *= np.minimum(1.0, LONGEST_STEP / np.maximum(long, LEAST_DIVISOR))[:, None]
         return t, np.stack([u, v, np.zeros_like(u)], axis=1) + step
 
     def apart(self, one: Floats, two: Floats) -> Floats:
@@ -137,10 +136,10 @@ class ParametricSheet:
         inside = np.isfinite(places).all(axis=1)
         if not domain.closed_u:
             part = (places[:, 0] - domain.u_start) / domain.size[0]
-            inside &= (part >= -BEYOND) & (part <= 1.0 + BEYOND)
+            inside &= (part >= -OUTSIDE_DOMAIN) & (part <= 1.0 + OUTSIDE_DOMAIN)
         if not domain.closed_v:
             part = (places[:, 1] - domain.v_start) / domain.size[1]
-            inside &= (part >= -BEYOND) & (part <= 1.0 + BEYOND)
+            inside &= (part >= -OUTSIDE_DOMAIN) & (part <= 1.0 + OUTSIDE_DOMAIN)
         return np.asarray(inside)
 
     def parameters(self, places: Floats) -> tuple[Floats, Floats]:

@@ -6,6 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_numbers import ULP
 
 
 def sight(view: View, points: Floats) -> Floats:
@@ -17,7 +18,7 @@ def sight(view: View, points: Floats) -> Floats:
 
 def rounding(view: View) -> float:
     """How large the rounding of points in the view's coordinates is: a scene far from the origin has few digits."""
-    return float(np.finfo(np.float64).eps * (1.0 + np.abs(view.centre).max() / view.scale))
+    return float(ULP * (1.0 + np.abs(view.centre).max() / view.scale))
 
 
 def image(view: View, points: Floats) -> Floats:

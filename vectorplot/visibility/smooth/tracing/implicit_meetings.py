@@ -14,9 +14,10 @@ from vectorplot.features.parametric.conditions import ImplicitSection
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.sections import section_by_implicit
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.tolerances.of_parameters import OUTSIDE_DOMAIN
 from vectorplot.visibility.smooth.events.roots import roots_along
 from vectorplot.visibility.smooth.sheets.family import Along, ConditionCurves, SpatialCurves
-from vectorplot.visibility.smooth.sheets.implicit_sheet import BEYOND, ImplicitSheet
+from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
 from vectorplot.visibility.smooth.sheets.meeting_families import ImplicitFaceCurves
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.tracing.implicit_items import as_spatial_curves, tracing_in_world
@@ -68,7 +69,7 @@ def within_box(curves: Curves, sheet: ImplicitSheet) -> Curves:
 
     values = sheet.depths_in_box(curves.points)
     # What lies in a side of the box is inside.
-    values = np.where(np.abs(values) <= BEYOND, 0.0, values)
+    values = np.where(np.abs(values) <= OUTSIDE_DOMAIN, 0.0, values)
     if not len(curves) or (values >= 0.0).all():
         return curves
     roots = roots_along(curves, depths, values)

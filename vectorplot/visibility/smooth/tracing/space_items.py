@@ -13,6 +13,7 @@ from vectorplot.features.parametric.parameter_lines import MISSED, PROBES
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_extent import SETTLED_ON_SHEET, ZERO_OF_EXTENT
 from vectorplot.visibility.smooth.sheets.family import Along, Chords
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet
@@ -23,9 +24,6 @@ FIRST_CHORDS = 64
 
 MOST_POINTS = 1 << 18
 """A curve that is not within tolerance with so many points is drawn with these."""
-
-ON_SHEET = 1e-9
-"""A curve no point of which is farther from a sheet lies on it; the scene is about 1 large."""
 
 ROUNDS = 12
 
@@ -66,7 +64,7 @@ def space_curve(view: View, curve: Curve, item: int, sheets: tuple[SmoothSheet, 
     for other, sheet in enumerate(sheets):
         if isinstance(sheet, ParametricSheet) and good.all():
             found, off = _placed(sheet, points)
-            if off <= ON_SHEET:
+            if off <= ZERO_OF_EXTENT:
                 number, surface = other, sheet
                 places[:, :2] = found
                 break
@@ -151,6 +149,6 @@ def _onto(sheet: SmoothSheet, points: Floats, places: Floats) -> tuple[Floats, F
         better = np.isfinite(moved).all(axis=1) & sheet.on_sheet(moved)
         places = np.where(better[:, None], moved, places)
         away = points - sheet.points(places)
-        if not (dot(away, away) > (1e-3 * ON_SHEET) ** 2).any():
+        if not (dot(away, away) > (SETTLED_ON_SHEET) ** 2).any():
             break
     return places, np.asarray(np.sqrt(dot(away, away)))

@@ -1,0 +1,85 @@
+"""Writes docs/tolerances.md: the table of tolerances, from the files that hold it.
+
+Run it after changing a tolerance: ``python docs/tolerances.py``. A test compares the file with what this would write.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGE = ROOT / "vectorplot"
+TABLE = PACKAGE / "tolerances"
+PAGE = ROOT / "docs" / "tolerances.md"
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """A name of the table, the number as it is written there, and why it is that number."""
+
+    name: str
+    value: str
+    reason: str
+
+
+def tolerances(path: Path) -> Iterator[Tolerance]:
+    """The tolerances of one file of the table, in its order; reason is empty where none is given."""
+    body = ast.parse(path.read_text(encoding="utf-8")).body
+    for node, after in zip(body, [*body[1:], None], strict=True):
+        if not isinstance(node, ast.Assign):
+            continue
+        told = isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant)
+        reason = " ".join(str(ast.literal_eval(after.value)).split()) if told else ""
+        target = node.targets[0]
+        if isinstance(target, ast.Tuple) and isinstance(node.value, ast.Tuple):
+            pairs = zip(target.elts, node.value.elts, strict=True)
+        else:
+            pairs = iter([(target, node.value)])
+        for name, value in pairs:
+            yield Tolerance(ast.unparse(name), ast.get_source_segment(path.read_text(encoding="utf-8"), value), reason)
+
+
+def uses() -> dict[str, list[str]]:
+    """The files of the package that import each name of the table."""
+    found: dict[str, list[str]] = {}
+    for path in sorted(PACKAGE.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("vectorplot.tolerances."):
+                for alias in node.names:
+                    found.setdefault(alias.name, []).append(path.relative_to(ROOT).as_posix())
+    return found
+
+
+def page() -> str:
+    """The text of docs/tolerances.md."""
+    files = sorted(TABLE.glob("of_*.py"))
+    used = uses()
+    intro = " ".join((ast.get_docstring(ast.parse((TABLE / "__init__.py").read_text(encoding="utf-8"))) or "").split())
+    lines = [
+        "# Tolerances",
+        "",
+        "Written by docs/tolerances.py from vectorplot/tolerances.",
+        "",
+        intro,
+        "",
+    ]
+    for path in files:
+        heading = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+        first, _, rest = heading.partition("\n")
+        lines += [f"## {first.rstrip('.')}", ""]
+        if rest.strip():
+            lines += [" ".join(rest.split()), ""]
+        lines += ["| name | value | why | used by |", "|---|---|---|---|"]
+        for entry in tolerances(path):
+            where = ", ".join(f"[{Path(file).stem}](../{file})" for file in used.get(entry.name, []))
+            lines.append(f"| `{entry.name}` | `{entry.value}` | {entry.reason} | {where} |")
+        lines.append("")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")
+    print(f"{PAGE.relative_to(ROOT)}: {page().count(chr(10))} lines")

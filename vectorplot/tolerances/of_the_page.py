@@ -1,0 +1,25 @@
+"""Millimetres on the page."""
+
+from __future__ import annotations
+
+COINCIDENT_MM = 1e-4
+"""Strokes that are no further apart than this lie on each other, ends on the same point: a tenth of what a file's
+numbers keep."""
+
+COLLINEAR_MM = 1e-4
+"""A point that is no further from the straight line between its neighbours is left out. So a stroke moves by less than
+a millionth of a picture on a sheet of paper: what is drawn stays as visible as it was found to be."""
+
+TOUCHING_AT_MM = 1e-4
+"""Curves of a sheet of paper's size that touch in four points at once are so close over the length below which a shared
+part only touches; where points are known less well, over more of it, by the fourth root."""
+
+GRID_MM = 1e-4
+"""Corners of regions lie on a grid of so many millimetres; the scene's own have digits to spare."""
+
+CLEARANCE_MM = 1e-3
+"""What is cut away is wider by this than what lies above it: of two sides that nearly coincide nothing is left between
+them, which would be drawn as wide as a seam."""
+
+ARC_DECIMAL_MM = 1e-5
+"""Unit of the numbers of arcs: their radii and centres are kept better than their ends."""

@@ -1,0 +1,97 @@
+"""Parts of the size of a function, a condition, a derivative, a matrix."""
+
+from __future__ import annotations
+
+FALLS_BESIDE = 1e-3
+"""Part of the values beside a change of sign below which a function must come there; at a pole or a jump it does
+not."""
+
+FLAT_OF_VALUES = 1e-9
+"""Part of the size of a condition that users' functions, and differences of them, may be wrong by: where it is no
+larger all over a cell or a triangle, it is zero there."""
+
+ZERO_RESIDUAL = 1e-12
+"""Part of the scale of a function down to which it is brought at every point of its zero lines."""
+
+GRID_NOISE = 2.0**-46
+"""Part of the scale of a function below which a value at a grid point is rounding, and counts as zero: 64 steps."""
+
+NODE_OF_VALUES = 1e-10
+"""Part of the scale of a function of two parameters below which a critical value counts as zero: its lines cross
+there."""
+
+NODE_IN_SPACE = 1e-9
+"""The same for a condition on an implicit surface, whose derivatives are differences."""
+
+FLAT_NODE = 1e-4
+"""A curvature of a function of two parameters below this part of the other one counts as zero: second differences are
+known to about the root of the rounding."""
+
+SHALLOW_NODE = 1e-5
+"""Ratio of principal slopes below which a critical point in space belongs to a line of them."""
+
+FLAT_CONTACT = 1e-5
+"""A relative curvature of two touching surfaces below this part of the other one, or of one by the extent, counts as
+zero."""
+
+STEEP_DIRECTION = 1e-6
+"""Along a direction whose curvature is less than this part of the other one there is nothing to solve for: there the
+difference quotients are noise."""
+
+FIRM_DIRECTION = 1e-7
+"""The same for a condition on an implicit surface."""
+
+RANK_OF_BENDING = 1e-8
+"""Singular values of a matrix of second derivatives below this part of the largest are none."""
+
+RANK_OF_END = 1e-10
+"""Singular values of the equations of a double curve's end below this part of the largest are none."""
+
+RANK_OF_FIT = 1e-12
+"""Singular values of the equations of a circle or an ellipse below this part of the largest are none: the points lie on
+a line."""
+
+VANISHED_GRADIENT = 1e-6
+"""Part of the usual gradient, and of what it makes of the way to go, below which gradient and value are zero."""
+
+VANISHED_VALUE = 1e-9
+"""Part of what the usual gradient makes of the way to go below which the value at a singular point is zero: at a double
+point it is the square of the gradient."""
+
+ZERO_OF_BENDING = 1e-15
+"""Part of the usual bending of a contour below which it is zero: where it changes its sign the contour has a cusp."""
+
+LEVEL_CURVATURE = 1e-9
+"""Part of the largest curvature along a contour below which one is rounding."""
+
+VANISHED_ON_BORDER = 1e-14
+"""Part of the values inside a domain that those on its border are at most where the function vanishes all along it."""
+
+SYMMETRIC_DEVIATION = 1e-9
+"""Two ways to cut a cell whose triangles deviate from their normals by sums that differ by less are equally good: what
+is symmetric is cut everywhere the same way."""
+
+SINGULAR_PRODUCT = 1e-9
+"""Part of the size of the cross product of the partials, or of what the second derivatives allow, below which it
+vanishes: at a pole or a singular point."""
+
+SUSPECT_PRODUCT = 1e-6
+"""Below this part of the squared size of the surface a cross product is looked at closely: it may be that of a pole."""
+
+SINGULAR_DETERMINANT = 1e-12
+"""A determinant below this part of what columns of the same length could have is zero: the matrix has no inverse, the
+conic no area."""
+
+REAL_EIGENVALUE = 1e-12
+"""Part of the largest eigenvalue that the imaginary part of one may be that is real."""
+
+RIDGE = 1e-5
+"""Part of the size of the equations of handles that is added to them: where handles hardly change the shape, as on a
+straight line, their steps stay small."""
+
+DERIVATIVES_AGREE = 1e-6
+"""Part of the largest derivative that two ways to compute it may differ by: differences have no more digits."""
+
+VALUES_AGREE = 1e-9
+"""A user's function may give values for a whole array that differ by this part from those one by one: more is another
+function."""
