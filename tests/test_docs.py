@@ -122,3 +122,12 @@ def test_the_numbers_of_the_pages_are_those_of_the_code():
     assert NEAR_OF_DISTANCE == 1e-4 and "1e-4 of the smaller" in limits
     widths = ", ".join(f"{pen.width_mm:g}" for pen in PENS.values())
     assert f"{widths} mm" in (DOCS / "drawing.md").read_text(encoding="utf-8")
+
+
+def test_the_page_of_the_textbook_names_every_file_of_it():
+    from vectorplot import textbook
+
+    page = (DOCS / "textbook.md").read_text(encoding="utf-8")
+    named = {name for name in textbook.__all__ if f"`{name}`" in page}
+    files = {path.stem for path in (ROOT / "vectorplot" / "textbook").glob("[a-z]*.py")}
+    assert {getattr(textbook, name).__module__.rpartition(".")[2] for name in named} == files

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -274,3 +275,23 @@ def test_one_text_names_kinds_of_lines_as_on_the_command_line() -> None:
     words = draw(CUBE, lines=("contour", "crease"))
     assert_drawings_equal(draw(CUBE, lines="contour, crease"), words)
     assert not draw(CUBE, lines="none").layers
+
+
+@pytest.mark.parametrize("name", ["town", "torus", "shadows"])
+@pytest.mark.parametrize("hidden", ["none", "dashed"])
+def test_no_stroke_is_longer_than_asked_for_and_the_picture_is_the_same(name, hidden):
+    scene = read(DATA / f"{name}.scene")
+    whole, parts = (draw(scene, hidden=hidden, longest_mm=longest) for longest in (None, 15.0))
+    lengths = []
+    for layer in parts.layers:
+        for paths in layer.strokes:
+            steps = np.linalg.norm(np.diff(paths.points, axis=0), axis=1)
+            lengths += [steps[a : b - 1].sum() for a, b in pairwise(paths.offsets)]
+    assert 10.0 < max(lengths) <= 15.0 * (1.0 + 1e-9)
+    assert_drawings_equal(whole, parts, tolerance_mm=0.05)
+
+
+@pytest.mark.parametrize("longest", [0.0, -1.0, 0.5, float("nan")])
+def test_longest_strokes_of_no_length_are_refused(longest):
+    with pytest.raises(InputError, match="longest"):
+        draw(read(DATA / "pencil.scene"), longest_mm=longest)

@@ -28,7 +28,6 @@ VERBS = {"draw", "paint", "read", "render", "save", "plan"}
 ALLOWED = {("drawing/drawing.py", "backends")}
 
 FOR_PROGRAMS = {
-    "drawing/strokes/long_strokes.py",
     "surfaces/curvature.py",
     "surfaces/height_grid.py",
 }

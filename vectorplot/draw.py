@@ -49,6 +49,9 @@ if TYPE_CHECKING:
 LARGER = 1.25
 """Curves are traced anew where they come out so many times larger on the page than they were taken for."""
 
+SHORTEST_MM = 1.0
+"""To parts shorter than this no stroke is cut: it would be dots."""
+
 
 def default_camera(scene: Scene, up: Point = (0.0, 0.0, 1.0)) -> Camera:
     """A central projection of the whole scene from the front, the right and above, for what stands upright along up.
@@ -79,6 +82,7 @@ def draw(
     layers: Literal["kind", "object", "colour"] = "kind",
     curves: Literal["bezier", "polyline"] = "bezier",
     tolerance_mm: float = 0.02,
+    longest_mm: float | None = None,
     budget: float = 1.0,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
@@ -94,8 +98,9 @@ def draw(
     so far beside what is in front of them.
     layers: what shares a layer. curves: strokes of smooth curves are fitted with cubic Béziers and elliptic arcs, or
     stay polylines. tolerance_mm: how far strokes of smooth curves may be off the true curves; their
-    points are exact but for the ends of dashes, straight lines are so whatever it is. budget: how many times the
-    usual work on smooth surfaces is allowed (see geometry.budget). progress(stage, fraction) and explain(report) are
+    points are exact but for the ends of dashes, straight lines are so whatever it is. longest_mm: longer strokes leave
+    in equal parts that are no longer, for plotters that stutter on them. budget: how many times the usual work on
+    smooth surfaces is allowed (see geometry.budget). progress(stage, fraction) and explain(report) are
     called while it works.
     Errors: InputError for unknown words, impossible cameras, and widths and angles out of range.
     Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees
@@ -104,6 +109,7 @@ def draw(
     Source: Glaeser, sections 2.1, 4.4 and 7.2.
     """
     _check_options(hidden, layers, curves, halo_mm, crease_angle_deg, tolerance_mm)
+    _check_longest(longest_mm)
     allowed = budget_of(budget)
     _check_style(style, hidden=hidden != "none", halo_mm=halo_mm > 0.0, layers=layers != "kind")
     kinds = line_kinds((DRAWN if style == "plain" else WIRES) if lines is None else lines)
@@ -149,7 +155,8 @@ def draw(
         from vectorplot.effects.wireframe import wire_layers
 
         sorted_layers = walk.run("layers", wire_layers, scene, view, strokes, page, style)
-    pens = walk.run("pen", inked, sorted_layers, hidden, world, tolerance_mm if curves == "bezier" else None)
+    curved = tolerance_mm if curves == "bezier" else None
+    pens = walk.run("pen", inked, sorted_layers, hidden, world, curved, longest_mm)
     names = tuple(item.name for item in scene.items)
     return Drawing(page.width_mm, page.height_mm, pens, names, scene.title, world)
 
@@ -238,6 +245,11 @@ def _check_options(
         raise InputError(f"a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
     if not 0.0 < tolerance_mm < np.inf:
         raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected a length that is finite and positive")
+
+
+def _check_longest(longest_mm: float | None) -> None:
+    if longest_mm is not None and not longest_mm >= SHORTEST_MM:
+        raise InputError(f"longest strokes of {longest_mm:g} mm: expected {SHORTEST_MM:g} mm or more")
 
 
 def _check_style(style: str, **others: bool) -> None:

@@ -44,6 +44,7 @@ FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
 @click.option("--layers", type=click.Choice(["kind", "object", "colour"]), default="kind", help="What shares a layer.")
 @click.option("--curves", type=click.Choice(["bezier", "polyline"]), default="bezier", help="How smooth curves leave.")
 @click.option("--tolerance", type=between(0.0, math.inf), default=0.02, metavar="MM", help="For approximations.")
+@click.option("--longest", type=at_least(1.0), metavar="MM", help="Longer strokes leave in parts.  [default: whole]")
 @click.option(
     "--budget", type=between(0.0, math.inf), default=1.0, metavar="FACTOR", help="Times the usual work on a surface."
 )
@@ -72,6 +73,7 @@ def draw(scene_file: str, out: str, format_: str | None, quiet: bool, explain: b
             layers=options["layers"],
             curves=options["curves"],
             tolerance_mm=options["tolerance"],
+            longest_mm=options["longest"],
             budget=options["budget"],
             progress=report.progress,
             explain=report.explain,

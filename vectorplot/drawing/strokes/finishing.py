@@ -12,6 +12,7 @@ from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.strokes.curved_strokes import with_curves
 from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.drawing.strokes.join import joined
+from vectorplot.drawing.strokes.long_strokes import split_long
 from vectorplot.drawing.strokes.paths import chosen, concatenated
 from vectorplot.drawing.strokes.pen_order.order import pen_ordered
 from vectorplot.drawing.strokes.simplify import without_collinear_points
@@ -23,13 +24,20 @@ DASH_MM = (2.0, 1.0)
 
 
 def inked(
-    layers: tuple[Layer, ...], hidden: str, world: Floats, curve_tolerance_mm: float | None = None
+    layers: tuple[Layer, ...],
+    hidden: str,
+    world: Floats,
+    curve_tolerance_mm: float | None = None,
+    longest_mm: float | None = None,
 ) -> tuple[Layer, ...]:
     """Each layer's strokes joined, without collinear points, hidden ones dashed if asked for, in the order of the
-    pen; smooth ones as curves within curve_tolerance_mm, or as polylines where it is None. Filled polygons stay."""
+    pen, in parts where they are longer than longest_mm; smooth ones as curves within curve_tolerance_mm, or as
+    polylines where it is None. Filled polygons stay."""
     found = []
     for layer in layers:
         strokes = tuple(_pen_strokes(paths, hidden, world) for paths in layer.strokes)
+        if longest_mm is not None:
+            strokes = tuple(split_long(paths, longest_mm, world) for paths in strokes)
         drawn = iter(strokes if curve_tolerance_mm is None else (with_curves(s, curve_tolerance_mm) for s in strokes))
         marks = tuple(mark if isinstance(mark, Fills) else next(drawn) for mark in layer.marks)
         found.append(replace(layer, marks=marks))
