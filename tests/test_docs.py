@@ -111,12 +111,16 @@ def test_modules_that_pages_name_exist():
 
 def test_the_numbers_of_the_pages_are_those_of_the_code():
     from vectorplot.drawing.layers import PENS
-    from vectorplot.geometry.cameras.unit_projection import ULPS, WIDEST_DEG
+    from vectorplot.geometry.cameras.unit_projection import FARTHEST_OFF_AXIS_DEG, ULPS
     from vectorplot.tolerances.of_extent import NEAR_OF_DISTANCE, ZERO_OF_EXTENT
     from vectorplot.visibility.polyhedra.occluders import MAX_SOLID_FACES
 
     limits = (DOCS / "accuracy-and-limits.md").read_text(encoding="utf-8")
-    for number in (f"up to {MAX_SOLID_FACES} faces", f"more than {WIDEST_DEG:g} degrees", f"{ULPS:g} rounding steps"):
+    for number in (
+        f"up to {MAX_SOLID_FACES} faces",
+        f"more than {FARTHEST_OFF_AXIS_DEG:g} degrees",
+        f"{ULPS:g} rounding steps",
+    ):
         assert number in limits
     assert ZERO_OF_EXTENT == 1e-9 and "1e-9 of the extent" in limits
     assert NEAR_OF_DISTANCE == 1e-4 and "1e-4 of the smaller" in limits

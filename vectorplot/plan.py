@@ -11,8 +11,10 @@ import numpy as np
 
 from vectorplot.errors import printable
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.placement import box_corners, field_of_vision
+from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.words import LineKind
 
 P = ParamSpec("P")
@@ -107,20 +109,18 @@ def chosen_shadows(scene: Scene, camera: Camera, size: tuple[int, int], fit: boo
     solid = any(item.material.opacity >= 1.0 for item in scene.items)
     if not any(casts_shadow(item) or (solid and dims_light(item)) for item in scene.items):
         return "none", "nothing stops light"
-    low, high = scene.bounds
-    corners = low + np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * (high - low)
-    arm = (corners - np.asarray(camera.target)) @ camera.axes.T
-    shown = np.ones(len(arm))
-    if not camera.parallel:
-        ahead = camera.distance - arm[:, 2]
-        near, far = float(ahead.min()), float(ahead.max())
+    projection = projection_of(camera, scene.bounds)
+    corners = projection.points_of(box_corners(scene.bounds))
+    if projection.eye is not None:
+        depth = projection.depth_of(corners)
+        near, far = float(depth.min()), float(depth.max())
         if not near > 0.0:
             return "trapezoid", "the eye is amid the scene"
         if far >= DEEP * near:
             return "trapezoid", f"what is farthest is {far / near:.1f} times as far away as what is nearest"
-        shown = ahead / camera.distance
-    half = camera.picture_height / 2.0 * np.array([size[0] / size[1], 1.0])
-    if not fit and (np.abs(arm[:, :2]) > half * shown[:, None]).any():
+    low, high = field_of_vision(projection, Page(*size, 0.0), fit).window
+    image = projection.image_of(corners).T
+    if not fit and ((image < low) | (image > high)).any():
         return "trapezoid", "the picture shows a part of the scene"
     return "buffer", "everything is about as far away"
 

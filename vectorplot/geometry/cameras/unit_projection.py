@@ -16,7 +16,7 @@ from vectorplot.tolerances.of_numbers import LARGEST_VIEW, ULP
 ULPS = 16.0
 """Fewer rounding steps of the largest coordinate than these count as zero too."""
 
-WIDEST_DEG = 60.0
+FARTHEST_OFF_AXIS_DEG = 60.0
 """A picture that is fitted to the page shows what lies up to so many degrees off the principal ray."""
 
 
@@ -87,7 +87,7 @@ class Projection:
         fitted to a page."""
         if self.eye is None:
             return False
-        limit = self.focus * np.tan(np.radians(WIDEST_DEG))
+        limit = self.focus * np.tan(np.radians(FARTHEST_OFF_AXIS_DEG))
         return any(
             self.depth_of(some).min() < self.near or np.abs(self.image_of(some)).max() > limit
             for some in points
