@@ -47,8 +47,8 @@ def test_a_picture_with_lines_looks_at_its_faces_once(verb, surface, camera, fit
 
 
 def needle(depth: float, off: float, size: float) -> tuple[Scene, Camera]:
-    """A cube of two units two units before the eye, and a face at some depth and behind it, as far off the principal ray as off says
-    of its depth, in a world where a unit is size."""
+    """A cube of two units two units before the eye, and a face that begins at some depth, as far off the principal ray
+    as off says of its depth, in a world where a unit is size."""
     x = off * depth
     face = np.array([(x, 0, 4 - depth), (0, 1e-3 * depth, 4 - depth), (0, 0, 4 - 2 * depth)])
     items = (

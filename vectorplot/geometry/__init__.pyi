@@ -12,6 +12,7 @@ from .cameras.projection import (
     unproject,
     with_target_as_origin,
 )
+from .cameras.unit_projection import Projection, projection_of
 from .clipping import (
     Box,
     ClippedLines,
@@ -96,6 +97,7 @@ __all__ = [
     "MeshReport",
     "PixelWindow",
     "Polygons",
+    "Projection",
     "Separations",
     "Strokes",
     "Surroundings",
@@ -154,6 +156,7 @@ __all__ = [
     "polyhedron_intersection",
     "prism",
     "project",
+    "projection_of",
     "ragged",
     "region_codes",
     "revolution",

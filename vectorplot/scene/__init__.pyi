@@ -1,4 +1,5 @@
 from .paper import sheet_size
+from .placement import Placement, field_of_vision, fitted_picture
 from .scene import Item, Light, Material, Page, Pattern, Scene
 from .surface_lines import Section, SurfaceLines, even_cosines
 from .view import View, look
@@ -9,11 +10,14 @@ __all__ = [
     "Material",
     "Page",
     "Pattern",
+    "Placement",
     "Scene",
     "Section",
     "SurfaceLines",
     "View",
     "even_cosines",
+    "field_of_vision",
+    "fitted_picture",
     "look",
     "sheet_size",
 ]
