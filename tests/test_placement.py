@@ -7,7 +7,7 @@ import vectorplot as vp
 import vectorplot.scene.view as views
 from vectorplot.drawing.painted_fills import placed_faces
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.unit_projection import FARTHEST_OFF_AXIS_DEG, NEAR_OF_DISTANCE
+from vectorplot.geometry.cameras.unit_projection import FARTHEST_OFF_AXIS_DEG
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture
 from vectorplot.scene.scene import Item, Page, Scene
@@ -15,6 +15,7 @@ from vectorplot.scene.view import look
 from vectorplot.shading.raster.screen import picture_placement, pixel_system
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing.shapes import box, rotated_boxes
+from vectorplot.tolerances.of_extent import NEAR_OF_DISTANCE
 from vectorplot.visibility.framing import frame_of
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.polyhedra.lines import straight_lines
