@@ -44,7 +44,7 @@ def test_every_erratum_has_a_place_and_a_test():
 
 
 def test_every_source_that_a_docstring_names_is_in_the_bibliography(texts):
-    """By the names before the first comma: of authors, of who publishes a format, or of a standard; not what says a method."""
+    """By the names before the first comma: of authors, of who publishes a format, or of a standard."""
     page = (DOCS / "bibliography.md").read_text(encoding="utf-8")
     cited = {match for text in texts for match in re.findall(r"Source: ([A-Z0-9][^,;:(.]*)[,;:]", text)}
     assert len(cited) > 30
