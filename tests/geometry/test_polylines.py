@@ -5,6 +5,9 @@ from dataclasses import dataclass, field, fields, replace
 import numpy as np
 import pytest
 
+from vectorplot.backends.page.areas import Polygons
+from vectorplot.backends.svg.strips import Strips
+from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.paths import chosen, concatenated
 from vectorplot.features.implicit.implicit_tracing import ImplicitCurves
@@ -27,7 +30,20 @@ from vectorplot.geometry.polylines import (
 from vectorplot.geometry.strokes import Strokes
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
-TYPES = (Polylines, Strokes, SurfaceCurves, ImplicitCurves, DoubleCurves, MeshCurves, ZeroManifold, Curves, Paths)
+TYPES = (
+    Polylines,
+    Strokes,
+    SurfaceCurves,
+    ImplicitCurves,
+    DoubleCurves,
+    MeshCurves,
+    ZeroManifold,
+    Curves,
+    Paths,
+    BezierPaths,
+    Polygons,
+    Strips,
+)
 SIZES = (3, 0, 2, 4, 1)
 CLOSED = np.array([True, False, False, True, False])
 OFFSETS = np.concatenate([[0], np.cumsum(SIZES)])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 
 import numpy as np
@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
 
 Colours = NDArray[np.uint8]
 
@@ -65,13 +65,13 @@ class Fills:
     Source: Glaeser, sections 4.5 and 5.1.
     """
 
-    points: Floats
+    points: Floats = field(metadata=EACH_POINT)
     offsets: Ints
-    colours: Colours
-    opacity: Floats
-    item: Ints
-    points3d: Floats
-    kind: Ints
+    colours: Colours = field(metadata=EACH_POINT)
+    opacity: Floats = field(metadata=EACH_LINE)
+    item: Ints = field(metadata=EACH_LINE)
+    points3d: Floats = field(metadata=EACH_POINT)
+    kind: Ints = field(metadata=EACH_LINE)
 
     def __post_init__(self) -> None:
         p, m = len(self.points), len(self.offsets) - 1
@@ -132,29 +132,8 @@ class Fills:
     @classmethod
     def joined(cls, *parts: Fills) -> Fills:
         """The polygons of all parts, one part after the other."""
-        some = parts or (cls.empty(),)
-        sizes = np.concatenate([np.diff(part.offsets) for part in some])
-        return cls(
-            np.concatenate([part.points for part in some]),
-            ragged.offsets(sizes),
-            np.concatenate([part.colours for part in some]),
-            np.concatenate([part.opacity for part in some]),
-            np.concatenate([part.item for part in some]),
-            np.concatenate([part.points3d for part in some]),
-            np.concatenate([part.kind for part in some]),
-        )
+        return joined(parts or (cls.empty(),))
 
     def some(self, which: Ints) -> Fills:
         """The polygons with these numbers, in this order."""
-        sizes = np.diff(self.offsets)[which]
-        ends = ragged.offsets(sizes)
-        corner = ragged.ranges(self.offsets[which], sizes)
-        return Fills(
-            self.points[corner],
-            ends,
-            self.colours[corner],
-            self.opacity[which],
-            self.item[which],
-            self.points3d[corner],
-            self.kind[which],
-        )
+        return some(self, which)

@@ -1,4 +1,4 @@
-"""Polylines, and what is said of each of their points and of each of them: chosen, put together, led round.
+"""Polylines and polygons, and what is said of each point and of each line: chosen, put together, led round.
 
 Curves on a surface, in faces of a mesh, on two sheets or on a page are polylines of which more is known: parameters
 beside every point, a level or a kind beside every line. Such a type has the fields ``offsets`` and mostly ``closed`` as

@@ -7,6 +7,7 @@ import vectorplot as vp
 from vectorplot.drawing.drawing import Curves
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.surface_paths import surface_path
+from vectorplot.geometry.budget import Budget
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
 from vectorplot.scene.surface_lines import SurfaceLines, path_on_surface
@@ -132,3 +133,13 @@ def test_mistakes_about_them_are_told(text: str, cause: str) -> None:
     with pytest.raises(vp.InputError, match=cause) as told:
         parse_scene(text)
     assert ":1: A: " in str(told.value)
+
+
+@pytest.mark.parametrize("tolerance", [1e-9, 1e-12])
+def test_a_path_obeys_the_budget_and_says_so(tolerance: float) -> None:
+    few = Tracing(tolerance=tolerance, budget=Budget(points=500))
+    found = surface_path(TORUS, knot(2, 3), 0.0, 2 * np.pi, tracing=few)
+    assert 500 < len(found.points) <= 3 * 500
+    assert found.doubts and "a path is off by more than the tolerance" in found.doubts[0]
+    enough = surface_path(TORUS, knot(2, 3), 0.0, 2 * np.pi, tracing=Tracing(tolerance=1e-2, budget=Budget(points=500)))
+    assert not enough.doubts

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -14,6 +14,7 @@ from vectorplot.drawing.fills import SEAM_MM, Colours, FillKind, Fills
 from vectorplot.drawing.strokes.page_clip import clipped_parts
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
 
 RUN_LENGTH = 1000
 """So many polygons are painted at once; one huge path makes the rasterisers of all readers slow."""
@@ -138,28 +139,15 @@ class Polygons:
     """Polygons on their way to the page: points (p,2) in mm, offsets (m+1,), colours (p,3), source (m,): the fill that
     each polygon is a part of."""
 
-    points: Floats
+    points: Floats = field(metadata=EACH_POINT)
     offsets: Ints
-    colours: Colours
-    source: Ints
-
-    def some(self, which: Ints) -> Polygons:
-        """The polygons with these numbers, in this order."""
-        sizes = np.diff(self.offsets)[which]
-        corner = ragged.ranges(self.offsets[which], sizes)
-        return Polygons(self.points[corner], ragged.offsets(sizes), self.colours[corner], self.source[which])
+    colours: Colours = field(metadata=EACH_POINT)
+    source: Ints = field(metadata=EACH_LINE)
 
 
 def _in_order(parts: tuple[Polygons, ...], place: tuple[Ints, ...]) -> Polygons:
     """The polygons of all parts by their places, those of one place in the order in which they come."""
-    sizes = np.concatenate([np.diff(part.offsets) for part in parts])
-    together = Polygons(
-        np.concatenate([part.points for part in parts]),
-        ragged.offsets(sizes),
-        np.concatenate([part.colours for part in parts]),
-        np.concatenate([part.source for part in parts]),
-    )
-    return together.some(np.argsort(np.concatenate(place), kind="stable"))
+    return some(joined(parts), np.argsort(np.concatenate(place), kind="stable"))
 
 
 def _differ(colours: Colours, offsets: Ints) -> Bools:
@@ -197,7 +185,7 @@ def _fanned(polygons: Polygons) -> Polygons:
         polygons.colours[corner],
         polygons.source[owner],
     )
-    return _in_order((polygons.some(others), fans), (others, owner))
+    return _in_order((some(polygons, others), fans), (others, owner))
 
 
 def _clipped(polygons: Polygons, width_mm: float, height_mm: float) -> Polygons:
@@ -208,9 +196,9 @@ def _clipped(polygons: Polygons, width_mm: float, height_mm: float) -> Polygons:
     count = ragged.offsets(beyond)[polygons.offsets]
     out, line = count[1:] > count[:-1], np.diff(polygons.offsets) == 2
     inside, cut, crossing = (np.flatnonzero(which) for which in (~out, out & ~line, out & line))
-    some, owner = _cut(polygons.some(cut), low, high)
-    lines, of_line = _cut_lines(polygons.some(crossing), low, high)
-    return _in_order((polygons.some(inside), some, lines), (inside, cut[owner], crossing[of_line]))
+    parts, owner = _cut(some(polygons, cut), low, high)
+    lines, of_line = _cut_lines(some(polygons, crossing), low, high)
+    return _in_order((some(polygons, inside), parts, lines), (inside, cut[owner], crossing[of_line]))
 
 
 def _cut(polygons: Polygons, low: Floats, high: Floats) -> tuple[Polygons, Ints]:

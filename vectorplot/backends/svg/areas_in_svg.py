@@ -15,6 +15,7 @@ from vectorplot.backends.svg.ramps import NONE, Ramps, item_ramps
 from vectorplot.backends.svg.strips import SHADE_ERROR, Strips, joined_strips, nearly_flat, strips_of
 from vectorplot.drawing.fills import SEAM_MM
 from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import some
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 ID_PREFIX = b"\7"
@@ -219,4 +220,4 @@ def _with_strips(areas: Areas) -> tuple[Areas, Strips, Ints, Ramps]:
     )
     place = np.empty(len(order), dtype=np.intp)
     place[order] = np.arange(len(order))
-    return pieces, strips.some(np.flatnonzero(~flat)), place[len(others) :][~flat], ramps
+    return pieces, some(strips, np.flatnonzero(~flat)), place[len(others) :][~flat], ramps

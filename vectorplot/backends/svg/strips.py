@@ -7,7 +7,7 @@ seen.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.backends.page.areas import Areas, Polygons, rounded
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
 from vectorplot.tolerances.of_lengths import NARROW_OF_LENGTH
 
 SHADE_ERROR = 2.0
@@ -29,32 +30,17 @@ class Strips:
     """Polygons with linear gradients: microns (p,2) int64, offsets (s+1,); triangle (s,) that each is a part of,
     ascending; ends (s,2,2) in microns from where to where the gradient runs; colours (s,2,3) there."""
 
-    microns: Ints
+    microns: Ints = field(metadata=EACH_POINT)
     offsets: Ints
-    triangle: Ints
-    ends: Floats
-    colours: Floats
-
-    def some(self, which: Ints) -> Strips:
-        """Some of the strips, in the order asked for."""
-        sizes = np.diff(self.offsets)[which]
-        corner = ragged.ranges(self.offsets[which], sizes)
-        return Strips(
-            self.microns[corner], ragged.offsets(sizes), self.triangle[which], self.ends[which], self.colours[which]
-        )
+    triangle: Ints = field(metadata=EACH_LINE)
+    ends: Floats = field(metadata=EACH_LINE)
+    colours: Floats = field(metadata=EACH_LINE)
 
 
 def joined_strips(one: Strips, other: Strips) -> Strips:
     """The strips of both by their triangles."""
-    triangle = np.concatenate([one.triangle, other.triangle])
-    both = Strips(
-        np.concatenate([one.microns, other.microns]),
-        ragged.offsets(np.concatenate([np.diff(one.offsets), np.diff(other.offsets)])),
-        triangle,
-        np.concatenate([one.ends, other.ends]),
-        np.concatenate([one.colours, other.colours]),
-    )
-    return both.some(np.argsort(triangle, kind="stable"))
+    both = joined((one, other))
+    return some(both, np.argsort(both.triangle, kind="stable"))
 
 
 def nearly_flat(areas: Areas) -> Areas:

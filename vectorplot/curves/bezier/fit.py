@@ -13,6 +13,7 @@ from vectorplot.curves.bezier.tangents import Directions, Lines, directions
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import Polylines, closed_round
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_lengths import FIT_OF_TOLERANCE
 from vectorplot.tolerances.of_parameters import JUST_BEFORE
@@ -244,18 +245,16 @@ def _check(points: Floats, offsets: Ints, tangents: Floats | None, tolerance: fl
 
 def _lines(points: Floats, offsets: Ints, closed: Bools, tangents: Floats | None) -> tuple[Lines, Floats | None, Ints]:
     """Lines without repeated points, loops with their first point at the end too; tangents (d,n); which they are."""
-    kept = np.flatnonzero(np.diff(offsets) > 0)
-    first, counts = offsets[kept], np.diff(offsets)[kept]
+    counts = np.diff(offsets)
+    kept = np.flatnonzero(counts > 0)
     if not len(kept):
         nothing = np.zeros(0, dtype=np.intp)
         return Lines(points.T, np.zeros(0), nothing, nothing, closed[:0], nothing), None, kept
     # Open lines may end with a point that repeats; a loop gets its first point again, and a single point too.
-    again = closed[kept] | (counts == 1)
-    sizes = counts + again
-    starts = ragged.starts(sizes)
-    place = np.arange(sizes.sum()) - np.repeat(starts, sizes)
-    index = np.repeat(first, sizes) + np.where(place == np.repeat(counts, sizes), 0, place)
-    line = ragged.owner(sizes)
+    rounds = closed_round(Polylines(points, offsets, closed | (counts == 1)))
+    index = rounds.index
+    sizes = np.diff(rounds.offsets)[kept]
+    starts, line = ragged.starts(sizes), ragged.owner(sizes)
     spread = points[index]
     extent = (np.maximum.reduceat(spread, starts) - np.minimum.reduceat(spread, starts)).max(axis=1)
     step = np.linalg.norm(np.diff(spread, axis=0), axis=1)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT
 from vectorplot.tolerances.of_lengths import LENGTH_SETTLED
 from vectorplot.tolerances.of_parameters import ABOVE_WHOLE
 
@@ -83,10 +84,10 @@ class BezierPath:
 class BezierPaths:
     """Many paths: control (k,4,d) of all segments; offsets (m+1,) where each path begins; closed (m,); error (m,)."""
 
-    control: Floats
+    control: Floats = field(metadata=EACH_POINT)
     offsets: Ints
-    closed: Bools
-    error: Floats
+    closed: Bools = field(metadata=EACH_LINE)
+    error: Floats = field(metadata=EACH_LINE)
 
     def __len__(self) -> int:
         return len(self.closed)

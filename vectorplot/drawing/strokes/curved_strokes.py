@@ -14,6 +14,7 @@ from vectorplot.drawing.drawing import Curves, Paths
 from vectorplot.drawing.strokes.paths import chosen, concatenated
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import joined
 from vectorplot.tolerances.of_lengths import ARC_OF_TOLERANCE
 
 CHORD_SHARE = 0.5
@@ -64,15 +65,9 @@ def one_mark(marks: tuple[Paths | Curves, ...]) -> Curves:
     some = [mark if isinstance(mark, Curves) else _polylines(mark) for mark in marks]
     first = ragged.offsets(np.array([len(mark) for mark in some], dtype=np.intp))
     arcs = [mark.arcs for mark in some]
-    beziers = [mark.beziers for mark in some]
     return Curves(
         concatenated(tuple(mark.paths for mark in some)),
-        BezierPaths(
-            np.concatenate([np.zeros((0, 4, 2)), *(part.control for part in beziers)]),
-            ragged.offsets(np.concatenate([np.zeros(0, dtype=np.intp), *(np.diff(part.offsets) for part in beziers)])),
-            np.concatenate([np.zeros(0, dtype=np.bool_), *(part.closed for part in beziers)]),
-            np.concatenate([np.zeros(0), *(part.error for part in beziers)]),
-        ),
+        joined([_polylines(Paths.empty()).beziers, *(mark.beziers for mark in some)]),
         EllipseArcs.joined(
             [replace(part, stroke=part.stroke + k) for part, k in zip(arcs, first.tolist(), strict=False)]
         ),

@@ -36,6 +36,7 @@ from vectorplot.features.zeros.zero_crossings import bracketed_zeros
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.chord_refinement import Traces
 from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.geometry.repair.winding import edge_uses
@@ -245,22 +246,20 @@ def _border(
         branches = concat(np.stack([a[here], b[here]], axis=1))
         if not len(branches):
             continue
-        rounds = closed_round(branches)
-        points = vertices[branches.points[rounds.index]]
-        last = np.zeros(len(points), dtype=np.bool_)
-        last[rounds.offsets[1:] - 1] = True
+        lines = Traces.of(vertices[branches.points], closed_round(branches))
         plane = MeetsPlane(np.eye(3)[axis], float(box[side, axis]))
         curve = curve_in_space(surface, plane, extent)
         tolerance = CHORD_OF_EXTENT * extent if tracing.tolerance is None else tracing.tolerance
         most = tracing.budget.points
-        points, last, unsure, enough = refined_chords(curve, points, last, tolerance, tracing.picture, most)
+        finer = refined_chords(curve, lines, tolerance, tracing.picture, most)
+        points = finer.lines.points.copy()
         points[:, axis] = box[side, axis]
         texts = [
-            (unsure > 0, f"{unsure} chords of a border could not be refined"),
-            (not enough, unresolved("borders are off by more than the tolerance")),
+            (finer.unsure > 0, f"{finer.unsure} chords of a border could not be refined"),
+            (not finer.enough, unresolved("borders are off by more than the tolerance")),
         ]
         doubts = tuple(text for said, text in texts if said)
-        families.append(curves_of_lines(points, last, branches.closed, doubts=doubts))
+        families.append(curves_of_lines(Traces(points, finer.lines.last), branches.closed, doubts=doubts))
     return all_curves(families)
 
 

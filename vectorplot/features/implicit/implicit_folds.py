@@ -5,21 +5,22 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.chord_refinement import Traces
+from vectorplot.geometry.polylines import Polylines, closed_round
 
 BACK = -0.7
 """Cosine between two chords below which the second runs back: that of a triangle around a tiny oval is -0.5."""
 
 
-def without_folds(points: Floats, last: Bools, closed: Bools) -> tuple[Floats, Bools, Bools]:
+def without_folds(lines: Traces, closed: Bools) -> tuple[Traces, Bools]:
     """The polylines without the points at which they turn back: where a mesh is folded, crossings of its edges are not
     in the order in which they lie on the curve, and an arc can be met twice more, or as a closed curve of its own.
 
-    points (p,3), last (p,) of them, closed (m,): the first point is repeated at the end. Closed curves of which no
-    three points are left are dropped.
+    closed (m,): which polylines are. Closed ones of which no three points are left are dropped.
     """
-    line = np.cumsum(np.concatenate([[0], last]))[:-1]
-    kept = ~(last & closed[line])
-    points, line = points[kept], line[kept]
+    kept, offsets = lines.unrepeated(closed)
+    points, line = lines.points[kept], ragged.owner(np.diff(offsets))
     for _ in range(len(points)):
         back = _turns_back(points, line, closed)
         # Of two that follow one another the first goes, then it is looked at again.
@@ -29,14 +30,8 @@ def without_folds(points: Floats, last: Bools, closed: Bools) -> tuple[Floats, B
         points, line = points[~back], line[~back]
     counts = np.bincount(line, minlength=len(closed))
     real = counts >= np.where(closed, 3, 2)
-    points, line = points[real[line]], (np.cumsum(real) - 1)[line[real[line]]]
-    counts, closed = counts[real], closed[real]
-    ends = np.cumsum(counts)
-    starts = ends - counts
-    result = np.insert(points, ends[closed], points[starts[closed]], axis=0)
-    is_last = np.zeros(len(result), dtype=np.bool_)
-    is_last[np.cumsum(counts + closed) - 1] = True
-    return result, is_last, closed
+    left = Polylines(points[real[line]], ragged.offsets(counts[real]), closed[real])
+    return Traces.of(left.points, closed_round(left)), left.closed
 
 
 def _turns_back(points: Floats, line: Ints, closed: Bools) -> Bools:

@@ -11,6 +11,7 @@ from vectorplot.features.implicit.curve_band import Band
 from vectorplot.features.implicit.implicit_refinement import CurveInSpace
 from vectorplot.features.implicit.polygonize import checked_values, onto_surface
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chord_refinement import Traces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.weld import close_points, one_each
 from vectorplot.surfaces.implicit_function import hessians
@@ -156,22 +157,22 @@ def _second_order(curve: CurveInSpace, x: Floats) -> tuple[Floats, Floats, Float
     return np.einsum("kil,kl->ki", frame, slope), np.asarray(bend), frame
 
 
-def joined_at_nodes(points: Floats, last: Bools, closed: Bools, special: SpecialPoints) -> tuple[Floats, Bools, Bools]:
+def joined_at_nodes(lines: Traces, closed: Bools, special: SpecialPoints) -> tuple[Traces, Bools]:
     """Polylines led into the nodes near which they pass, and through them as straight as possible.
 
-    points (p,3), last (p,), closed (m,) as in implicit tracing: closed ones repeat their first point. Curves that lie
-    near an isolated point as a whole are dropped.
+    closed (m,): which polylines are. Curves that lie near an isolated point as a whole are dropped.
     """
+    points = lines.points
     node = np.full(len(points), -1)
     for k, (place, radius) in enumerate(zip(special.nodes, special.radii, strict=True)):
         node[np.linalg.norm(points - place, axis=1) < radius] = k
     for place in special.isolated:
         node[(np.linalg.norm(points - place, axis=1) < special.near) & (node < 0)] = len(special.nodes)
-    starts = np.concatenate([[0], np.flatnonzero(last) + 1])
+    starts = np.append(0, lines.ends + 1)
     line = ragged.owner(np.diff(starts))
     touched = np.bincount(line[node >= 0], minlength=len(closed)) > 0
     if not touched.any():
-        return points, last, closed
+        return lines, closed
     whole = [points[a:b] for a, b, t in zip(starts[:-1], starts[1:], touched, strict=True) if not t]
     flags = closed[~touched].tolist()
     pieces: list[Floats] = []
@@ -185,10 +186,10 @@ def joined_at_nodes(points: Floats, last: Bools, closed: Bools, special: Special
     parts = [part for part in whole + joined if len(part) > 1]
     flags = [f for f, part in zip(flags + rings, whole + joined, strict=True) if len(part) > 1]
     if not parts:
-        return points[:0], last[:0], closed[:0]
+        return Traces(points[:0], lines.last[:0]), closed[:0]
     is_last = np.zeros(sum(len(part) for part in parts), dtype=np.bool_)
     is_last[np.cumsum([len(part) for part in parts]) - 1] = True
-    return np.concatenate(parts), is_last, np.array(flags, dtype=np.bool_)
+    return Traces(np.concatenate(parts), is_last), np.array(flags, dtype=np.bool_)
 
 
 def _cut(points: Floats, node: Ints, closed: bool, nodes: Floats) -> tuple[list[Floats], list[tuple[int, int]]]:

@@ -11,6 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.implicit_conditions import SpatialCondition
 from vectorplot.features.implicit.polygonize import checked_values, onto_surface
 from vectorplot.features.zeros.zero_crossings import bracketed_zeros
+from vectorplot.geometry.chord_refinement import Refined, Traces, refined
 from vectorplot.geometry.vectors import dot
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.tolerances.of_extent import LAST_STEP_OF_EXTENT, RESIDUAL_OF_EXTENT
@@ -20,15 +21,6 @@ Picture = Callable[[Floats], Floats]
 
 ROUNDS = 16
 """Steps of Newton's method until another way is tried."""
-
-PROBES = (0.35, 0.7)
-"""Where between two points the curve is compared with its chord: not symmetric, so that no S-shape passes."""
-
-MISSED = 0.8
-"""Part of the largest deviation of a parabola that the probes see at least."""
-
-HALVINGS = 20
-"""How often a chord is cut at most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,53 +117,12 @@ def curve_in_space(surface: ImplicitSurface, condition: SpatialCondition, size: 
     return CurveInSpace(surface, condition, size, float(np.ptp(box, axis=0).max()), noise)
 
 
-def refined_chords(
-    curve: CurveInSpace, points: Floats, last: Bools, tolerance: float, picture: Picture | None, most: int
-) -> tuple[Floats, Bools, int, bool]:
-    """Polylines with points of the curve put in until chords stay within tolerance of it, measured in the picture, or
-    there are most of them.
+def refined_chords(curve: CurveInSpace, lines: Traces, tolerance: float, picture: Picture | None, most: int) -> Refined:
+    """Polylines (points (p,3)) with points of the curve put in until chords stay within tolerance of it, measured in
+    the picture, or there are most of them."""
 
-    points (p,3), last (p,): the point is the last of its polyline. Returns both anew, the number of chords that could
-    not be refined, and whether points sufficed. Where the picture is not finite (behind an eye) refinement ends.
-    """
-    open_, unsure = ~last, 0
-    for _ in range(HALVINGS):
-        first = np.flatnonzero(open_)
-        if not len(first) or len(points) > most:
-            break
-        a, b = points[first], points[first + 1]
-        probes = np.concatenate([a + p * (b - a) for p in PROBES])
-        reach = np.concatenate([np.linalg.norm(b - a, axis=1)] * len(PROBES))
-        moved, on = curve.onto(probes, reach)
-        moved, on = moved.reshape(len(PROBES), -1, 3), on.reshape(len(PROBES), -1)
-        on = on[0] & on[1]
-        far, long = deviation(picture, a, b, moved)
-        unsure += int((~on & (long > tolerance)).sum())
-        bad = on & (far > tolerance * MISSED)
-        split = first[bad]
-        open_[:] = False
-        open_[split] = True
-        at = np.repeat(split + 1, 2)
-        points = np.insert(points, at, moved[:, bad].transpose(1, 0, 2).reshape(-1, 3), axis=0)
-        last, open_ = np.insert(last, at, False), np.insert(open_, at, True)
-    return points, last, unsure, not open_.any()
+    def between(start: Floats, end: Floats, part: Floats) -> tuple[Floats, Bools]:
+        chord = end - start
+        return curve.onto(start + part[:, None] * chord, np.linalg.norm(chord, axis=1))
 
-
-def deviation(picture: Picture | None, a: Floats, b: Floats, probes: Floats) -> tuple[Floats, Floats]:
-    """(k,) largest distances of probes from chords, and the lengths of the chords, in the picture."""
-
-    def seen(p: Floats) -> Floats:
-        with np.errstate(all="ignore"):
-            return p if picture is None else np.asarray(picture(p), dtype=np.float64)
-
-    start = seen(a)
-    chord = seen(b) - start
-    square = (chord * chord).sum(axis=1)
-    most = np.zeros(len(a))
-    for probe in probes:
-        arm = seen(probe) - start
-        with np.errstate(invalid="ignore"):
-            t = np.clip((arm * chord).sum(axis=1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
-            away = arm - t[:, None] * chord
-            most = np.fmax(most, np.sqrt((away * away).sum(axis=1)))
-    return most, np.nan_to_num(np.sqrt(square))
+    return refined(lines, between, picture or (lambda points: points), tolerance, most)

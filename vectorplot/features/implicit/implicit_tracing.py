@@ -18,6 +18,7 @@ from vectorplot.features.implicit.polygonize import onto_surface, settled_mesh
 from vectorplot.features.meshes.level_segments import level_segments
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
+from vectorplot.geometry.chord_refinement import Traces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, closed_round, indices_along, joined
@@ -133,18 +134,18 @@ def curves_in_space(
     special = special_points(curve, mesh, band)
     points, pairs, spans = _crossings(curve, band)
     tolerance = CHORD_OF_EXTENT * extent if tracing.tolerance is None else tracing.tolerance
-    lines, last, closed, dots = _polylines(points, pairs, spans, DOT_OF_EXTENT * extent)
-    lines, last, closed = without_folds(lines, last, closed)
-    lines, last, closed = joined_at_nodes(lines, last, closed, special)
-    lines, last, unsure, enough = refined_chords(curve, lines, last, tolerance, tracing.picture, tracing.budget.points)
-    if not enough:
+    lines, closed, dots = _polylines(points, pairs, spans, DOT_OF_EXTENT * extent)
+    lines, closed = without_folds(lines, closed)
+    lines, closed = joined_at_nodes(lines, closed, special)
+    finer = refined_chords(curve, lines, tolerance, tracing.picture, tracing.budget.points)
+    if not finer.enough:
         doubts += (unresolved("curves of an implicit surface are off by more than the tolerance"),)
-    if unsure:
-        doubts += (f"{unsure} chords of a curve on an implicit surface could not be refined",)
+    if finer.unsure:
+        doubts += (f"{finer.unsure} chords of a curve on an implicit surface could not be refined",)
     if len(special.unclear):
         doubts += (f"{len(special.unclear)} places where a curve on an implicit surface is finer than the resolution",)
     isolated = np.concatenate([special.isolated, dots[_apart(dots, special.isolated, APART_OF_EXTENT * extent)]])
-    found = curves_of_lines(lines, last, closed, level=level, doubts=doubts)
+    found = curves_of_lines(finer.lines, closed, level=level, doubts=doubts)
     return replace(found, isolated=isolated, nodes=special.nodes)
 
 
@@ -227,17 +228,17 @@ def _crossings(curve: CurveInSpace, band: Band) -> tuple[Floats, Ints, Floats]:
     return points, found.pairs[on[found.pairs].all(axis=1)], spans
 
 
-def _polylines(points: Floats, pairs: Ints, spans: Floats, dot: float) -> tuple[Floats, Bools, Bools, Floats]:
-    """Polylines from segments, thinned: points (p,3), last (p,) of them, closed (m,): the first is repeated; and points
-    (k,3) that closed curves without extent shrank to."""
+def _polylines(points: Floats, pairs: Ints, spans: Floats, dot: float) -> tuple[Traces, Bools, Floats]:
+    """Polylines from segments, thinned, which of them (m,) are closed, and points (k,3) that closed curves without
+    extent shrank to."""
     branches = concat(pairs)
     if not len(branches):
-        return np.zeros((0, 3)), np.zeros(0, dtype=np.bool_), np.zeros(0, dtype=np.bool_), np.zeros((0, 3))
+        return Traces(np.zeros((0, 3)), np.zeros(0, dtype=np.bool_)), branches.closed, np.zeros((0, 3))
     rounds = closed_round(branches)
     starts = rounds.offsets
     line = ragged.owner(np.diff(starts))
-    index = branches.points[rounds.index]
-    own, width = points[index], spans[index]
+    lines = Traces.of(points[branches.points], rounds)
+    own, width = lines.points, spans[branches.points[rounds.index]]
     gap = np.linalg.norm(np.diff(own, axis=0, prepend=own[:1]), axis=1)
     gap[starts[:-1]] = 0.0
     length = np.add.reduceat(gap, starts[:-1])
@@ -252,10 +253,8 @@ def _polylines(points: Floats, pairs: Ints, spans: Floats, dot: float) -> tuple[
     kept[before] &= few | (gap[ends] > 0.5 * THINNED * width[ends])
     kept[starts[:-1]] = True
     real = length > dot
-    last = np.zeros(len(own), dtype=np.bool_)
-    last[ends] = True
     kept &= real[line]
-    return own[kept], last[kept], branches.closed[real], own[starts[:-1]][~real]
+    return lines.some(kept), branches.closed[real], own[starts[:-1]][~real]
 
 
 def _apart(points: Floats, others: Floats, distance: float) -> Ints:
@@ -267,11 +266,9 @@ def _apart(points: Floats, others: Floats, distance: float) -> Ints:
 
 
 def curves_of_lines(
-    points: Floats, last: Bools, closed: Bools, *, level: float = 0.0, doubts: tuple[str, ...] = ()
+    lines: Traces, closed: Bools, *, level: float = 0.0, doubts: tuple[str, ...] = ()
 ) -> ImplicitCurves:
-    """The curves of polylines: points (p,3), last (p,) of them, closed (m,): the first point is repeated at the end."""
-    line = np.cumsum(np.concatenate([[0], last]))[:-1]
-    kept = ~(last & closed[line])
-    offsets = ragged.offsets(np.bincount(line[kept], minlength=len(closed)))
+    """The curves of polylines, closed (m,) or open."""
+    kept, offsets = lines.unrepeated(closed)
     none = np.zeros((0, 3))
-    return ImplicitCurves(points[kept], offsets, closed, np.full(len(closed), level), none, none, doubts)
+    return ImplicitCurves(lines.points[kept], offsets, closed, np.full(len(closed), level), none, none, doubts)

@@ -10,11 +10,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.intersections.meeting_points import in_planes, meetings
 from vectorplot.features.intersections.sheets import Sheet
 from vectorplot.features.parametric.curve_tracing import Picture
-from vectorplot.features.zeros.zero_refinement import MISSED, PROBES
+from vectorplot.geometry.chord_refinement import Traces, refined
 from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, indices_along
-
-ROUNDS = 20
-"""How often chords are cut at most."""
 
 MOST_POINTS = 1 << 21
 """Points of all curves at most: a tolerance that asks for more is not kept."""
@@ -132,64 +129,45 @@ def put_together(courses: list[Course], dimensions: tuple[int, int]) -> Courses:
     )
 
 
-def refined(
+def refined_courses(
     one: Sheet, two: Sheet, courses: Courses, *, zero: float, tolerance: float, picture: Picture | None
 ) -> tuple[Courses, int]:
     """The courses with points of both sheets put in where chords deviate from the curve by more than the tolerance,
     measured in the picture, and the number of chords beside which no curve was found."""
-    a, b, last = courses.one, courses.two, courses.last
-    open_, unsure = ~last, 0
-    for _ in range(ROUNDS):
-        first = np.flatnonzero(open_)
-        if not len(first) or len(a) > MOST_POINTS:
-            break
-        probes = [_between(one, two, a, b, first, part, zero) for part in PROBES]
-        found = probes[0][2] & probes[1][2]
-        ends = [_seen(one, x, picture) for x in (a[first], a[first + 1])]
-        seen = [_seen(one, p[0], picture) for p in probes]
-        away = np.fmax(*(_distances(ends[0], ends[1], p) for p in seen))
-        bad = away > MISSED * tolerance
-        long = np.sqrt(((ends[1] - ends[0]) ** 2).sum(axis=1)) > tolerance
-        unsure += int((long & ~found).sum())
-        split = bad & found
-        at = np.repeat(first[split] + 1, 2)
-        open_[:] = False
-        open_[first[split]] = True
-        a = np.insert(a, at, np.stack([p[0][split] for p in probes], axis=1).reshape(-1, a.shape[1]), axis=0)
-        b = np.insert(b, at, np.stack([p[1][split] for p in probes], axis=1).reshape(-1, b.shape[1]), axis=0)
-        last, open_ = np.insert(last, at, False), np.insert(open_, at, True)
-    return Courses(a, b, last), unsure
+    own = courses.one.shape[1]
+
+    def both(places: Floats) -> tuple[Floats, Floats]:
+        return np.ascontiguousarray(places[:, :own]), np.ascontiguousarray(places[:, own:])
+
+    def between(start: Floats, end: Floats, part: Floats) -> tuple[Floats, Bools]:
+        return _between(one, two, both(start), both(end), part, zero)
+
+    def image(places: Floats) -> Floats:
+        points = one.points(both(places)[0])
+        return points if picture is None else picture(points)
+
+    whole = Traces(np.concatenate([courses.one, courses.two], axis=1), courses.last)
+    found = refined(whole, between, image, tolerance, MOST_POINTS)
+    return Courses(*both(found.lines.points), found.lines.last), found.unsure
 
 
 def _between(
-    one: Sheet, two: Sheet, a: Floats, b: Floats, first: Ints, part: float, zero: float
-) -> tuple[Floats, Floats, Bools]:
-    """Places on both sheets in the plane across the chord at a part of it, and whether the curve is there."""
-    start, end = one.points(a[first]), one.points(a[first + 1])
-    chord, point = end - start, start + part * (end - start)
-    at_one, at_two = (x[first] + part * (x[first + 1] - x[first]) for x in (a, b))
-    for x, at in ((a, at_one), (b, at_two)):
+    one: Sheet, two: Sheet, start: tuple[Floats, Floats], end: tuple[Floats, Floats], part: Floats, zero: float
+) -> tuple[Floats, Bools]:
+    """Places on both sheets, one beside the other, in the planes across chords at parts (k,) of them, and whether the
+    curve is there; start, end: places on both sheets."""
+    share = part[:, None]
+    a, chord = one.points(start[0]), one.points(end[0]) - one.points(start[0])
+    point = a + share * chord
+    at = [x + share * (y - x) for x, y in zip(start, end, strict=True)]
+    for x, here in zip(start, at, strict=True):
         # The fourth coordinate of a place on a mesh is no length.
-        at[:, 2:] = np.where(np.arange(2, x.shape[1]) == 3, x[first, 2:], at[:, 2:])
+        here[:, 2:] = np.where(np.arange(2, x.shape[1]) == 3, x[:, 2:], here[:, 2:])
     length = np.sqrt((chord * chord).sum(axis=1, keepdims=True))
     with np.errstate(all="ignore"):
         normal = np.where(length > 0.0, chord / length, 0.0)
-    there = meetings(one, two, at_one, at_two, in_planes(normal, point), zero)
+    there = meetings(one, two, at[0], at[1], in_planes(normal, point), zero)
     off = one.points(there.one) - point
     near = np.sqrt((off * off).sum(axis=1)) <= STRAYED * length[:, 0]
-    return there.one, there.two, np.asarray(there.met & near & (length[:, 0] > 0.0))
-
-
-def _seen(sheet: Sheet, places: Floats, picture: Picture | None) -> Floats:
-    points = sheet.points(places)
-    return points if picture is None else np.asarray(picture(points), dtype=np.float64)
-
-
-def _distances(a: Floats, b: Floats, p: Floats) -> Floats:
-    """(k,) distances of points p from segments from a to b; zero where one of them is not finite."""
-    chord, arm = b - a, p - a
-    with np.errstate(invalid="ignore"):
-        square = (chord * chord).sum(axis=1)
-        t = np.clip((arm * chord).sum(axis=1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
-        away = arm - t[:, None] * chord
-        return np.asarray(np.nan_to_num(np.sqrt((away * away).sum(axis=1))))
+    found = there.met & near & (length[:, 0] > 0.0)
+    return np.concatenate([there.one, there.two], axis=1), np.asarray(found)

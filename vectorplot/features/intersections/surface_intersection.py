@@ -14,7 +14,7 @@ from vectorplot.features.intersections.double_curves import (
     Courses,
     DoubleCurves,
     put_together,
-    refined,
+    refined_courses,
     starting_at,
 )
 from vectorplot.features.intersections.double_nodes import missed_loops, through_nodes
@@ -107,7 +107,7 @@ def joined(one: Sheet, two: Sheet, found: Piercings, touching: Contacts, tracing
     tolerance = CHORD_OF_EXTENT * size if tracing.tolerance is None else tracing.tolerance
     unsure = 0
     if tolerance > 0.0:
-        points, unsure = refined(one, two, points, zero=zero, tolerance=tolerance, picture=tracing.picture)
+        points, unsure = refined_courses(one, two, points, zero=zero, tolerance=tolerance, picture=tracing.picture)
     crossed = (product < 0.0) & touch
     crossed[np.flatnonzero(product < 0.0)] &= through
     alone = touch & (product != 0.0) & ~crossed

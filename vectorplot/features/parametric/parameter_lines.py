@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,21 +12,13 @@ from vectorplot.errors import InputError
 from vectorplot.features.parametric.curve_tracing import Tracing, extent, wrapped
 from vectorplot.features.parametric.poles import poles
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
-from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import unresolved
+from vectorplot.geometry.chord_refinement import Traces, refined, straight_between, torn
 from vectorplot.geometry.polylines import some
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT, ZERO_OF_EXTENT
-from vectorplot.tolerances.of_parameters import JUMP_OF_DOMAIN
 
 DEFAULT = Tracing()
-
-PROBES = (0.35, 0.7)
-"""Where between two points the line is compared with its chord: not symmetric, so that no S-shape passes."""
-
-MISSED = 0.8
-"""Part of the largest deviation of a parabola that the probes see at least."""
-
 
 LINES_A_BUDGET = 16
 """Lines to which the budget's points go; more lines may have more points, each as many as one of these."""
@@ -78,15 +70,6 @@ def borders(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     return together([u_lines(surface, u, tracing=tracing), v_lines(surface, v, tracing=tracing)])
 
 
-@dataclass(frozen=True, eq=False)
-class _Bundle:
-    """Points of parameter lines, one after the other: the constant parameter, the running one, the last of its line."""
-
-    fixed: Floats
-    running: Floats
-    last: Bools
-
-
 def _lines(surface: Surface, axis: int, values: Floats, tracing: Tracing) -> SurfaceCurves:
     """The lines on which parameter 0 (u) or 1 (v) has one of the values."""
     domain = surface.domain
@@ -96,105 +79,71 @@ def _lines(surface: Surface, axis: int, values: Floats, tracing: Tracing) -> Sur
     if not len(values) or size == 0.0:
         return no_curves()
     t = domain.grid(24, 24)[1 - axis]
-    bundle = _Bundle(np.repeat(values, 25), np.tile(t, len(values)), np.tile(np.arange(25) == 24, len(values)))
-    bundle, enough = _refined(surface, axis, _without_holes(surface, axis, bundle), tracing, size)
+    ways = np.stack([np.repeat(values, 25), np.tile(t, len(values))], axis=1)
+    lines = Traces(ways, np.tile(np.arange(25) == 24, len(values)))
+    lines, enough = _refined(surface, axis, _without_holes(surface, axis, lines), tracing, size)
     doubts = () if enough else (unresolved("parameter lines or borders are off by more than the tolerance"),)
-    return replace(_without_points(_curves(surface, axis, bundle), size), doubts=doubts)
+    return replace(_without_points(_curves(surface, axis, lines), size), doubts=doubts)
 
 
-def _at(surface: Surface, axis: int, fixed: Floats, running: Floats) -> Floats:
-    """(n,3) points of the surface."""
-    u, v = (fixed, running) if axis == 0 else (running, fixed)
-    return surface.points(u, v)
+def _at(surface: Surface, axis: int, ways: Floats) -> Floats:
+    """(n,3) points of the surface; ways (n,2): the constant parameter of a line and the running one."""
+    u, v = (ways[:, 0], ways[:, 1]) if axis == 0 else (ways[:, 1], ways[:, 0])
+    return surface.points(np.ascontiguousarray(u), np.ascontiguousarray(v))
 
 
-def _without_holes(surface: Surface, axis: int, bundle: _Bundle) -> _Bundle:
+def _without_holes(surface: Surface, axis: int, lines: Traces) -> Traces:
     """The lines cut where the surface has holes, their ends at the borders of the holes by halving."""
-    good: Bools = np.asarray(np.isfinite(_at(surface, axis, bundle.fixed, bundle.running)).all(axis=1))
+    ways, last = lines.points, lines.last
+    good: Bools = np.asarray(np.isfinite(_at(surface, axis, ways)).all(axis=1))
     if good.all():
-        return bundle
-    change = np.flatnonzero((good[1:] != good[:-1]) & ~bundle.last[:-1])
+        return lines
+    change = np.flatnonzero((good[1:] != good[:-1]) & ~last[:-1])
     enters = ~good[change]
-    fixed, low, high = bundle.fixed[change], bundle.running[change + enters], bundle.running[change + ~enters]
+    low, high = ways[change + enters], ways[change + ~enters]
     for _ in range(50):
         middle = 0.5 * (low + high)
-        there = np.isfinite(_at(surface, axis, fixed, middle)).all(axis=1)
+        there = np.isfinite(_at(surface, axis, middle)).all(axis=1, keepdims=True)
         low, high = np.where(there, middle, low), np.where(there, high, middle)
-    running, owner = np.insert(bundle.running, change + 1, low), np.insert(bundle.fixed, change + 1, fixed)
-    kept, last = np.insert(good, change + 1, True), np.insert(bundle.last & good, change + 1, ~enters)
+    kept, ends = np.insert(good, change + 1, True), np.insert(last & good, change + 1, ~enters)
     # A line that consists of a single point is no line.
-    kept &= ~(last & np.concatenate([[True], (last | ~kept)[:-1]]))
-    return _Bundle(owner[kept], running[kept], last[kept])
+    kept &= ~(ends & np.concatenate([[True], (ends | ~kept)[:-1]]))
+    return Traces(np.insert(ways, change + 1, low, axis=0), ends).some(kept)
 
 
-def _refined(surface: Surface, axis: int, bundle: _Bundle, tracing: Tracing, size: float) -> tuple[_Bundle, bool]:
+def _refined(surface: Surface, axis: int, lines: Traces, tracing: Tracing, size: float) -> tuple[Traces, bool]:
     """The lines with points put in until chords stay within the tolerance, interrupted where the surface jumps; and
     whether the budget's points sufficed."""
     tolerance = CHORD_OF_EXTENT * size if tracing.tolerance is None else tracing.tolerance
-    fixed, running, last = bundle.fixed, bundle.running, bundle.last
+    # Without a tolerance nothing is cut.
+    if not tolerance > 0.0:
+        return lines, True
 
-    def places(fixed: Floats, running: Floats) -> Floats:
-        points = _at(surface, axis, fixed, running)
+    def image(ways: Floats) -> Floats:
+        points = _at(surface, axis, ways)
         return points if tracing.picture is None else tracing.picture(points)
 
-    most = tracing.budget.points * max(1.0, int(last.sum()) / LINES_A_BUDGET)
-    open_ = ~last
-    for _ in range(20 if tolerance > 0.0 else 0):
-        first = np.flatnonzero(open_)
-        if not len(first) or len(fixed) > most:
-            break
-        start, end, own = running[first], running[first + 1], fixed[first]
-        a, b = places(own, start), places(own, end)
-        probes = [places(own, start + p * (end - start)) for p in PROBES]
-        bad = np.fmax(*(_distance(a, b, p) for p in probes)) > MISSED * tolerance
-        split = first[bad]
-        new = np.stack([(start + p * (end - start))[bad] for p in PROBES], axis=1).ravel()
-        open_[:] = False
-        open_[split] = True
-        at = np.repeat(split + 1, 2)
-        running, fixed = np.insert(running, at, new), np.insert(fixed, at, np.repeat(own[bad], 2))
-        last, open_ = np.insert(last, at, False), np.insert(open_, at, True)
-    short = JUMP_OF_DOMAIN * surface.domain.size[1 - axis]
-    at = np.flatnonzero((running[1:] - running[:-1] <= short) & ~last[:-1])
-    a, b = places(fixed[at], running[at]), places(fixed[at], running[at + 1])
-    at = at[np.sqrt(((b - a) ** 2).sum(axis=1)) > tolerance]
-    # Without a tolerance nothing was cut.
-    enough = not open_.any() or tolerance <= 0.0
-    if not len(at):
-        return _Bundle(fixed, running, last), enough
-    last = last.copy()
-    last[at] = True
-    alone = last & np.concatenate([[True], last[:-1]])
-    return _Bundle(fixed[~alone], running[~alone], last[~alone]), enough
+    most = tracing.budget.points * max(1.0, int(lines.last.sum()) / LINES_A_BUDGET)
+    found = refined(lines, straight_between, image, tolerance, most)
+    domain = np.array(surface.domain.size)
+    return torn(found.lines, image, tolerance, domain if axis == 0 else domain[::-1]), found.enough
 
 
-def _distance(a: Floats, b: Floats, p: Floats) -> Floats:
-    """(k,) distances of points p from segments from a to b."""
-    chord, arm = b - a, p - a
-    with np.errstate(invalid="ignore"):
-        square = (chord * chord).sum(axis=1)
-        t = np.clip((arm * chord).sum(axis=1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
-        return np.asarray(np.linalg.norm(arm - t[:, None] * chord, axis=1))
-
-
-def _curves(surface: Surface, axis: int, bundle: _Bundle) -> SurfaceCurves:
+def _curves(surface: Surface, axis: int, lines: Traces) -> SurfaceCurves:
     """The lines as curves; those that run all around a closed direction without their last point."""
     domain: Domain = surface.domain
     begin, finish = ((domain.v_start, domain.v_end), (domain.u_start, domain.u_end))[axis]
     goes_round = (domain.closed_v, domain.closed_u)[axis]
-    last: Ints = np.flatnonzero(bundle.last)
-    first: Ints = np.concatenate([[0], last[:-1] + 1])[: len(last)].astype(np.intp)
-    closed: Bools = np.asarray(goes_round & (bundle.running[first] == begin) & (bundle.running[last] == finish))
-    kept = np.ones(len(bundle.last), dtype=np.bool_)
-    kept[last[closed]] = False
+    fixed, running = lines.points.T
+    first, last = lines.starts, lines.ends
+    closed: Bools = np.asarray(goes_round & (running[first] == begin) & (running[last] == finish))
+    kept, offsets = lines.unrepeated(closed)
     turns = np.zeros((len(last), 2), dtype=np.intp)
     turns[:, 1 - axis] = closed
-    fixed, running = bundle.fixed[kept], bundle.running[kept]
-    u, v = (fixed, running) if axis == 0 else (running, fixed)
-    offsets = ragged.offsets(last - first + 1 - closed)
+    u, v = (fixed[kept], running[kept]) if axis == 0 else (running[kept], fixed[kept])
     none = np.zeros((0, 2))
     points = surface.points(*wrapped(domain, u, v))
-    return SurfaceCurves(u, v, points, offsets, closed, turns, bundle.fixed[first], none, none, none, ())
+    return SurfaceCurves(u, v, points, offsets, closed, turns, fixed[first], none, none, none, ())
 
 
 def _without_points(curves: SurfaceCurves, size: float) -> SurfaceCurves:

@@ -8,17 +8,16 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.parametric.curve_tracing import Tracing, extent, wrapped
-from vectorplot.features.parametric.parameter_lines import DEFAULT, MISSED, PROBES
+from vectorplot.features.parametric.parameter_lines import DEFAULT
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
+from vectorplot.geometry.budget import unresolved
+from vectorplot.geometry.chord_refinement import Refined, Traces, refined, straight_between
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_parameters import ON_BORDER_OF_DOMAIN
 
 FIRST_POINTS = 65
 """A path is looked at in so many places before it is divided where it bends."""
-
-ROUNDS = 16
-"""So many times chords are divided at most: by three each time."""
 
 HALVINGS = 50
 """So often the parameter where a path leaves the surface is halved."""
@@ -37,11 +36,13 @@ def surface_path(
     size = extent(surface)[0]
     if size == 0.0:
         return no_curves()
-    t = _refined(surface, path, _without_gaps(surface, path, np.linspace(start, end, FIRST_POINTS)), tracing, size)
+    found = _refined(surface, path, _without_gaps(surface, path, np.linspace(start, end, FIRST_POINTS)), tracing, size)
+    t = found.lines.points[:, 0]
     good: Bools = np.asarray(np.isfinite(_points(surface, path, t)).all(axis=1))
     ends = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(np.int8)))
     runs = [t[low:high] for low, high in ends.reshape(-1, 2).tolist() if high > low + 1]
-    return together([_run(surface, path, run, size) for run in runs])
+    doubts = () if found.enough else (unresolved("a path is off by more than the tolerance"),)
+    return together([no_curves(doubts), *(_run(surface, path, run, size) for run in runs)])
 
 
 def _run(surface: Surface, path: Callable[[Floats], Floats], t: Floats, size: float) -> SurfaceCurves:
@@ -100,35 +101,14 @@ def _without_gaps(surface: Surface, path: Callable[[Floats], Floats], t: Floats)
     return np.unique(np.concatenate([t, on, off]))
 
 
-def _refined(surface: Surface, path: Callable[[Floats], Floats], t: Floats, tracing: Tracing, size: float) -> Floats:
+def _refined(surface: Surface, path: Callable[[Floats], Floats], t: Floats, tracing: Tracing, size: float) -> Refined:
     """The parameters with more of them until chords stay within the tolerance."""
     tolerance = CHORD_OF_EXTENT * size if tracing.tolerance is None else tracing.tolerance
 
-    def places(t: Floats) -> Floats:
-        points = _points(surface, path, t)
+    def image(t: Floats) -> Floats:
+        points = _points(surface, path, t[:, 0])
         return points if tracing.picture is None else tracing.picture(points)
 
-    open_ = np.ones(len(t) - 1, dtype=np.bool_)
-    for _ in range(ROUNDS if tolerance > 0.0 else 0):
-        first = np.flatnonzero(open_)
-        if not len(first):
-            break
-        start, way = t[first], np.diff(t)[first]
-        a, b = places(start), places(start + way)
-        with np.errstate(invalid="ignore"):
-            bad = np.fmax(*(_off(a, b, places(start + part * way)) for part in PROBES)) > MISSED * tolerance
-        split = first[bad]
-        new = (start[bad][:, None] + np.array(PROBES) * way[bad][:, None]).ravel()
-        open_[:] = False
-        open_[split] = True
-        at = np.repeat(split + 1, 2)
-        t, open_ = np.insert(t, at, new), np.insert(open_, at, True)
-    return t
-
-
-def _off(a: Floats, b: Floats, p: Floats) -> Floats:
-    """(k,) distances of points p from segments from a to b; NaN where one of them is."""
-    chord, arm = b - a, p - a
-    square = (chord * chord).sum(axis=1)
-    share = np.clip((arm * chord).sum(axis=1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
-    return np.asarray(np.linalg.norm(arm - share[:, None] * chord, axis=1))
+    whole = Traces(t[:, None], np.arange(len(t)) == len(t) - 1)
+    # Without a tolerance nothing is cut.
+    return refined(whole, straight_between, image, tolerance if tolerance > 0.0 else np.inf, tracing.budget.points)

@@ -30,10 +30,8 @@ from vectorplot.features.zeros.zero_cells import (
 )
 from vectorplot.features.zeros.zero_nodes import MOST_ALONE, double_points, joined_at_nodes, within, without_points_near
 from vectorplot.features.zeros.zero_refinement import (
-    Polylines,
     Positions,
-    refined,
-    starts_of,
+    refined_on_curve,
     up_to_holes,
     without_repeats,
 )
@@ -41,6 +39,7 @@ from vectorplot.features.zeros.zero_segments import Segments, crossing_segments
 from vectorplot.features.zeros.zero_triangles import triangles_near
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
+from vectorplot.geometry.chord_refinement import Traces
 from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, closed_round
 from vectorplot.surfaces.surface import Domain
@@ -147,7 +146,8 @@ def zero_manifold_of_f_uv(
         lines = _to_holes(field, lines, _smallest_cell(lattice), zero)
     if tolerance is not None:
         measure = positions or (lambda u, v: np.stack([u, v], axis=-1))
-        lines, unsure, enough = refined(field, lines, measure, tolerance, zero, budget.points)
+        finer = refined_on_curve(field, lines, measure, tolerance, zero, budget.points)
+        lines, unsure, enough = finer.lines, finer.unsure, finer.enough
     doubts = _doubts(int(flat.sum()), found, subdivision.complete, unsure, enough, tangled)
     return _result(
         field, lines, found, doubts, np.concatenate([grid_points(field, columns, rows), unit * w[..., None]], axis=2)
@@ -160,7 +160,7 @@ class _Found:
     sign are no zeros, how many closed branches are smaller than a cell, and at how many of the places that touch two
     branches cannot be told apart."""
 
-    lines: Polylines
+    lines: Traces
     nodes: Floats
     isolated: Floats
     touching: Floats
@@ -196,10 +196,10 @@ def _found(subdivision: Subdivision, traced: Segments, scale: float) -> _Found:
     )
 
 
-def _without_beads(field: ScalarField, lines: Polylines, cell: Floats) -> tuple[Polylines, Floats]:
+def _without_beads(field: ScalarField, lines: Traces, cell: Floats) -> tuple[Traces, Floats]:
     """The polylines without the closed ones that are thinner than a cell and stand in a row, and the middles (k,2) of
     these: they are what lattice points between two branches that cannot be told apart make of them."""
-    first, last = starts_of(lines.last), np.flatnonzero(lines.last)
+    first, last = lines.starts, lines.ends
     p = lines.points
     if len(first) <= MOST_ALONE:
         return lines, p[:0]
@@ -223,7 +223,7 @@ def _without_beads(field: ScalarField, lines: Polylines, cell: Floats) -> tuple[
     gone = np.zeros(len(first), dtype=np.bool_)
     gone[thin[crowded]] = True
     kept = ~gone[path]
-    return Polylines(p[kept], lines.last[kept]), middles[crowded]
+    return lines.some(kept), middles[crowded]
 
 
 def _smallest_cell(lattice: Lattice) -> Floats:
@@ -276,30 +276,29 @@ def _levels(columns: int, rows: int, resolution: float) -> int:
     return int(np.clip(np.ceil(np.log2(1.0 / (min(columns, rows) * resolution)) - ABOVE_WHOLE), 0, 20))
 
 
-def _polylines(field: ScalarField, points: Floats, segments: Ints) -> Polylines:
+def _polylines(field: ScalarField, points: Floats, segments: Ints) -> Traces:
     """The segments joined to polylines whose parameters run on over seams; closed ones repeat their first point."""
     branches = concat(segments)
     rounds = closed_round(branches)
     offsets = rounds.offsets
     path = ragged.owner(np.diff(offsets))
-    result = points[branches.points[rounds.index]]
-    last = np.zeros(len(result), dtype=np.bool_)
-    last[offsets[1:] - 1] = True
+    lines = Traces.of(points[branches.points], rounds)
+    run_on = lines.points.copy()
     for axis in (0, 1):
-        if field.closed[axis] and len(result):
-            x = result[:, axis]
+        if field.closed[axis] and len(run_on):
+            x = run_on[:, axis]
             jump = np.concatenate([[0.0], -np.round(np.diff(x) / field.size[axis])])
             jump[offsets[:-1]] = 0.0
             turned = np.cumsum(jump)
-            result[:, axis] = x + (turned - turned[offsets[path]]) * field.size[axis]
-    return Polylines(result, last)
+            run_on[:, axis] = x + (turned - turned[offsets[path]]) * field.size[axis]
+    return Traces(run_on, lines.last)
 
 
-def _to_holes(field: ScalarField, lines: Polylines, cell: Floats, zero: float) -> Polylines:
+def _to_holes(field: ScalarField, lines: Traces, cell: Floats, zero: float) -> Traces:
     """The polylines with open ends inside the domain led on to the border of the hole there."""
     p = lines.points
     for side in (0, 1):
-        starts, lasts = starts_of(lines.last), np.flatnonzero(lines.last)
+        starts, lasts = lines.starts, lines.ends
         closed = _is_closed(field, p[starts], p[lasts])
         end, before = (starts, starts + 1) if side == 0 else (lasts, lasts - 1)
         free = ~closed & ~_on_border(field, p[end])
@@ -310,7 +309,7 @@ def _to_holes(field: ScalarField, lines: Polylines, cell: Floats, zero: float) -
             p, last = np.insert(p, at, more, axis=0), np.insert(lines.last, at, False)
         else:
             p, last = np.insert(p, at + 1, more, axis=0), np.insert(lines.last, at, False)
-        lines = Polylines(p, last)
+        lines = Traces(p, last)
     return lines
 
 
@@ -330,15 +329,13 @@ def _is_closed(field: ScalarField, first: Floats, last: Floats) -> Bools:
     )
 
 
-def _result(field: ScalarField, lines: Polylines, found: _Found, doubts: tuple[str, ...], grid: Floats) -> ZeroManifold:
+def _result(field: ScalarField, lines: Traces, found: _Found, doubts: tuple[str, ...], grid: Floats) -> ZeroManifold:
     """The manifold of these polylines; of closed ones the repeated point is dropped."""
-    first, last = starts_of(lines.last), np.flatnonzero(lines.last)
+    first, last = lines.starts, lines.ends
     ends = lines.points[first], lines.points[last]
     closed = _is_closed(field, *ends) & (last - first > 1)
     turns = np.where(closed[:, None], np.round((ends[1] - ends[0]) / field.size), 0.0).astype(np.intp)
-    kept = np.ones(len(lines.points), dtype=np.bool_)
-    kept[last[closed]] = False
-    offsets = ragged.offsets(last - first + 1 - closed)
+    kept, offsets = lines.unrepeated(closed)
     return ZeroManifold(
         field.domain,
         lines.points[kept],

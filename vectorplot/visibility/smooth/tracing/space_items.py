@@ -9,8 +9,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.parameter_lines import MISSED, PROBES
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chord_refinement import MISSED, PROBES, deviation
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_extent import SETTLED_ON_SHEET, ZERO_OF_EXTENT
@@ -100,9 +100,7 @@ def _sampled(view: View, curve: Curve, tracing: Tracing) -> Floats:
     while open_.any() and len(t) < MOST_POINTS:
         first = np.flatnonzero(open_)
         low, high = t[first], t[first + 1]
-        a, b = images(low), images(high)
-        probes = [images(low + p * (high - low)) for p in PROBES]
-        off = np.fmax(*(_distance(a, b, p) for p in probes))
+        off, _ = deviation(images, low, high, np.stack([low + p * (high - low) for p in PROBES]))
         bad = first[off > MISSED * (tracing.tolerance or np.inf)]
         middle = 0.5 * (t[bad] + t[bad + 1])
         # Both halves of a chord that was cut are looked at again.
@@ -111,14 +109,6 @@ def _sampled(view: View, curve: Curve, tracing: Tracing) -> Floats:
         open_ = np.insert(open_, bad + 1, True)
         t = np.insert(t, bad + 1, middle)
     return t
-
-
-def _distance(a: Floats, b: Floats, p: Floats) -> Floats:
-    """(k,) distances of points from segments a b; NaN where one of them is not finite."""
-    chord, arm = b - a, p - a
-    square = dot(chord, chord)
-    part = np.clip(dot(arm, chord) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
-    return np.asarray(np.linalg.norm(arm - part[:, None] * chord, axis=1))
 
 
 def _placed(sheet: ParametricSheet, points: Floats) -> tuple[Floats, float]:

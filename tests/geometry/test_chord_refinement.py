@@ -1,0 +1,111 @@
+"""Polylines on curves, refined until their chords are near."""
+
+import numpy as np
+import pytest
+
+from vectorplot.geometry.chord_refinement import PROBES, Traces, refined, straight_between, torn
+
+
+def on_circle(start, end, part):
+    x = start + part[:, None] * (end - start)
+    return x / np.linalg.norm(x, axis=1, keepdims=True), np.ones(len(x), dtype=bool)
+
+
+def polygon(corners, turns=1.0):
+    t = np.linspace(0.0, 2.0 * np.pi * turns, corners + 1)
+    return np.stack([np.cos(t), np.sin(t)], axis=1)
+
+
+def same(points):
+    return points
+
+
+def farthest_chord(lines):
+    a, b = lines.points[:-1][~lines.last[:-1]], lines.points[1:][~lines.last[:-1]]
+    middle = (a + b) / 2.0
+    return np.abs(1.0 - np.linalg.norm(middle, axis=1)).max()
+
+
+@pytest.mark.parametrize("tolerance", [1e-1, 1e-3, 1e-5])
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_chords_are_within_the_tolerance_at_any_scale(tolerance, scale):
+    def between(start, end, part):
+        x, found = on_circle(start / scale, end / scale, part)
+        return scale * x, found
+
+    whole = Traces(np.concatenate([polygon(5), polygon(4, 0.4)]) * scale, np.isin(np.arange(11), [5, 10]))
+    found = refined(whole, between, same, tolerance * scale, most=1 << 20)
+    assert found.enough and not found.unsure
+    assert farthest_chord(Traces(found.lines.points / scale, found.lines.last)) <= tolerance
+    assert found.lines.last.sum() == 2
+    assert np.array_equal(found.lines.points[found.lines.starts], whole.points[whole.starts])
+    assert np.array_equal(found.lines.points[found.lines.ends], whole.points[whole.ends])
+
+
+def test_points_come_in_the_order_of_the_curve():
+    found = refined(Traces(polygon(3), np.arange(4) == 3), on_circle, same, 1e-4, most=1 << 20).lines
+    angle = np.unwrap(np.arctan2(found.points[:, 1], found.points[:, 0]))
+    assert (np.diff(angle) > 0.0).all()
+
+
+def test_all_that_is_known_of_a_point_goes_with_it():
+    points = np.stack([np.linspace(0.0, 1.0, 3), np.full(3, 7.0)], axis=1)
+    image = lambda rows: np.stack([rows[:, 0], rows[:, 0] ** 2], axis=1)  # noqa: E731
+    found = refined(Traces(points, np.arange(3) == 2), straight_between, image, 1e-3, most=1 << 20).lines
+    assert len(found.points) > 10
+    assert (found.points[:, 1] == 7.0).all()
+
+
+def test_points_may_run_short_and_that_is_said():
+    found = refined(Traces(polygon(3), np.arange(4) == 3), on_circle, same, 1e-12, most=100)
+    assert not found.enough
+    assert 100 < len(found.lines.points) < 400
+
+
+def test_a_chord_beside_which_the_curve_is_not_found_stays_and_is_counted():
+    def blind(start, end, part):
+        x, found = on_circle(start, end, part)
+        return x, found & (x[:, 1] > 0.0)
+
+    found = refined(Traces(polygon(4), np.arange(5) == 4), blind, same, 1e-4, most=1 << 20)
+    assert found.unsure == 2 and found.enough
+    assert (found.lines.points[:, 1] < -1e-9).sum() == 1
+
+
+def test_where_there_is_no_image_nothing_is_refined():
+    def behind(points):
+        return np.where(points[:, :1] > 0.0, points, np.nan)
+
+    found = refined(Traces(polygon(8), np.arange(9) == 8), on_circle, behind, 1e-4, most=1 << 20)
+    assert found.enough
+    assert (found.lines.points[:, 0] < -0.1).sum() == 3
+
+
+def test_lines_are_torn_where_their_image_jumps():
+    pole = lambda rows: np.concatenate([rows, 1.0 / (rows - 0.3)], axis=1)  # noqa: E731
+    whole = Traces(np.linspace(0.0, 1.0, 4)[:, None], np.arange(4) == 3)
+    found = refined(whole, straight_between, pole, 1e-3, most=1 << 20).lines
+    pieces = torn(found, pole, 1e-3, np.ones(1))
+    assert pieces.last.sum() == 2
+    assert abs(pieces.points[pieces.ends[0], 0] - 0.3) < 1e-8
+    assert torn(whole, pole, 1e-3, np.ones(1)) is whole
+
+
+def test_closed_lines_without_their_repeated_points():
+    lines = Traces(np.arange(9.0)[:, None], np.isin(np.arange(9), [3, 5, 8]))
+    kept, offsets = lines.unrepeated(np.array([True, False, True]))
+    assert np.flatnonzero(~kept).tolist() == [3, 8]
+    assert offsets.tolist() == [0, 3, 5, 7]
+    none, bounds = Traces(np.zeros((0, 2)), np.zeros(0, dtype=bool)).unrepeated(np.zeros(0, dtype=bool))
+    assert len(none) == 0 and bounds.tolist() == [0]
+
+
+def test_nothing_to_refine():
+    nothing = Traces(np.zeros((0, 3)), np.zeros(0, dtype=bool))
+    found = refined(nothing, straight_between, same, 1.0, most=10)
+    assert found.enough and not len(found.lines.points)
+    assert not len(torn(nothing, same, 1.0, np.ones(3)).points)
+
+
+def test_probes_are_not_symmetric():
+    assert not np.isclose(sum(PROBES), 1.0)

@@ -1,0 +1,147 @@
+"""Polylines on curves refined until their chords are near the curves: one way for every kind of curve."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import Rounds
+from vectorplot.tolerances.of_parameters import JUMP_OF_DOMAIN
+
+PROBES = (0.35, 0.7)
+"""Where between two points a curve is compared with its chord: not symmetric, so that no S-shape passes."""
+
+MISSED = 0.8
+"""Part of the largest deviation of a parabola that the probes see at least."""
+
+ROUNDS = 20
+"""How often chords are cut by three at most."""
+
+Between = Callable[[Floats, Floats, Floats], tuple[Floats, Bools]]
+"""Points (k,c) of the curve near parts (k,) of the ways from points (k,c) to points (k,c) of it, and (k,) which of them
+were found."""
+
+Image = Callable[[Floats], Floats]
+"""Takes points (k,c) to where chords are measured, (k,d); not finite where there is no image."""
+
+
+@dataclass(frozen=True, eq=False)
+class Traces:
+    """Polylines on their way to a curve: points (n,c), one row for all that is known of a point, its coordinates or its
+    parameters; last (n,): the point is the last of its polyline. Closed ones repeat their first point."""
+
+    points: Floats
+    last: Bools
+
+    @classmethod
+    def of(cls, points: Floats, rounds: Rounds) -> Traces:
+        """Polylines led back to where they begin, none of them empty; points (k,c): what their indices speak of."""
+        last = np.zeros(len(rounds.index), dtype=np.bool_)
+        last[rounds.offsets[1:] - 1] = True
+        return cls(points[rounds.index], last)
+
+    @property
+    def starts(self) -> Ints:
+        """(m,) positions of the first points of polylines."""
+        return np.flatnonzero(np.concatenate([[True], self.last[:-1]])[: len(self.last)])
+
+    @property
+    def ends(self) -> Ints:
+        """(m,) positions of the last points of polylines."""
+        return np.flatnonzero(self.last)
+
+    def some(self, kept: Bools) -> Traces:
+        """The points that are kept; the last one of a polyline has to be."""
+        return Traces(self.points[kept], self.last[kept])
+
+    def unrepeated(self, closed: Bools) -> tuple[Bools, Ints]:
+        """Which points (n,) to keep where closed (m,) polylines do not repeat their first one, and the offsets (m+1,)
+        of the polylines then."""
+        kept = np.ones(len(self.last), dtype=np.bool_)
+        kept[self.ends[closed]] = False
+        return kept, ragged.offsets(np.diff(self.ends, prepend=-1) - closed)
+
+
+@dataclass(frozen=True, eq=False)
+class Refined:
+    """The polylines with points put in; unsure: at how many long chords the curve was not found; enough: whether as
+    many points as there may be were enough."""
+
+    lines: Traces
+    unsure: int
+    enough: bool
+
+
+def straight_between(start: Floats, end: Floats, part: Floats) -> tuple[Floats, Bools]:
+    """The points between two of a curve that is given by what runs evenly along it: a Between."""
+    return start + part[:, None] * (end - start), np.ones(len(start), dtype=np.bool_)
+
+
+def refined(lines: Traces, between: Between, image: Image, tolerance: float, most: float) -> Refined:
+    """The polylines with points of their curves put in until chords deviate from these by no more than the tolerance,
+    measured in the image, or there are most points.
+
+    Where the curve is not found beside a chord, or has no finite image (behind an eye), refinement ends.
+    """
+    points, last = lines.points, lines.last
+    # A chord belongs to the point it starts at; open ones are still to be looked at.
+    open_, unsure = ~last, 0
+    for _ in range(ROUNDS):
+        first = np.flatnonzero(open_)
+        if not len(first) or len(points) > most:
+            break
+        a, b = points[first], points[first + 1]
+        starts, ends = (np.concatenate([x] * len(PROBES)) for x in (a, b))
+        places, on = between(starts, ends, np.repeat(PROBES, len(first)))
+        probes, found = places.reshape(len(PROBES), *a.shape), on.reshape(len(PROBES), -1).all(axis=0)
+        far, long = deviation(image, a, b, probes)
+        unsure += int((~found & (long > tolerance)).sum())
+        bad = found & (far > MISSED * tolerance)
+        split = first[bad]
+        open_[:] = False
+        open_[split] = True
+        at = np.repeat(split + 1, len(PROBES))
+        new = probes[:, bad].transpose(1, 0, 2).reshape(-1, a.shape[1])
+        points = np.insert(points, at, new, axis=0)
+        last, open_ = np.insert(last, at, False), np.insert(open_, at, True)
+    return Refined(Traces(points, last), unsure, not open_.any())
+
+
+def deviation(image: Image, start: Floats, end: Floats, probes: Floats) -> tuple[Floats, Floats]:
+    """(k,) largest distances of points probes (j,k,c) from the chords between start and end (k,c), and the lengths of
+    these, all in the image; what has none is at no distance."""
+    a = _seen(image, start)
+    chord = _seen(image, end) - a
+    square = (chord * chord).sum(axis=1)
+    most = np.zeros(len(start))
+    for probe in probes:
+        arm = _seen(image, probe) - a
+        with np.errstate(invalid="ignore"):
+            t = np.clip((arm * chord).sum(axis=1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+            away = arm - t[:, None] * chord
+            most = np.fmax(most, np.sqrt((away * away).sum(axis=1)))
+    return most, np.nan_to_num(np.sqrt(square))
+
+
+def torn(lines: Traces, image: Image, tolerance: float, size: Floats) -> Traces:
+    """The polylines, interrupted where their image jumps, without what is only a point then; size (c,): of the domain
+    of the points."""
+    p, last = lines.points, lines.last.copy()
+    step = np.abs(np.diff(p, axis=0)) / size
+    at = np.flatnonzero((step <= JUMP_OF_DOMAIN).all(axis=1) & (step > 0.0).any(axis=1) & ~last[:-1])
+    way = _seen(image, p[at + 1]) - _seen(image, p[at])
+    at = at[np.sqrt((way * way).sum(axis=1)) > tolerance]
+    if not len(at):
+        return lines
+    last[at] = True
+    alone = last & np.concatenate([[True], last[:-1]])
+    return Traces(p, last).some(~alone)
+
+
+def _seen(image: Image, points: Floats) -> Floats:
+    with np.errstate(all="ignore"):
+        return np.asarray(image(points), dtype=np.float64)
