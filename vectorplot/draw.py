@@ -89,24 +89,80 @@ def draw(
 ) -> Drawing:
     """The scene as strokes on a page, hidden lines found by geometry.
 
-    camera and page: those of the scene where None, else default_camera and A4. fit: the picture fills the page but
-    for its margin; otherwise the page centre is the target and the page height the camera's picture height. lines:
-    words of LineKind, or one text with commas between them, DRAWN or WIRES where None; an item's own come first.
-    crease_angle_deg: sharper edges are creases. style: plain, or a wireframe: nothing hides anything, all lines have
-    the middle shades of their items' palettes, or go by their depth (depth-cue), on a sheet in the scene's background
-    or the darkest gray. hidden: hidden lines are left out, dashed, or solid on a layer of their own. halo_mm: lines end
-    so far beside what is in front of them.
-    layers: what shares a layer. curves: strokes of smooth curves are fitted with cubic Béziers and elliptic arcs, or
-    stay polylines. tolerance_mm: how far strokes of smooth curves may be off the true curves; their
-    points are exact but for the ends of dashes, straight lines are so whatever it is. longest_mm: longer strokes leave
-    in equal parts that are no longer, for plotters that stutter on them. budget: how many times the usual work on
-    smooth surfaces is allowed (see geometry.budget). progress(stage, fraction) and explain(report) are
-    called while it works.
-    Errors: InputError for unknown words, impossible cameras, and widths and angles out of range.
-    Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees
-    off the principal ray, a fitted picture shows the camera's field of vision. An InputWarning says where a picture
-    shows so little of the scene that the tolerance cannot be kept, and what the budget did not do for.
+    Parameters
+    ----------
+    scene : Scene
+        What is drawn.
+    camera : Camera, optional
+        That of the scene where None, else default_camera.
+    page : Page, optional
+        That of the scene where None, else A4.
+    fit : bool
+        The picture fills the page but for its margin; otherwise the page centre is the target and the page height the
+        camera's picture height.
+    lines : str or iterable of str, optional
+        Words of LineKind, or one text with commas between them, DRAWN or WIRES where None; an item's own come first.
+    crease_angle_deg : float
+        Sharper edges are creases; 0 to 180 degrees.
+    style : {"plain", "wireframe", "depth-cue"}
+        plain, or a wireframe: nothing hides anything, all lines have the middle shades of their items' palettes, or go
+        by their depth (depth-cue), on a sheet in the scene's background or the darkest gray.
+    hidden : {"none", "dashed", "solid"}
+        Hidden lines are left out, dashed, or solid on a layer of their own.
+    halo_mm : float
+        Lines end so many mm beside what is in front of them.
+    layers : {"kind", "object", "colour"}
+        What shares a layer.
+    curves : {"bezier", "polyline"}
+        Strokes of smooth curves are fitted with cubic Béziers and elliptic arcs, or stay polylines.
+    tolerance_mm : float
+        How many mm strokes of smooth curves may be off the true curves; their points are exact but for the ends of
+        dashes, straight lines are so whatever it is.
+    longest_mm : float, optional
+        Longer strokes leave in equal parts that are no longer, for plotters that stutter on them; 1 mm or more.
+    budget : float
+        How many times the usual work on smooth surfaces is allowed (see geometry.budget).
+    progress : callable, optional
+        progress(stage, fraction) is called while it works.
+    explain : callable, optional
+        explain(report) is called while it works, with a StageReport.
+
+    Returns
+    -------
+    Drawing
+        The page in mm with its layers, the names of the items, and the matrix page_from_world.
+
+    Raises
+    ------
+    InputError
+        For unknown words, impossible cameras, and widths and angles out of range; for a tolerance or a budget that is
+        not finite and positive; for hidden lines, a halo or layers other than by kind in a wireframe, which has colours
+        of its own.
+
+    Warns
+    -----
+    InputWarning
+        Where a picture shows so little of the scene that the tolerance cannot be kept, and what the budget did not do
+        for.
+
+    Notes
+    -----
+    Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off
+    the principal ray, a fitted picture shows the camera's field of vision.
+
     Source: Glaeser, sections 2.1, 4.4 and 7.2.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> tetrahedron = vp.Mesh.from_triangles(corners, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
+    >>> scene = vp.Scene((vp.Item("tetrahedron", tetrahedron),))
+    >>> drawing = vp.draw(scene, vp.Camera((4, 3, 2)), page=vp.Page(100, 80), hidden="solid")
+    >>> drawing.width_mm, drawing.height_mm
+    (100, 80)
+    >>> [layer.name for layer in drawing.layers if not layer.plotted]
+    ['hidden']
     """
     _check_options(hidden, layers, curves, halo_mm, crease_angle_deg, tolerance_mm)
     _check_longest(longest_mm)

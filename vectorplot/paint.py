@@ -78,22 +78,73 @@ def paint(
 ) -> Drawing:
     """The scene as filled polygons on a page, each painted over those behind it.
 
-    camera and page: those of the scene where None, else default_camera and A4. fit: the picture fills the page but for
-    its margin; otherwise the page centre is the target and the page height the camera's picture height. lights: in
-    place of those of the scene. shadows: whether lights cast any. aura_mm: the width of their soft borders. palette:
-    how many shades every colour has. smooth: smooth surfaces, meshes that look round and planes on which the light
-    varies are shaded from corner to corner; otherwise every plane has one shade.
-    fills: polygons painted one over the other, or only what is seen of each, for pens, which cannot paint over things,
-    with transparent ones as sparse lines; or blank, with the visible lines on them: hidden lines by erasing.
-    lines: words of LineKind, or one text with commas between them, drawn on top with exact hidden lines, or on blank
-    polygons (none: all kinds); crease_angle_deg: sharper edges are creases, and meshes look round where faces meet at
-    less. tolerance_mm: how far the sides of polygons may be off smooth surfaces and refracted lines. budget: as of
-    draw, for lines and triangles. progress(stage, fraction) and explain(report) are called while it works.
-    Errors: InputError for unknown words and colours, impossible cameras, and widths and counts out of range.
+    Parameters
+    ----------
+    scene : Scene
+        What is painted.
+    camera : Camera, optional
+        That of the scene where None, else default_camera.
+    page : Page, optional
+        That of the scene where None, else A4.
+    fit : bool
+        The picture fills the page but for its margin; otherwise the page centre is the target and the page height the
+        camera's picture height.
+    lights : sequence of Light, optional
+        In place of those of the scene.
+    shadows : {"auto", "none"}
+        Whether lights cast any.
+    aura_mm : float
+        The width of their soft borders in mm.
+    palette : int
+        How many shades every colour has; 2 to 256.
+    smooth : bool
+        Smooth surfaces, meshes that look round and planes on which the light varies are shaded from corner to corner;
+        otherwise every plane has one shade.
+    fills : {"painted", "visible", "erasing"}
+        Polygons painted one over the other, or only what is seen of each, for pens, which cannot paint over things,
+        with transparent ones as sparse lines; or blank, with the visible lines on them: hidden lines by erasing.
+    lines : str or iterable of str
+        Words of LineKind, or one text with commas between them, drawn on top with exact hidden lines, or on blank
+        polygons (none: all kinds).
+    crease_angle_deg : float
+        Sharper edges are creases, and meshes look round where faces meet at less; 0 to 180 degrees.
+    tolerance_mm : float
+        How many mm the sides of polygons may be off smooth surfaces and refracted lines.
+    budget : float
+        As of draw, for lines and triangles.
+    progress : callable, optional
+        progress(stage, fraction) is called while it works.
+    explain : callable, optional
+        explain(report) is called while it works, with a StageReport.
+
+    Returns
+    -------
+    Drawing
+        The page in mm: a layer of fills, and where lines are asked for those of the lines on top.
+
+    Raises
+    ------
+    InputError
+        For unknown words and colours, impossible cameras, and widths and counts out of range; for a tolerance or a
+        budget that is not finite and positive.
+
+    Notes
+    -----
     Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off
     the principal ray, a fitted picture shows the camera's field of vision. A scene without lights is lit from the eye's
     upper left, which casts no shadows.
+
     Source: Glaeser, chapters 4.5, 5 and 6.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> tetrahedron = vp.Mesh.from_triangles(corners, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
+    >>> scene = vp.Scene((vp.Item("tetrahedron", tetrahedron, "blue"),))
+    >>> drawing = vp.paint(scene, lights=[vp.Light((3, -1, 4))], lines="contour")
+    >>> [layer.name for layer in drawing.layers]
+    ['fills', 'visible', 'contour']
     """
     _check_options(shadows, aura_mm, palette, fills, crease_angle_deg, tolerance_mm)
     budget_of(budget)

@@ -10,12 +10,38 @@ from vectorplot.scene.scene import Scene
 
 
 def read(path: str | os.PathLike[str]) -> Scene | Any:
-    """The scene in a file: a mesh (obj, stl, ply, off, glb) or a text in the scene language (any other suffix); or the
-    Drawing in a JSON file (suffix .json) that `save` wrote.
+    """The scene in a file, or the drawing that `save` wrote into one.
 
+    Parameters
+    ----------
+    path : str or path
+        A mesh (obj, stl, ply, off, glb), a text in the scene language (any other suffix), or a drawing (suffix .json).
+
+    Returns
+    -------
+    Scene or Drawing
+        The Drawing in a JSON file, else the Scene.
+
+    Raises
+    ------
+    InputError
+        One line with the file, the line where there is one, and the cause.
+    OSError
+        For a drawing that cannot be opened.
+
+    Notes
+    -----
     What becomes of meshes says `vectorplot.io.read.read`; of layers and pens `vectorplot.backends.read_drawing`.
-    Errors: InputError, one line with the file, the line where there is one, and the cause; OSError for a drawing that
-    cannot be opened.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> import vectorplot as vp
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder, "box.scene")
+    ...     _ = path.write_text('title "Box"  BOX red box 1 2 3')
+    ...     vp.read(path)
+    <Scene 'Box': 1 items, 0 lights>
     """
     if Path(path).suffix.lower() == ".json":
         from vectorplot.backends.json.document import read_drawing

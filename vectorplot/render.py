@@ -96,23 +96,79 @@ def render(
 ) -> Image:
     """The scene as a picture of pixels: shaded faces, and smooth surfaces with their true normals.
 
-    camera: that of the scene where None, else default_camera. size: columns and rows. fit: the picture fills the
-    raster, otherwise the camera's field of vision is its height. lights: in place of those of the scene. shadows: of
-    these lights, found with shadow buffers of shadow_size x shadow_size texels of shadow_bits bits, plain ones or such
-    that show most of what is near the eye, or exactly; auto: as the view calls for. shadow_casters: all
-    faces, or, where all items that cast shadows are closed, only those that turn away from the light, whose depths need
-    no margin. shadow_focus: a buffer of what is near the eye grows, to four times its side at most, until what is in
-    focus gets such a part of the texels of a square one. samples: every pixel is the mean
-    light of samples x samples ones (None: 2 x 2, where there is room for so many). crease_angle_deg: faces that meet at
-    less look round. lines: words of LineKind, or one text with commas between them, drawn over the picture with exact
-    hidden lines. background: a palette, a plain colour or #rrggbb. budget: as of draw, for lines and triangles.
-    progress(stage, fraction) and explain(report) are called while it works.
-    Errors: InputError for unknown words and colours, impossible cameras, and sizes out of range; an InputWarning names
-    what the scene has and pixels do not show: patterns and refraction.
+    Parameters
+    ----------
+    scene : Scene
+        What is shown.
+    camera : Camera, optional
+        That of the scene where None, else default_camera.
+    size : (int, int)
+        Columns and rows, in pixels.
+    fit : bool
+        The picture fills the raster, otherwise the camera's field of vision is its height.
+    lights : sequence of Light, optional
+        In place of those of the scene.
+    shadows : {"auto", "none", "buffer", "trapezoid", "exact"}
+        Of these lights, found with shadow buffers, plain ones or such that show most of what is near the eye, or
+        exactly; auto: as the view calls for.
+    shadow_size : int
+        Shadow buffers have shadow_size x shadow_size texels.
+    shadow_bits : int
+        The bits of each texel.
+    shadow_casters : {"all", "away"}
+        All faces, or, where all items that cast shadows are closed, only those that turn away from the light, whose
+        depths need no margin.
+    shadow_focus : float, optional
+        A buffer of what is near the eye grows, to four times its side at most, until what is in focus gets such a part
+        of the texels of a square one; between 0 and 1.
+    samples : int, optional
+        Every pixel is the mean light of samples x samples ones, 8 x 8 at most (None: 2 x 2, where there is room for so
+        many).
+    crease_angle_deg : float
+        Faces that meet at less look round; 0 to 180 degrees.
+    lines : str or iterable of str
+        Words of LineKind, or one text with commas between them, drawn over the picture with exact hidden lines.
+    background : str, optional
+        A palette, a plain colour or #rrggbb.
+    budget : float
+        As of draw, for lines and triangles.
+    progress : callable, optional
+        progress(stage, fraction) is called while it works.
+    explain : callable, optional
+        explain(report) is called while it works, with a StageReport.
+
+    Returns
+    -------
+    Image
+        The pixels, and the title of the scene.
+
+    Raises
+    ------
+    InputError
+        For unknown words and colours, impossible cameras, and sizes out of range; for a budget that is not finite and
+        positive, and for lights without a direction or too far away.
+
+    Warns
+    -----
+    InputWarning
+        Names what the scene has and pixels do not show: patterns and refraction.
+
+    Notes
+    -----
     Degenerate: an empty scene gives the background. Where the scene reaches behind the eye, or more than 60 degrees off
     the principal ray, a fitted picture shows the camera's field of vision. A scene without lights is lit from the eye's
     upper left, which casts no shadows; nor do items that do not occlude. Transparent ones dim and colour light.
+
     Source: Glaeser, sections 4.5, 6.4, 7.3, 8.5 and 8.6; Martin and Tan; Ressler.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> tetrahedron = vp.Mesh.from_triangles(corners, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
+    >>> scene = vp.Scene((vp.Item("tetrahedron", tetrahedron, "blue"),), title="Tetrahedron")
+    >>> vp.render(scene, size=(60, 40), background="#ffffff")
+    <Image 'Tetrahedron': 60 x 40 pixels>
     """
     kinds = line_kinds(lines)
     samples = _usual_samples(size) if samples is None else samples

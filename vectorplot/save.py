@@ -33,12 +33,39 @@ _SCENE = "scene"
 
 
 def save(drawing: Drawing | Image | Scene, path: str | os.PathLike[str]) -> None:
-    """Write the drawing in the format of the suffix: svg, ps, eps, pdf, png or json; a picture of pixels as png; a
-    scene as scene, a text in the scene language.
+    """Write a drawing, a picture of pixels or a scene in the format of the suffix.
 
+    Parameters
+    ----------
+    drawing : Drawing, Image or Scene
+        What is written: a drawing as svg, ps, eps, pdf, png or json; a picture of pixels as png; a scene as scene, a
+        text in the scene language.
+    path : str or path
+        The file, whose suffix says the format.
+
+    Raises
+    ------
+    InputError
+        For an unknown suffix or one that is not for such a thing, for what page_marks.sheet refuses, and for shapes of
+        a scene that the language has no word for.
+    OSError
+        Where the file cannot be written; it names the path.
+
+    Notes
+    -----
     The file is written whole or not at all; an old one stays until the new one is complete.
-    Errors: InputError for an unknown suffix, for what page_marks.sheet refuses, and for shapes of a scene that the
-    language has no word for; OSError.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> import vectorplot as vp
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> drawing = vp.draw(vp.Scene((vp.Item("triangle", triangle),)))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     vp.save(drawing, pathlib.Path(folder, "triangle.json"))
+    ...     again = vp.read(pathlib.Path(folder, "triangle.json"))
+    >>> again.items
+    ('triangle',)
     """
     suffix = Path(path).suffix
     if suffix[1:].lower() not in (*_BACKENDS, _SCENE):
