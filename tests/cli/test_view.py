@@ -4,7 +4,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.cli.main import run
-from vectorplot.cli.view import CameraOptions, camera_from, page_from
+from vectorplot.cli.view import CameraOptions, PageOptions, camera_from, page_from
 from vectorplot.draw import default_camera
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.scene.scene import Page, Scene
@@ -77,17 +77,13 @@ def test_a_height_needs_a_parallel_projection():
         camera_from(CameraOptions(height=2.0), SCENE)
 
 
-def page_options(**said):
-    return {"page": None, "landscape": False, "margin": None, **said}
-
-
 def test_the_page_is_that_of_the_scene_but_for_the_options():
-    assert page_from(page_options(), SCENE) == Page()
-    assert page_from(page_options(), WITH_CAMERA) == WITH_CAMERA.page
-    assert page_from(page_options(page=(210.0, 297.0), landscape=True), WITH_CAMERA) == Page(297.0, 210.0, 5.0)
-    assert page_from(page_options(margin=0.0), WITH_CAMERA) == Page(100.0, 50.0, 0.0)
+    assert page_from(PageOptions(), SCENE) == Page()
+    assert page_from(PageOptions(), WITH_CAMERA) == WITH_CAMERA.page
+    assert page_from(PageOptions(page=(210.0, 297.0), landscape=True), WITH_CAMERA) == Page(297.0, 210.0, 5.0)
+    assert page_from(PageOptions(margin=0.0), WITH_CAMERA) == Page(100.0, 50.0, 0.0)
     with pytest.raises(click.UsageError, match="leaves nothing"):
-        page_from(page_options(margin=25.0), WITH_CAMERA)
+        page_from(PageOptions(margin=25.0), WITH_CAMERA)
 
 
 def test_without_an_eye_models_that_stand_upright_along_y_are_seen_from_above_and_from_their_front():

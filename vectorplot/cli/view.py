@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from functools import reduce
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -38,19 +37,20 @@ CAMERA_OPTIONS = (
     ),
 )
 
+
+def fit_option(filled: str) -> Callable[[Command], Command]:
+    """``--fit`` and ``--no-fit``, with what a fitted picture fills."""
+    return click.option("--fit/--no-fit", default=True, help=f"Fill the {filled}, or keep the camera's scale.")
+
+
 PAGE_OPTIONS = (
     click.option(
         "--page", type=sheet, metavar="SIZE", help="A0 to A6, letter, legal, ... or WIDTHxHEIGHT in mm.  [default: A4]"
     ),
     click.option("--landscape", is_flag=True, help="Lay the page on its longer side."),
     click.option("--margin", type=at_least(0.0), metavar="MM", help="Empty border of the page.  [default: 10]"),
-    click.option("--fit/--no-fit", default=True, help="Fill the page, or keep the camera's scale."),
+    fit_option("page"),
 )
-
-
-def with_options(*options: Callable[[Command], Command]) -> Callable[[Command], Command]:
-    """A decorator that gives a command these options, in this order."""
-    return lambda command: reduce(lambda inner, option: option(inner), reversed(options), command)
 
 
 @dataclass(frozen=True)
@@ -69,10 +69,9 @@ class CameraOptions:
     view: str | None = None
 
     @classmethod
-    def of(cls, options: dict[str, Any]) -> CameraOptions:
+    def of(cls, options: Mapping[str, Any]) -> CameraOptions:
         """What a command with CAMERA_OPTIONS was told. Bad usage for options that contradict each other."""
-        names = ("eye", "target", "up", "twist", "fov", "parallel", "height", "near", "far", "view")
-        found = cls(**{name: options[name] for name in names})
+        found = cls(**{field.name: options[field.name] for field in fields(cls)})
         found.check()
         return found
 
@@ -82,6 +81,20 @@ class CameraOptions:
         exclusive([("--fov", self.fov), ("--parallel", self.parallel)])
         exclusive([("--fov", self.fov), ("--height", self.height)])
         exclusive([("--view", self.view), ("--eye", self.eye)])
+
+
+@dataclass(frozen=True)
+class PageOptions:
+    """What the user said about the page; None and False: nothing. page: width and height in mm."""
+
+    page: tuple[float, float] | None = None
+    landscape: bool = False
+    margin: float | None = None
+
+    @classmethod
+    def of(cls, options: Mapping[str, Any]) -> PageOptions:
+        """What a command with PAGE_OPTIONS was told."""
+        return cls(**{field.name: options[field.name] for field in fields(cls)})
 
 
 def camera_from(options: CameraOptions, scene: Scene) -> Camera:
@@ -121,18 +134,15 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
     return camera
 
 
-def page_from(options: dict[str, Any], scene: Scene) -> Page:
-    """The page of the scene (or A4) with the user's size, margin and orientation; bad usage if nothing is left.
-
-    options: what a command with PAGE_OPTIONS was told.
-    """
+def page_from(options: PageOptions, scene: Scene) -> Page:
+    """The page of the scene (or A4) with the user's size, margin and orientation; bad usage if nothing is left."""
     from vectorplot.errors import InputError
     from vectorplot.scene.scene import Page
 
     base = chosen(scene.page, Page())
-    width, height = chosen(options["page"], (base.width_mm, base.height_mm))
+    width, height = chosen(options.page, (base.width_mm, base.height_mm))
     try:
-        page = Page(width, height, chosen(options["margin"], base.margin_mm))
+        page = Page(width, height, chosen(options.margin, base.margin_mm))
     except InputError as error:
         raise click.UsageError(str(error)) from None
-    return page.landscape if options["landscape"] else page
+    return page.landscape if options.landscape else page

@@ -1,0 +1,138 @@
+"""Options that the verbs which make pictures share, each written once, and the command that such a verb becomes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields
+from functools import reduce, wraps
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vectorplot.cli.options import KINDS, at_least, between, format_of, kinds, light
+from vectorplot.cli.picture import make_picture
+from vectorplot.cli.view import CAMERA_OPTIONS, CameraOptions, PageOptions, camera_from, page_from
+
+if TYPE_CHECKING:
+    from vectorplot.cli.picture import Report
+    from vectorplot.drawing.drawing import Drawing
+    from vectorplot.scene.scene import Scene
+    from vectorplot.shading.raster.image import Image
+
+Command = Callable[..., None]
+Option = Callable[[Command], Command]
+
+DRAWING_FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
+"""What a drawing on a page is written as."""
+
+ANGLE = at_least(0.0, at_most=180.0)
+POSITIVE = between(0.0, math.inf)
+
+LIGHTS = click.option(
+    "--lights",
+    type=light,
+    multiple=True,
+    # A tuple without lamps would be darkness; not a word about lamps leaves those of the scene.
+    callback=lambda _context, _parameter, lamps: lamps or None,
+    metavar="X,Y,Z[,I]",
+    help="Lamp at a point, with an intensity from 0 to 1, in place of the lights of the scene; repeat it for more.",
+)
+
+TOLERANCE = click.option(
+    "--tolerance", "tolerance_mm", type=POSITIVE, default=0.02, metavar="MM", help="For approximations."
+)
+
+BUDGET = click.option(
+    "--budget", type=POSITIVE, default=1.0, metavar="FACTOR", help="Times the usual work on a surface."
+)
+
+EXPLAIN = click.option("--explain", is_flag=True, help="Print stages, times, counts and memory on stderr.")
+
+QUIET = click.option("-q", "--quiet", is_flag=True, help="No warnings, no progress bar.")
+
+INPUT = click.argument("scene_file", type=click.Path(), metavar="INPUT")
+
+OUT = click.option("-o", "--out", required=True, type=click.Path(), metavar="OUT", help="File to write; - for stdout.")
+
+
+def format_option(formats: Sequence[str]) -> Option:
+    """``--format``, for a verb that writes these."""
+    return click.option(
+        "--format", "format_", type=click.Choice(formats), help="Format, where the name of OUT does not tell."
+    )
+
+
+def lines_option(meaning: str, *, default: str | None = "none", note: str = "") -> Option:
+    """``--lines``, with what they are to the verb; note: what the help text says after the words."""
+    return click.option("--lines", type=kinds, default=default, metavar="KIND,...", help=f"{meaning}: {KINDS}.{note}")
+
+
+def crease_angle_option(meaning: str) -> Option:
+    """``--crease-angle``, with what sharper edges are to the verb."""
+    return click.option("--crease-angle", "crease_angle_deg", type=ANGLE, default=25.0, metavar="DEG", help=meaning)
+
+
+def shadows_option(ways: Sequence[str], meaning: str) -> Option:
+    """``--shadows``, with the ways that the verb has of finding them; auto is one of them."""
+    return click.option("--shadows", type=click.Choice(ways), default="auto", help=meaning)
+
+
+@dataclass(frozen=True)
+class Told:
+    """What the user told a verb: camera, page (None: pictures of pixels have none), and all else.
+
+    rest: values by the keywords of the function of the package that has the verb's name.
+    """
+
+    camera: CameraOptions
+    page: PageOptions | None
+    rest: Mapping[str, Any]
+
+    @classmethod
+    def of(cls, options: Mapping[str, Any]) -> Told:
+        """What the options of a command say. Bad usage for options that contradict each other."""
+        taken = {field.name for group in (CameraOptions, PageOptions) for field in fields(group)}
+        return cls(
+            CameraOptions.of(options),
+            PageOptions.of(options) if "page" in options else None,
+            {name: value for name, value in options.items() if name not in taken},
+        )
+
+    def keywords(self, scene: Scene) -> dict[str, Any]:
+        """Keywords of the verb's function for a scene: its camera and page but for what the user said, and the rest."""
+        camera = camera_from(self.camera, scene)
+        page = {} if self.page is None else {"page": page_from(self.page, scene)}
+        return {"camera": camera, **page, **self.rest}
+
+
+def with_options(*options: Option) -> Callable[[Command], Command]:
+    """A decorator that gives a command these options, in this order."""
+    return lambda command: reduce(lambda inner, option: option(inner), reversed(options), command)
+
+
+def picture_verb(
+    short_help: str, formats: Sequence[str], *options: Option
+) -> Callable[[Callable[..., Drawing | Image]], click.Command]:
+    """A decorator that makes a command of a function: a scene, and what the user told, become a picture.
+
+    The function's name and docstring are the command's name and help; its keywords are those of Told, progress and
+    explain. options: the verb's own, between those for INPUT, OUT and camera and those for work and reports; each is
+    named as the keyword it becomes.
+    """
+
+    def command_of(verb: Callable[..., Drawing | Image]) -> click.Command:
+        @click.command(short_help=short_help, context_settings={"show_default": True})
+        @with_options(INPUT, OUT, format_option(formats), *CAMERA_OPTIONS, *options, BUDGET, EXPLAIN, QUIET)
+        @wraps(verb)
+        def command(scene_file: str, out: str, format_: str | None, quiet: bool, explain: bool, **options: Any) -> None:
+            told = Told.of(options)
+
+            def picture(scene: Scene, report: Report) -> Drawing | Image:
+                return verb(scene, **told.keywords(scene), progress=report.progress, explain=report.explain)
+
+            make_picture(scene_file, out, format_of(out, format_, formats), picture, quiet=quiet, explain=explain)
+
+        return command
+
+    return command_of
