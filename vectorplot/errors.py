@@ -9,9 +9,31 @@ _HEAD, _TAIL = 300, 700
 class InputError(ValueError):
     """Bad input: names the file, the line (from 1) and the cause.
 
+    Parameters
+    ----------
+    cause : str
+        What is wrong.
+    file : str, optional
+        The file it is wrong in.
+    line : int, optional
+        The line, from 1.
+
+    Notes
+    -----
     ``str(error)`` is one line such as ``pencil.scene:12: CONE: expected a number, got 'x'``, which a terminal shows and
     does not obey, whatever names the input holds. The command prints it on stderr and exits with status 1; library
     users catch it as ValueError.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> try:
+    ...     vp.Material("glue")
+    ... except ValueError as error:
+    ...     print(str(error)[:16], error.file)
+    material 'glue': None
+    >>> print(vp.InputError("expected a number", file="pencil.scene", line=12))
+    pencil.scene:12: expected a number
     """
 
     def __init__(self, cause: str, *, file: str | None = None, line: int | None = None) -> None:
@@ -23,7 +45,19 @@ class InputError(ValueError):
 
 
 class InputWarning(UserWarning):
-    """Input that was mended or read loosely: one line, printed on stderr by the command."""
+    """Input that was mended or read loosely: one line, printed on stderr by the command.
+
+    Parameters
+    ----------
+    message : str
+        What was done about it.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> print(vp.InputWarning("three faces dropped"))
+    three faces dropped
+    """
 
     def __init__(self, message: str) -> None:
         super().__init__(_shortened(printable(message)))

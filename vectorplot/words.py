@@ -12,7 +12,16 @@ from vectorplot.errors import InputError
 
 
 class LineKind(IntEnum):
-    """What a line is; the smaller value wins where one line is several things at once."""
+    """What a line is; the smaller value wins where one line is several things at once.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.LineKind.from_word("crease") > vp.LineKind.CONTOUR
+    True
+    >>> vp.LineKind.ISOPHOTE.word
+    'isophote'
+    """
 
     CONTOUR = 0
     """One neighbouring face looks at the eye, the other away from it."""

@@ -15,7 +15,21 @@ from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT
 
 @dataclass(frozen=True)
 class Pen:
-    """A pen: width of the stroke in mm, colour as #rrggbb."""
+    """A pen: width of the stroke in mm, colour as #rrggbb.
+
+    Parameters
+    ----------
+    width_mm : float
+        Width of the stroke in mm.
+    colour : str
+        #rrggbb.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Pen(width_mm=0.5)
+    Pen(width_mm=0.5, colour='#000000')
+    """
 
     width_mm: float = 0.3
     colour: str = "#000000"
@@ -25,10 +39,34 @@ class Pen:
 class Paths:
     """Many stroked polylines on the page.
 
-    points (p,2) in mm, y upwards from the lower left corner; offsets (m+1,); closed (m,): the last point joins the
-    first (which is not repeated); kind (m,) LineKind values; item (m,) indices into Drawing.items; hidden_by (m,)
-    number of items in front, 0 = visible; points3d (p,3) the same points in the world; smooth (m,): the points lie on a
-    smooth curve, between them is more of it; none does unless said otherwise."""
+    Parameters
+    ----------
+    points : (p, 2) array of float
+        In mm, y upwards from the lower left corner.
+    offsets : (m+1,) array of int
+        Path i has the points offsets[i] to offsets[i+1].
+    closed : (m,) array of bool
+        The last point joins the first (which is not repeated).
+    kind : (m,) array of int
+        LineKind values.
+    item : (m,) array of int
+        Indices into Drawing.items.
+    hidden_by : (m,) array of int
+        Number of items in front, 0 = visible.
+    points3d : (p, 3) array of float
+        The same points in the world.
+    smooth : (m,) array of bool
+        The points lie on a smooth curve, between them is more of it; none does unless said otherwise.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> drawing = vp.draw(vp.Scene((vp.Item("triangle", triangle),)))
+    >>> paths = [strokes for layer in drawing.layers for strokes in layer.strokes if len(strokes)]
+    >>> paths[0].points.shape, paths[0].closed.tolist()
+    ((3, 2), [True])
+    """
 
     points: Floats = field(metadata=EACH_POINT)
     offsets: Ints
@@ -70,9 +108,26 @@ class Curves:
 
 @dataclass(frozen=True, eq=False)
 class Layer:
-    """Marks in drawing order: strokes drawn with one pen, and filled polygons. name: what the layer holds, such as
-    ``visible``; plotted: False for a layer that is there to be looked at only (its label gets the prefix % that plotter
-    drivers skip)."""
+    """Marks in drawing order: strokes drawn with one pen, and filled polygons.
+
+    Parameters
+    ----------
+    name : str
+        What the layer holds, such as ``visible``.
+    pen : Pen
+        What draws its strokes.
+    marks : tuple of Paths, Curves and Fills
+        In drawing order.
+    plotted : bool
+        False for a layer that is there to be looked at only (its label gets the prefix % that plotter drivers skip).
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> layer = vp.Layer("visible", vp.Pen(), (vp.Paths.empty(),))
+    >>> len(layer.strokes), len(layer.fills), layer.plotted
+    (1, 0, True)
+    """
 
     name: str
     pen: Pen
@@ -93,8 +148,27 @@ class Layer:
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
-    """A page in mm and its layers in drawing order. page_from_world (4,4) acts on columns (x,y,z,1); divide by the last
-    component to get mm. items: the names of the items the marks belong to."""
+    """A page in mm and its layers in drawing order.
+
+    Parameters
+    ----------
+    width_mm, height_mm : float
+        The sides of the page.
+    layers : tuple of Layer
+        In drawing order.
+    items : tuple of str
+        The names of the items the marks belong to.
+    title : str
+        What it shows.
+    page_from_world : (4, 4) array of float
+        Acts on columns (x,y,z,1); divide by the last component to get mm.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Drawing(100, 80, (vp.Layer("visible", vp.Pen(), (vp.Paths.empty(),)),), title="Nothing")
+    <Drawing 'Nothing': 100x80 mm, marks: visible 0>
+    """
 
     width_mm: float
     height_mm: float

@@ -25,12 +25,38 @@ def next_positions(offsets: Ints, position: Ints) -> Ints:
 class Mesh:
     """Vertices and polygonal faces, counter-clockwise seen from outside.
 
-    vertices (n,3) float64, in world units; corners (c,) vertex indices of all faces one after the other;
-    offsets (f+1,): face i has the corners offsets[i] to offsets[i+1]; present (f,) bool: False for a face that only
-    closes the body in the mind (the open top of a hollow body): it is stored, but neither drawn nor does it hide.
-    Errors: InputError for wrong shapes, coordinates that are not finite, indices out of range, faces of fewer than
-    three corners. Degenerate: a mesh without faces is allowed.
+    Parameters
+    ----------
+    vertices : (n, 3) array of float64
+        In world units.
+    corners : (c,) array of int
+        Vertex indices of all faces one after the other.
+    offsets : (f+1,) array of int
+        Face i has the corners offsets[i] to offsets[i+1].
+    present : (f,) array of bool, optional
+        False for a face that only closes the body in the mind (the open top of a hollow body): it is stored, but
+        neither drawn nor does it hide.
+
+    Raises
+    ------
+    InputError
+        For wrong shapes, coordinates that are not finite, indices out of range, faces of fewer than three corners.
+
+    Notes
+    -----
+    Degenerate: a mesh without faces is allowed.
+
     Source: Glaeser, Fast Algorithms for 3D-Graphics, sections 3.1 to 3.4.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> corners = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (1, 1, 2)]
+    >>> pyramid = vp.Mesh.from_polygons(corners, [(3, 2, 1, 0), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)])
+    >>> pyramid.face_count, pyramid.is_triangular
+    (5, False)
+    >>> pyramid.bounds.tolist()
+    [[0.0, 0.0, 0.0], [2.0, 2.0, 2.0]]
     """
 
     vertices: Floats

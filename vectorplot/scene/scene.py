@@ -25,10 +25,27 @@ OPACITY_OF_TRANSPARENT = 0.5
 class Material:
     """How a surface takes light.
 
-    word: normal, metallic, shiny (or reflecting), mat (or matte), wood, plastic, transparent or mirror; opacity 0
-    (clear) to 1, that of what is transparent a half where none is given, else 1; refraction: the constant
-    sin(alpha)/sin(beta) of Snell's law, positive.
-    Errors: InputError for other words and numbers out of range.
+    Parameters
+    ----------
+    word : str
+        normal, metallic, shiny (or reflecting), mat (or matte), wood, plastic, transparent or mirror.
+    opacity : float, optional
+        0 (clear) to 1; that of what is transparent a half where none is given, else 1.
+    refraction : float
+        The constant sin(alpha)/sin(beta) of Snell's law, positive.
+
+    Raises
+    ------
+    InputError
+        For other words and numbers out of range.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Material("transparent")
+    Material(word='transparent', opacity=0.5, refraction=1.0)
+    >>> vp.Material("reflecting").word
+    'shiny'
     """
 
     word: str
@@ -61,10 +78,35 @@ class Material:
 
 @dataclass(frozen=True)
 class Light:
-    """A light source at a point, or with parallel rays coming from the direction ``position``; intensity 0 to 1;
-    colour: white, a palette or #rrggbb; fading: the light of a lamp becomes weaker with the square of the distance.
+    """A light source at a point, or with parallel rays coming from the direction ``position``.
 
-    Errors: InputError for unknown colours and intensities out of range."""
+    Parameters
+    ----------
+    position : (float, float, float)
+        The point in world coordinates, or the direction that parallel rays come from.
+    parallel : bool
+        Whether its rays are parallel.
+    intensity : float, optional
+        0 to 1.
+    name : str
+        What messages call it.
+    colour : str
+        white, a palette or #rrggbb.
+    fading : bool
+        The light of a lamp becomes weaker with the square of the distance.
+
+    Raises
+    ------
+    InputError
+        For unknown colours and intensities out of range.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> sun = vp.Light((1, -1, 2), parallel=True, intensity=0.8, name="SUN")
+    >>> sun.colour
+    'white'
+    """
 
     position: tuple[float, float, float]
     parallel: bool = False
@@ -81,9 +123,36 @@ class Light:
 
 @dataclass(frozen=True, eq=False)
 class Pattern:
-    """A coloured polygon lying on a face: points (k,2) in the face's own coordinates (origin at its barycentre, x along
-    its first edge, y to the left of it), face an index from 0. Errors: InputError for unknown colours. Source:
-    Glaeser, section 6.5."""
+    """A coloured polygon lying on a face.
+
+    Parameters
+    ----------
+    name : str
+        What messages call it.
+    colour : str
+        The name of a palette, a plain colour or #rrggbb.
+    face : int
+        An index from 0.
+    points : (k, 2) array of float
+        In the face's own coordinates: origin at its barycentre, x along its first edge, y to the left of it.
+
+    Raises
+    ------
+    InputError
+        For unknown colours.
+
+    Notes
+    -----
+    Source: Glaeser, section 6.5.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> window = vp.Pattern("window", "blue", 0, np.array([(-1.0, -1.0), (1.0, -1.0), (0.0, 1.0)]))
+    >>> window.points.shape
+    (3, 2)
+    """
 
     name: str
     colour: str
@@ -98,11 +167,39 @@ class Pattern:
 class Item:
     """A shape in the scene, and how it is drawn.
 
-    shape: a polyhedron, a smooth surface or a curve in space; colour: the name of a palette, a plain colour or #rrggbb;
-    lines: the words of the kinds to draw (None: what the drawing asks for); occludes: whether it hides what is behind
-    it (None: unless its material is transparent); curves: which lines there are on a smooth surface;
-    group: a name that items share which stay together in the painter's order.
-    Errors: InputError for unknown colours and kinds of lines.
+    Parameters
+    ----------
+    name : str
+        What messages and files call it.
+    shape : Mesh, Surface, ImplicitSurface or Curve
+        A polyhedron, a smooth surface or a curve in space.
+    colour : str
+        The name of a palette, a plain colour or #rrggbb.
+    material : Material
+        How its surface takes light.
+    patterns : tuple of Pattern
+        Coloured polygons on its faces.
+    lines : tuple of str, optional
+        The words of the kinds to draw (None: what the drawing asks for).
+    occludes : bool, optional
+        Whether it hides what is behind it (None: unless its material is transparent).
+    curves : SurfaceLines
+        Which lines there are on a smooth surface.
+    group : str
+        A name that items share which stay together in the painter's order.
+
+    Raises
+    ------
+    InputError
+        For unknown colours and kinds of lines.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> pane = vp.Item("pane", triangle, "cyan", vp.Material("transparent"), lines=("contour", "boundary"))
+    >>> pane.hides
+    False
     """
 
     name: str
@@ -136,7 +233,27 @@ _NO_MESH = Mesh(np.zeros((0, 3)), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=
 
 @dataclass(frozen=True)
 class Page:
-    """The sheet of paper, in mm."""
+    """The sheet of paper, in mm.
+
+    Parameters
+    ----------
+    width_mm, height_mm : float
+        The sides; A4 where nothing is said.
+    margin_mm : float
+        What stays empty along every side.
+
+    Raises
+    ------
+    InputError
+        For sides that are not finite and positive, a margin that is not finite or negative, and one that leaves nothing
+        of the page.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Page().landscape
+    Page(width_mm=297.0, height_mm=210.0, margin_mm=10.0)
+    """
 
     width_mm: float = 210.0
     height_mm: float = 297.0
@@ -158,8 +275,38 @@ class Page:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Items in the order of the file, lights, and what the file says about camera, page and background (None:
-    nothing)."""
+    """Items in the order of the file, lights, and what the file says about camera, page and background.
+
+    Parameters
+    ----------
+    items : tuple of Item
+        In the order of the file.
+    lights : tuple of Light
+        The lights in the scene.
+    camera : Camera, optional
+        What the file says about it (None: nothing).
+    page : Page, optional
+        What the file says about it (None: nothing).
+    background : str, optional
+        The colour that the file names (None: none).
+    title : str
+        What the scene is called.
+
+    Raises
+    ------
+    InputError
+        For an unknown background.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> scene = vp.Scene((vp.Item("triangle", triangle),), title="A triangle")
+    >>> scene
+    <Scene 'A triangle': 1 items, 0 lights>
+    >>> scene.bounds.tolist()
+    [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0]]
+    """
 
     items: tuple[Item, ...]
     lights: tuple[Light, ...] = ()

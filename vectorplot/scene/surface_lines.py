@@ -35,10 +35,29 @@ def _numbers(name: str, values: tuple[float, ...]) -> tuple[float, ...]:
 class Section:
     """Parallel planes, in world coordinates: the points whose height along the normal is one of the offsets.
 
-    normal: any length but zero, kept with length 1; offsets (k,): distances from the origin along the normal; slices:
-    whether pictures are painted slice by slice between them.
-    Errors: InputError for a normal without length, numbers that are not finite, more than MAX_LINES offsets.
+    Parameters
+    ----------
+    normal : (float, float, float)
+        In world coordinates, of any length but zero, kept with length 1.
+    offsets : (k,) tuple of float
+        Distances from the origin along the normal, in world units.
+    slices : bool
+        Whether pictures are painted slice by slice between them.
+
+    Raises
+    ------
+    InputError
+        For a normal without length, numbers that are not finite, more than MAX_LINES offsets.
+
+    Notes
+    -----
     Source: Glaeser, sections 5.3 and 9.3.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Section((0, 0, 2), (1, 2))
+    Section(normal=(0.0, 0.0, 1.0), offsets=(1.0, 2.0), slices=False)
     """
 
     normal: Vector
@@ -82,15 +101,40 @@ def path_on_surface(function: Callable[..., Any], start: float, end: float) -> S
 class SurfaceLines:
     """The lines that an item asks for.
 
-    columns, rows: into how many parts lines u = const. and v = const. divide the surface, 0 for no lines; isophotes:
-    the cosines of the angle between normal and light along them; light: which light of the scene they are of, None for
-    the first one, or, in a scene without, one from the upper left of the eye; sections: families of plane sections, of
-    which one at most cuts the item into slices;
-    smooth: those of a polyhedron are drawn as smooth curves through their points; along_edges: isophotes of a
-    polyhedron are its edges between lighter and darker faces; paths: curves u(t), v(t) on a parametrised surface.
-    Errors: InputError for counts below 0 or above MAX_LINES, cosines that are not between -1 and 1, two families of
-    slices.
+    Parameters
+    ----------
+    columns, rows : int
+        Into how many parts lines u = const. and v = const. divide the surface, 0 for no lines.
+    isophotes : tuple of float
+        The cosines of the angle between normal and light along them.
+    light : int, optional
+        Which light of the scene isophotes are of, None for the first one, or, in a scene without, one from the upper
+        left of the eye.
+    sections : tuple of Section
+        Families of plane sections, of which one at most cuts the item into slices.
+    smooth : bool
+        Those of a polyhedron are drawn as smooth curves through their points.
+    along_edges : bool
+        Isophotes of a polyhedron are its edges between lighter and darker faces.
+    paths : tuple of SurfacePath
+        Curves u(t), v(t) on a parametrised surface.
+
+    Raises
+    ------
+    InputError
+        For counts below 0 or above MAX_LINES, cosines that are not between -1 and 1, a light below 0, two families of
+        slices.
+
+    Notes
+    -----
     Source: Glaeser, sections 5.3, 8.2 and 9.3.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> lines = vp.SurfaceLines(columns=12, rows=6, isophotes=(-0.5, 0.0, 0.5))
+    >>> bool(lines), bool(vp.SurfaceLines())
+    (True, False)
     """
 
     columns: int = 0

@@ -32,14 +32,43 @@ VIEWS: dict[str, tuple[Point, Point]] = {
 class Camera:
     """An eye, the target it looks at, and the projection.
 
-    up: a direction that is up in the picture; without it z is up (straight from above or below: as if the eye stood on
-    the positive x-axis). twist_deg turns the camera about its principal ray, on top of either. fov_deg: the full
-    angle over the picture height. parallel: rays parallel to eye - target; height is then the height of the picture in
-    world units (None: as the central projection from this eye would have in the plane through the target). near, far:
-    how far from the eye, along the line to the target, what is seen begins and ends (None: all before the eye).
-    Errors: InputError for an eye in the target, an up vector along the view, a field of vision outside 0 to 180
-    degrees, a height that is not positive, planes that leave nothing, and numbers that are not finite.
+    Parameters
+    ----------
+    eye, target : (float, float, float)
+        In world coordinates.
+    up : (float, float, float), optional
+        A direction that is up in the picture; without it z is up (straight from above or below: as if the eye stood on
+        the positive x-axis).
+    twist_deg : float
+        Turns the camera about its principal ray, on top of either, in degrees.
+    fov_deg : float
+        The full angle over the picture height, in degrees.
+    parallel : bool
+        Rays parallel to eye - target.
+    height : float, optional
+        The height of the picture in world units where rays are parallel (None: as the central projection from this eye
+        would have in the plane through the target).
+    near, far : float, optional
+        How far from the eye, along the line to the target, what is seen begins and ends (None: all before the eye).
+
+    Raises
+    ------
+    InputError
+        For an eye in the target, an up vector along the view, a field of vision outside 0 to 180 degrees, a height that
+        is not positive, planes that leave nothing, and numbers that are not finite.
+
+    Notes
+    -----
     Source: Glaeser, section 2.1, equations 1 to 5; the twist is his tau.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> camera = vp.Camera((0, -4, 0), target=(0, 0, 0), fov_deg=40)
+    >>> camera.distance
+    4.0
+    >>> vp.Camera.view("top").up
+    (0.0, 1.0, 0.0)
     """
 
     eye: Point

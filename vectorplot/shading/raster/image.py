@@ -10,10 +10,28 @@ from vectorplot.shading.raster.png import DPI, Bytes, png_bytes
 
 @dataclass(frozen=True, eq=False)
 class Image:
-    """pixels (rows, columns, 3) uint8: red, green and blue, row 0 on top; title: what it shows; dpi: the dots
-    per inch that its file says, those of drawings saved as pixels unless told otherwise.
+    """A picture of pixels.
 
-    Errors: InputError for other shapes or types.
+    Parameters
+    ----------
+    pixels : (rows, columns, 3) array of uint8
+        Red, green and blue, row 0 on top.
+    title : str
+        What it shows.
+    dpi : float
+        The dots per inch that its file says, those of drawings saved as pixels unless told otherwise.
+
+    Raises
+    ------
+    InputError
+        For other shapes or types.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> vp.Image(np.zeros((40, 60, 3), dtype=np.uint8), "Night")
+    <Image 'Night': 60 x 40 pixels>
     """
 
     pixels: Bytes
