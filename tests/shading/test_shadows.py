@@ -109,7 +109,7 @@ def test_the_bias_follows_the_slope():
     _, facing = stopped(points, corners, places, normals, SUN)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(maps, "SLOPE_BIAS", 0.0)
-        patch.setattr(maps, "CONSTANT_BIAS", 0.0)
+        patch.setattr(maps, "MAP_BIAS", 0.0)
         acne = (buffer.blocks(places, normals) & ~exact)[facing].mean()
     assert acne > 0.25, "without any bias a good part of what is lit hides itself"
     assert (buffer.blocks(places, normals) & ~exact)[facing].mean() < 0.02
