@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import doctest
 import enum
+import functools
 import inspect
 import re
 
@@ -16,9 +17,25 @@ FUNCTIONS = [name for name in vp.__all__ if inspect.isfunction(getattr(vp, name)
 CLASSES = [name for name in vp.__all__ if inspect.isclass(getattr(vp, name))]
 
 
-def sections(thing) -> dict[str, str]:
+def with_parameters(name: str) -> list[str]:
+    """The public functions of a class that are given something."""
+    shown = getattr(vp, name)
+    own = {f"{name}.{key}": getattr(shown, key) for key in vars(shown) if not key.startswith("_")}
+    functions = {key: value for key, value in own.items() if callable(value)}
+    return [key for key, value in functions.items() if {*inspect.signature(value).parameters} - {"self"}]
+
+
+METHODS = [method for name in CLASSES for method in with_parameters(name)]
+
+
+def thing(name: str):
+    """What a name stands for, with a dot that of a class."""
+    return functools.reduce(getattr, name.split("."), vp)
+
+
+def sections(shown) -> dict[str, str]:
     """The text below each heading, in the order of the docstring; the summary's heading is empty."""
-    first, *rest = re.split(r"^([A-Z]\w+)\n(-+)$", inspect.getdoc(thing) or "", flags=re.MULTILINE)
+    first, *rest = re.split(r"^([A-Z]\w+)\n(-+)$", inspect.getdoc(shown) or "", flags=re.MULTILINE)
     for heading, rule in zip(rest[::3], rest[1::3], strict=True):
         assert len(rule) == len(heading), f"{heading}: underlined with {rule}"
     return {"": first, **dict(zip(rest[::3], rest[2::3], strict=True))}
@@ -34,12 +51,11 @@ def test_every_public_name_is_a_function_or_a_class():
     assert sorted([*FUNCTIONS, *CLASSES]) == sorted(vp.__all__)
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
-def test_a_verb_explains_every_parameter_what_it_returns_and_what_it_refuses(name):
-    verb = getattr(vp, name)
-    found = sections(verb)
-    assert named(found["Parameters"]) == list(inspect.signature(verb).parameters)
-    assert ("Returns" in found) == (inspect.signature(verb).return_annotation != "None")
+@pytest.mark.parametrize("name", [*FUNCTIONS, *METHODS])
+def test_a_function_explains_every_parameter_what_it_returns_and_what_it_refuses(name):
+    signature, found = inspect.signature(thing(name)), sections(thing(name))
+    assert named(found["Parameters"]) == [parameter for parameter in signature.parameters if parameter != "self"]
+    assert ("Returns" in found) == (signature.return_annotation != "None")
     assert "InputError" in found["Raises"]
 
 
@@ -58,17 +74,17 @@ def test_a_class_that_checks_its_fields_says_what_it_refuses(name):
     assert ("Raises" in sections(getattr(vp, name))) == refuses
 
 
-@pytest.mark.parametrize("name", vp.__all__)
+@pytest.mark.parametrize("name", [*vp.__all__, *METHODS])
 def test_docstrings_begin_with_one_sentence_and_keep_the_order_of_sections(name):
-    found = sections(getattr(vp, name))
+    found = sections(thing(name))
     summary = found.pop("").strip()
     assert summary.endswith(".") and "\n" not in summary
     assert list(found) == [heading for heading in ORDER if heading in found]
 
 
-@pytest.mark.parametrize("name", vp.__all__)
+@pytest.mark.parametrize("name", [*vp.__all__, *METHODS])
 def test_the_examples_run(name):
-    thing = getattr(vp, name)
-    (test,) = doctest.DocTestFinder(recurse=False).find(thing, name, module=inspect.getmodule(thing), globs={})
+    shown = thing(name)
+    (test,) = doctest.DocTestFinder(recurse=False).find(shown, name, module=inspect.getmodule(shown), globs={})
     assert test.examples
     assert doctest.DocTestRunner().run(test).failed == 0

@@ -51,7 +51,29 @@ class LineKind(IntEnum):
 
     @classmethod
     def from_word(cls, word: str) -> LineKind:
-        """The kind spelled that way; InputError for another word."""
+        """The kind spelled that way.
+
+        Parameters
+        ----------
+        word : str
+            As the command line and the JSON file spell it, in letters of any case.
+
+        Returns
+        -------
+        LineKind
+            The member with that name.
+
+        Raises
+        ------
+        InputError
+            For another word.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> vp.LineKind.from_word("crease").name
+        'CREASE'
+        """
         if word.upper() not in cls.__members__:
             raise unknown("line kind", word, LINE_WORDS)
         return cls[word.upper()]

@@ -93,7 +93,34 @@ class Mesh:
     def from_polygons(
         cls, vertices: ArrayLike, faces: Iterable[Sequence[int]], *, present: ArrayLike | None = None
     ) -> Mesh:
-        """The mesh of faces given as lists of vertex indices from 0."""
+        """The mesh of faces given as lists of vertex indices from 0.
+
+        Parameters
+        ----------
+        vertices : (n, 3) array_like of float
+            In world units.
+        faces : iterable of sequences of int
+            The corners of every face, counter-clockwise seen from outside.
+        present : (f,) array_like of bool, optional
+            As of Mesh.
+
+        Returns
+        -------
+        Mesh
+            Its faces in the same order.
+
+        Raises
+        ------
+        InputError
+            For what Mesh refuses.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> square = vp.Mesh.from_polygons([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
+        >>> square.polygons()
+        [[0, 1, 2, 3]]
+        """
         lists = [list(face) for face in faces]
         corners = np.array([corner for face in lists for corner in face], dtype=np.intp)
         offsets = ragged.offsets([len(face) for face in lists])
@@ -102,7 +129,31 @@ class Mesh:
 
     @classmethod
     def from_triangles(cls, vertices: ArrayLike, triangles: ArrayLike) -> Mesh:
-        """The mesh of triangles (t,3) of vertex indices from 0."""
+        """The mesh of triangles of vertex indices from 0.
+
+        Parameters
+        ----------
+        vertices : (n, 3) array_like of float
+            In world units.
+        triangles : (t, 3) array_like of int
+            The corners of every triangle, counter-clockwise seen from outside.
+
+        Returns
+        -------
+        Mesh
+            Its faces in the same order.
+
+        Raises
+        ------
+        InputError
+            For what Mesh refuses.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]).is_triangular
+        True
+        """
         corners = np.asarray(triangles, dtype=np.intp).reshape(-1)
         return cls(np.asarray(vertices, dtype=np.float64), corners, np.arange(0, len(corners) + 1, 3, dtype=np.intp))
 
@@ -174,9 +225,30 @@ class Mesh:
         return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)])
 
     def transformed(self, matrix: ArrayLike) -> Mesh:
-        """The same mesh under a 4x4 matrix acting on columns (rows 0 to 2: rotation, scale and translation).
+        """The same mesh under a 4x4 matrix acting on columns.
 
-        A mirroring matrix turns the faces round, so that they stay counter-clockwise from outside.
+        Parameters
+        ----------
+        matrix : (4, 4) array_like of float
+            Rows 0 to 2: rotation, scale and translation.
+
+        Returns
+        -------
+        Mesh
+            A mirroring matrix turns the faces round, so that they stay counter-clockwise from outside.
+
+        Raises
+        ------
+        InputError
+            For what Mesh refuses.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import vectorplot as vp
+        >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+        >>> triangle.transformed(np.diag([-1.0, 1.0, 1.0, 1.0])).polygons()
+        [[2, 1, 0]]
         """
         m = np.asarray(matrix, dtype=np.float64)
         vertices = self.vertices @ m[:3, :3].T + m[:3, 3]

@@ -87,7 +87,7 @@ class Light:
     parallel : bool
         Whether its rays are parallel.
     intensity : float, optional
-        0 to 1.
+        0 to 1 (None: 1 / sqrt(l) in a scene with l lights).
     name : str
         What messages call it.
     colour : str

@@ -166,10 +166,39 @@ class Camera:
         parallel: bool = False,
         height: float | None = None,
     ) -> Camera:
-        """The camera that sees what a camera at (0, 0, distance) sees of a scene turned by alpha about z, beta about
-        x and gamma about z, with its target in the origin. Angles in radians, any numbers.
+        """The camera that sees what a camera at (0, 0, distance) sees of a turned scene, with its target in the origin.
 
+        Parameters
+        ----------
+        distance : float
+            From the eye to the target, in world units.
+        alpha, beta, gamma : float
+            The scene is turned by alpha about z, beta about x and gamma about z. In radians, any numbers.
+        target : (float, float, float)
+            In world coordinates.
+        fov_deg, parallel, height : optional
+            As of Camera.
+
+        Returns
+        -------
+        Camera
+            With an up vector near the zenith, elsewhere with a twist.
+
+        Raises
+        ------
+        InputError
+            For a distance that is not positive and finite, angles that are not finite, and what Camera refuses.
+
+        Notes
+        -----
         Source: Glaeser, section 2.1, equations 9 and 10.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> camera = vp.Camera.from_euler(5.0, 0.0, 0.0, 0.0)
+        >>> camera.eye, camera.up
+        ((0.0, 0.0, 5.0), (0.0, 1.0, 0.0))
         """
         if not (0.0 < distance < np.inf and np.isfinite((alpha, beta, gamma)).all()):
             raise InputError("camera: distance and angles must be finite numbers, the distance positive")
@@ -187,7 +216,34 @@ class Camera:
     ) -> Camera:
         """The camera with the field of vision of a miniature camera (24 x 36 mm) with this lens.
 
+        Parameters
+        ----------
+        focal_length_mm : float
+            Of the lens, in mm.
+        eye, target : (float, float, float)
+            In world coordinates.
+        twist_deg : float
+            As of Camera.
+
+        Returns
+        -------
+        Camera
+            A central projection; the field of vision is that over the height of the negative.
+
+        Raises
+        ------
+        InputError
+            For a focal length that is not positive and finite, and for what Camera refuses.
+
+        Notes
+        -----
         Source: Glaeser, section 2.2, table; erratum G2-15.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> round(vp.Camera.from_focal_length(50.0, (0, -9, 0)).fov_deg, 3)
+        26.991
         """
         return cls(eye, target, twist_deg=twist_deg, fov_deg=field_of_vision_deg(focal_length_mm))
 
@@ -195,7 +251,35 @@ class Camera:
     def view(cls, name: str, target: Point = (0.0, 0.0, 0.0), distance: float = 1.0) -> Camera:
         """A main view (front, back, left, right, top, bottom) or iso: a parallel projection.
 
+        Parameters
+        ----------
+        name : {"front", "back", "left", "right", "top", "bottom", "iso"}
+            Which view.
+        target : (float, float, float)
+            In world coordinates.
+        distance : float
+            From the eye to the target, in world units.
+
+        Returns
+        -------
+        Camera
+            With parallel rays and an up vector.
+
+        Raises
+        ------
+        InputError
+            For another name, and for what Camera refuses.
+
+        Notes
+        -----
         Source: Glaeser, section 2.1 and appendix A.3, keys 1 to 6.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> front = vp.Camera.view("front", distance=3.0)
+        >>> front.eye, front.parallel
+        ((0.0, -3.0, 0.0), True)
         """
         if name not in VIEWS:
             raise InputError(f"view {name!r}: expected one of {', '.join(VIEWS)}")
