@@ -50,7 +50,10 @@ def test_points_come_in_the_order_of_the_curve():
 
 def test_all_that_is_known_of_a_point_goes_with_it():
     points = np.stack([np.linspace(0.0, 1.0, 3), np.full(3, 7.0)], axis=1)
-    image = lambda rows: np.stack([rows[:, 0], rows[:, 0] ** 2], axis=1)  # noqa: E731
+
+    def image(rows):
+        return np.stack([rows[:, 0], rows[:, 0] ** 2], axis=1)
+
     found = refined(Traces(points, np.arange(3) == 2), straight_between, image, 1e-3, most=1 << 20).lines
     assert len(found.points) > 10
     assert (found.points[:, 1] == 7.0).all()
@@ -82,7 +85,10 @@ def test_where_there_is_no_image_nothing_is_refined():
 
 
 def test_lines_are_torn_where_their_image_jumps():
-    pole = lambda rows: np.concatenate([rows, 1.0 / (rows - 0.3)], axis=1)  # noqa: E731
+
+    def pole(rows):
+        return np.concatenate([rows, 1.0 / (rows - 0.3)], axis=1)
+
     whole = Traces(np.linspace(0.0, 1.0, 4)[:, None], np.arange(4) == 3)
     found = refined(whole, straight_between, pole, 1e-3, most=1 << 20).lines
     pieces = torn(found, pole, 1e-3, np.ones(1))

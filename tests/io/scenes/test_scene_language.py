@@ -535,3 +535,8 @@ def test_every_word_of_the_language_is_documented():
 
 def test_every_word_of_an_item_has_what_reads_it():
     assert set(HANDLERS) == {*ITEM_WORDS, *FORM_WORDS, *CAP_WORDS, *COLOURS, *MATERIALS}
+
+
+def test_a_word_that_does_not_belong_to_the_surface_before_it_is_said_to_be_one():
+    with pytest.raises(InputError, match=r"'radius' is a word of the language, but none of what stands before it"):
+        parse_scene("A surface torus radius 2 1")

@@ -105,6 +105,8 @@ class ItemReader:
 
         meant = nearest(draft.name, RESERVED)
         hint = f" (or is '{draft.name}' meant to be '{meant}'?)" if meant else ""
+        if meant == draft.name:
+            hint = f" ('{meant}' is a word of the language, but none of what stands before it)"
         self.fail(f"expected one of {', '.join(KIND_WORDS)}, got {source.shown(self.at)}{hint}", draft)
 
     def _kind(self, draft: Draft, kind: str) -> None:
