@@ -1,12 +1,14 @@
 """Settings all tests share."""
 
+import gc
 import signal
 
 from hypothesis import settings
+from support.effort import register_profiles
 
-# The same examples on every run: a failure that comes and goes teaches nothing.
-settings.register_profile("steady", derandomize=True, deadline=None, max_examples=60, database=None)
-settings.load_profile("steady")
+register_profiles()
+# --hypothesis-profile=long loads the other one after this.
+settings.load_profile("ci")
 
 # Who runs the tests in the background, or under nohup, hands on signals that are ignored; the command would keep them
 # so, and tests of what stops it would wait for ever.
@@ -14,3 +16,9 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 if hasattr(signal, "SIGHUP"):
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
+def pytest_collection_finish() -> None:
+    """What was imported and collected stays until the end: garbage is no longer looked for in it."""
+    gc.collect()
+    gc.freeze()

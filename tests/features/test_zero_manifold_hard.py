@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.effort import examples
 
 from vectorplot.features.zeros.zero_manifold import zero_manifold_of_f_uv
 from vectorplot.surfaces.surface import Domain
@@ -61,7 +62,7 @@ def crossings(p, q):
 @pytest.mark.slow
 @pytest.mark.hard(37)
 @given(st.floats(0, np.pi), st.floats(-0.2, 0.2), st.floats(-0.2, 0.2), st.floats(-0.15, 0.15), st.floats(1e-3, 0.1))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25))
 def test_levels_of_a_saddle_never_cross(angle, a, b, level, gap):
     def height(u, v):
         x, y = np.cos(angle) * (u - a) + np.sin(angle) * (v - b), np.cos(angle) * (v - b) - np.sin(angle) * (u - a)
@@ -132,7 +133,7 @@ def test_double_line_is_reported_where_it_touches_zero():
 
 @pytest.mark.hard(40)
 @given(st.floats(-0.9, 0.9), st.floats(-0.9, 0.9))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25))
 def test_tiny_oval_of_a_thousandth_of_the_domain_is_found(a, b):
     # Resolution 1e-3, the default: smaller ones are promised by asking for a smaller resolution.
     curve = traced(lambda u, v: (u - a) ** 2 + (v - b) ** 2 - 4e-6)

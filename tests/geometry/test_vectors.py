@@ -42,6 +42,17 @@ def test_the_vector_kit_works_in_the_plane_and_in_space_for_many_at_once():
     assert v.length((0.0, 0.0, 0.0)) == 0.0
 
 
+@pytest.mark.parametrize("order", ["C", "F"])
+@pytest.mark.parametrize("shape", [(3,), (7, 3), (400, 2), (5, 4, 3), (6, 9), (0, 3)])
+def test_lengths_and_largest_components_are_numpys_to_the_last_bit(shape, order):
+    vectors = np.asarray(np.random.default_rng(len(shape)).normal(size=shape), order=order)
+    assert np.array_equal(v.norm(vectors), np.linalg.norm(vectors, axis=-1))
+    assert np.array_equal(v.largest_component(vectors), np.abs(vectors).max(axis=-1))
+    assert np.array_equal(v.from_components(*np.moveaxis(vectors, -1, 0)), vectors)
+    assert np.isnan(v.largest_component((1.0, np.nan, 2.0)))
+    assert v.from_components(0.0, np.ones(4), np.zeros((2, 1))).shape == (2, 4, 3)
+
+
 @pytest.mark.capability("G1.1-vec")
 @pytest.mark.parametrize("dimension", [2, 3])
 @pytest.mark.parametrize("shape", [(), (7,), (3, 5)])

@@ -114,7 +114,9 @@ class NumericFunction:
         return tuple(self._best_step(of(axis), axis)[0] for axis in range(len(self.ranges)))
 
     def _shaped(self, evaluate: Callable[[list[Floats]], Floats], parameters: Sequence[Floats]) -> Floats:
-        arrays = np.broadcast_arrays(*(np.asarray(p, dtype=np.float64) for p in parameters))
+        arrays = [np.asarray(p, dtype=np.float64) for p in parameters]
+        if any(a.shape != arrays[0].shape for a in arrays):
+            arrays = list(np.broadcast_arrays(*arrays))
         # Infinite parameters are as good as none, and no arithmetic warns of them.
         flat = [np.where(np.isfinite(a), a, np.nan).ravel() for a in arrays]
         return evaluate(flat).reshape(*arrays[0].shape, self.function.components)
@@ -225,8 +227,9 @@ def _five_points(
 ) -> Floats:
     """(n, k) derivatives of the quartics through the values at five nodes around the centres (n,)."""
     s = (parameters[axis] - centres) / step
-    weights = np.polynomial.polynomial.polyval(s, _SLOPES[:, ::-1].T)
-    nodes = [np.tile(p, 5) for p in parameters]
+    third, second, first, constant = _SLOPES.T[:, :, None]
+    weights = ((third * s + second) * s + first) * s + constant
+    nodes = [np.concatenate([p] * len(_NODES)) for p in parameters]
     nodes[axis] = (centres + step * _NODES[:, None]).ravel()
     values = function(nodes)
     values = values.reshape(5, len(s), values.shape[-1])

@@ -11,6 +11,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.derivatives import NumericFunction, cut_off, numeric_function
 from vectorplot.errors import InputError
+from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.function import ranges_of
 from vectorplot.surfaces.regions import Disc, Region
 from vectorplot.surfaces.surface import Domain
@@ -141,5 +142,6 @@ def is_graph(shape: object) -> bool:
 
 def _with_holes(x: Any, y: Any, z: Any) -> Floats:
     """(..., 3) vectors, NaN as a whole where z is."""
-    vectors = np.stack(np.broadcast_arrays(x, y, z), axis=-1).astype(np.float64)
-    return np.where(np.isnan(vectors[..., 2:]), np.nan, vectors)
+    vectors = from_components(x, y, z)
+    vectors[np.isnan(vectors[..., 2])] = np.nan
+    return vectors

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
-from vectorplot.geometry.vectors import cross
+from vectorplot.geometry.vectors import cross, largest_component, norm
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_parameters import ASIDE_OF_POLE
 from vectorplot.tolerances.of_values import SINGULAR_PRODUCT, SUSPECT_PRODUCT
@@ -22,15 +22,19 @@ def unit_normals(surface: Surface, u: Floats, v: Floats) -> Floats:
     Error: at a pole as good as the second partials.
     """
     u, v = np.broadcast_arrays(np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64))
-    along_u, along_v = surface.partials(u, v)
-    product = np.asarray(cross(along_u, along_v), dtype=np.float64)
-    suspect = _small(product, along_u, along_v, surface.domain)
+    return _unit(surface, u, v, surface.partials(u, v))
+
+
+def _unit(surface: Surface, u: Floats, v: Floats, partials: tuple[Floats, Floats]) -> Floats:
+    """(..., 3) the unit normals where the surface has these partials."""
+    product = cross(*partials)
+    suspect = _small(product, *partials, surface.domain)
     if suspect.any():
         product[suspect] = _with_limits(surface, u[suspect], v[suspect], product[suspect])
     # Divided by the largest component first: a product of tiny partials has a square that underflows.
     with np.errstate(divide="ignore", invalid="ignore"):
-        product /= np.abs(product).max(axis=-1, keepdims=True, initial=0.0)
-        return np.asarray(product / np.linalg.norm(product, axis=-1, keepdims=True))
+        product /= largest_component(product)[..., None]
+        return np.asarray(product / norm(product)[..., None])
 
 
 def normal_partials(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
@@ -41,8 +45,9 @@ def normal_partials(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Flo
     Degenerate: NaN in holes, and where the normals are NaN. Error: as good as the second partials.
     """
     u, v = np.broadcast_arrays(np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64))
-    unit = unit_normals(surface, u, v)
-    by_u, by_v, vanished = _turning(surface, u, v, unit)
+    partials = surface.partials(u, v)
+    unit = _unit(surface, u, v, partials)
+    by_u, by_v, vanished = _turning(surface, u, v, partials, unit)
     if vanished.any():
         domain = surface.domain
         inner_u = (
@@ -51,20 +56,23 @@ def normal_partials(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Flo
         inner_v = (
             v[vanished] + _inwards(v[vanished], domain.v_start, domain.v_end)[:, 0] * ASIDE_OF_POLE * domain.size[1]
         )
-        inside = unit_normals(surface, inner_u, inner_v)
-        by_u[vanished], by_v[vanished], _ = _turning(surface, inner_u, inner_v, inside)
+        inner = surface.partials(inner_u, inner_v)
+        inside = _unit(surface, inner_u, inner_v, inner)
+        by_u[vanished], by_v[vanished], _ = _turning(surface, inner_u, inner_v, inner, inside)
     return unit, by_u, by_v
 
 
-def _turning(surface: Surface, u: Floats, v: Floats, unit: Floats) -> tuple[Floats, Floats, Bools]:
+def _turning(
+    surface: Surface, u: Floats, v: Floats, partials: tuple[Floats, Floats], unit: Floats
+) -> tuple[Floats, Floats, Bools]:
     """Derivatives (..., 3) of the unit normals by u and by v, and (...,) where they are lost at a pole."""
-    along_u, along_v = surface.partials(u, v)
+    along_u, along_v = partials
     uu, uv, vv = surface.second_partials(u, v)
     product = cross(along_u, along_v)
-    vanished = _length(product) <= SINGULAR_PRODUCT * _bound(surface.domain, (along_u, along_v), (uu, uv, vv))
-    size = np.abs(product).max(axis=-1, keepdims=True, initial=0.0)
+    vanished = norm(product) <= SINGULAR_PRODUCT * _bound(surface.domain, (along_u, along_v), (uu, uv, vv))
+    size = largest_component(product)[..., None]
     with np.errstate(divide="ignore", invalid="ignore"):
-        inverse = 1.0 / (np.linalg.norm(product / size, axis=-1, keepdims=True) * size)
+        inverse = 1.0 / (norm(product / size)[..., None] * size)
         turned = [
             np.asarray((d - (d * unit).sum(axis=-1, keepdims=True) * unit) * inverse)
             for d in (cross(uu, along_v) + cross(along_u, uv), cross(uv, along_v) + cross(along_u, vv))
@@ -75,8 +83,8 @@ def _turning(surface: Surface, u: Floats, v: Floats, unit: Floats) -> tuple[Floa
 def _small(product: Floats, along_u: Floats, along_v: Floats, domain: Domain) -> Bools:
     """(...,) where the product is small beside the squared size of the surface, as far as partials tell it."""
     width, height = domain.size
-    size = np.linalg.norm(along_u, axis=-1) * width + np.linalg.norm(along_v, axis=-1) * height
-    return np.asarray(np.linalg.norm(product, axis=-1) * width * height <= SUSPECT_PRODUCT * size * size)
+    size = norm(along_u) * width + norm(along_v) * height
+    return np.asarray(norm(product) * width * height <= SUSPECT_PRODUCT * size * size)
 
 
 def _with_limits(surface: Surface, u: Floats, v: Floats, product: Floats) -> Floats:
@@ -90,8 +98,8 @@ def _with_limits(surface: Surface, u: Floats, v: Floats, product: Floats) -> Flo
     towards_u, towards_v = a * width * uu + b * height * uv, a * width * uv + b * height * vv
     limit = cross(towards_u, along_v) + cross(along_u, towards_v)
     bound = _bound(domain, (along_u, along_v), (uu, uv, vv))
-    vanished = _length(product) <= SINGULAR_PRODUCT * bound
-    gone = vanished & (_length(limit) <= SINGULAR_PRODUCT * bound)
+    vanished = norm(product) <= SINGULAR_PRODUCT * bound
+    gone = vanished & (norm(limit) <= SINGULAR_PRODUCT * bound)
     return np.where(gone[:, None], np.nan, np.where(vanished[:, None], limit, product))
 
 
@@ -99,15 +107,11 @@ def _bound(domain: Domain, first: tuple[Floats, Floats], second: tuple[Floats, F
     """(...,) how large the cross product can be on a domain with these partials."""
     (width, height), (uu, uv, vv) = domain.size, second
     return np.asarray(
-        (_length(first[0]) + _length(uu) * width + _length(uv) * height)
-        * (_length(first[1]) + _length(uv) * width + _length(vv) * height)
+        (norm(first[0]) + norm(uu) * width + norm(uv) * height)
+        * (norm(first[1]) + norm(uv) * width + norm(vv) * height)
     )
 
 
 def _inwards(t: Floats, start: float, end: float) -> Floats:
     """(n, 1) the sign of the way to the middle. The way along the line of a pole itself does not count: it stands."""
     return np.where(t <= 0.5 * (start + end), 1.0, -1.0)[:, None]
-
-
-def _length(vectors: Floats) -> Floats:
-    return np.asarray(np.linalg.norm(vectors, axis=-1))

@@ -90,7 +90,8 @@ def normals(surface: Surface, u: Floats, v: Floats) -> Floats:
 
 def is_hole(points: Floats) -> Bools:
     """(...,) where points (..., 3) are not finite."""
-    return np.asarray(~np.isfinite(points).all(axis=-1), dtype=np.bool_)
+    finite = np.isfinite(points)
+    return np.asarray(~(finite[..., 0] & finite[..., 1] & finite[..., 2]), dtype=np.bool_)
 
 
 def is_parametrised(shape: object) -> TypeGuard[Surface]:

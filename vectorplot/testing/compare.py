@@ -7,7 +7,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry import ragged
-from vectorplot.geometry.vectors import dot
+from vectorplot.geometry.vectors import dot, norm
 from vectorplot.tolerances.of_lengths import COVERED_OF_TOLERANCE
 from vectorplot.words import LineKind
 
@@ -85,7 +85,7 @@ def worst_uncovered(lines: Floats, others: Floats, tolerance: float) -> tuple[Fl
     index, other = tree.query(linestrings(lines), predicate="dwithin", distance=tolerance)
     low, high = covered(lines[index], others[other], tolerance)
     where, owner = gaps(index, low, high, len(lines))
-    length = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1)
+    length = norm(lines[:, 1] - lines[:, 0])
     ends = where * length[owner][:, None]
     real = (ends[:, 1] - ends[:, 0] > COVERED_OF_TOLERANCE * tolerance) | (length[owner] == 0.0)
     where, owner = where[real], owner[real]
@@ -115,7 +115,7 @@ def covered(lines: Floats, others: Floats, tolerance: float) -> tuple[Floats, Fl
             np.where(near <= far, np.maximum(high, far), high),
         )
     axis = others[:, 1] - others[:, 0]
-    length = np.linalg.norm(axis, axis=1)
+    length = norm(axis)
     unit = axis / np.where(length > 0.0, length, 1.0)[:, None]
     across = np.stack([-unit[:, 1], unit[:, 0]], axis=1)
     arm = start - others[:, 0]

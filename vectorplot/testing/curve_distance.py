@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.vectors import norm
 from vectorplot.testing.polylines import Curves, points_of, polylines_of
 from vectorplot.tolerances.of_extent import DISTANCE_ACCURACY
 
@@ -95,7 +96,7 @@ class Tree:
     def __init__(self, ends: Floats) -> None:
         from scipy.spatial import cKDTree
 
-        long = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        long = norm(ends[:, 1] - ends[:, 0])
         piece = float(long.sum()) / max(len(ends), 64)
         count = np.maximum(np.ceil(long / piece), 1.0).astype(np.intp) if piece > 0.0 else np.ones(len(ends), np.intp)
         self.owner = ragged.owner(count)
@@ -137,7 +138,7 @@ def to_segments(points: Floats, ends: Floats) -> Floats:
     arm = points - start
     square = (way * way).sum(axis=-1)
     share = np.clip((arm * way).sum(axis=-1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
-    return np.asarray(np.linalg.norm(arm - share[..., None] * way, axis=-1))
+    return np.asarray(norm(arm - share[..., None] * way))
 
 
 def furthest(segments: Segments, others: Segments, accuracy: float, enough: float, which: str) -> Worst:
@@ -198,7 +199,7 @@ class Seen(NamedTuple):
 def _bound(others: Floats, low: Seen, middle: Seen, high: Seen) -> Floats:
     """(n,) upper bounds for the distance of pieces from low to high."""
     p, q = low.points, high.points
-    bound = 0.5 * (low.distance + high.distance + np.linalg.norm(q - p, axis=1))
+    bound = 0.5 * (low.distance + high.distance + norm(q - p))
     for by in (low.by, middle.by, high.by):
         bound = np.minimum(bound, np.maximum(to_segments(p, others[by]), to_segments(q, others[by])))
     return np.asarray(bound)

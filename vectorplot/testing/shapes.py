@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import norm
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.testing.surfaces import bumpy_icosphere, grid_graph, moebius_strip, torus_mesh
 
@@ -169,7 +170,7 @@ def random_convex_solids(count: int = 12, seed: int = 0) -> Scene:
     solids = []
     for _ in range(count):
         points = random.normal(size=(int(random.integers(5, 16)), 3))
-        points = points / np.linalg.norm(points, axis=1)[:, None] * random.uniform(0.3, 1.0)
+        points = points / norm(points)[:, None] * random.uniform(0.3, 1.0)
         hull = ConvexHull(points)
         faces = hull.simplices.copy()
         a, b, c = (points[faces[:, k]] for k in range(3))

@@ -10,6 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.features.parametric.conditions import CentralContour, ParallelContour
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.vectors import norm
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
@@ -84,7 +85,7 @@ def _where_strokes_meet(lines: Floats) -> Bools:
 
 def some_of(lines: Floats, samples: int, random: np.random.Generator) -> tuple[Ints, Floats]:
     """Indices and shares of random points on segments, half of them by length, half with one chance for each."""
-    length = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1)
+    length = norm(lines[:, 1] - lines[:, 0])
     if not length.sum() > 0.0:
         return np.zeros(0, dtype=np.intp), np.zeros(0)
     by_length = np.searchsorted(np.cumsum(length), random.random(samples // 2) * length.sum(), side="right")
@@ -106,7 +107,7 @@ def _segments(paths: Paths) -> tuple[Floats, Ints, Bools, Floats, Bools]:
     start, end, path = path_segments(paths.offsets, paths.closed)
     lines = np.stack([paths.points3d[start], paths.points3d[end]], axis=1)
     way = lines[:, 1] - lines[:, 0]
-    length = np.linalg.norm(way, axis=1)
+    length = norm(way)
     unit = way / np.where(length > 0.0, length, 1.0)[:, None]
     turn = np.zeros(len(lines))
     # Segments of a path follow each other, and the first of a closed one follows the last.
@@ -114,7 +115,7 @@ def _segments(paths: Paths) -> tuple[Floats, Ints, Bools, Floats, Bools]:
     by_start[start] = np.arange(len(start))
     after = by_start[end]
     has = after >= 0
-    angle = np.linalg.norm(unit[has] - unit[after[has]], axis=1)
+    angle = norm(unit[has] - unit[after[has]])
     np.maximum.at(turn, np.flatnonzero(has), angle)
     np.maximum.at(turn, after[has], angle)
     sag = turn * length / 4.0
@@ -141,18 +142,20 @@ def _moved(found: StrokePoints, which: Ints, useful: Bools, way: Floats, scene: 
             if not len(some):
                 continue
             if is_parametrised(shape):
-                points[some] = _to_surface(shape, points[some], way[some], camera if contour else None)
+                points[some] = _to_surface(
+                    shape, points[some], way[some], camera if contour else None, found.aside[some]
+                )
             elif is_implicit(shape):
                 points[some] = _to_implicit(shape, points[some], way[some], camera if contour else None)
             # A point that went far did not find its curve.
-            went = np.linalg.norm(points[some] - found.points[some], axis=1)
+            went = norm(points[some] - found.points[some])
             good[some] &= went <= found.aside[some]
     return found._replace(points=points).rows(good)
 
 
-def _to_surface(surface: Surface, points: Floats, way: Floats, camera: Camera | None) -> Floats:
+def _to_surface(surface: Surface, points: Floats, way: Floats, camera: Camera | None, near: Floats) -> Floats:
     """The nearest points of a surface; with a camera, of its contour in the plane across the way."""
-    places = nearest_places(surface, points).first(1)
+    places = nearest_places(surface, points, near).first(1)
     at = np.stack([places.u[:, 0], places.v[:, 0]], axis=1)
     if camera is None:
         return surface.points(at[:, 0], at[:, 1])

@@ -6,6 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import norm
 
 
 def quads(rows: int, columns: int) -> Ints:
@@ -79,7 +80,7 @@ def bumpy_icosphere(halvings: int = 3, bump: float = 0.15) -> Mesh:
         first, second = np.divmod(key, len(vertices))
         middle = vertices[first] + vertices[second]
         ab, bc, ca = (index.reshape(3, -1) + len(vertices)).astype(np.intp)
-        vertices = np.concatenate([vertices, middle / np.linalg.norm(middle, axis=1)[:, None]])
+        vertices = np.concatenate([vertices, middle / norm(middle)[:, None]])
         a, b, c = triangles.T
         parts = ([a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca])
         triangles = np.stack([np.stack(part, axis=1) for part in parts], axis=1).reshape(-1, 3)

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.backend_samples import drawing_of, grey_of_png, paths_of, program, run
+from support.effort import examples
 
 from vectorplot.backends.cairo.surfaces import eps_bytes, pdf_bytes, png_bytes, ps_bytes
 from vectorplot.drawing.drawing import Pen
@@ -138,7 +139,7 @@ def test_hard_62_parentheses_and_backslashes_in_a_title_are_escaped():
     assert rb"%%Title: (a\) b\( c\\ d ?)" in text
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40))
 @given(st.text(max_size=400))
 def test_any_title_stays_in_its_comment(title):
     drawing = drawing_of(title=title)

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.backend_samples import drawing_of, paths_of
+from support.effort import examples
 
 from vectorplot.backends.svg.document import svg_bytes, svg_text
 from vectorplot.backends.svg.path_data import millimetres
@@ -92,7 +93,7 @@ def test_hard_60_names_and_titles_are_escaped_and_stripped(name):
     assert root.find(f"{SVG}g").get(f"{INKSCAPE}label") == f"1 {kept}"
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30))
 @given(st.text(max_size=20), st.text(max_size=20))
 def test_any_title_and_name_give_well_formed_xml(title, name):
     ET.fromstring(svg_bytes(drawing_of(paths_of([(1, 1), (2, 2)]), names=(name,), title=title)))

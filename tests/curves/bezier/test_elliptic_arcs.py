@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.effort import examples
 
 from vectorplot.curves.bezier.elliptic_arcs import EllipseArcs, arc_segments, recognised_arcs
 from vectorplot.curves.bezier.paths import bezier_points
@@ -38,7 +39,7 @@ FULL = np.linspace(0, 2 * np.pi, 61)[:-1]
     angle=st.floats(0.5, 6.2),
     backwards=st.booleans(),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60))
 def test_an_arc_is_the_one_that_was_sampled(a, ratio, turn, start, angle, backwards):
     t = start + np.linspace(0.0, angle, 40)
     line = ellipse(t[::-1] if backwards else t, a, ratio * a, turn)

@@ -9,6 +9,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.effort import examples
 
 from vectorplot.curves.bezier.fit import fitted, fitted_curve, fitted_paths
 from vectorplot.curves.bezier.paths import BezierPath
@@ -179,7 +180,7 @@ def test_many_lines_are_fitted_as_each_alone():
 
 
 @pytest.mark.slow
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150))
 @given(
     st.lists(st.tuples(*[st.integers(-8, 8)] * 3), min_size=1, max_size=14),
     st.booleans(),

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.effort import examples
 from support.sample_paths import canonical, farthest_from, length_mm, pieces, samples_of, segments_of
 
 from vectorplot.drawing.strokes.duplicates import without_duplicates
@@ -128,7 +129,7 @@ def bundles(draw):
 
 
 @pytest.mark.slow
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150))
 @given(bundles(), st.randoms(use_true_random=False))
 def test_the_picture_stays_nothing_is_drawn_twice_and_the_order_does_not_matter(bundle, random):
     lines, rank = bundle

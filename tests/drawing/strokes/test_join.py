@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.effort import examples
 from support.sample_paths import canonical, length_mm, lines_of, pieces, polylines
 
 from vectorplot.drawing.strokes.join import joined
@@ -110,7 +111,7 @@ def graphs(draw):
 
 
 @pytest.mark.slow
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200))
 @given(graphs(), st.randoms(use_true_random=False))
 def test_joining_keeps_every_segment_and_leaves_at_most_one_free_end_a_node(graph, random):
     lines, group, edges = graph

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.effort import examples
 from support.sample_paths import length_mm, lines_of, polylines
 
 from vectorplot.drawing.strokes.long_strokes import split_long
@@ -48,7 +49,7 @@ COORDINATE = st.floats(0, 200)
 
 
 @pytest.mark.slow
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100))
 @given(
     st.lists(st.tuples(st.lists(st.tuples(COORDINATE, COORDINATE), max_size=6), st.booleans()), max_size=4),
     st.floats(3.0, 500.0),

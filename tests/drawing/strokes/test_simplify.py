@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.effort import examples
 from support.sample_paths import farthest_from, length_mm, lines_of, polylines, segments_of
 
 from vectorplot.drawing.strokes.simplify import without_collinear_points
@@ -71,7 +72,7 @@ POINT = st.tuples(st.integers(0, 6), st.integers(0, 2))
 
 
 @pytest.mark.slow
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200))
 @given(st.lists(st.tuples(st.lists(POINT, min_size=1, max_size=12), st.booleans()), min_size=1, max_size=4))
 def test_on_a_lattice_the_drawn_set_stays_exactly(strokes):
     lines = polylines(*[line for line, _ in strokes], closed=[i for i, (_, loop) in enumerate(strokes) if loop])
@@ -132,7 +133,7 @@ def test_points_repeated_to_within_rounding_go():
 
 
 @pytest.mark.slow
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200))
 @given(st.lists(st.tuples(st.integers(-9, 9), st.integers(-1, 1)), min_size=3, max_size=40), st.booleans())
 def test_along_each_chord_the_points_left_out_go_forward(steps, loop):
     line = polylines(np.cumsum([(x, y * 1e-3) for x, y in steps], axis=0), closed=[0] if loop else [])

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.effort import examples
 
 from vectorplot.errors import InputError
 from vectorplot.features.intersections.surface_intersection import surface_intersection
@@ -109,7 +110,7 @@ def test_a_crossing_that_is_just_avoided_is_avoided_the_right_way(radius, sign):
     st.sampled_from([Torus(2.0, 0.8), Ellipsoid((1.0, 2.0, 1.4)), Sphere(1.6)]),
     st.tuples(*[st.floats(-1.5, 1.5)] * 3),
 )
-@settings(max_examples=12)
+@settings(max_examples=examples(12))
 def test_the_same_curves_as_the_section_with_the_implicit_surface(kind, base, centre):
     pairs = {
         "sphere": lambda: (Sphere(1.3, centre), implicit_sphere(1.3, centre)),

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.effort import examples
 
 from vectorplot.errors import InputError
 from vectorplot.features.implicit.polygonize import polygonized
@@ -151,7 +152,7 @@ def test_open_meshes_give_open_curves():
     assert (curves.faces == NO_FACE).sum() == 2
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30))
 @given(st.tuples(*[st.floats(-1, 1)] * 3), st.floats(-0.9, 0.9))
 def test_sections_of_closed_meshes_close(normal, offset):
     n = np.array(normal)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.effort import examples
 
 from vectorplot.errors import InputError
 from vectorplot.features.zeros.zero_manifold import zero_manifold_of_f_uv
@@ -165,7 +166,7 @@ def test_chords_follow_a_waving_curve_between_two_grid_points():
 
 
 @given(st.floats(0, np.pi), st.floats(-0.3, 0.3), st.floats(-0.3, 0.3))
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=examples(12))
 def test_the_two_lines_of_a_random_cross_meet_in_their_node(angle, a, b):
     def f(u, v):
         x, y = np.cos(angle) * (u - a) + np.sin(angle) * (v - b), np.cos(angle) * (v - b) - np.sin(angle) * (u - a)

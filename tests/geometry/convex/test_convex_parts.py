@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.effort import examples
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.bodies_of_revolution import revolution
@@ -45,7 +46,7 @@ def test_a_prism_over_a_letter_is_three_convex_prisms():
 
 
 @pytest.mark.capability("G3.5-split")
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40))
 @given(st.lists(st.floats(0.2, 2), min_size=4, max_size=14), st.booleans())
 def test_areas_of_the_parts_of_a_star_add_up(radii, backwards):
     turn = 2 * np.pi * np.arange(len(radii)) / len(radii)

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull, HalfspaceIntersection
+from support.effort import examples
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.bodies_of_revolution import revolution
@@ -72,7 +73,7 @@ shift = st.lists(st.floats(-2, 2), min_size=3, max_size=3)
 
 
 @pytest.mark.capability("G3.6-intersect")
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60))
 @given(shift, angle, angle)
 def test_any_two_cubes(offset, first, second):
     one, other = cube(), moved(cube(), offset, (first, second))

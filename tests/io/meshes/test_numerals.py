@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.effort import examples
 
 from vectorplot.io.meshes.numerals import PAD, NumeralError, decimals, integers, padded
 
@@ -41,7 +42,7 @@ def test_decimals_are_those_of_python() -> None:
     assert np.signbit(values[1])
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200))
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=20), st.integers(0, 12))
 def test_decimals_of_any_double_in_any_notation(values: list[float], digits: int) -> None:
     words = [repr(value) for value in values] + [f"{value:.{digits}f}" for value in values if abs(value) < 1e20]

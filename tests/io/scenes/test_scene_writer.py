@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.effort import examples
 from support.paths import DATA
 
 from vectorplot.curves.curve import is_curve
@@ -108,7 +109,7 @@ scenes = st.builds(
 
 @pytest.mark.slow
 @pytest.mark.capability("G3.6-write")
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150))
 @given(scenes)
 def test_what_is_written_is_read_again_to_the_last_bit(scene):
     text = write_scene(scene)

@@ -9,6 +9,7 @@ from typing import Any, Self
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.geometry.vectors import from_components
 
 # (p, q), their first and their second derivatives.
 Profile = tuple[tuple[Floats, Floats], tuple[Floats, Floats], tuple[Floats, Floats]]
@@ -65,4 +66,4 @@ class EllipticSections(ABC):
 
     def _at(self, x: Floats, y: Floats, z: Floats) -> Floats:
         a, b = self._ellipse()
-        return np.stack(np.broadcast_arrays(a * x, b * y, z), axis=-1)
+        return from_components(a * x, b * y, z)

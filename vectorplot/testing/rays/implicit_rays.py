@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.vectors import norm
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.testing.rays.mesh_rays import Rays
@@ -51,8 +52,7 @@ class _Field:
         matrix = hessians(self.surface, points * self.size + self.middle) * self.size**2
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.asarray(
-                np.einsum("...i,...ij,...j->...", direction, matrix, direction)
-                / np.linalg.norm(self.gradients(points), axis=-1)
+                np.einsum("...i,...ij,...j->...", direction, matrix, direction) / norm(self.gradients(points))
             )
 
     def outside(self, points: Floats) -> Floats:
@@ -119,7 +119,7 @@ def _extremes(field: _Field, rays: Rays, t: Floats, slope: Floats, on_contour: B
     along = _zeros(slopes, rays, ray, t[step], t[step + 1], slope[ray, step])
     at = rays.origin[ray] + along[:, None] * direction
     with np.errstate(divide="ignore", invalid="ignore"):
-        away = np.abs(field.values(at)) / np.linalg.norm(field.gradients(at), axis=-1)
+        away = np.abs(field.values(at)) / norm(field.gradients(at))
     counts = (along > -OWN_HIT) & (along < rays.length[ray] + OWN_HIT) & (field.outside(at) < REACH_OF_CLEARANCE)
     counts &= ~on_contour[ray] | (np.abs(along) > AROUND)
     np.minimum.at(near, ray[counts], np.nan_to_num(away, nan=0.0, posinf=REACH_OF_CLEARANCE)[counts])
@@ -129,7 +129,7 @@ def _extremes(field: _Field, rays: Rays, t: Floats, slope: Floats, on_contour: B
 def _feet(field: _Field, rays: Rays) -> tuple[Bools, Bools, Bools]:
     """Whether points lie on the surface, on its contour, or so near that neither is sure."""
     gradient = field.gradients(rays.origin)
-    steep = np.linalg.norm(gradient, axis=-1)
+    steep = norm(gradient)
     with np.errstate(divide="ignore", invalid="ignore"):
         on_surface = np.abs(field.values(rays.origin)) / steep <= ON_SURFACE
         sine = (gradient * rays.direction).sum(axis=-1) / steep

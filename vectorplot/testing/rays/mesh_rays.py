@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import norm
 from vectorplot.scene.scene import Scene
 from vectorplot.testing.rays.triangles import triangulated
 from vectorplot.tolerances.of_angles import PARALLEL_SINE
@@ -44,17 +46,38 @@ class Solids:
     def __len__(self) -> int:
         return len(self.item)
 
+    @cached_property
+    def centre(self) -> Floats:
+        """(m,3) their middles."""
+        return middles(self.corners)
+
+    @cached_property
+    def radius(self) -> Floats:
+        """(m,) the distances of their farthest corners from these."""
+        reach = np.zeros(len(self))
+        for corner in np.moveaxis(self.corners, 1, 0):
+            np.maximum(reach, norm(corner - self.centre), out=reach)
+        return reach
+
+
+def middles(corners: Floats) -> Floats:
+    """(m,3) the means of the corners (m,k,3) of each simplex."""
+    total = corners[:, 0].copy()
+    for k in range(1, corners.shape[1]):
+        total += corners[:, k]
+    return np.asarray(total / corners.shape[1])
+
 
 def sight_rays(camera: Camera, points: Floats, middle: Floats, size: float) -> Rays:
     """The rays from the points to the eye in coordinates in which the scene fits into the unit cube about 0."""
     origin = (points - middle) / size
     # Beyond this every ray has left the scene, whose corners lie within 0.87 of its middle.
-    out = np.linalg.norm(origin, axis=1) + 1.0
+    out = norm(origin) + 1.0
     if camera.parallel:
         direction = np.subtract(camera.eye, camera.target) / camera.distance
         return Rays(origin, np.broadcast_to(direction, origin.shape), out, False)
     arm = (np.asarray(camera.eye) - points) / size
-    length = np.linalg.norm(arm, axis=1)
+    length = norm(arm)
     unit = arm / np.where(length > 0.0, length, 1.0)[:, None]
     return Rays(origin, unit, np.minimum(length, out), True)
 
@@ -88,7 +111,7 @@ def edges_of_faces(mesh: Mesh) -> Ints:
 
 def near_together(corners: Floats, item: Ints) -> Solids:
     """The simplexes in the order of a space-filling curve through their middles."""
-    cell = np.clip(((corners.mean(axis=1) + 0.5) * 1024.0), 0.0, 1023.0).astype(np.int64)
+    cell = np.clip(((middles(corners) + 0.5) * 1024.0), 0.0, 1023.0).astype(np.int64)
     code = np.zeros(len(item), dtype=np.int64)
     for bit in range(10):
         for axis in range(3):
@@ -99,15 +122,14 @@ def near_together(corners: Floats, item: Ints) -> Solids:
 
 def near_pairs(rays: Rays, solids: Solids) -> Iterator[tuple[Ints, Ints]]:
     """Pairs (ray, simplex) in portions; every pair that is no further apart than REACH_OF_CLEARANCE is among them."""
-    centre = solids.corners.mean(axis=1)
-    radius = np.sqrt(((solids.corners - centre[:, None]) ** 2).sum(axis=2).max(axis=1, initial=0.0))
+    centre, radius = solids.centre, solids.radius
     starts = np.arange(0, len(solids), CLUSTER)
     if len(starts) == 0:
         return
     sizes = np.diff(np.append(starts, len(solids)))
     low = np.minimum.reduceat(centre - radius[:, None], starts, axis=0)
     high = np.maximum.reduceat(centre + radius[:, None], starts, axis=0)
-    cluster_centre, cluster_radius = (low + high) / 2.0, np.linalg.norm(high - low, axis=1) / 2.0
+    cluster_centre, cluster_radius = (low + high) / 2.0, norm(high - low) / 2.0
     step = max(1, CHUNK // len(starts))
     for begin in range(0, len(rays.length), step):
         block = np.arange(begin, min(begin + step, len(rays.length)))
@@ -159,7 +181,7 @@ def meeting(origin: Floats, direction: Floats, a: Floats, b: Floats, c: Floats) 
     """Signed distances along the lines to the closed triangles; NaN where they do not meet or are parallel."""
     u, v = b - a, c - a
     normal = np.cross(u, v)
-    length = np.linalg.norm(normal, axis=1)
+    length = norm(normal)
     slope = np.einsum("ij,ij->i", normal, direction)
     crossing = np.abs(slope) > PARALLEL_SINE * length
     safe = np.where(crossing, slope, 1.0)
@@ -176,7 +198,7 @@ def meeting(origin: Floats, direction: Floats, a: Floats, b: Floats, c: Floats) 
 def distance_to_triangle(point: Floats, a: Floats, b: Floats, c: Floats) -> Floats:
     """Distances of points from triangles, pair by pair."""
     normal = np.cross(b - a, c - a)
-    length = np.linalg.norm(normal, axis=1)
+    length = norm(normal)
     height = np.einsum("ij,ij->i", normal, point - a) / np.where(length > 0.0, length, 1.0)
     above = np.ones(len(point), dtype=np.bool_)
     for start, end in ((a, b), (b, c), (c, a)):
@@ -191,7 +213,7 @@ def distance_to_segment(point: Floats, a: Floats, b: Floats) -> Floats:
     edge, arm = b - a, point - a
     square = np.einsum("ij,ij->i", edge, edge)
     share = np.clip(np.einsum("ij,ij->i", arm, edge) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
-    return np.asarray(np.linalg.norm(arm - share[:, None] * edge, axis=1))
+    return np.asarray(norm(arm - share[:, None] * edge))
 
 
 def edge_distances(rays: Rays, edges: Solids, own: Floats | None = None, off: Floats | None = None) -> Floats:

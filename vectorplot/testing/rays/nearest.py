@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry.vectors import norm
 from vectorplot.surfaces.surface import Domain, Surface, is_hole
 from vectorplot.tolerances.of_extent import FOOT_OF_EXTENT, FOOT_REACHED, GAUSS_OF_EXTENT
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -42,17 +43,19 @@ class Feet(NamedTuple):
         return Feet(u, v, distance, self.extent)
 
 
-def nearest_places(surface: Surface, points: Floats) -> Feet:
+def nearest_places(surface: Surface, points: Floats, near: Floats | float = 0.0) -> Feet:
     """The places of a surface where the distance from points (n,3) is smallest, as far as a grid of starts finds them.
 
-    Points that stay further away than FOOT_OF_EXTENT of the extent are tried again from a finer grid.
+    near (n,): how far points may be from the surface. Points that stay further away, and further than FOOT_OF_EXTENT of
+    the extent, are tried again from a finer grid.
     Error: parameters of points on the surface are good to rounding; of points at a distance d to about 1e-8 d.
     Degenerate: holes are never a place; at a pole one of its parameters is arbitrary.
     Errors: InputError for a surface that is nowhere finite.
     """
     feet = _from_grid(surface, points, CELLS[0])
     for again in (_from_finer_grid, _from_around):
-        left = np.flatnonzero(feet.distance.min(axis=1, initial=np.inf) > FOOT_OF_EXTENT * feet.extent)
+        enough = np.maximum(near, FOOT_OF_EXTENT * feet.extent)
+        left = np.flatnonzero(feet.distance.min(axis=1, initial=np.inf) > enough)
         if len(left):
             new = again(surface, points[left], feet.rows(left))
             better = new.distance.min(axis=1) < feet.distance[left].min(axis=1)
@@ -97,7 +100,9 @@ def _from_grid(surface: Surface, points: Floats, cells: int) -> Feet:
         raise InputError("the surface is nowhere finite")
     u, v, grid = u[there], v[there], grid[there]
     count = min(STARTS, len(grid))
-    _, start = cKDTree(grid).query(points, k=np.arange(1, count + 1))
+    # For so few questions a tree that is not balanced is good enough.
+    tree = cKDTree(grid, balanced_tree=False, compact_nodes=False)
+    _, start = tree.query(points, k=np.arange(1, count + 1))
     extent = float(np.linalg.norm(np.ptp(grid, axis=0)))
     target = np.repeat(points, count, axis=0)
     found = [np.zeros((3, 0))]
@@ -167,7 +172,7 @@ def _curved(
     e: Floats, f: Floats, g: Floats, surface: Surface, at: Floats, arm: Floats, far: float
 ) -> tuple[Floats, Floats, Floats]:
     """The matrix of Newton's method instead, where points are further than far away and it is positive definite."""
-    index = np.flatnonzero((np.linalg.norm(arm, axis=1) > far) & (e > 0.0) & (g > 0.0))
+    index = np.flatnonzero((norm(arm) > far) & (e > 0.0) & (g > 0.0))
     if len(index):
         width, height = surface.domain.size
         factors = (width * width, width * height, height * height)

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.vectors import dot, norm
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Surface, is_hole
 from vectorplot.testing.rays.mesh_rays import Rays, edge_distances, meeting, near_pairs, near_together
@@ -80,14 +81,15 @@ class Net:
         """(t,3) indices of grid points; none with a corner in a hole."""
         a, b, c, d = self._cells.T
         found = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
-        return np.asarray(found[~is_hole(self.points)[found].any(axis=1)])
+        hole = is_hole(self.points)
+        return np.asarray(found[~hole[found].any(axis=1)] if hole.any() else found)
 
     @cached_property
     def errors(self) -> Floats:
         """(n m,) how far the surface is from the middles of the diagonals of the cells around a grid point, at most."""
         a, _, c, _ = self._cells.T
         middles = self.at(*(0.5 * (self.parameters[a] + self.parameters[c])).T)
-        off = np.linalg.norm(middles - 0.5 * (self.points[a] + self.points[c]), axis=1)
+        off = norm(middles - 0.5 * (self.points[a] + self.points[c]))
         worst = np.zeros(len(self.points))
         for corner in self._cells.T:
             np.maximum.at(worst, corner, np.where(np.isfinite(off), off, 0.0))
@@ -97,7 +99,7 @@ class Net:
     def longest(self) -> float:
         """The longest diagonal."""
         a, _, c, _ = self._cells.T
-        long = np.linalg.norm(self.points[a] - self.points[c], axis=1)
+        long = norm(self.points[a] - self.points[c])
         return float(long[np.isfinite(long)].max(initial=0.0))
 
     def borders(self) -> tuple[Floats, Floats]:
@@ -113,7 +115,7 @@ class Net:
         mixed = hole[self._cells].any(axis=1)
         ends += [np.stack(pair, axis=1)[mixed] for pair in ((a, b), (b, c), (c, d), (d, a), (a, c), (b, d))]
         segments, errors = self.points[np.concatenate(ends)], self.errors[np.concatenate(ends)].max(axis=1, initial=0.0)
-        long = np.linalg.norm(segments[:, 1] - segments[:, 0], axis=1) > ZERO_OF_EXTENT
+        long = norm(segments[:, 1] - segments[:, 0]) > ZERO_OF_EXTENT
         return segments[long], errors[long]
 
     def contour(self, eye: Floats | None, direction: Floats) -> tuple[Floats, Floats]:
@@ -121,14 +123,15 @@ class Net:
         may be off."""
         normals = unit_normals(self.surface, *self.parameters.T)
         sight = np.broadcast_to(direction, normals.shape) if eye is None else eye - self.points
-        value = (normals * sight).sum(axis=1)
+        value = dot(normals, sight)
         corners, at = self.triangles, value[self.triangles]
-        unknown = np.isnan(at).any(axis=1)
+        unknown = np.isnan(at[:, 0] + at[:, 1] + at[:, 2])
         every = self.points[corners[unknown]][:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2, 3)
         errors = np.repeat(self.errors[corners[unknown]].max(axis=1, initial=0.0), 3)
         corners, at = corners[~unknown], at[~unknown]
-        count = (at > 0.0).sum(axis=1)
-        corners, at = corners[count % 3 > 0], at[count % 3 > 0]
+        first, second, third = (at > 0.0).T
+        mixed = (first != second) | (second != third)
+        corners, at = corners[mixed], at[mixed]
         sign = at > 0.0
         lone = np.where(sign.sum(axis=1) == 1, sign.argmax(axis=1), (~sign).argmax(axis=1))
         row, found = np.arange(len(lone)), []
@@ -153,10 +156,10 @@ def fine_net(surface: Surface, middle: Floats, size: float) -> Net:
     first = Net(surface, middle, size, *surface.domain.grid(FIRST_CELLS, FIRST_CELLS))
     p = first.points.reshape(FIRST_CELLS + 1, FIRST_CELLS + 1, 3)
     bends = [
-        np.linalg.norm(p[:-2] + p[2:] - 2.0 * p[1:-1], axis=-1),
-        np.linalg.norm(p[:, :-2] + p[:, 2:] - 2.0 * p[:, 1:-1], axis=-1),
+        norm(p[:-2] + p[2:] - 2.0 * p[1:-1]),
+        norm(p[:, :-2] + p[:, 2:] - 2.0 * p[:, 1:-1]),
     ]
-    twist = np.linalg.norm(p[1:, 1:] - p[1:, :-1] - p[:-1, 1:] + p[:-1, :-1], axis=-1)
+    twist = norm(p[1:, 1:] - p[1:, :-1] - p[:-1, 1:] + p[:-1, :-1])
     needs = []
     for axis, bend in enumerate(bends):
         # Of each row of cells the worst one; diagonals are bent by the twist too.
@@ -232,7 +235,7 @@ def _refined(net: Net, rays: Rays, ray: Ints, along: Floats, start: Floats) -> t
             )
             at, t = at + step / square[:, None], t + forward
     rest = origin + t[:, None] * direction - net.at(at[:, 0], at[:, 1])
-    good = (np.linalg.norm(rest, axis=1) < ZERO_OF_EXTENT) & (np.abs(t - along) < max(8.0 * net.longest, OWN_HIT))
+    good = (norm(rest) < ZERO_OF_EXTENT) & (np.abs(t - along) < max(8.0 * net.longest, OWN_HIT))
     domain = net.surface.domain
     limits = ((domain.u_start, domain.u_end, domain.closed_u), (domain.v_start, domain.v_end, domain.closed_v))
     within = np.ones(len(t), dtype=np.bool_)
@@ -249,7 +252,8 @@ def feet_on(net: Net, rays: Rays) -> Feet:
 
     on_surface, on_contour, on_border, unsure = (np.zeros(len(rays.length), dtype=np.bool_) for _ in range(4))
     there = ~is_hole(net.points)
-    distance, _ = cKDTree(net.points[there]).query(rays.origin)
+    tree = cKDTree(net.points[there], balanced_tree=False, compact_nodes=False)
+    distance, _ = tree.query(rays.origin)
     near = np.flatnonzero(distance <= 2.0 * net.longest + ZERO_OF_EXTENT)
     if not len(near):
         return Feet(on_surface, on_contour, on_border, unsure)

@@ -8,6 +8,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_angles import PARALLEL_SINE
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_lengths import NO_AREA
@@ -59,7 +60,7 @@ def faces_are_convex(mesh: Mesh) -> Bools:
     arriving = np.empty_like(leaving)
     arriving[mesh.next_corner] = leaving
     turn = np.cross(arriving, leaving)
-    scale = np.linalg.norm(arriving, axis=1) * np.linalg.norm(leaving, axis=1)
+    scale = norm(arriving) * norm(leaving)
     left = np.einsum("ij,ij->i", turn, mesh.face_normals[mesh.corner_face]) >= -PARALLEL_SINE * scale
     return np.asarray(np.bincount(mesh.corner_face[~left], minlength=mesh.face_count) == 0)
 
@@ -88,7 +89,7 @@ def with_area(mesh: Mesh, triangles: Ints) -> Ints:
     """Those of some triangles that have an area."""
     corners = mesh.vertices[triangles]
     sides = np.roll(corners, -1, axis=1) - corners
-    twice = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    twice = norm(np.cross(sides[:, 0], sides[:, 1]))
     kept = np.asarray(twice > 2.0 * NO_AREA * (sides**2).sum(axis=2).max(axis=1, initial=0.0))
     return np.asarray(triangles[kept], dtype=np.intp)
 
@@ -98,7 +99,7 @@ def next_ear(plane: Floats, left: list[int]) -> int:
     here = plane[left]
     before, after = np.roll(here, 1, axis=0), np.roll(here, -1, axis=0)
     turns = area(before, here, after)
-    scale = np.linalg.norm(here - before, axis=1) * np.linalg.norm(after - here, axis=1)
+    scale = norm(here - before) * norm(after - here)
     straight = np.flatnonzero(np.abs(turns) <= PARALLEL_SINE * scale)
     if len(straight):
         return int(straight[0])

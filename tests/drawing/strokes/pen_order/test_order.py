@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.effort import examples
 from support.sample_paths import pieces, polylines
 
 from vectorplot.drawing.strokes.paths import chosen
@@ -129,7 +130,7 @@ STROKES = st.lists(st.tuples(st.lists(POINT, max_size=6), st.booleans()), max_si
 
 
 @pytest.mark.slow
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150))
 @given(STROKES)
 def test_the_strokes_are_the_given_ones_forwards_backwards_or_rolled(strokes):
     given_ = separate(

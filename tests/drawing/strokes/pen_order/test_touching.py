@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.effort import examples
 from support.sample_paths import pieces
 
 from vectorplot.drawing.strokes.pen_order.order import pen_ordered, travel_mm
@@ -60,7 +61,7 @@ NODE = st.tuples(st.integers(0, 4), st.integers(0, 4))
 
 
 @pytest.mark.slow
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200))
 @given(st.lists(st.tuples(NODE, NODE), min_size=1, max_size=60))
 def test_links_make_trails_with_two_free_ends_each(edges):
     ends = np.array([complex(*node) for edge in edges for node in edge])
@@ -79,7 +80,7 @@ def test_links_make_trails_with_two_free_ends_each(edges):
     assert len(met) == len(edges)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100))
 @given(st.lists(st.tuples(NODE, NODE), min_size=1, max_size=60))
 def test_a_connected_figure_takes_no_more_jumps_than_its_odd_nodes(edges):
     spokes = [((x, y), (2, 2)) for x, y in {node for edge in edges for node in edge}]
