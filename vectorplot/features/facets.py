@@ -11,8 +11,9 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, Vertices, refined
-from vectorplot.features.implicit.polygonize import onto_surface, settled_mesh
-from vectorplot.features.implicit.singular_set import led_into_singular_set, usual_gradient
+from vectorplot.features.implicit.polygonize import onto_surface, polygonized, settled_mesh
+from vectorplot.features.implicit.singular_lines import SingularLines, singular_lines, usual_gradient
+from vectorplot.features.implicit.singular_set import led_into_singular_set
 from vectorplot.features.parametric.poles import Pole, poles
 from vectorplot.features.tessellation import grid_numbers
 from vectorplot.features.zeros.grid_triangulation import triangulate_surface
@@ -121,7 +122,7 @@ def facets(shape: Surface | ImplicitSurface, demand: Demand, most: int = USUAL_B
         net = _first_net(shape, demand)
         return _facets(_without_jumps(shape, refined(net, _Patch(shape, tuple(poles(shape))), demand, most)))
     if is_implicit(shape):
-        level = _Level(shape, led_into_singular_set(shape, settled_mesh(shape, IMPLICIT_CELLS)[0]))
+        level = _level(shape)
         return _facets(refined(level.net, level, demand, most))
     raise InputError(f"a {type(shape).__name__} is no smooth surface")
 
@@ -242,12 +243,23 @@ def _lines(patch: _Patch, count: int, across: bool) -> Edges:
     return Edges(patch.at(first), patch.at(last), looks, t, np.full(t.shape, NONE))
 
 
+def _level(surface: ImplicitSurface) -> _Level:
+    """An implicit surface with a mesh to begin with, that ends on its singular lines."""
+    mesh = polygonized(surface, IMPLICIT_CELLS)
+    lines = singular_lines(surface, mesh)
+    if not len(lines):
+        mesh = settled_mesh(surface, IMPLICIT_CELLS)[0]
+    return _Level(surface, led_into_singular_set(surface, mesh, lines)[0], lines)
+
+
 @dataclass(frozen=True, eq=False)
 class _Level:
-    """An implicit surface between vertices, and a mesh of it to begin with; the places of vertices are the points."""
+    """An implicit surface between vertices, a mesh of it to begin with, and its singular lines; the places of vertices
+    are the points."""
 
     surface: ImplicitSurface
     mesh: Mesh
+    lines: SingularLines
 
     @cached_property
     def net(self) -> Net:
@@ -264,7 +276,11 @@ class _Level:
         low, high = np.asarray(self.surface.box, dtype=np.float64)
         fixed = (first == last) & ((first == low) | (first == high))
         length = np.linalg.norm(last - first, axis=1)
-        points, _ = onto_surface(self.surface, first + t[:, None] * (last - first), reach=length, fixed=fixed)
+        between = first + t[:, None] * (last - first)
+        points, _ = onto_surface(self.surface, between, reach=length, fixed=fixed)
+        along = np.flatnonzero(np.isnan(start.normals).any(axis=1) & np.isnan(end.normals).any(axis=1))
+        on_line, on = self.lines.onto(between[along], HALF * length[along])
+        points[along[on]] = on_line[on]
         return self.at(np.clip(points, low, high))
 
     def at(self, points: Floats) -> Vertices:

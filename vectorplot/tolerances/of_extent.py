@@ -122,6 +122,14 @@ LAST_STEP_OF_EXTENT = 1e-6
 """Points that have arrived on an implicit surface take one step more if it is no longer than this part of the extent:
 it gains digits, and cannot lead elsewhere."""
 
+SETTLED_ON_LINE = 1e-11
+"""Part of the extent that the last step onto a singular line of an implicit surface may be: Newton's method squares it
+in the next one."""
+
+SAME_ON_LINE = 1e-8
+"""Points of singular lines no further apart than this part of the extent are one: each is known to a thousandth of it,
+where lines do not end."""
+
 CRITICAL_SETTLED = 1e-8
 """Part of the extent that the last step to a critical point in space may be: second derivatives are differences there,
 so that Newton's method gains two or three digits a step."""

@@ -58,6 +58,14 @@ VANISHED_VALUE = 1e-9
 """Part of what the usual gradient makes of the way to go below which the value at a singular point is zero: at a double
 point it is the square of the gradient."""
 
+VANISHED_ON_LINE = 1e-9
+"""Part of the extent by which a point may be off a singular line of an implicit surface, by its gradient and, squared,
+by its value, each divided by the second derivatives: more is a line of critical points beside the surface."""
+
+SHALLOW_CROSSING = 1e-6
+"""Product of the two larger eigenvalues of the second derivatives of an implicit surface, by their squared size, below
+which two sheets do not cross: they touch, or end in a pinch point."""
+
 ZERO_OF_BENDING = 1e-15
 """Part of the usual bending of a contour below which it is zero: where it changes its sign the contour has a cusp."""
 

@@ -3,6 +3,7 @@ import pytest
 
 from vectorplot.features.facets import Within, facets
 from vectorplot.features.implicit.polygonize import settled_mesh
+from vectorplot.features.implicit.singular_lines import singular_lines
 from vectorplot.features.implicit.singular_set import led_into_singular_set
 from vectorplot.io.expressions.expression import parse_expression
 from vectorplot.io.scenes.scene_formulas import Formulas, formula_implicit
@@ -38,7 +39,7 @@ def test_sheets_that_cross_end_on_their_common_line(text: str, along: tuple[floa
 def test_what_has_no_singular_point_stays_as_it_is() -> None:
     ball = implicit("x^2+y^2+z^2-0.8")
     mesh = settled_mesh(ball, 16)[0]
-    led = led_into_singular_set(ball, mesh)
+    led = led_into_singular_set(ball, mesh, singular_lines(ball, mesh))[0]
     assert (led.vertices == mesh.vertices).all() and (led.corners == mesh.corners).all()
     nothing = settled_mesh(implicit("x^2+y^2+z^2+1"), 16)[0]
-    assert led_into_singular_set(ball, nothing) is nothing
+    assert led_into_singular_set(ball, nothing, singular_lines(ball, nothing))[0] is nothing

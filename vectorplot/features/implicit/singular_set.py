@@ -6,7 +6,10 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.polygonize import checked_values
+from vectorplot.features.implicit.singular_equations import SingularEquations, onto_lines
+from vectorplot.features.implicit.singular_lines import SLOW, SingularLines, usual_gradient
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.polylines import Polylines, closed_round
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -16,6 +19,18 @@ REACH = 1.5
 """Longest sides of triangles from which vertices are led there: polygonised sheets that cross keep clear of each other
 by up to so much."""
 
+TIPS = 4.0
+"""The same for the outermost vertices of the wings of a cuspidal edge, between which polygons go across."""
+
+ACROSS = 0.0
+"""Cosine between the true normals at the ends of a side below which it goes across from one wing to the other."""
+
+TWICE = 3
+"""How often outermost vertices are looked for: behind those that are led away stand others."""
+
+FINER = 4
+"""Points on every chord of a line that vertices are led to at first."""
+
 FIRM = 0.03
 """Part of the largest principal second derivative below which one belongs to a direction along a singular line."""
 
@@ -23,51 +38,115 @@ ROUNDS = 8
 """Steps of Newton's method for where the gradient vanishes."""
 
 
-def led_into_singular_set(surface: ImplicitSurface, mesh: Mesh) -> Mesh:
-    """The mesh, its vertices near points of the surface in which the gradient vanishes moved there, without the
-    triangles that are then no more than a part of a singular line.
+def led_into_singular_set(surface: ImplicitSurface, mesh: Mesh, lines: SingularLines) -> tuple[Mesh, Bools]:
+    """The mesh, its vertices near the singular lines of the surface and near isolated singular points moved there,
+    without the triangles that are then no more than a part of a line; and which vertices (v,) are on such a line.
 
-    Where two sheets cross, polygonised ones turn away from each other and leave a gap: now both end on the line.
-    Vertices on the sides of the box stay on them. Degenerate: cuspidal edges, across which the second derivatives
-    vanish too, are left as they are.
+    Where two sheets cross, polygonised ones turn away from each other and leave a gap; the wings of a cuspidal edge end
+    before it, and polygons go across from one to the other. Now all end on the line. Vertices on the sides of the box
+    stay on them.
     """
     if not mesh.face_count:
-        return mesh
-    x = mesh.vertices
+        return mesh, np.zeros(0, dtype=np.bool_)
     triangles = mesh.corners.reshape(-1, 3)
-    corners = x[triangles]
-    reach = REACH * float(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max())
+    corners = mesh.vertices[triangles]
+    longest = float(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max())
+    points = _into_points(surface, mesh.vertices, REACH * longest)
+    there = np.zeros(len(points), dtype=np.bool_)
+    for equations, some in lines.kinds:
+        near = _Near(equations, some)
+        points = near.led(points, ~there, REACH * longest, there)
+        for _ in range(TWICE if some is lines.edges else 0):
+            points = near.led(points, _tips(surface, points, triangles, there), TIPS * longest, there)
+    kept = ~there[triangles].all(axis=1) & ~_flat(points[triangles])
+    return Mesh.from_triangles(points, triangles[kept]), there
+
+
+def _flat(corners: Floats) -> Bools:
+    """(t,) triangles (t,3,3) two corners of which are in one place."""
+    return np.asarray((corners == np.roll(corners, 1, axis=1)).all(axis=2).any(axis=1), dtype=np.bool_)
+
+
+class _Near:
+    """Lines of one kind, and a tree of places along them."""
+
+    def __init__(self, equations: SingularEquations, lines: Polylines) -> None:
+        from scipy.spatial import cKDTree
+
+        rounds = closed_round(lines)
+        points = lines.points[rounds.index]
+        first = np.ones(len(points), dtype=np.bool_)
+        first[rounds.offsets[1:] - 1] = False
+        begin = np.flatnonzero(first)
+        share = np.arange(FINER)[:, None, None] / FINER
+        along = points[begin] + share * (points[begin + 1] - points[begin])
+        self.equations, self.places = equations, np.concatenate([along.reshape(-1, 3), points[rounds.offsets[1:] - 1]])
+        self.tree = cKDTree(self.places)
+        self.points, self.corners = points, cKDTree(points)
+
+    def led(self, points: Floats, which: Bools, reach: float, there: Bools) -> Floats:
+        """The points (n,3), those of which that lie nearer to a line than reach moved onto it, and marked as there."""
+        low, high = np.asarray(self.equations.surface.box, dtype=np.float64)
+        chosen = np.flatnonzero(which)
+        far, place = self.tree.query(points[chosen], distance_upper_bound=reach)
+        chosen, place = chosen[np.isfinite(far)], place[np.isfinite(far)]
+        step = np.full(len(chosen), reach)
+        found, on = onto_lines(self.equations, self.places[place], step)
+        # Where lines end their equations have no rank: what is known is the last point.
+        found[~on] = self.points[self.corners.query(self.places[place[~on]])[1]]
+        start = points[chosen]
+        for side in (low, high):
+            held = start == side
+            leaves = (held & (found != side)).any(axis=1)
+            found[leaves] = self._in_side(start[leaves], held[leaves], reach)
+        inside = np.isfinite(found).all(axis=1) & ((found >= low) & (found <= high)).all(axis=1)
+        result = points.copy()
+        result[chosen[inside]] = found[inside]
+        there[chosen[inside]] = True
+        return result
+
+    def _in_side(self, start: Floats, held: Bools, reach: float) -> Floats:
+        """(k,3) the nearest points of the lines in the sides of the box that points (k,3) lie in, by their coordinates
+        that are held (k,3); NaN where there are none within reach."""
+        gap = np.linalg.norm(self.points - start[:, None], axis=2)
+        gap[~((self.points == start[:, None]) | ~held[:, None]).all(axis=2)] = np.inf
+        best = np.argmin(gap, axis=1) if len(start) else np.zeros(0, dtype=np.intp)
+        near = gap[np.arange(len(start)), best] <= reach
+        return np.where(near[:, None], self.points[best], np.nan)
+
+
+def _tips(surface: ImplicitSurface, points: Floats, triangles: Ints, there: Bools) -> Bools:
+    """(n,) vertices of triangles (t,3) that are not there, at ends of sides that go across from one wing to another."""
     with np.errstate(all="ignore"):
-        steep = np.linalg.norm(surface.gradients(x), axis=1)
-        usual = usual_gradient(surface, x)
-        moved, there = _singular(surface, x, np.flatnonzero(~(steep > 0.5 * usual)), usual, reach)
-    kept = ~there[triangles].all(axis=1)
-    return Mesh.from_triangles(moved, triangles[kept])
+        slopes = surface.gradients(points)
+        normals = slopes / np.linalg.norm(slopes, axis=1, keepdims=True)
+    a, b = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    over = ((normals[a] * normals[b]).sum(axis=1) < ACROSS) & ~there[a] & ~there[b]
+    tips = np.zeros(len(points), dtype=np.bool_)
+    tips[a[over]] = tips[b[over]] = True
+    return tips
 
 
-def usual_gradient(surface: ImplicitSurface, points: Floats) -> float:
-    """How long the gradient is at most of the points (n,3); 0 without any."""
-    with np.errstate(all="ignore"):
-        steep = np.linalg.norm(surface.gradients(points), axis=1)
-    known = steep[np.isfinite(steep)]
-    return float(np.median(known)) if len(known) else 0.0
-
-
-def _singular(surface: ImplicitSurface, points: Floats, near: Ints, usual: float, reach: float) -> tuple[Floats, Bools]:
-    """The points (n,3), those with the numbers near (k,) at singular points of the surface where these are within
-    reach; and (n,) which are."""
+def _into_points(surface: ImplicitSurface, points: Floats, reach: float) -> Floats:
+    """The points (n,3), those near isolated singular points, such as the apex of a cone, moved into them."""
     low, high = np.asarray(surface.box, dtype=np.float64)
-    start = points[near]
-    held = (start == low) | (start == high)
-    x = start.copy()
-    for _ in range(ROUNDS):
-        slope = np.where(held, 0.0, np.nan_to_num(surface.gradients(x)))
-        bend = np.where(held[:, None] | held[:, :, None], 0.0, np.nan_to_num(hessians(surface, x)))
-        step = (np.linalg.pinv(bend, rcond=FIRM) @ slope[..., None])[..., 0]
-        x = x - step * np.minimum(1.0, reach / np.maximum(np.linalg.norm(step, axis=1), LEAST_DIVISOR))[:, None]
-    flat = np.linalg.norm(np.nan_to_num(surface.gradients(x), nan=np.inf), axis=1) <= VANISHED_GRADIENT * usual
-    on = np.abs(checked_values(surface, x)) <= VANISHED_GRADIENT * usual * reach
+    with np.errstate(all="ignore"):
+        usual = usual_gradient(surface, points)
+        steep = np.linalg.norm(surface.gradients(points), axis=1)
+        near = np.flatnonzero(~(steep > SLOW * usual))
+        start = points[near]
+        held = (start == low) | (start == high)
+        x = start.copy()
+        for _ in range(ROUNDS):
+            slope = np.where(held, 0.0, np.nan_to_num(surface.gradients(x)))
+            bend = np.where(held[:, None] | held[:, :, None], 0.0, np.nan_to_num(hessians(surface, x)))
+            step = (np.linalg.pinv(bend, rcond=FIRM) @ slope[..., None])[..., 0]
+            x = x - step * np.minimum(1.0, reach / np.maximum(np.linalg.norm(step, axis=1), LEAST_DIVISOR))[:, None]
+        sizes = np.abs(np.linalg.eigvalsh(np.nan_to_num(hessians(surface, x))))
+        flat = np.linalg.norm(np.nan_to_num(surface.gradients(x), nan=np.inf), axis=1) <= VANISHED_GRADIENT * usual
+        on = np.abs(checked_values(surface, x)) <= VANISHED_GRADIENT * usual * reach
     good = flat & on & (np.linalg.norm(x - start, axis=1) <= reach) & ((x >= low) & (x <= high)).all(axis=1)
-    result, there = points.copy(), np.zeros(len(points), dtype=np.bool_)
-    result[near[good]], there[near[good]] = x[good], True
-    return result, there
+    good &= sizes.min(axis=1) > FIRM * sizes.max(axis=1)
+    result = points.copy()
+    result[near[good]] = x[good]
+    return result

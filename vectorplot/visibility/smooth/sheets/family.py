@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.features.implicit.implicit_conditions import SpatialCondition
+from vectorplot.features.implicit.singular_equations import SingularEquations, line_tangents, onto_lines
 from vectorplot.features.parametric.conditions import Condition
 from vectorplot.geometry.vectors import dot
 from vectorplot.tolerances.of_lengths import FAMILY_SETTLED
@@ -174,6 +175,28 @@ class SpatialCurves:
         at = base + off
         slopes = np.where(np.isfinite(tangent.sum(axis=1, keepdims=True)), tangent, way)
         return Along(at, at, slopes, at[: len(at) if self.second >= 0 else 0])
+
+
+@dataclass(frozen=True, eq=False)
+class SingularCurves:
+    """Cuspidal edges or double lines of an implicit surface, with the equations that hold on them."""
+
+    equations: SingularEquations
+    sheet: int
+    second: int = -1
+
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The lines at a part of their chords: in the plane across the chord."""
+        start, end = chords.points
+        way = end - start
+        long = np.sqrt(dot(way, way))
+        across = way / np.maximum(long, LEAST_DIVISOR)[:, None]
+        at, on = onto_lines(self.equations, start + part[:, None] * way, FARTHEST * long, across=across)
+        tangent = line_tangents(self.equations, at)
+        with np.errstate(all="ignore"):
+            tangent = tangent * (dot(way, way) / dot(tangent, way))[:, None]
+        known = on & np.isfinite(tangent).all(axis=1)
+        return Along(at, at, np.where(known[:, None], tangent, way))
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.implicit.polygonize import settled_mesh
+from vectorplot.features.implicit.polygonize import polygonized, settled_mesh
+from vectorplot.features.implicit.singular_equations import CuspidalEdges
+from vectorplot.features.implicit.singular_lines import SingularLines, singular_lines
+from vectorplot.features.implicit.singular_set import led_into_singular_set
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
@@ -47,6 +50,7 @@ class ImplicitSheet:
     corners: Ints
     sags: Floats
     mesh: Mesh
+    lines: SingularLines
     doubts: tuple[str, ...]
 
     @property
@@ -101,8 +105,8 @@ class ImplicitSheet:
         return inner
 
     def turnings(self, places: Floats) -> Floats:
-        """(k,3) zeros: cuspidal edges of implicit surfaces are not known."""
-        return np.zeros_like(places)
+        """(k,3) into both wings of cuspidal edges."""
+        return CuspidalEdges(self.surface, 1.0).turnings(places)
 
     def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats]:
         """(k,) and (k,3) one Newton step along lines, from the points of them that are nearest to places."""
@@ -148,15 +152,17 @@ def implicit_sheet(view: View, surface: ImplicitSurface, item: int, hides: bool)
     """
     placed = placed_in_view(view, surface)
     cells = FEWEST
+    lines = singular_lines(surface, polygonized(surface, cells))
     while True:
-        mesh, doubts = settled_mesh(surface, cells)
-        vertices = np.ascontiguousarray(view.points_of(mesh.vertices).T)
-        corners = mesh.corners.reshape(-1, 3)
+        mesh, doubts = (polygonized(surface, cells), ()) if len(lines) else settled_mesh(surface, cells)
+        led = led_into_singular_set(surface, mesh, lines)[0]
+        vertices = np.ascontiguousarray(view.points_of(led.vertices).T)
+        corners = led.corners.reshape(-1, 3)
         off = _sags(placed, vertices[corners])
         if np.quantile(np.append(off, 0.0), MOST_OF_ALL) <= SAG or doubts or 2 * cells > MOST:
             # Those at singular points stay far off; of the others the worst speaks for all.
             sags = np.maximum(off, min(float(off.max(initial=0.0)), SAG))
-            return ImplicitSheet(placed, surface, view, item, hides, vertices, corners, sags, mesh, doubts)
+            return ImplicitSheet(placed, surface, view, item, hides, vertices, corners, sags, mesh, lines, doubts)
         cells *= 2
 
 

@@ -24,15 +24,20 @@ from vectorplot.features.implicit.implicit_curves import (
     implicit_point_light_isophotes,
 )
 from vectorplot.features.implicit.implicit_tracing import ImplicitCurves, ImplicitTracing
+from vectorplot.features.implicit.singular_curves import refined_line
+from vectorplot.features.implicit.singular_equations import CuspidalEdges, DoubleLines
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
-from vectorplot.visibility.smooth.sheets.family import Family, NearChords, SpatialCurves
+from vectorplot.visibility.smooth.sheets.family import Family, NearChords, SingularCurves, SpatialCurves
 from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.words import LineKind
+
+UNIT = 1.0
+"""How large scenes are in a view, about."""
 
 Found = tuple[LineKind, Family, ImplicitCurves]
 
@@ -52,6 +57,7 @@ def curves_of_implicit(
     if LineKind.SECTION in wanted:
         found += _sections(view, item, sheet, number, tracing)
     borders = implicit_borders(sheet.home, tracing=tracing)
+    found += _singular(sheet, number, tracing)
     parts = [as_spatial_curves(curves, kind, sheet, family) for kind, family, curves in found]
     doubts = (*sheet.doubts, *(text for _, _, curves in found for text in curves.doubts), *borders.doubts)
     return [*parts, *_borders(borders, sheet, number)], doubts
@@ -119,6 +125,19 @@ def _isophotes(
         condition = ImplicitPointIsophote(sheet.surface, view.points_of(np.array([light.position]))[:, 0], 0.0)
         found = implicit_point_light_isophotes(sheet.home, light.position, cosines, tracing=tracing)
     return LineKind.ISOPHOTE, SpatialCurves(sheet, number, condition), found
+
+
+def _singular(sheet: ImplicitSheet, number: int, tracing: ImplicitTracing) -> list[Found]:
+    """Cuspidal edges, which are creases, and lines in which the surface crosses itself."""
+    result: list[Found] = []
+    here = sheet.surface
+    for kind, equations, lines, own in (
+        (LineKind.CREASE, sheet.lines.edge_equations, sheet.lines.edges, CuspidalEdges(here, UNIT)),
+        (LineKind.INTERSECTION, sheet.lines.double_equations, sheet.lines.doubles, DoubleLines(here, UNIT)),
+    ):
+        found = refined_line(equations, lines, tracing)
+        result.append((kind, SingularCurves(own, number), found))
+    return result
 
 
 def _sections(view: View, item: Item, sheet: ImplicitSheet, number: int, tracing: ImplicitTracing) -> list[Found]:
