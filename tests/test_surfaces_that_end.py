@@ -103,3 +103,16 @@ def test_the_bar_moves_while_smooth_surfaces_are_drawn() -> None:
     drawn(graph_of("x*y"), progress=lambda stage, part: told.append((stage, part)))
     parts = [part for stage, part in told if stage in ("curves", "smooth surfaces")]
     assert len(set(parts)) >= 7 and parts == sorted(parts)
+
+
+@pytest.mark.slow
+def test_waves_finer_than_any_resolution_are_painted_too() -> None:
+    scene = vp.Scene((vp.Item("S", graph_of("sin(1/hypot(x,y))")),))
+    before = time.process_time()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InputWarning)
+        drawing = vp.paint(scene, vp.Camera((5.0, -7.0, 5.0), (0.0, 0.0, 0.0)), page=PAGE, budget=0.25)
+    assert time.process_time() - before < SECONDS
+    (fills,) = drawing.layers[0].marks
+    # As many triangles as the budget has, and as many more for their shades at most.
+    assert 1 << 14 < len(fills) <= 1 << 17

@@ -18,7 +18,7 @@ from vectorplot.drawing.painted_fills import Overlay, fills_on_page, placed_face
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.errors import InputError
 from vectorplot.features.facets import Within
-from vectorplot.geometry.budget import budget_of
+from vectorplot.geometry.budget import Budget, budget_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_paint
@@ -167,7 +167,7 @@ def paint(
     facets = replace(facets, scene=_with_clear_items(facets.scene))
     view = walk.run("look", view_of, facets.scene, projection)
     projected = walk.run("faces", project_faces, view)
-    known, groups = known_orders(facets.scene, view), _groups(scene)
+    known, groups = known_orders(scene, view), _groups(scene)
     sliced = {number: planes for number, item in enumerate(scene.items) if (planes := item.curves.slices)}
     painted = walk.run("order", painters_order, view, projected, known=known, sliced=sliced, group=groups)
     _tell_slices(walk, scene, sliced, painted)
@@ -197,7 +197,7 @@ def paint(
     if walk.calls_for("erasing"):
         polygons = _erased(walk, seen, scene, ruler, kinds or line_kinds(LINE_WORDS), palette)
     else:
-        polygons = _shaded(walk, seen, lighting, page, aura_mm, tolerance_mm)
+        polygons = _shaded(walk, seen, lighting, page, aura_mm, tolerance_mm, budget_of(budget))
     if walk.calls_for("visible fills"):
         from vectorplot.drawing.fills_without_overlaps import visible_fills
 
@@ -328,11 +328,11 @@ def _check_options(
         raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected a length that is finite and positive")
 
 
-def _finer(seen: _Seen, lighting: Lighting) -> ImageFaces:
-    """The polygons, those that are shaded so small that no corner shows."""
+def _finer(seen: _Seen, lighting: Lighting, most: int) -> ImageFaces:
+    """The polygons, those that are shaded so small that no corner shows, or as many as may be."""
     faces = seen.faces
     shortest = SHORTEST_MM / seen.placement.scale
-    points, offsets, parent = refined(seen.view, lighting, faces.points, faces.offsets, faces.source, shortest)
+    points, offsets, parent = refined(seen.view, lighting, faces.points, faces.offsets, faces.source, shortest, most)
     if len(parent) == len(faces):
         return faces
     return ImageFaces(points, offsets, faces.planes[:, parent], faces.source[parent], faces.rank[parent])
@@ -384,9 +384,11 @@ def _coloured_strokes(
     return found
 
 
-def _shaded(walk: Walk, seen: _Seen, lighting: Lighting, page: Page, aura_mm: float, tolerance_mm: float) -> Fills:
+def _shaded(
+    walk: Walk, seen: _Seen, lighting: Lighting, page: Page, aura_mm: float, tolerance_mm: float, budget: Budget
+) -> Fills:
     """The polygons of the picture in their colours, with all that lies on them and is seen in them."""
-    seen = replace(seen, faces=_finer(seen, lighting))
+    seen = replace(seen, faces=_finer(seen, lighting, budget.facets))
     shades = walk.run("shades", _shades, seen, lighting)
     aura = aura_mm / seen.placement.scale
     decals, lighting = _decals(walk, seen, lighting, aura)

@@ -114,6 +114,33 @@ def top_polygon(faces: ImageFaces, x: Floats, y: Floats) -> Ints:
     return top
 
 
+def buried(view: View, faces: ImageFaces, samples: int, seed: int = 0) -> tuple[int, int]:
+    """At how many points of the image a polygon is on top that lies below another one there, clear of all sides; and
+    how many points were sure. Of as many polygons as one likes."""
+    import shapely
+
+    sizes = np.diff(faces.offsets)
+    rings = shapely.linearrings(faces.points[:2].T, indices=np.repeat(np.arange(len(faces)), sizes))
+    random = np.random.default_rng(seed)
+    # In the middles of polygons: where these are small, points strewn over the image would miss them.
+    middle = np.stack([np.add.reduceat(row, faces.offsets[:-1]) / sizes for row in faces.points[:2]])
+    places = middle[:, random.choice(len(faces), min(samples, len(faces)), replace=False)]
+    tree = shapely.STRtree(shapely.polygons(rings))
+    place, polygon = tree.query(shapely.points(places.T), predicate="within")
+    away = shapely.distance(shapely.points(places.T)[place], rings[polygon])
+    height = faces.heights(polygon, *places[:, place])
+    highest, top = np.full(places.shape[1], -np.inf), np.full(places.shape[1], -1)
+    np.maximum.at(highest, place, height)
+    np.maximum.at(top, place, polygon)
+    on_top = polygon == top[place]
+    allowed = SAME_DEPTH * faces.steepness[polygon]
+    wrong = on_top & (height < highest[place] - allowed)
+    # A polygon whose side is near may be the higher one by rounding.
+    near = np.zeros(places.shape[1], dtype=np.bool_)
+    near[place[away <= 10.0 * view.tolerance]] = True
+    return int((wrong & ~near[place]).sum()), int((~near & (top >= 0)).sum())
+
+
 def heights_on(view: View, source: Ints, x: Floats, y: Floats) -> Floats:
     """(s,) inverse depths, or heights, of faces of the view above points of the image; 0, or -inf, for face -1."""
     parallel = view.eye is None

@@ -16,6 +16,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.tessellation import edges_of
 from vectorplot.geometry.vectors import cross
+from vectorplot.tolerances.of_parameters import JUMP_OF_DOMAIN
 
 LOOKS = (0.25, 0.5, 0.75)
 """Where sides are compared with the surface, and where they cross a fold. Smaller details may be missed."""
@@ -139,7 +140,8 @@ def refined(net: Net, between: Between, demand: Demand, most: int) -> Net:
     make more than most. They keep the sense in which they turn.
 
     Of a triangle the worst side is split first, so that it has a better shape for the others.
-    Degenerate: sides that lead into a hole are cut at its rim; triangles in holes stay, with vertices that are NaN.
+    Degenerate: sides that lead into a hole are cut at its rim; triangles in holes stay, with vertices that are NaN;
+    sides across a jump stay when their places are one.
     """
     found = _Found(np.zeros(0, dtype=np.intp), np.zeros((3, 0)))
     for _ in range(ROUNDS):
@@ -183,14 +185,24 @@ def _splits(net: Net, edges: Ints, between: Between, demand: Demand) -> Floats:
     """(3,n) by how many times sides are too coarse, and would be as borders; at which part they are to be split."""
     start, end = net.vertices.some(edges[:, 0]), net.vertices.some(edges[:, 1])
     found = np.repeat([[0.0], [0.0], [0.5]], len(edges), axis=1)
-    inside = np.flatnonzero(start.known & end.known)
+    apart = _apart(net.vertices, edges)
+    inside = np.flatnonzero(start.known & end.known & apart)
     if len(inside):
         found[:, inside] = _in_sight(start.some(inside), end.some(inside), between, demand)
-    rim = np.flatnonzero(start.known != end.known)
+    rim = np.flatnonzero((start.known != end.known) & apart)
     if len(rim):
         part = _rim(start.some(rim), end.some(rim), between)
         found[:, rim] = np.where(part > 0.0, np.inf, 0.0), np.zeros(len(rim)), part
     return found
+
+
+def _apart(vertices: Vertices, edges: Ints) -> Bools:
+    """(e,) which sides lead from one place to another one, and not across a jump: the parts of those would be as long
+    as the whole."""
+    places = vertices.places
+    extent = np.ptp(places, axis=0) if len(places) else np.zeros(places.shape[1])
+    way = np.abs(places[edges[:, 1]] - places[edges[:, 0]])
+    return np.asarray((way > JUMP_OF_DOMAIN * extent).any(axis=1))
 
 
 def _in_sight(start: Vertices, end: Vertices, between: Between, demand: Demand) -> Floats:

@@ -135,9 +135,19 @@ def _over_square(function: Callable[..., Any], disc: Disc, slopes: Sequence[Call
 def is_graph(shape: object) -> bool:
     """Whether a surface is a graph, or one that was moved, turned, scaled or trimmed: such a surface never meets
     itself."""
-    while not isinstance(shape, Graph | PolarGraph) and hasattr(shape, "surface"):
-        shape = shape.surface
-    return isinstance(shape, Graph | PolarGraph)
+    return vertical(shape) is not None
+
+
+def vertical(shape: object) -> Floats | None:
+    """(3,) the direction of the heights of a graph, or of one that was moved, turned, scaled or trimmed: a line along
+    it meets the surface once at most. None for anything else."""
+    if isinstance(shape, Graph | PolarGraph):
+        return np.array([0.0, 0.0, 1.0])
+    inner = getattr(shape, "surface", None)
+    along = None if inner is None else vertical(inner)
+    if along is not None and hasattr(shape, "matrix"):
+        along = along @ np.asarray(shape.matrix)
+    return along
 
 
 def _with_holes(x: Any, y: Any, z: Any) -> Floats:

@@ -16,6 +16,7 @@ from vectorplot.effects.decals.decal_polygons import Decals
 from vectorplot.effects.mirrors.reflections import DIMMED, Mirrors, backwards, doubled, reflections
 from vectorplot.effects.windows.window_fills import mixed, seen_fills
 from vectorplot.effects.windows.window_polygons import SeenThrough
+from vectorplot.geometry.budget import USUAL
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
@@ -77,7 +78,7 @@ def _of_double(
     mirrored: View, lighting: Lighting, decals: Sequence[Decals], seen: SeenThrough, placement: Placement
 ) -> Overlay:
     points, offsets, parent = refined(
-        mirrored, lighting, seen.points, seen.offsets, seen.source, SHORTEST_MM / placement.scale
+        mirrored, lighting, seen.points, seen.offsets, seen.source, SHORTEST_MM / placement.scale, USUAL.facets
     )
     seen = replace(seen.some(parent), points=points, offsets=offsets)
     shown = seen_fills(mirrored, lighting, seen, placement, FillKind.REFLECTION)

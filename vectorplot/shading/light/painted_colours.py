@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.columns import cross, dot
 from vectorplot.scene.scene import Item, Light
 from vectorplot.scene.view import View
 from vectorplot.shading.light.face_shades import (
@@ -20,6 +21,9 @@ from vectorplot.shading.light.face_shades import (
 )
 from vectorplot.shading.light.flat_regions import plane_middles
 from vectorplot.shading.light.palettes import COLOUR_MAP, PALETTE_SIZE, Colours
+
+POINTS_AT_ONCE = 1 << 16
+"""Points shaded at once: few enough for the processor's cache."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,15 +72,17 @@ def corner_shades_of(view: View, lighting: Lighting, points: Floats, offsets: In
     found.shares[:, on_flat], found.matt[:, on_flat] = one.shares[:, number], one.matt[:, number]
     found.backlit[:, on_flat] = one.backlit[:, number]
     found.cue[on_flat] = one.cue[number]
-    at = np.flatnonzero(smooth[face])
-    if not len(at):
+    every = np.flatnonzero(smooth[face])
+    if not len(every):
         return found
-    normals = _normals_on(view, lighting.normals, points[:, at], face[at])
-    inside = shows_inside(view)[face[at]]
-    turned = np.where(inside, -normals, normals)
-    own = point_shades(view, lighting.items, lighting.lights, points[:, at].T, turned.T, view.face_item[face[at]])
-    found.shares[:, at], found.matt[:, at] = own.shares, own.matt
-    found.backlit[:, at], found.cue[at] = own.backlit, own.cue
+    flat_normals, inside = face_normals(view), shows_inside(view)
+    for low in range(0, len(every), POINTS_AT_ONCE):
+        at = every[low : low + POINTS_AT_ONCE]
+        normals = _normals_on(view, lighting.normals, flat_normals[:, face[at]], points[:, at], face[at])
+        turned = np.where(inside[face[at]], -normals, normals)
+        own = point_shades(view, lighting.items, lighting.lights, points[:, at].T, turned.T, view.face_item[face[at]])
+        found.shares[:, at], found.matt[:, at] = own.shares, own.matt
+        found.backlit[:, at], found.cue[at] = own.backlit, own.cue
     return found
 
 
@@ -95,11 +101,10 @@ def opacities(items: Sequence[Item]) -> Floats:
     return np.array([item.material.opacity for item in items], dtype=np.float64)
 
 
-def _normals_on(view: View, normals: Floats, points: Floats, face: Ints) -> Floats:
-    """(3,n) unit normals at points (3,n) of faces (n,), between those at the corners of the triangle of the fan that
-    each lies in."""
+def _normals_on(view: View, normals: Floats, flat: Floats, points: Floats, face: Ints) -> Floats:
+    """(3,n) unit normals at points (3,n) of faces (n,) with normals flat (3,n) as planes, between those at the corners
+    of the triangle of the fan that each lies in."""
     first, size = view.offsets[face], view.face_sizes[face]
-    flat = face_normals(view)[:, face]
     found, best = np.zeros((3, len(face))), np.full(len(face), -np.inf)
     for step in range(1, int(size.max(initial=2)) - 1):
         here = np.flatnonzero(size > step + 1)
@@ -117,9 +122,9 @@ def _normals_on(view: View, normals: Floats, points: Floats, face: Ints) -> Floa
 def _weights(corners: Floats, points: Floats, normal: Floats) -> Floats:
     """(3,n) the barycentric coordinates of points (3,n) in triangles (3,3,n): coordinates by corners by triangles."""
     a, b, c = corners.transpose(1, 0, 2)
-    area = (np.cross(b - a, c - a, axis=0) * normal).sum(axis=0)
+    area = dot(cross(b - a, c - a), normal)
     with np.errstate(divide="ignore", invalid="ignore"):
-        one = (np.cross(c - b, points - b, axis=0) * normal).sum(axis=0) / area
-        two = (np.cross(a - c, points - c, axis=0) * normal).sum(axis=0) / area
+        one = dot(cross(c - b, points - b), normal) / area
+        two = dot(cross(a - c, points - c), normal) / area
     one, two = (np.nan_to_num(weight, nan=1.0 / 3.0, posinf=1.0 / 3.0, neginf=1.0 / 3.0) for weight in (one, two))
     return np.stack([one, two, 1.0 - one - two])

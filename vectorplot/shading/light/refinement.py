@@ -8,6 +8,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
 from vectorplot.shading.light.painted_colours import Lighting, corner_shades_of, smooth_faces
+from vectorplot.tolerances.of_numbers import ROUNDING
 from vectorplot.visibility.painter.image_faces import unmapped
 
 SHADE_ERROR = 2.0 / 255.0
@@ -32,19 +33,20 @@ its sides."""
 
 
 def refined(
-    view: View, lighting: Lighting, points: Floats, offsets: Ints, source: Ints, shortest: float
+    view: View, lighting: Lighting, points: Floats, offsets: Ints, source: Ints, shortest: float, most: int
 ) -> tuple[Floats, Ints, Ints]:
     """Convex polygons with triangles in place of those on which linear shading would be off by more than SHADE_ERROR:
     points (3,c) of the image, offsets (m+1,), and parent (m,), ascending, the polygon that each is a part of.
 
     points, offsets (n+1,) and source (n,) as of ImageFaces; sides in the image that are shorter than shortest are not
-    cut any more. Polygons with one shade stay as they are.
+    cut any more. Polygons with one shade stay as they are. Where there would be more than most polygons the longest
+    sides are cut, and no others.
     """
     smooth = np.flatnonzero(smooth_faces(view, lighting.normals)[source])
     position, ends = ragged.take(offsets, smooth)
     fans, of = ragged.fans(ends)
     triangles, parent = points[:, position[fans]].transpose(1, 2, 0), smooth[of]
-    bad = _badly_shaded(view, lighting, triangles, source[parent], shortest)
+    bad = _longest(_badly_shaded(view, lighting, triangles, source[parent], shortest), most - len(source))
     cut = np.zeros(len(source), dtype=np.bool_)
     cut[parent[bad.any(axis=1)]] = True
     if not cut.any():
@@ -52,6 +54,7 @@ def refined(
     inside = cut[parent]
     triangles, parent, bad = triangles[inside], parent[inside], bad[inside]
     done, done_parent = [], []
+    count = len(source) + len(triangles)
     for turn in range(DEEPEST + 1):
         going = bad.any(axis=1) & (turn < DEEPEST)
         done.append(triangles[~going])
@@ -60,7 +63,8 @@ def refined(
             break
         triangles, whole = _halved(triangles[going], bad[going])
         parent = parent[going][whole]
-        bad = _badly_shaded(view, lighting, triangles, source[parent], shortest)
+        count += int(bad[going].sum())
+        bad = _longest(_badly_shaded(view, lighting, triangles, source[parent], shortest), most - count)
     made, of_made = np.concatenate(done), np.concatenate(done_parent)
     kept = np.flatnonzero(~cut)
     position, ends = ragged.take(offsets, kept)
@@ -72,11 +76,11 @@ def refined(
     return every[:, position], starts, number[order]
 
 
-def _badly_shaded(view: View, lighting: Lighting, triangles: Floats, source: Ints, shortest: float) -> Bools:
-    """(t,3) the sides of triangles (t,3,3) of the image, by the corners at which they begin, that are long enough, and
-    on which the shade is not that between their ends."""
+def _badly_shaded(view: View, lighting: Lighting, triangles: Floats, source: Ints, shortest: float) -> Floats:
+    """(t,3) the lengths of the sides of triangles (t,3,3) of the image, by the corners at which they begin, on which
+    the shade is not that between their ends; 0 for the others, and for those that are no longer than shortest."""
     if not len(triangles):
-        return np.zeros((0, 3), dtype=np.bool_)
+        return np.zeros((0, 3))
     after = triangles[:, [1, 2, 0]]
     within = (triangles[:, None] * (1.0 - BETWEEN) + after[:, None] * BETWEEN).reshape(len(triangles), -1, 3)
     both = np.concatenate([triangles, within], axis=1)
@@ -87,7 +91,19 @@ def _badly_shaded(view: View, lighting: Lighting, triangles: Floats, source: Int
     ends, share = shade[:, :, :1], BETWEEN[..., 0]
     off = np.abs(shade[:, :, 1:] - (1.0 - share) * ends - share * ends[..., [1, 2, 0]]).max(axis=(0, 2))
     length = np.hypot(*(after - triangles)[..., :2].transpose(2, 0, 1))
-    return np.asarray((off > SHADE_ERROR) & (length > shortest))
+    return np.asarray(np.where((off > SHADE_ERROR) & (length > shortest), length, 0.0))
+
+
+def _longest(length: Floats, count: int) -> Bools:
+    """(t,3) which of some sides are the longest ones, no more than count and none of length 0: both triangles at a side
+    are told the same."""
+    found = length > 0.0
+    if int(found.sum()) <= count:
+        return np.asarray(found)
+    if count <= 0:
+        return np.zeros(length.shape, dtype=np.bool_)
+    limit = np.partition(length.ravel(), -count - 1)[-count - 1]
+    return np.asarray(length > limit * (1.0 + ROUNDING))
 
 
 def _halved(triangles: Floats, sides: Bools) -> tuple[Floats, Ints]:

@@ -10,6 +10,10 @@ from vectorplot.visibility.painter.mikado import Links
 from vectorplot.visibility.painter.pairs.candidates import box_pairs, boxes_over
 from vectorplot.visibility.painter.pairs.outlines import Outlines, overlapping
 
+MOST_OVERLAPS = 32
+"""So many times as many pairs of overlapping boxes as there are polygons are looked at at most: what lies in heaps in
+the image is not worth more."""
+
 MOST_TURNS = 8
 """So many times polygons of planes are moved both ways at most."""
 
@@ -38,7 +42,8 @@ def side_by_side(faces: ImageFaces, plane: Ints, tolerance: float) -> Ints:
 
     plane (n,): the plane of each polygon, -1 for none. Polygons of one plane stand together, as far as nothing has to
     be painted between them: each comes right after the first of its plane, or right before the last, that nothing
-    which it overlaps stands in between, again and again until no more come together.
+    which it overlaps stands in between, again and again until no more come together. The planes that fill most of the
+    image are gathered first, and no more where polygons lie in heaps, MOST_OVERLAPS high.
     """
     count = len(plane)
     order = np.arange(count)
@@ -47,7 +52,8 @@ def side_by_side(faces: ImageFaces, plane: Ints, tolerance: float) -> Ints:
     scattered = _scattered(group)
     if not len(scattered):
         return order
-    before, after = _overlaps_of(faces, scattered, tolerance)
+    before, after, known = _overlaps_of(faces, _largest_first(faces, group, scattered), tolerance)
+    group = np.where(_wholly(group, scattered, known), group, -1)
     runs = _runs(group)
     for turn in range(MOST_TURNS):
         moved = _moved_down(order, group, before, after)
@@ -97,16 +103,35 @@ def _moved_down(order: Ints, group: Ints, before: Ints, after: Ints) -> Ints:
     return np.lexsort((rank, key))
 
 
-def _overlaps_of(faces: ImageFaces, some: Ints, tolerance: float) -> tuple[Ints, Ints]:
-    """Pairs of polygons whose images overlap, the earlier one first: some of all with any."""
+def _largest_first(faces: ImageFaces, group: Ints, members: Ints) -> Ints:
+    """Members of groups (n,), those of the groups with the largest boxes in the image first."""
+    left, right, bottom, top = faces.box[:4, members]
+    size = np.bincount(group[members], (right - left) * (top - bottom))
+    return members[np.lexsort((group[members], -size[group[members]]))]
+
+
+def _wholly(group: Ints, members: Ints, known: Ints) -> Bools:
+    """(n,) which polygons are of a group (n,) of which no member is not known."""
+    unknown = np.setdiff1d(members, known)
+    return ~np.isin(group, group[unknown])
+
+
+def _overlaps_of(faces: ImageFaces, some: Ints, tolerance: float) -> tuple[Ints, Ints, Ints]:
+    """Pairs of polygons whose images overlap, the earlier one first: some of all with any; and for which of these all
+    pairs are there, the first ones."""
     outlines = Outlines.of(faces.points, faces.offsets, tolerance)
     found = [np.zeros((2, 0), dtype=np.intp)]
+    count, known = 0, len(some)
     for number, other in boxes_over(faces.box[:, some], faces.box, tolerance):
         pair = np.stack([np.minimum(some[number], other), np.maximum(some[number], other)])
         pair = pair[:, pair[0] < pair[1]]
+        count += pair.shape[1]
+        if count > MOST_OVERLAPS * len(faces):
+            known = int(number[0])
+            break
         found.append(pair[:, overlapping(outlines, pair[0], pair[1], tolerance)])
     before, after = np.concatenate(found, axis=1)
-    return before, after
+    return before, after, some[:known]
 
 
 def _overlaps(faces: ImageFaces, tolerance: float) -> tuple[Ints, Ints]:

@@ -18,7 +18,7 @@ from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, i
 from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.pairs.bodies import Bodies, convex_bodies, outlined_items
 from vectorplot.visibility.painter.pairs.body_pairs import UNDECIDED, body_relations
-from vectorplot.visibility.painter.pairs.candidates import box_pairs
+from vectorplot.visibility.painter.pairs.candidates import box_pairs, pairs_across
 from vectorplot.visibility.painter.pairs.face_pairs import (
     APART,
     BEHIND,
@@ -27,6 +27,7 @@ from vectorplot.visibility.painter.pairs.face_pairs import (
     drawn_before,
     face_relations,
 )
+from vectorplot.visibility.painter.precedence import Precedence, among_things
 from vectorplot.visibility.painter.ribbons import in_slices, ribbon_order, ribbons
 from vectorplot.visibility.painter.splitting import dense
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
@@ -56,7 +57,7 @@ def painters_order(
     view: View,
     projected: ProjectedFaces | None = None,
     *,
-    known: Mapping[int, Ints] | None = None,
+    known: Mapping[int, Precedence] | None = None,
     sliced: Mapping[int, Section] | None = None,
     group: Ints | None = None,
 ) -> Painted:
@@ -66,8 +67,9 @@ def painters_order(
     faces are, and cut where there is no other way. Faces whose images do not overlap may stand in any order; of faces
     that overlap in one plane the larger one comes first. Nothing depends on the order of the items, except which of
     two faces in the same place is seen.
-    known: for items whose structure tells the order (graph_order, ring_order) all faces of the view that each has, back
-    to front. It is used where nothing else overlaps the item in the image; then none of its faces is compared.
+    known: for items whose structure tells the order (known_orders, graph_order, ring_order) what has to be drawn before
+    what among their faces; these are compared with those of other items only, and with each other where they then lie
+    on one another in circles.
     sliced: planes that cut items into slices, in world coordinates: where nothing else overlaps such an item in the
     image it is painted slice by slice, as of ribbon_order.
     group (i,): the group of each item, -1 for none: first the groups are put in order, then what is in each, but for
@@ -80,28 +82,23 @@ def painters_order(
     faces = image_faces(view, drawn_faces(view, projected))
     _check_known(view, known or {})
     item = view.face_item[faces.source]
-    alone = _alone(view, faces, item, [*(known or {}), *(sliced or {})])
-    rest = _ordered(view, projected, faces.some(np.flatnonzero(~alone[item])), group)
+    alone = _alone(view, faces, item, list(sliced or {}))
+    usual = {number: order for number, order in (known or {}).items() if not alone[number]}
+    together = faces.some(np.flatnonzero(~alone[item])) if alone.any() else faces
+    rest = _ordered(view, projected, together, usual, group)
     ordered, uncut, counts = rest.faces, rest.uncut, {}
     for number in np.flatnonzero(alone).tolist():
-        own = faces.some(np.flatnonzero(item == number))
-        if sliced and number in sliced:
-            slices = in_slices(view, own, sliced[number])
-            found = ribbons(view, projected.facing, slices)
-            counts[number], uncut = len(found), uncut + len(slices.faces)
-            own = ribbon_order(view, slices, found)
-        elif known:
-            uncut += len(own)
-            place = np.full(view.face_count, -1, dtype=np.intp)
-            place[known[number]] = np.arange(len(known[number]))
-            own = own.some(np.argsort(place[own.source], kind="stable"))
-        ordered = joined(own, ordered)
+        slices = in_slices(view, faces.some(np.flatnonzero(item == number)), (sliced or {})[number])
+        found = ribbons(view, projected.facing, slices)
+        counts[number], uncut = len(found), uncut + len(slices.faces)
+        ordered = joined(ribbon_order(view, slices, found), ordered)
     return Painted(ordered, uncut, rest.knots, rest.undone, counts)
 
 
-def _check_known(view: View, known: Mapping[int, Ints]) -> None:
+def _check_known(view: View, known: Mapping[int, Precedence]) -> None:
     for number, order in known.items():
-        if not np.array_equal(np.sort(order), np.flatnonzero(view.face_item == number)):
+        named = np.sort(order.face[order.face >= 0])
+        if not np.array_equal(named, np.flatnonzero(view.face_item == number)):
             raise InputError(f"the known order of item {number} does not name each of its faces once")
 
 
@@ -121,20 +118,34 @@ def _alone(view: View, faces: ImageFaces, item: Ints, asked: Sequence[int]) -> B
     return alone
 
 
-def _ordered(view: View, projected: ProjectedFaces, faces: ImageFaces, group_of_item: Ints | None) -> Painted:
+def _ordered(
+    view: View,
+    projected: ProjectedFaces,
+    faces: ImageFaces,
+    known: Mapping[int, Precedence],
+    group_of_item: Ints | None,
+) -> Painted:
     """The painter's order of some faces of a view."""
     things = _things(view, projected, faces)
-    before, after = _demands(view, faces, things)
-    rank = _ranks(faces, things, before, after)
+    nodes = among_things(known, faces, things.of_face, len(things), view.face_count)
+    field = np.full(len(things), -1, dtype=np.intp)
+    is_known = np.isin(view.face_item[faces.source], list(known))
+    field[things.of_face[is_known]] = view.face_item[faces.source[is_known]]
+    compared = _demands(view, faces, things, field)
+    before, after = (np.concatenate(two) for two in zip(compared, (nodes.before, nodes.after), strict=True))
+    rank = _ranks(faces, things, len(nodes.owner), before, after)
     undone: tuple[int, ...] = ()
     if group_of_item is not None:
-        owner = np.full(len(rank), -1, dtype=np.intp)
+        owner = np.append(np.full(len(things), -1, dtype=np.intp), group_of_item[nodes.owner])
         owner[things.of_face] = group_of_item[view.face_item[faces.source]]
         of_group, undone = group_ranks(len(rank), before, after, owner)
         # What is in a circle has one rank in both, since a group in a circle is undone.
         rank = dense(of_group, rank)
     circled = np.bincount(rank, minlength=1)[rank] > 1
     loose = np.flatnonzero(circled[things.of_face])
+    if not len(loose):
+        order = np.lexsort((faces.rank, rank[things.of_face]))
+        return Painted(faces.some(order), len(faces), np.zeros(0, dtype=np.intp), undone)
     rest = np.flatnonzero(~circled[things.of_face])
     pieces = faces.some(loose)
     group = rank[things.of_face[loose]]
@@ -159,6 +170,9 @@ class _Things:
     single: Ints
     box: Floats
 
+    def __len__(self) -> int:
+        return len(self.bodies) + len(self.single)
+
     def faces_of(self, thing: Ints) -> tuple[Ints, Ints]:
         """The image faces of some things, one thing after the other, and the offsets."""
         first = np.concatenate([self.bodies.first, self.bodies.first[-1] + 1 + np.arange(len(self.single))])
@@ -181,11 +195,14 @@ def _things(view: View, projected: ProjectedFaces, faces: ImageFaces) -> _Things
     return _Things(bodies, of_face, single, box)
 
 
-def _demands(view: View, faces: ImageFaces, things: _Things) -> tuple[Ints, Ints]:
-    """The things that have to be drawn before others: (k,) and (k,)."""
+def _demands(view: View, faces: ImageFaces, things: _Things, field: Ints) -> tuple[Ints, Ints]:
+    """The things that have to be drawn before others: (k,) and (k,).
+
+    field (t,): things of one field need not be compared with each other; -1 for none.
+    """
     count = len(things.bodies)
     demands = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
-    for first, second in box_pairs(things.box, view.tolerance):
+    for first, second in pairs_across(things.box, field, view.tolerance):
         # A pair names the smaller number first, so a body stands before a face.
         both = second < count
         neither = first >= count
@@ -247,12 +264,12 @@ def _boxes_overlap(box: Floats, a: Ints, b: Ints, tolerance: float) -> Bools:
     return np.asarray(wide & tall, dtype=np.bool_)
 
 
-def _ranks(faces: ImageFaces, things: _Things, before: Ints, after: Ints) -> Ints:
-    """(t,) the rank of each thing, equal for those in one circle.
+def _ranks(faces: ImageFaces, things: _Things, more: int, before: Ints, after: Ints) -> Ints:
+    """(t + more,) the rank of each thing, and of more than these, equal for those in one circle.
 
     Things are numbered by the ranks of their first faces, so that nothing depends on the order in which they came.
     """
-    count = len(things.bodies) + len(things.single)
+    count = len(things) + more
     leading = np.full(count, len(faces), dtype=np.intp)
     np.minimum.at(leading, things.of_face, faces.rank)
     number = np.empty(count, dtype=np.intp)

@@ -26,6 +26,24 @@ def box_pairs(box: Floats, tolerance: float) -> Iterator[tuple[Ints, Ints]]:
         yield first[once], second[once]
 
 
+def pairs_across(box: Floats, field: Ints, tolerance: float) -> Iterator[tuple[Ints, Ints]]:
+    """The pairs of box_pairs, but for those of boxes of one field.
+
+    field (n,): a number for each box, -1 for those that make pairs with all.
+    """
+    loose = np.flatnonzero(field < 0)
+    for first, second in box_pairs(box[:, loose], tolerance):
+        yield loose[first], loose[second]
+    left, right, bottom, top = box[:4]
+    for number in np.unique(field[field >= 0]).tolist():
+        own = np.flatnonzero(field == number)
+        near = (field < number) & (left < right[own].max()) & (right > left[own].min())
+        others = np.flatnonzero(near & (bottom < top[own].max()) & (top > bottom[own].min()))
+        for first, second in boxes_over(box[:, others], box[:, own], tolerance):
+            one, two = others[first], own[second]
+            yield np.minimum(one, two), np.maximum(one, two)
+
+
 def boxes_over(box: Floats, others: Floats, tolerance: float) -> Iterator[tuple[Ints, Ints]]:
     """Boxes (4 or more, n), in ascending order, with each of the others (4 or more, m) that it overlaps by more than a
     tolerance, in lots.
