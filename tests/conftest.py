@@ -1,7 +1,11 @@
 """Settings all tests share."""
 
 import gc
+import os
 import signal
+
+# Before numpy comes: the workers have a core each, and threads that wait for work would take it from the other one.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from hypothesis import settings
 from support.effort import register_profiles

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.effort import several
 from support.picture_rays import COLUMNS, EDGE, PAGE, ROWS, compared, random_camera, random_lights
 from support.scene_rays import clear_of_edges, faces_of, page_rays
 from support.strewn import STREWN, placed
@@ -36,7 +37,8 @@ FAMILIES = {
 }
 """Random scenes without faces in one place, of which rays of single precision would find either."""
 
-SEEDS, SEEDS_OF_MIRRORS = 16, 8
+SEEDS, SEEDS_OF_MIRRORS = several(5, long=64), several(4, long=32)
+"""Each picture is ten thousand comparisons: a handful of scenes, with none to three lights, shows what is wrong."""
 
 
 @pytest.mark.slow
@@ -87,7 +89,7 @@ def test_the_comparison_finds_wrong_pictures() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("parallel", [False, True])
 def test_an_eye_amid_the_scene_sees_what_is_before_it(parallel: bool) -> None:
-    for seed in range(6):
+    for seed in range(several(3, long=24)):
         random = np.random.default_rng(seed)
         scene = rotated_boxes(30, seed)
         scene = replace(scene, lights=random_lights(scene, random, seed % 3))
@@ -112,8 +114,8 @@ def test_an_eye_in_a_room_sees_its_inner_walls_and_what_stands_in_it() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("family", ["hulls", "piercing_boxes", "tori"])
 def test_one_sees_through_clear_things_what_rays_meet_one_after_the_other(family: str) -> None:
-    compared_places = several = 0
-    for seed in range(6):
+    seeds, compared_places, behind = several(3, long=24), 0, 0
+    for seed in range(seeds):
         random = np.random.default_rng(seed)
         scene = FAMILIES[family](random)
         items = tuple(
@@ -130,8 +132,8 @@ def test_one_sees_through_clear_things_what_rays_meet_one_after_the_other(family
         wrong = shown_through(fills_of(drawing), places[sure], truth.shape[1]) != truth[sure]
         assert not wrong.any(), f"seed {seed}"
         compared_places += len(sure)
-        several += int((truth[sure, 1] >= 0).sum())
-    assert compared_places > 0.3 * 6 * ROWS * COLUMNS and several > 300
+        behind += int((truth[sure, 1] >= 0).sum())
+    assert compared_places > 0.3 * seeds * ROWS * COLUMNS and behind > 30
 
 
 DEEP = 12

@@ -7,6 +7,7 @@ import struct
 import subprocess
 import sys
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -698,25 +699,31 @@ def test_coloured_light_colours_what_it_falls_on_and_its_highlights():
         render(vp.Scene((item,), (replace(SUN, colour="mauve"),)), CAMERA, size=SIZE)
 
 
+SHELLS = {
+    "nautilus": (Circle((1.0, 0, 0), 0.52, axis=(0, 1, 0)), 0.175),
+    "snail": (Circle((0.62, 0, -1.25), 0.5, axis=(0.15, 1, 0)), 0.085),
+}
+
+
+@cache
+def shell_seen(name, whorl, shadows):
+    """The levels of a shell that begins so many whorls further, from an eye as much further away."""
+    circle, growth = SHELLS[name]
+    turn, size = 2.0 * np.pi * whorl, np.exp(2.0 * np.pi * growth * whorl)
+    shell = spiral_surface(circle, growth, start=turn - 4.0 * np.pi, end=turn)
+    lights = (vp.Light((-5, -3, 2.5), parallel=True, intensity=1.0),)
+    scene = vp.Scene((vp.Item("SHELL", shell, "orange", vp.Material("plastic")),), lights)
+    camera = vp.Camera(tuple(size * np.array((2.0, -5.0, 9.0))), (0, 0, 0), fov_deg=30)
+    return levels(render(scene, camera, shadows=shadows, size=(90, 70), samples=1, shadow_size=256))
+
+
 @pytest.mark.slow
 @pytest.mark.capability("G8.6-nautilus")
 @pytest.mark.parametrize("shadows", ["buffer", "trapezoid", "exact"])
-@pytest.mark.parametrize(
-    ("circle", "growth"),
-    [(Circle((1.0, 0, 0), 0.52, axis=(0, 1, 0)), 0.175), (Circle((0.62, 0, -1.25), 0.5, axis=(0.15, 1, 0)), 0.085)],
-    ids=["nautilus", "snail"],
-)
-def test_a_shell_a_whorl_further_is_the_same_picture_enlarged(shadows, circle, growth):
+@pytest.mark.parametrize("name", SHELLS)
+def test_a_shell_a_whorl_further_is_the_same_picture_enlarged(shadows, name):
     """Spiral surfaces are similar to themselves; so are their shadows on themselves."""
-    pictures = []
-    for whorl in (0, 1, -2):
-        turn, size = 2.0 * np.pi * whorl, np.exp(2.0 * np.pi * growth * whorl)
-        shell = spiral_surface(circle, growth, start=turn - 4.0 * np.pi, end=turn)
-        lights = (vp.Light((-5, -3, 2.5), parallel=True, intensity=1.0),)
-        scene = vp.Scene((vp.Item("SHELL", shell, "orange", vp.Material("plastic")),), lights)
-        camera = vp.Camera(tuple(size * np.array((2.0, -5.0, 9.0))), (0, 0, 0), fov_deg=30)
-        options = {"size": (90, 70), "samples": 1, "shadow_size": 256}
-        pictures.append([levels(render(scene, camera, shadows=how, **options)) for how in (shadows, "none")])
+    pictures = [[shell_seen(name, whorl, how) for how in (shadows, "none")] for whorl in (0, 1, -2)]
     for shaded, plain in pictures[1:]:
         assert np.abs(shaded - pictures[0][0]).mean() < 0.5 and np.abs(plain - pictures[0][1]).mean() < 0.3
     shaded, plain = pictures[0]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
+from support.effort import several
 
 from vectorplot.backends.cairo.surfaces import png_bytes
 from vectorplot.drawing.fills import FillKind, Fills
@@ -61,7 +62,7 @@ def seen(fills: Fills, samples: np.ndarray) -> np.ndarray:
 @pytest.mark.slow
 @pytest.mark.parametrize("clear", [False, True])
 def test_the_picture_stays_and_nothing_at_a_border_is_covered_twice(clear: bool) -> None:
-    for seed in range(12):
+    for seed in range(several(4, long=60)):
         random = np.random.default_rng(seed)
         base, overlays = random_stacks(random, clear)
         before, after = stacked([Overlay(base, np.arange(len(base))), *overlays]), flattened(base, overlays, WORLD)
@@ -120,6 +121,10 @@ def floor(height: float, count: int = 10) -> Mesh:
     return Mesh.from_triangles(vertices, np.concatenate([np.stack(low, 1), np.stack(high, 1)]))
 
 
+FINER = 4
+"""So many times as many pixels each way show what a picture is, apart from a hair of light."""
+
+
 @pytest.mark.slow
 @pytest.mark.hard(75)
 @pytest.mark.parametrize("opacity", [1.0, 0.5])
@@ -136,9 +141,9 @@ def test_no_light_between_faces_in_the_shadow(height: float, opacity: float) -> 
         # Borders of shaded triangles are drawn in more than one way.
         limit = 8.0 if height > 0.0 else 1.0
         found = 255.0 * grey_of_png(png_bytes(drawing, dpi=dpi))
-        fine = 255.0 * grey_of_png(png_bytes(drawing, dpi=8 * dpi))
-        rows, columns = np.minimum(found.shape, np.array(fine.shape) // 8)
-        truth = fine[: 8 * rows, : 8 * columns].reshape(rows, 8, columns, 8).mean(axis=(1, 3))
+        fine = 255.0 * grey_of_png(png_bytes(drawing, dpi=FINER * dpi))
+        rows, columns = np.minimum(found.shape, np.array(fine.shape) // FINER)
+        truth = fine[: FINER * rows, : FINER * columns].reshape(rows, FINER, columns, FINER).mean(axis=(1, 3))
         even = (maximum_filter(truth, 3) - minimum_filter(truth, 3) <= 8.0) & (truth < 200.0)
         assert even.sum() > 1000
         assert (found[:rows, :columns] - truth)[even].max() <= limit

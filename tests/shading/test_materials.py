@@ -1,5 +1,7 @@
 """What the words of materials change in painted and rendered pictures, from scene files."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -23,6 +25,7 @@ BODIES = {
 }
 
 
+@cache
 def picture(verb: str, word: str, body: str) -> np.ndarray:
     """(rows, columns, 3) what a verb shows of a scene with a body of this material."""
     scene = parse_scene(SCENE.format(word=word, body=BODIES[body]))

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 import shapely
+from support.effort import several
 from support.seen_rays import first_hits, sight_rays, topmost, triangles
 
 from vectorplot.effects.decals.decal_polygons import Decals
@@ -128,7 +129,7 @@ class Picture:
 def test_what_is_seen_in_glass_is_what_the_refracted_ray_meets(start: int) -> None:
     random = np.random.default_rng(start)
     checked = seen = bounced = paper = 0
-    for seed in range(start, start + 11):
+    for seed in range(start, start + several(4, long=11)):
         picture = Picture(*random_scene(seed))
         view = picture.view
         of_glass = view.image[:, view.item_vertices[-2] :]
@@ -150,7 +151,7 @@ def test_what_is_seen_in_glass_is_what_the_refracted_ray_meets(start: int) -> No
         paper += int((refracted_ones != behind)[steady].sum())
         checked += int(steady.sum())
         seen += int((behind >= 0)[steady].sum())
-    assert checked > 1500 and seen > 150 and bounced > 20 and paper < 0.25 * bounced
+    assert checked > 500 and seen > 50 and bounced > 5 and paper < 0.25 * bounced
 
 
 @pytest.mark.slow
@@ -270,7 +271,7 @@ def triangles_on_faces(view: View, random: np.random.Generator) -> Decals:
 def test_what_lies_on_faces_behind_glass_is_where_the_refracted_ray_meets_it(start: int) -> None:
     random = np.random.default_rng(start)
     checked = marked = 0
-    for seed in range(start, start + 8):
+    for seed in range(start, start + several(3, long=8)):
         scene, camera = random_scene(seed)
         picture = Picture(scene, camera)
         decals = triangles_on_faces(picture.view, random)
@@ -310,4 +311,4 @@ def test_what_lies_on_faces_behind_glass_is_where_the_refracted_ray_meets_it(sta
         assert (found == true)[some].all()
         checked += int(some.sum())
         marked += int((true % 1.0 > 0.0)[some].sum())
-    assert checked > 80 and marked > 8
+    assert checked > 30 and marked > 2

@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from support.effort import several
 from support.seen_rays import first_hits, topmost, triangles
 
 from vectorplot.drawing.fills import FillKind
@@ -95,7 +96,7 @@ class Lit:
 def test_light_by_way_of_mirrors_falls_where_rays_find_it(mirror_faces: int) -> None:
     random = np.random.default_rng(1)
     checked = bright = 0
-    for seed in range(12):
+    for seed in range(several(12, long=40)):
         scene, camera = random_scene(seed, mirror_faces)
         lit = Lit(scene, camera)
         for number, double in enumerate(lit.doubles):

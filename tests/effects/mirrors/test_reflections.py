@@ -2,6 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.effort import several
 from support.seen_rays import first_hits, sight_rays, topmost, triangles
 
 from vectorplot.effects.mirrors.reflections import Mirrors, mirrored_view, mirrors, originals, reflections
@@ -102,7 +103,7 @@ class Picture:
 def test_what_is_seen_in_a_mirror_is_what_the_mirrored_ray_meets(start: int) -> None:
     random = np.random.default_rng(start)
     seen = checked = 0
-    for seed in range(start, start + 25):
+    for seed in range(start, start + several(9, long=25)):
         picture = Picture(*random_scene(seed))
         low, high = picture.view.image.min(axis=1), picture.view.image.max(axis=1)
         samples = low[:, None] + random.uniform(size=(2, 150)) * (high - low)[:, None]
@@ -116,7 +117,7 @@ def test_what_is_seen_in_a_mirror_is_what_the_mirrored_ray_meets(start: int) -> 
         assert (reflected == double)[steady].all()
         seen += int((double >= 0).sum())
         checked += int(steady.sum())
-    assert seen > 60 and checked > 2000
+    assert seen > 20 and checked > 700
 
 
 @pytest.mark.capability("G6.4-reflect")

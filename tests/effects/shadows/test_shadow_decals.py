@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from support.blocked_lights import blocked, face_points, scene_triangles, wrong_points
+from support.effort import several
 
 from vectorplot.arrays import Floats
 from vectorplot.effects.shadows.light_system import FacePlanes, light_system
@@ -111,7 +112,8 @@ FAMILIES = {
 @pytest.mark.parametrize("family", FAMILIES)
 def test_grades_are_the_numbers_of_lights_that_rays_do_not_reach(family: str) -> None:
     wrong = answered = shaded = 0
-    for seed in range(12):
+    seeds = several(4, long=60)
+    for seed in range(seeds):
         random = np.random.default_rng(900 + seed)
         scene = FAMILIES[family](seed)
         lights = random_lights(scene, random)
@@ -120,7 +122,7 @@ def test_grades_are_the_numbers_of_lights_that_rays_do_not_reach(family: str) ->
         bad, sure = wrong_points(view, lights, decals, drawn(view), 400, seed)
         wrong, answered, shaded = wrong + bad, answered + sure, shaded + len(decals)
     assert wrong == 0
-    assert answered > 0.95 * 12 * 400 and shaded > 100
+    assert answered > 0.95 * seeds * 400 and shaded > 30
 
 
 def height_field(columns: int, rows: int, phase: float) -> Mesh:
