@@ -116,3 +116,16 @@ def test_waves_finer_than_any_resolution_are_painted_too() -> None:
     (fills,) = drawing.layers[0].marks
     # As many triangles as the budget has, and as many more for their shades at most.
     assert 1 << 14 < len(fills) <= 1 << 17
+
+
+@pytest.mark.parametrize("text", ["1/(x*y)", "1/x", "1/(x^2-y^2)", "1/(x^2-1)"])
+def test_graphs_with_holes_at_their_borders_are_painted(text: str) -> None:
+    scene = vp.Scene((vp.Item("S", graph_of(text)),))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InputWarning)
+        drawing = vp.paint(
+            scene, vp.Camera((1.0, -2.0, 30.0), (0.0, 0.0, 0.0), parallel=True), tolerance_mm=0.5, budget=0.1
+        )
+    (fills,) = drawing.layers[0].marks
+    # Its square is shown, less what is cut off.
+    assert len(fills) > 50 and (np.ptp(fills.points, axis=0) > 50.0).all()

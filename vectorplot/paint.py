@@ -26,6 +26,7 @@ from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seams import without_seams
 from vectorplot.scene.surface_lines import Section
+from vectorplot.scene.twins import without_twins
 from vectorplot.scene.unbounded import tell_what_is_cut_off
 from vectorplot.scene.view import View, view_of
 from vectorplot.shading.light.face_shades import Shades, item_colours, view_lights
@@ -156,18 +157,20 @@ def paint(
     walk = Walk((*plan_cuts(camera), *plan_paint(scene, shadows, fills, kinds)), explain, progress)
     scene = seen_part(walk, scene, camera)
     projection = projection_of(camera, scene.bounds)
-    facets = FacetedScene(scene, (None,) * len(scene.items))
+    # Lines belong to each item, polygons to what is seen.
+    shown = scene if kinds or fills == "erasing" else without_twins(scene)
+    facets = FacetedScene(shown, (None,) * len(shown.items))
     if walk.calls_for("facets"):
         allowed = allowed_in_space(scene, projection, page, fit, tolerance_mm)
         # Where each triangle has one shade they have to be so small that nobody sees it.
         shaded = smooth and fills == "painted"
         casts = shadows != "none" and bool(scene.lights)
-        demand = picture_fineness(scene, projection, casts, allowed) if shaded else lambda number: Within(allowed)
-        facets = walk.run("facets", faceted, scene, demand, budget_of(budget))
+        demand = picture_fineness(shown, projection, casts, allowed) if shaded else lambda number: Within(allowed)
+        facets = walk.run("facets", faceted, shown, demand, budget_of(budget))
     facets = replace(facets, scene=_with_clear_items(facets.scene))
     view = walk.run("look", view_of, facets.scene, projection)
     projected = walk.run("faces", project_faces, view)
-    known, groups = known_orders(scene, view), _groups(scene)
+    known, groups = known_orders(shown, view), _groups(scene)
     sliced = {number: planes for number, item in enumerate(scene.items) if (planes := item.curves.slices)}
     painted = walk.run("order", painters_order, view, projected, known=known, sliced=sliced, group=groups)
     _tell_slices(walk, scene, sliced, painted)

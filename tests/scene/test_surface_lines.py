@@ -53,3 +53,19 @@ def test_a_unit_vector_stays_what_it_is():
 def test_wild_numbers_are_refused(make, message):
     with pytest.raises(InputError, match=message):
         make()
+
+
+def test_lines_asked_for_several_times_count_once() -> None:
+    up, down = Section((0, 0, 1), (1, 2, 1)), Section((0, 0, -2), (-1, -3))
+    assert up.offsets == (1.0, 2.0)
+    lines = SurfaceLines(
+        isophotes=(0.5, 0.0, 0.5), sections=(up, up, down, Section((0, 0, 1), (2,)), Section((1, 0, 0), (2,)))
+    )
+    assert lines.isophotes == (0.5, 0.0)
+    assert lines.sections == (up, Section((0, 0, -1), (-3,)), Section((1, 0, 0), (2,)))
+    # The planes between slices stay: they cut the shape too.
+    sliced = Section((0, 0, 1), (2,), slices=True)
+    assert SurfaceLines(sections=(up, sliced)).slices == sliced
+    assert SurfaceLines(sections=tuple(Section((0, 1, 0), (0.1,)) for _ in range(500))).sections == (
+        Section((0, 1, 0), (0.1,)),
+    )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -20,6 +20,7 @@ MAX_LINES = 10_000
 
 
 def _numbers(name: str, values: tuple[float, ...]) -> tuple[float, ...]:
+    """The values, each one once."""
     try:
         result = tuple(float(value) for value in values)
     except (TypeError, ValueError):
@@ -28,7 +29,7 @@ def _numbers(name: str, values: tuple[float, ...]) -> tuple[float, ...]:
         raise InputError(f"{name}: {len(result)} of them, expected at most {MAX_LINES}")
     if not np.isfinite(result).all():
         raise InputError(f"{name}: expected finite numbers")
-    return result
+    return tuple(dict.fromkeys(result))
 
 
 @dataclass(frozen=True)
@@ -51,6 +52,8 @@ class Section:
 
     Notes
     -----
+    Degenerate: an offset that is given several times counts once.
+
     Source: Glaeser, sections 5.3 and 9.3.
 
     Examples
@@ -84,6 +87,23 @@ class SurfacePath:
     function: NumericFunction
     start: float
     end: float
+
+
+def _each_plane_once(sections: tuple[Section, ...]) -> tuple[Section, ...]:
+    """The sections without the planes that those before them have, whichever way the normals point; those between
+    slices stay."""
+    seen: set[tuple[Vector, float]] = set()
+    kept = []
+    for section in sections:
+        x, y, z = section.normal
+        back = (-x, -y, -z)
+        new = tuple(d for d in section.offsets if (section.normal, d) not in seen and (back, -d) not in seen)
+        seen.update((section.normal, d) for d in section.offsets)
+        if section.slices or not section.offsets:
+            kept.append(section)
+        elif new:
+            kept.append(replace(section, offsets=new))
+    return tuple(kept)
 
 
 def path_on_surface(function: Callable[..., Any], start: float, end: float) -> SurfacePath:
@@ -127,6 +147,8 @@ class SurfaceLines:
 
     Notes
     -----
+    Degenerate: planes and angles that are given several times count once.
+
     Source: Glaeser, sections 5.3, 8.2 and 9.3.
 
     Examples
@@ -157,7 +179,7 @@ class SurfaceLines:
         if self.light is not None and self.light < 0:
             raise InputError(f"isophotes: there is no light {self.light}, lights are counted from 0")
         object.__setattr__(self, "isophotes", cosines)
-        object.__setattr__(self, "sections", tuple(self.sections))
+        object.__setattr__(self, "sections", _each_plane_once(tuple(self.sections)))
         if sum(section.slices for section in self.sections) > 1:
             raise InputError("slices: an item is cut into slices in one direction only")
 

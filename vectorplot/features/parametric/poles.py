@@ -41,7 +41,8 @@ def poles(surface: Surface) -> list[Pole]:
             along = np.linspace(lows[1 - axis], highs[1 - axis], 17)
             near = _points(surface, axis, along, place)
             away = _points(surface, axis, along, place + inwards * 0.1 * domain.size[axis])
-            if _spread(near) <= ZERO_OF_EXTENT * _spread(np.concatenate([near, away])):
+            # A border with holes is no point, however little else is known.
+            if np.isfinite(near).all() and _spread(near) <= ZERO_OF_EXTENT * _spread(np.concatenate([near, away])):
                 found.append(Pole(axis, place, inwards, domain.size[axis]))
     return found
 
@@ -52,8 +53,8 @@ def _points(surface: Surface, axis: int, along: Floats, place: float) -> Floats:
 
 
 def _spread(points: Floats) -> float:
-    """The diagonal of the box around points; infinite with holes."""
-    return float(np.linalg.norm(np.ptp(points, axis=0))) if np.isfinite(points).all() else np.inf
+    """The diagonal of the box around points, those in holes left out."""
+    return float(np.linalg.norm(np.ptp(points[np.isfinite(points).all(axis=-1)], axis=0)))
 
 
 def through_poles(surface: Surface, found: ZeroManifold) -> ZeroManifold:
