@@ -137,11 +137,20 @@ is_installed || install_all
 if [ "$goal" = test ]; then
     PATH="$here/.venv/bin:$PATH"
     export PATH
-    # All of them run, whatever the others found; pytest has the last line.
+    # What pytest makes of the tests' assertions is kept for the next time, and for the next worker.
+    unset PYTHONDONTWRITEBYTECODE
+    # All of them run, whatever the others found; pytest has the last line. The types wait for no test: they come beside.
     status=0
     ruff check --quiet . || status=1
     ruff format --check --quiet . || { echo "setup.sh: not formatted; run: .venv/bin/ruff format ." >&2; status=1; }
-    mypy || status=1
-    python -m pytest --numprocesses auto --dist loadfile "$@" || status=$?
+    found=$(mktemp)
+    mypy >"$found" 2>&1 &
+    types=$!
+    tests=0
+    # Files stay whole: their tests share what they look at.
+    python -m pytest --numprocesses auto --dist loadfile "$@" || tests=$?
+    wait "$types" || { cat "$found" >&2; status=1; }
+    rm -f "$found"
+    [ "$tests" = 0 ] || status=$tests
     exit "$status"
 fi

@@ -120,6 +120,7 @@ def test_regions_have_the_same_mean_colours_painted_and_rendered(name: str) -> N
         assert np.quantile(off, 0.9) < OFF and off.max() < 2.0 * OFF
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["coloured shadow 0.5", "fading amid", "lights red and white", "one plane"])
 def test_scenes_from_files_look_like_those_from_python(name: str, tmp_path) -> None:
     path = tmp_path / "table.scene"

@@ -52,6 +52,7 @@ def test_the_python_of_the_pages_runs(page, checkout):
         assert (checkout / name).stat().st_size > 100, name
 
 
+@pytest.mark.slow
 def test_the_painted_town_says_how_many_polygons_it_has(checkout, capsys):
     (code,) = blocks(DOCS / "paint.md", "python")
     exec(compile(code, "paint.md", "exec"), {})

@@ -202,6 +202,7 @@ def test_the_plan_runs_what_the_scene_calls_for_and_nothing_else() -> None:
     assert "patterns" in stages(read(DATA / "patterns.scene"))
 
 
+@pytest.mark.slow
 def test_a_drawing_without_halo_does_not_load_the_effect() -> None:
     code = "import sys, vectorplot as vp; vp.draw(vp.Scene(())); print('vectorplot.effects.halos' in sys.modules)"
     import subprocess

@@ -83,6 +83,7 @@ def test_hard_60_messages_of_the_library_are_one_line_of_letters() -> None:
     assert len(long) < 2000 and long.endswith("expected a number")
 
 
+@pytest.mark.slow
 @pytest.mark.hard(60)
 def test_hard_60_a_terminal_of_few_letters_gets_what_it_can_show(tmp_path: Path) -> None:
     path = tmp_path / "names.scene"
@@ -223,6 +224,7 @@ def test_hard_67_nothing_is_unpacked_and_no_entity_is_read(tmp_path: Path, suffi
     assert one_line(tmp_path, f"bomb.{suffix}", (tmp_path / "bomb").read_bytes())
 
 
+@pytest.mark.slow
 @pytest.mark.hard(67)
 def test_hard_67_a_small_glb_that_shows_a_mesh_many_times_is_refused(tmp_path: Path) -> None:
     count = 4000

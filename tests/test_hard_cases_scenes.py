@@ -215,6 +215,7 @@ def test_a_cylinder_along_its_axis_is_one_closed_stroke(lines: tuple[str, ...]) 
     assert drawn(central).length == pytest.approx(perimeter, rel=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(26)
 def test_a_honeycomb_of_161_cells_is_bounded_reports_progress_and_can_be_stopped() -> None:
     scene = honeycomb()

@@ -119,6 +119,7 @@ def test_the_edge_of_the_tangents_of_a_helix_is_drawn_whole() -> None:
     assert_drawing_is_right(drawing, scene, camera, samples=200, clearance=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(72)
 @pytest.mark.parametrize("parallel", [True, False])
 def test_a_line_through_an_apex_is_hidden_to_the_apex_and_no_further(parallel: bool) -> None:

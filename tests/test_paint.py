@@ -144,6 +144,7 @@ def test_the_order_of_the_items_does_not_show(kind: str) -> None:
     assert_same_picture(paint(scene, camera), paint(there, camera))
 
 
+@pytest.mark.slow
 @pytest.mark.hard(57)
 def test_the_same_scene_gives_the_same_polygons() -> None:
     first, second = (fills_of(paint(TABLE, CAMERAS[0], aura_mm=1.0)) for _ in range(2))

@@ -78,6 +78,7 @@ def test_each_scene_runs_the_stages_that_it_calls_for(scene: Scene, options: dic
     assert ran(scene, **options) == stages
 
 
+@pytest.mark.slow
 def test_each_stage_tells_why_it_ran_and_what_it_took() -> None:
     for report in reports_of(Scene((SPOT, MIRROR, GLASS, BALL), (SUN,)), tolerance_mm=1.0):
         assert report.why and 0.0 <= report.seconds < 60.0 and report.count >= 0 and report.peak_mb > 1.0

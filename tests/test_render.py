@@ -63,6 +63,7 @@ def sphere_rays(camera, size):
 CAMERA = vp.Camera((3.0, -6.0, 2.0), fov_deg=25.0)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.5-phong", "G4.5-lambert")
 @pytest.mark.parametrize("word", ["normal", "metallic", "plastic", "wood"])
 def test_a_sphere_has_the_shades_of_its_true_normals(word):
@@ -122,6 +123,7 @@ MAP_LIGHTS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.capability("N6-z")
 @pytest.mark.parametrize("shadows", ["buffer", "trapezoid"])
 @pytest.mark.parametrize("light", MAP_LIGHTS)
@@ -295,6 +297,7 @@ def test_a_mirror_shows_what_mirrored_rays_meet():
     assert not (shows == 2)[on].any(), "what is behind the mirror is not in it"
 
 
+@pytest.mark.slow
 def test_a_mirror_shows_glass_before_what_is_behind_it():
     plain = coloured_boxes()
     camera = vp.Camera((7.0, -5.0, 2.5), (0, 0, 0), fov_deg=40.0)
@@ -537,6 +540,7 @@ def test_impossible_intensities_are_refused(intensity):
         vp.Light((0, 0, 9), intensity=intensity)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(33)
 @pytest.mark.parametrize("shadows", ["auto", "buffer", "trapezoid", "exact"])
 def test_a_lamp_in_the_eye_shows_no_shadow_and_one_in_a_box_lights_nothing_outside(shadows):
@@ -584,6 +588,7 @@ def test_what_makes_no_picture_is_refused(options):
         render(vp.Scene((sphere(),), (SUN,)), **({"size": (20, 20)} | options))
 
 
+@pytest.mark.slow
 def test_the_picture_saves_and_shows_itself(tmp_path):
     pillow = pytest.importorskip("PIL.Image")
     scene = vp.Scene((sphere("green"),), (SUN,), title="A ball")

@@ -42,6 +42,7 @@ def drawing() -> Drawing:
     return names["drawing"]  # type: ignore[return-value]
 
 
+@pytest.mark.slow
 @pytest.mark.hard(57)
 def test_hard_57_same_drawing_same_bytes_in_another_second_and_process(drawing):
     first = [hashlib.sha256(write(drawing, format)).hexdigest() for format in FORMATS]

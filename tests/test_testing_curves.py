@@ -294,6 +294,7 @@ def test_the_furthest_point_may_lie_within_a_segment():
     assert hausdorff([(-2.0, 0.0), (2.0, 0.0)], [[(-2.0, 0.0)], [(2.0, 0.0)]]) == pytest.approx(2.0, abs=1e-8)
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(25))
 @given(st.integers(0, 10**6), st.sampled_from([2, 3]), st.sampled_from([1e-6, 1.0, 1e6]))
 def test_hausdorff_agrees_with_many_samples(seed, dimension, scale):

@@ -96,12 +96,14 @@ def test_rays_agree_with_the_runs_of_a_torus(parallel: bool) -> None:
         assert np.array_equal(sight.hidden_by[sure] == 0, np.array(visible)[sure])
 
 
+@pytest.mark.slow
 def test_contour_points_are_told_from_others() -> None:
     sight = visible_by_rays(one(Sphere(1.0)), Camera((0.0, 0.0, 9.0), parallel=True), [(1.0, 0, 0), (0, 0.6, 0.8)])
     assert sight.on_contour.tolist() == [True, False]
     assert sight.hidden_by.tolist() == [0, 0]
 
 
+@pytest.mark.slow
 def test_near_its_contour_nothing_is_said_of_a_surface() -> None:
     angle = np.array([1e-3, 1e-4, -1e-4])
     points = np.stack([np.cos(angle), 0.0 * angle, np.sin(angle)], axis=1)
@@ -126,6 +128,7 @@ def test_a_hole_hides_nothing() -> None:
     assert sight.hidden_by.tolist() == [0, 1]
 
 
+@pytest.mark.slow
 def test_what_does_not_occlude_hides_nothing() -> None:
     points = [(0.0, 0.0, -1.0)]
     camera = Camera((0.3, 0.2, 9.0))

@@ -71,16 +71,19 @@ def ours(curved) -> np.ndarray:
     return grey_of_png(png_bytes(as_polylines(curved), dpi=DPI))
 
 
+@pytest.mark.slow
 def test_png_shows_what_the_polylines_show(curved, ours):
     assert_same_picture(ours, grey_of_png(png_bytes(curved, dpi=DPI)))
 
 
+@pytest.mark.slow
 def test_rsvg_shows_what_the_polylines_show(curved, ours, tmp_path):
     save(curved, tmp_path / "a.svg")
     png = run("rsvg-convert", "-d", DPI, "-p", DPI, "-b", "white", tmp_path / "a.svg")
     assert_same_picture(ours, grey_of_png(png))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("format", ["ps", "eps"])
 def test_ghostscript_shows_what_the_polylines_show(curved, ours, tmp_path, format):
     save(curved, tmp_path / f"a.{format}")

@@ -43,6 +43,7 @@ def sample() -> Drawing:
     return page_of(some, gradient, paths_of([(1, 20), (59, 24)]), glass, lines, items=("box",), title="areas")
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G4.X-postscript")
 def test_every_reader_shows_the_colours_that_are_there(tmp_path):
     drawing = sample()

@@ -40,6 +40,7 @@ def test_rsvg_shows_the_same_picture(sample, ours, tmp_path):
     assert_same_picture(ours, grey_of_png(png))
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G4.X-postscript")
 def test_ghostscript_shows_the_same_picture_of_a_ps_file(sample, ours, tmp_path):
     save(sample, tmp_path / "a.ps")
@@ -62,6 +63,7 @@ def test_poppler_shows_the_same_picture_of_a_pdf_file(sample, ours, tmp_path):
     assert_same_picture(ours, grey_of_pgm(run("pdftoppm", "-r", DPI, tmp_path / "a.pdf")))
 
 
+@pytest.mark.slow
 def test_the_comparison_sees_a_shift_a_missing_line_and_a_wrong_width(sample, ours):
     wider = replace(sample, layers=(replace(sample.layers[0], pen=replace(sample.layers[0].pen, width_mm=0.8)),))
     fewer = replace(sample, layers=sample.layers[:2])

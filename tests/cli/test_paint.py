@@ -167,6 +167,7 @@ def test_fills_for_pens_and_lines_on_top(cube: Path) -> None:
     assert {stroke["kind"] for stroke in strokes} == {"contour", "crease"}
 
 
+@pytest.mark.slow
 def test_explain_prints_each_stage_with_its_time(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["paint", str(scene), "-o", str(scene.parent / "a.svg"), "--explain"]) == 0
     lines = capsys.readouterr().err.splitlines()

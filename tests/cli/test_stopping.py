@@ -48,6 +48,7 @@ def place(tmp_path):
     return scene
 
 
+@pytest.mark.slow
 def test_a_signal_amid_curves_of_smooth_surfaces_leaves_one_line(place, monkeypatch, capsys):
     place.write_text(SCENE + BALL, encoding="utf-8")
     arguments, out = command(place, COMMANDS[1])

@@ -59,6 +59,7 @@ def test_faces_of_one_plane_are_one_polygon(count: int) -> None:
     assert np.bincount(fills.item).tolist() == [3, 3, 3, 3]
 
 
+@pytest.mark.slow
 @pytest.mark.hard(74)
 @pytest.mark.parametrize("lights", [(SUN,), (SUN, SKY)], ids=["one light", "two lights"])
 def test_shadows_on_planes_in_pieces_are_those_on_whole_planes(lights: tuple[vp.Light, ...]) -> None:

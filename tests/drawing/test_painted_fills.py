@@ -115,6 +115,7 @@ def test_smooth_surfaces_are_shaded_from_corner_to_corner_or_flat() -> None:
         assert (fills.colours == first).all() != smooth
 
 
+@pytest.mark.slow
 def test_the_tolerance_decides_how_many_facets_there_are() -> None:
     scene = vp.read(DATA / "torus.scene")
     counts = [len(vp.paint(scene, tolerance_mm=tolerance).layers[0].fills[0]) for tolerance in (0.2, 0.02)]

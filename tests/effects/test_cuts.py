@@ -50,6 +50,7 @@ def test_what_is_left_lies_between_the_planes_and_all_of_it_is_left(near, far, s
             assert len(item.mesh.vertices) == 8
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G3.L-scene")
 @pytest.mark.parametrize("name", sorted(hard_shapes()))
 def test_both_sides_of_a_plane_together_have_the_area_of_the_whole(name):

@@ -121,6 +121,7 @@ def test_depths_are_limited_to_four_distances_behind_the_target(reach):
     assert shade[np.abs(drawn[:, :, 1] - reach).max(axis=1) < 1e-9 * reach].max() <= 6
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G4.4-wireframe", "G4.4-depthcue")
 def test_smooth_surfaces_and_curves_are_seen_through():
     ring = vp.Item("RING", Torus(3.0, 1.0), "blue")

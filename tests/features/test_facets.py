@@ -26,6 +26,7 @@ def edges_of(mesh: Mesh) -> np.ndarray:
     return np.stack([mesh.corners, mesh.corners[mesh.next_corner]], axis=1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [0.1, 1e-2, 1e-3])
 def test_a_torus_within_the_tolerance_closed_and_with_its_normals(tolerance: float) -> None:
     torus = Torus(3.0, 1.0)
@@ -78,6 +79,7 @@ def test_holes_stay_open() -> None:
     assert np.isfinite(found.mesh.vertices).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("surface", [implicit_sphere(1.0), ImplicitTorus(3.0, 1.0)], ids=["sphere", "torus"])
 def test_implicit_surfaces_are_closed_and_on_the_surface(surface) -> None:
     found = facets(surface, within(5e-3))

@@ -113,6 +113,7 @@ def test_twenty_periods():
     assert max(np.abs(r - np.round(r[0])).max() for r in radii) < 1e-10
 
 
+@pytest.mark.slow
 @pytest.mark.hard(69)
 def test_holes_jumps_and_poles_break_nothing():
     stripes = traced(lambda u, v: np.where(np.sin(20 * u) > 0.3, np.nan, v - 0.3 * u))

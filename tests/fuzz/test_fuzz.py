@@ -45,6 +45,7 @@ def test_mesh_files_that_shrink(tmp_path: Path, suffix: str, rng: Random) -> Non
     assert judged(suffix, mesh_bytes(rng, suffix), suffix, tmp_path) is None
 
 
+@pytest.mark.slow
 @SHRINKING
 @given(rng=st.randoms(use_true_random=False))
 def test_scene_files_that_shrink(tmp_path: Path, rng: Random) -> None:

@@ -57,6 +57,7 @@ def test_reading_many_takes_a_time_that_grows_with_the_file(tmp_path: Path, what
     assert finding(lambda: read(path), 4.0) is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", ["nodes", "chain", "primitives", "instances"])
 def test_reading_glb_of_many_takes_a_time_that_grows_with_the_file(tmp_path: Path, what: str) -> None:
     count = N // 10

@@ -201,6 +201,7 @@ def test_the_lamps_plane_of_sun_and_lamp():
         light_plane(system, [(6, 8, 24)])
 
 
+@pytest.mark.slow
 @pytest.mark.capability("R-zcorr")
 @pytest.mark.parametrize("light", [SUN, Light((60.0, -90.0, 150.0))], ids=["sun", "lamp"])
 def test_depths_of_a_tapered_map_are_the_lamps_own(light):

@@ -182,6 +182,7 @@ def test_tv36_inversion():
 points = st.tuples(*[st.floats(-5, 5)] * 3).map(np.array)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.3-cyclide")
 @given(points, st.floats(0.1, 5))
 def test_inversion_is_an_involution_and_fixes_its_sphere(p, radius):

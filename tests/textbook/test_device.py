@@ -279,6 +279,7 @@ def shown_on(device, drawing, place):
     return device
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G4.1-device")
 @pytest.mark.parametrize("verb", [vp.draw, vp.paint])
 def test_the_raster_postscript_and_a_recorder_show_a_drawing_by_the_same_handful_of_primitives(verb, tmp_path):

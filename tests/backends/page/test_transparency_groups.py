@@ -134,6 +134,7 @@ def test_a_transparent_ball_of_smooth_facets_has_no_seams(tmp_path):
         assert ball.max() <= 12 and (ball > 4).mean() < 2e-3, (name, ball.max(), (ball > 4).mean())
 
 
+@pytest.mark.slow
 def test_panes_of_one_item_over_each_other_blend_twice(tmp_path):
     halves = [SQUARE, BESIDE, moved(SQUARE, 4.0, 3.0), moved(BESIDE, 4.0, 3.0)]
     for name, picture in pictures(

@@ -109,6 +109,7 @@ def test_a_notebook_shows_the_drawing(sample):
     assert sample._repr_png_().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_300_000_points_take_little_more_than_their_text():
     random = np.random.default_rng(0)
     count = 100_000

@@ -34,6 +34,7 @@ def areas(microns, offsets):
     return np.add.reduceat(x * y[after] - y * x[after], offsets[:-1]) / 2
 
 
+@pytest.mark.slow
 @given(st.integers(0, 10_000))
 def test_strips_cover_their_triangle_in_its_colours(seed):
     rng = np.random.default_rng(seed)

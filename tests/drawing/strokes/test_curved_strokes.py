@@ -201,6 +201,7 @@ def chords(curve, start, end, count, order=None):
     return polylines(*pairs, smooth=range(count), hidden_by=[0] * count)
 
 
+@pytest.mark.slow
 def test_ink_joins_the_chords_of_a_curve_and_fits_it_once():
     order = np.random.default_rng(4).permutation(1200)
     layers = (Layer("visible", Pen(), (chords(wave, 0.0, 2.0, 1200, order),)),)

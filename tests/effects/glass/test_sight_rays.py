@@ -51,6 +51,7 @@ def test_points_in_water_are_seen_where_the_inverse_refraction_says(
     assert np.isclose(below, np.linalg.norm(points - surface) / c, atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G6.6-solid")
 @given(POINT, st.floats(1.01, 2.5), st.floats(0.05, 0.6))
 def test_a_plane_parallel_block_shifts_as_the_formula_of_plates_says(

@@ -195,6 +195,7 @@ def test_corners_of_doubles_tell_the_points_they_are_doubles_of() -> None:
             assert np.abs(normal @ (points[:, a:b] - corners[:, :1])).max() < 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.hard(32)
 def test_the_order_of_the_items_does_not_matter() -> None:
     scene, camera = random_scene(4)

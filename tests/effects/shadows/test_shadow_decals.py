@@ -324,6 +324,7 @@ def test_size_changes_nothing(size: float) -> None:
     assert np.array_equal(decals.points, plain.points) and np.array_equal(decals.lacking, plain.lacking)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(18)
 @pytest.mark.parametrize("family", FAMILIES)
 def test_a_million_units_from_the_origin_shadows_are_as_right(family: str) -> None:

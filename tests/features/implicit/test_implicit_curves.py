@@ -220,6 +220,7 @@ def test_an_isophote_on_a_flat_part_is_not_filled():
     assert len(curves) == 0 and curves.doubts
 
 
+@pytest.mark.slow
 @pytest.mark.hard(39)
 def test_touching_along_a_line_is_said():
     curves = implicit_level_lines(ImplicitTorus(3, 1), [1.0])
@@ -303,6 +304,7 @@ def test_on_a_mesh_as_coarse_as_to_be_folded_no_curve_runs_to_and_fro_and_no_arc
             assert ((chord[1:] * chord[:-1]).sum(axis=1) > 0).all()
 
 
+@pytest.mark.slow
 def test_a_user_function_without_derivatives():
     def blobs(x, y, z):
         return np.exp(-3 * ((x - 0.5) ** 2 + y * y + z * z)) + np.exp(-3 * ((x + 0.5) ** 2 + y * y + z * z)) - 0.6

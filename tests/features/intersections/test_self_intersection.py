@@ -98,6 +98,7 @@ def test_double_curve_of_a_klein_bottle_closes_though_its_domain_does_not():
     assert abs(length(curves) - 2 * TURN) < 0.01
 
 
+@pytest.mark.slow
 @pytest.mark.hard(48)
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("offset", [0.0, 1e6])
@@ -178,6 +179,7 @@ def test_apex_of_a_double_cone_is_isolated():
     assert len(curves) == 0 and len(curves.isolated) == 1 and np.abs(curves.isolated).max() < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "surface",
     [

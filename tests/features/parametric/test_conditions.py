@@ -91,6 +91,7 @@ def test_values_on_a_sphere_in_closed_form():
     assert np.abs(ImplicitSection(sphere, implicit_sphere(1.0)).values(u, v)).min() > 0.1
 
 
+@pytest.mark.slow
 @given(st.floats(0.0, 6.2), st.sampled_from([-1.0, 1.0]))
 def test_at_the_poles_of_a_sphere_slopes_are_the_limits(u, end):
     # There N = (cos v cos u, cos v sin u, sin v) does not turn with u, and with v by -sin v (cos u, sin u, 0).

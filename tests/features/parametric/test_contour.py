@@ -44,6 +44,7 @@ def test_contour_of_a_sphere_is_the_polar_circle():
     assert np.abs(np.linalg.norm(middles(curves, 0) - foot, axis=1) - radius).max() < 1e-4
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.4-contour")
 def test_contour_of_the_torus_meets_the_meridian_of_the_test_values():
     # The test values have the tube angle pi - v.

@@ -34,6 +34,7 @@ def test_isophotes_of_a_sphere_are_parallel_circles_about_the_light():
         assert abs(length - 4 * np.pi * np.sqrt(1 - level**2)) < 0.03
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.4-isophote")
 def test_isophote_of_the_torus_meets_the_meridian_of_the_test_values():
     # The test values have the tube angle pi - v and normals that point out of the tube.

@@ -14,6 +14,7 @@ TURN = 2.0 * np.pi
 SQUARE = Domain(-1, 1, -1, 1)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(49)
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("end", [1.0, 1.3])
@@ -40,6 +41,7 @@ def test_edge_of_the_swallowtail_has_its_cusp(domain):
     assert np.abs(curves.points[:, 2].min() + 1.0) < 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.hard(49)
 def test_cusps_of_a_profile_that_is_turned_give_closed_edges():
     def points(u, v):

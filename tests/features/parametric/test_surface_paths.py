@@ -101,6 +101,7 @@ def test_files_say_it_and_rays_see_it(camera: vp.Camera, where: str) -> None:
     assert on_curve(vp.draw(scene, camera, lines=("contour",))) == (0.0, 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.2-surface")
 def test_python_functions_do_too_and_name_themselves_when_they_fail() -> None:
     def spiral(t):

@@ -72,6 +72,7 @@ angle = st.floats(-180, 180)
 shift = st.lists(st.floats(-2, 2), min_size=3, max_size=3)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G3.6-intersect")
 @settings(max_examples=examples(60))
 @given(shift, angle, angle)

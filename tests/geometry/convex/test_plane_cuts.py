@@ -58,6 +58,7 @@ def test_nothing_in_nothing_out() -> None:
     assert len(cut_by_planes(SQUARE, ONE, bundle((1.0, 0.0, 0.0, 0.0)), none, none, 1e-9)) == 0
 
 
+@pytest.mark.slow
 @given(st.integers(0, 10_000))
 def test_parts_on_both_sides_add_up_and_lie_on_their_sides(seed: int) -> None:
     random = np.random.default_rng(seed)

@@ -42,6 +42,7 @@ def test_decimals_are_those_of_python() -> None:
     assert np.signbit(values[1])
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(200))
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=20), st.integers(0, 12))
 def test_decimals_of_any_double_in_any_notation(values: list[float], digits: int) -> None:

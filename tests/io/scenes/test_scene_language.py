@@ -498,6 +498,7 @@ HILL surface graph "sin(x)*y" x -1 1 y -1 1 level_lines 3 SPRING surface helical
 BLOB surface implicit "x^2 + y^2 + z^2 - 1" box -2 2 -2 2 -2 2 sections normal 1 1 0 2 lines contour , section"""
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::vectorplot.errors.InputWarning")
 @given(st.data())
 def test_torn_texts_raise_input_errors_only(data):

@@ -53,6 +53,7 @@ def test_what_the_language_names_is_written_and_read_again(text):
     assert write_scene(second) == written and written.isascii()
 
 
+@pytest.mark.slow
 @given(length, length, point, length, length)
 def test_numbers_keep_every_digit(major, minor, centre, bottom, height):
     torus = again(Torus(major, minor, centre)).shape

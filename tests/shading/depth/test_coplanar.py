@@ -49,6 +49,7 @@ def image_areas(scene: Scene, camera: Camera) -> list[float]:
     return [found[f"P{k}"] for k in range(3)]
 
 
+@pytest.mark.slow
 @pytest.mark.hard(76, 18, 19)
 @pytest.mark.parametrize(("scale", "shift"), [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 1e6)])
 @pytest.mark.parametrize("size", [(60, 45), (500, 380)])

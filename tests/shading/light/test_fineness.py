@@ -68,6 +68,7 @@ def test_the_outline_of_a_ball_is_within_the_tolerance(tolerance):
     assert radius.min() >= 95.0 - 5.0 * tolerance
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("surface", [Sphere(2.0), Torus(3.0, 1.0), WAVES], ids=["sphere", "torus", "waves"])
 def test_shades_between_corners_are_within_their_bound(surface):
     found, demand = made(surface)
@@ -105,6 +106,7 @@ def test_pictures_have_few_polygons(surface, most):
     assert 200 < len(fills) < most
 
 
+@pytest.mark.slow
 def test_boxes_of_other_items_count_where_they_meet_and_once():
     """A crowd costs no box for each pair: those that lie elsewhere, and copies in one place, add nothing."""
     balls = [Sphere(1.0)] * 50 + [Sphere(1.0, (5.0 * k, 0.0, 0.0)) for k in range(1, 50)]

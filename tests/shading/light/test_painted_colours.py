@@ -60,6 +60,7 @@ def test_painted_lights_of_three_colours_are_white_together(items):
     assert (both == colours(scene(SUN, LAMP, items=items))).all()
 
 
+@pytest.mark.slow
 def test_a_shadow_of_a_red_light_lacks_red():
     picture = scene(replace(SUN, colour="#ff0000"), replace(LAMP, colour="#00ffff"))
     fills = fills_of(picture)

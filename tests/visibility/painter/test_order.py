@@ -160,6 +160,7 @@ def test_the_order_of_the_items_changes_nothing(kind):
     assert (one.faces.points == two.faces.points).all()
 
 
+@pytest.mark.slow
 @pytest.mark.hard(18, 19)
 @pytest.mark.parametrize("kind", ["triangle_soup", "piercing_boxes", "aligned_boxes", "tori"])
 def test_size_and_place_of_the_scene_change_nothing(kind):

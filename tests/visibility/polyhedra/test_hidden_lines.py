@@ -132,6 +132,7 @@ def test_a_million_units_off_the_origin_changes_nothing(name: str) -> None:
         assert np.allclose(lengths_by_count(seen(away, there, EVERY_EDGE)), expected, rtol=1e-6, atol=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["rotated boxes", "coincident faces", "touching boxes", "cyclic bars"])
 def test_the_order_of_items_changes_nothing(name: str) -> None:
     scene = SCENES[name]

@@ -33,8 +33,9 @@ def fitted_spans(lines: Lines, tangent: Directions, room: Floats, tolerance: flo
     room (n,): how far a curve with these tangents may leave the chord from a point to the next; ends: first and last
     points (k,). Where the tolerance is missed, the parabola with these tangents is tried too: on long parabolas the
     steps come to it slowly, for other handles are nearly as good.
-    Source: Gauss-Newton steps on distances measured normal to the curve, the points' feet found by Newton's method
-    between them (Wang, Pottmann and Liu, Fitting B-spline curves to point clouds, section 3: tangent distances).
+    These are Gauss-Newton steps on distances measured normal to the curve, the points' feet found by Newton's method
+    between them.
+    Source: Wang, Pottmann and Liu, Fitting B-spline curves to point clouds, section 3 (tangent distances).
     """
     first, last = ends
     problem = _Problem(lines, tangent, first, last)

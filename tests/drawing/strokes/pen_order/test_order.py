@@ -64,6 +64,7 @@ def shortest_mm(ends):
     return min(ways)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_less_travel_than_the_nearest_neighbour_on_random_strokes(seed):
     ends = random_ends(2000, seed)
@@ -167,6 +168,7 @@ def test_scale_does_not_matter(factor):
     assert np.array_equal(ordered(ends).points * factor, ordered(ends * factor).points)
 
 
+@pytest.mark.slow
 def test_twenty_thousand_strokes_and_a_few_take_no_time_to_speak_of():
     def seconds(count):
         ends = random_ends(count)

@@ -80,6 +80,7 @@ def test_links_make_trails_with_two_free_ends_each(edges):
     assert len(met) == len(edges)
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(100))
 @given(st.lists(st.tuples(NODE, NODE), min_size=1, max_size=60))
 def test_a_connected_figure_takes_no_more_jumps_than_its_odd_nodes(edges):

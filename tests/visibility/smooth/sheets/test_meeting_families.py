@@ -44,6 +44,7 @@ def between(view: View, curves: Curves, part: float) -> np.ndarray:
     return view.world_of(at.points.T)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", [0.2, 0.5, 0.9])
 def test_spheres_meet_in_a_circle(part: float) -> None:
     points = between(*met(Sphere(1.0), Sphere(1.0, (1.0, 0.0, 0.0))), part)
@@ -82,6 +83,7 @@ def test_curves_in_faces_lie_in_these(ball: object) -> None:
     assert (points > low - 1e-12).all() and (points < high + 1e-12).all()
 
 
+@pytest.mark.slow
 def test_where_sheets_do_not_meet_near_a_chord_points_stay_on_the_first() -> None:
     view, curves = met(Sphere(1.0), Sphere(1.0, (1.0, 0.0, 0.0)))
     family, number = curves.families[curves.family[0]], curves.chords[:5]
