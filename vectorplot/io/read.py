@@ -14,6 +14,7 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.mesh_repair import Mending, is_closed_oriented, mended
+from vectorplot.geometry.repair.sound_parts import sound_parts
 from vectorplot.io.foreign import foreign_kind
 from vectorplot.io.meshes.mesh_file import MeshFile, check_file, shown
 from vectorplot.scene.extent import check_range
@@ -116,11 +117,15 @@ def _mended_parts(stem: str, content: MeshFile) -> tuple[list[tuple[str, Mesh]],
         mesh, mending = mended(content.mesh, content.precision)
         if mending == Mending():
             return list(zip(content.names, _split(mesh, content.first_faces), strict=True)), mending
-    total = Mending()
-    parts: list[tuple[str, Mesh]] = []
-    for name, part in zip(content.names, _split(content.mesh, content.first_faces), strict=True):
+    sound, boundary = sound_parts(
+        content.mesh, _face_parts(content.mesh, content.first_faces), len(content.names), content.precision
+    )
+    total = Mending(boundary_edges=int(boundary[sound].sum()))
+    parts = list(zip(content.names, _split(content.mesh, content.first_faces), strict=True))
+    for number in np.flatnonzero(~sound).tolist():
+        name, part = parts[number]
         mesh, mending = mended(part, content.precision)
-        parts.append((name, mesh))
+        parts[number] = (name, mesh)
         total = total + mending
     return parts, total
 

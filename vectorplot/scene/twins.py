@@ -35,7 +35,7 @@ def without_twins(scene: Scene) -> Scene:
 def fingerprint(value: object) -> Hashable:
     """What is equal for values made of the same numbers, words and functions, however deep."""
     if isinstance(value, np.ndarray):
-        return value.shape, value.dtype.str, blake2b(np.ascontiguousarray(value)).digest()
+        return value.shape, value.dtype.str, blake2b(value.tobytes()).digest()
     if is_dataclass(value) and not isinstance(value, type):
         return type(value), tuple(fingerprint(getattr(value, field.name)) for field in fields(value))
     if isinstance(value, tuple | list):

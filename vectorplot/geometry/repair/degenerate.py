@@ -21,13 +21,13 @@ def without_degenerate(mesh: Mesh) -> tuple[Mesh, int]:
     neighbour there, which is split at that corner: so no hole is left between the sides.
     """
     mesh, dropped = without_stutter(mesh)
-    thin = _thin_faces(mesh)
+    thin = thin_faces(mesh)
     dropped += int(thin.sum())
     for _ in range(_ROUNDS if mesh.is_triangular else 0):
         if not thin.any():
             break
         flipped = _with_flipped_caps(mesh, thin)
-        still = _thin_faces(flipped)
+        still = thin_faces(flipped)
         if still.sum() >= thin.sum():
             break
         mesh, thin = flipped, still
@@ -85,7 +85,7 @@ def without_stutter(mesh: Mesh) -> tuple[Mesh, int]:
     return Mesh(mesh.vertices, corners, offsets, present), int((~alive).sum())
 
 
-def _thin_faces(mesh: Mesh) -> Bools:
+def thin_faces(mesh: Mesh) -> Bools:
     """(f,) True for faces without area: height below 1e-10 of the longest side, or the coordinates' noise."""
     thin = np.zeros(mesh.face_count, dtype=np.bool_)
     low, high = mesh.bounds
