@@ -35,6 +35,10 @@ SAME_MM = 0.02
 """How far lines of pictures may be from those that are stored: what a curve may be off its true one."""
 
 
+LENGTHS_AGREE = 2e-3
+"""Part of all lines of a layer by which their lengths may differ: no line that counts is drawn twice, or lost."""
+
+
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     """The files that each scene and script makes, each drawn once."""
@@ -91,6 +95,7 @@ def test_the_stored_pictures_are_the_ones_that_are_drawn_now(path, made):
             assert old.shape == new.shape and np.abs(old - new).mean() < 0.2, f"{file.name} is old"
             continue
         # Not the bytes: where two orders of the pen are equally good, another processor may round to the other one.
+        assert sheet_of(stored) == sheet_of(file), f"{file.name} is old"
         assert_same_lines(stored, file)
         old, new = paint_by_layer(stored), paint_by_layer(file)
         assert old.keys() == new.keys(), f"{file.name} is old"
@@ -113,11 +118,20 @@ def paint_by_layer(path: Path) -> dict[str, np.ndarray]:
     }
 
 
+def sheet_of(path: Path) -> list[tuple[str, dict[str, str]]]:
+    """All that a picture says of its page, its layers in their order, and the pens and colours of these."""
+    root = ElementTree.fromstring(path.read_bytes())
+    groups = [root, *root.iter(SVG + "g")]
+    return [(group.tag, {name: value for name, value in group.items() if name != "id"}) for group in groups]
+
+
 def assert_same_lines(old: Path, new: Path) -> None:
-    """Every line of every layer of one picture is there in the other."""
+    """Every line of every layer of one picture is there in the other, and as often."""
     first, second = segments_by_layer(old), segments_by_layer(new)
     assert first.keys() == second.keys(), f"{new.name} is old"
     for label, lines in first.items():
+        drawn, wanted = (np.linalg.norm(np.diff(part, axis=1), axis=2).sum() for part in (lines, second[label]))
+        assert drawn == pytest.approx(wanted, rel=LENGTHS_AGREE, abs=1.0), f"{new.name} is old: {label} in length"
         for here, there in ((lines, second[label]), (second[label], lines)):
             found = worst_uncovered(here, there, SAME_MM)
             assert found is None, f"{new.name} is old: {label} at {found}"

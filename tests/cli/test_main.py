@@ -123,23 +123,31 @@ STARTS = {
 }
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("word", STARTS)
-def test_every_format_is_written_the_same_to_a_file_and_to_stdout(word, cube, tmp_path):
+def test_every_format_is_written_the_same_to_a_file_and_to_stdout(word, cube, tmp_path, capfdbinary):
     out = tmp_path / f"out.{word}"
     assert run(["draw", str(cube), "-o", str(out)]) == 0
     content = out.read_bytes()
     assert content.startswith(STARTS[word])
-    piped = shell("draw", cube, "-o", "-", "--format", word)
-    assert (piped.returncode, piped.stderr) == (0, b"")
-    assert piped.stdout == content
+    capfdbinary.readouterr()
+    assert run(["draw", str(cube), "-o", "-", "--format", word]) == 0
+    assert capfdbinary.readouterr().out == content
     assert sorted(path.name for path in tmp_path.iterdir()) == ["cube.obj", out.name]
 
 
+@pytest.mark.slow
+def test_through_a_pipe_come_the_same_bytes_and_no_word(cube):
+    out = cube.parent / "out.pdf"
+    assert run(["draw", str(cube), "-o", str(out)]) == 0
+    piped = shell("draw", cube, "-o", "-", "--format", "pdf")
+    assert (piped.returncode, piped.stderr) == (0, b"")
+    assert piped.stdout == out.read_bytes()
+
+
 def drawn(cube, *arguments):
-    result = shell("draw", cube, "-o", "-", "--format", "json", *arguments)
-    assert result.returncode == 0, result.stderr
-    return json.loads(result.stdout)
+    out = cube.parent / "out.json"
+    assert run(["draw", str(cube), "-o", str(out), *arguments]) == 0
+    return json.loads(out.read_text(encoding="utf-8"))
 
 
 def lengths(document, kind=None):
@@ -153,13 +161,11 @@ def lengths(document, kind=None):
     return found
 
 
-@pytest.mark.slow
 def test_negative_numbers_are_numbers(cube):
     document = drawn(cube, "--eye", "-3,4,5", "--target", "-.5,0,0", "--twist", "-20")
     assert sum(lengths(document)) == pytest.approx(9.0)  # three faces of a cube have nine edges
 
 
-@pytest.mark.slow
 def test_views_pages_and_hidden_lines(cube):
     document = drawn(cube, "--view", "front", "--page", "100x60", "--margin", "5")
     assert document["page_mm"] == [100.0, 60.0]
@@ -172,14 +178,12 @@ def test_views_pages_and_hidden_lines(cube):
     assert {stroke["hidden_by"] for stroke in seen["strokes"]} == {0, 1}
 
 
-@pytest.mark.slow
 def test_kinds_and_crease_angle(cube):
     assert {stroke["kind"] for stroke in drawn(cube)["strokes"]} == {"contour", "crease"}
     assert sum(lengths(drawn(cube, "--lines", "contour"))) == pytest.approx(6.0)
     assert sum(lengths(drawn(cube, "--crease-angle", "95"))) == pytest.approx(6.0)
 
 
-@pytest.mark.slow
 def test_without_fit_the_page_height_spans_the_height_at_the_target(cube):
     look = [
         "--parallel",

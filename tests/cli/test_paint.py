@@ -71,15 +71,26 @@ READERS = {
 
 @pytest.mark.slow
 @pytest.mark.parametrize("word", STARTS)
-def test_every_format_is_written_the_same_to_a_file_and_to_stdout(word: str, scene: Path) -> None:
+def test_every_format_is_written_the_same_to_a_file_and_to_stdout(
+    word: str, scene: Path, capfdbinary: pytest.CaptureFixture[bytes]
+) -> None:
     out = scene.parent / f"out.{word}"
     assert run(["paint", str(scene), "-o", str(out)]) == 0
     content = out.read_bytes()
     assert content.startswith(STARTS[word])
-    piped = shell("paint", scene, "-o", "-", "--format", word)
-    assert (piped.returncode, piped.stderr) == (0, b"")
-    assert piped.stdout == content
+    capfdbinary.readouterr()
+    assert run(["paint", str(scene), "-o", "-", "--format", word]) == 0
+    assert capfdbinary.readouterr().out == content
     assert sorted(path.name for path in scene.parent.iterdir()) == sorted([out.name, scene.name])
+
+
+@pytest.mark.slow
+def test_through_a_pipe_come_the_same_bytes_and_no_word(scene: Path) -> None:
+    out = scene.parent / "out.png"
+    assert run(["paint", str(scene), "-o", str(out)]) == 0
+    piped = shell("paint", scene, "-o", "-", "--format", "png")
+    assert (piped.returncode, piped.stderr) == (0, b"")
+    assert piped.stdout == out.read_bytes()
 
 
 @pytest.mark.slow
