@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cache
 
 import numpy as np
 import pytest
@@ -34,6 +35,12 @@ def cameras(scene: Scene, seed: int) -> Iterator[Camera]:
     yield Camera((middle[0] + 1e-3 * size, middle[1] - 2.0 * size, middle[2] + 0.1 * size), target)
 
 
+@cache
+def views_of(name: str) -> list[tuple[Camera, Seen]]:
+    """What is seen of a scene from all its cameras."""
+    return [(camera, seen(SCENES[name], camera, EVERY_EDGE)) for camera in cameras(SCENES[name], len(name))]
+
+
 def assert_as_rays_say(scene: Scene, camera: Camera, result: Seen, samples: int) -> None:
     wrong, compared, fault = wrong_samples(scene, camera, result, samples, 1)
     assert wrong == 0, f"{wrong} of {compared} samples, {fault}, {camera}"
@@ -43,9 +50,8 @@ def assert_as_rays_say(scene: Scene, camera: Camera, result: Seen, samples: int)
 @pytest.mark.capability("G7.2-exact", "G7.2-zones", "G7.2-lines-on-faces")
 @pytest.mark.parametrize("name", SCENES)
 def test_hard_shapes_as_rays_see_them(name: str) -> None:
-    scene = SCENES[name]
-    for camera in cameras(scene, len(name)):
-        assert_as_rays_say(scene, camera, seen(scene, camera, EVERY_EDGE), 120)
+    for camera, result in views_of(name):
+        assert_as_rays_say(SCENES[name], camera, result, 120)
 
 
 @pytest.mark.slow
@@ -78,9 +84,7 @@ def test_a_body_without_top_and_bottom_shows_its_inner_wall() -> None:
 @pytest.mark.capability("G7.2-visible")
 @pytest.mark.parametrize("name", SCENES)
 def test_visible_and_hidden_parts_make_up_the_whole(name: str) -> None:
-    scene = SCENES[name]
-    for camera in cameras(scene, 3):
-        result = seen(scene, camera, EVERY_EDGE)
+    for _, result in views_of(name):
         along = result.lines.end - result.lines.start
         whole = np.sqrt((along * along).sum(axis=0)).sum() * result.view.scale
         assert np.isclose(result.length(result.counted), whole, rtol=1e-6)
@@ -89,9 +93,7 @@ def test_visible_and_hidden_parts_make_up_the_whole(name: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_visible_parts_are_those_that_nothing_hides(name: str) -> None:
-    scene = SCENES[name]
-    for camera in cameras(scene, 5):
-        result = seen(scene, camera, EVERY_EDGE)
+    for _, result in views_of(name):
         free = result.counted.hidden_by == 0
         assert np.array_equal(result.counted.segment[free], result.visible.segment)
         assert np.allclose(result.counted.low[free], result.visible.low, atol=1e-7)
@@ -112,11 +114,11 @@ def lengths_by_count(result: Seen) -> np.ndarray:
 def test_the_size_of_the_scene_changes_nothing(name: str, scale: float) -> None:
     scene = SCENES[name]
     larger = Scene(tuple(moved(item, scale * np.eye(3), np.zeros(3)) for item in scene.items))
-    for camera in cameras(scene, 7):
+    for camera, result in views_of(name):
         far = Camera(
             scaled(camera.eye, scale), scaled(camera.target, scale), camera.up, 0.0, camera.fov_deg, camera.parallel
         )
-        expected = lengths_by_count(seen(scene, camera, EVERY_EDGE))
+        expected = lengths_by_count(result)
         assert np.allclose(lengths_by_count(seen(larger, far, EVERY_EDGE)) / scale, expected, rtol=1e-6, atol=1e-5)
 
 
@@ -125,10 +127,10 @@ def test_a_million_units_off_the_origin_changes_nothing(name: str) -> None:
     scene = SCENES[name]
     offset = np.array([1e6, -1e6, 1e6])
     away = Scene(tuple(moved(item, np.eye(3), offset) for item in scene.items))
-    for camera in list(cameras(scene, 7))[:2]:
+    for camera, result in views_of(name)[:2]:
         eye, target = np.add(camera.eye, offset), np.add(camera.target, offset)
         there = Camera(tuple(eye.tolist()), tuple(target.tolist()), camera.up, 0.0, camera.fov_deg, camera.parallel)
-        expected = lengths_by_count(seen(scene, camera, EVERY_EDGE))
+        expected = lengths_by_count(result)
         assert np.allclose(lengths_by_count(seen(away, there, EVERY_EDGE)), expected, rtol=1e-6, atol=1e-5)
 
 
@@ -138,8 +140,8 @@ def test_the_order_of_items_changes_nothing(name: str) -> None:
     scene = SCENES[name]
     order = np.random.default_rng(0).permutation(len(scene.items))
     shuffled = Scene(tuple(scene.items[k] for k in order))
-    for camera in cameras(scene, 9):
-        expected = lengths_by_count(seen(scene, camera, EVERY_EDGE))
+    for camera, result in views_of(name):
+        expected = lengths_by_count(result)
         assert np.allclose(lengths_by_count(seen(shuffled, camera, EVERY_EDGE)), expected, atol=1e-6)
 
 
