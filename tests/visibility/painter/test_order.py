@@ -198,3 +198,28 @@ def test_a_floor_that_reaches_behind_the_eye():
     floor = Mesh.from_polygons([(-50, -50, 0), (50, -50, 0), (50, 50, 0), (-50, 50, 0)], [[0, 1, 2, 3]])
     scene = scene_of(FLOOR=floor, ONE=box((-1, 2, 0), (0, 3, 1)), TWO=box((0.5, 4, -0.5), (2, 5, 1)))
     assert_right(scene, Camera((0, -1, 1.0), (0, 4, 0.5)), 2000)
+
+
+def test_neighbours_follow_each_other_where_nothing_is_between() -> None:
+    random = np.random.default_rng(0)
+    turn = np.linspace(0.0, 6.0 * np.pi, 400)
+    around = np.linspace(0.0, 2.0 * np.pi, 13)[:-1]
+    out = 3.0 + 0.5 * np.cos(around)
+    points = np.stack(
+        [
+            out * np.cos(turn)[:, None],
+            out * np.sin(turn)[:, None],
+            0.5 * np.sin(around) + 0.4 * turn[:, None],
+        ],
+        axis=-1,
+    )
+    number = np.arange(400 * 12).reshape(400, 12)
+    beside = np.roll(number, -1, axis=1)
+    quads = np.stack([number[:-1], number[1:], beside[1:], beside[:-1]], axis=-1).reshape(-1, 4)
+    triangles = random.permutation(quads[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3))
+    scene = numbered([Mesh.from_triangles(points.reshape(-1, 3), triangles)])
+    faces = painters_order(look(scene, Camera((9.0, -12.0, 9.0), (0.0, 0.0, 3.0)))).faces
+    middle = np.stack([row.reshape(-1, 3).mean(axis=1) for row in faces.points[:2]])
+    steps = np.hypot(*np.diff(middle, axis=1))
+    # Half of the steps lead to what is next to the last one, not somewhere else on the spring.
+    assert np.median(steps) < 0.05 * np.ptp(middle)

@@ -36,6 +36,10 @@ PAIRS_AT_ONCE = 1 << 20
 """Pairs of faces of two bodies listed at once."""
 
 
+LEVELS = 12
+"""The image is halved so many times each way to tell neighbours: its cells are a tenth of a millimetre on a page."""
+
+
 @dataclass(frozen=True, eq=False)
 class Painted:
     """Polygons back to front: faces, whose points (3,c) are places in the image and heights above it, and whose source
@@ -267,13 +271,16 @@ def _boxes_overlap(box: Floats, a: Ints, b: Ints, tolerance: float) -> Bools:
 def _ranks(faces: ImageFaces, things: _Things, more: int, before: Ints, after: Ints) -> Ints:
     """(t + more,) the rank of each thing, and of more than these, equal for those in one circle.
 
-    Things are numbered by the ranks of their first faces, so that nothing depends on the order in which they came.
+    Things are numbered by their places in the image and the ranks of their first faces, so that nothing depends on the
+    order in which they came, and those that may come in any order follow their neighbours.
     """
     count = len(things) + more
     leading = np.full(count, len(faces), dtype=np.intp)
     np.minimum.at(leading, things.of_face, faces.rank)
     number = np.empty(count, dtype=np.intp)
-    number[np.argsort(leading, kind="stable")] = np.arange(count)
+    cell = np.zeros(count, dtype=np.intp)
+    cell[: len(things)] = _along_a_curve(things.box)
+    number[np.lexsort((leading, cell))] = np.arange(count)
     return component_ranks(count, number[before], number[after])[number]
 
 
@@ -291,3 +298,19 @@ def _pairs_within(faces: ImageFaces, group: Ints, thing: Ints, tolerance: float)
         np.concatenate([none, *(p.second for p in found)]),
         np.concatenate([none.astype(np.int8), *(p.codes for p in found)]),
     )
+
+
+def _along_a_curve(box: Floats) -> Ints:
+    """(n,) numbers of the middles of boxes (4,n) along Morton's curve: neighbours in number are so in the image,
+    mostly.
+
+    Source: Morton, A computer oriented geodetic data base (1966).
+    """
+    result = np.zeros(box.shape[1], dtype=np.intp)
+    for axis in (0, 1):
+        middle = box[2 * axis] + box[2 * axis + 1]
+        low, size = middle.min(initial=np.inf), np.ptp(middle) if len(middle) else 0.0
+        place = np.floor((middle - low) * (((1 << LEVELS) - 1) / size) if size > 0.0 else 0.0 * middle).astype(np.intp)
+        for bit in range(LEVELS):
+            result |= (place >> bit & 1) << (2 * bit + axis)
+    return result
