@@ -6,6 +6,7 @@ import math
 import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -44,6 +45,7 @@ from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 from vectorplot.words import DRAWN, WIRES, LineKind, check_word, line_kinds
 
 if TYPE_CHECKING:
+    from vectorplot.visibility.quadrics.closed_forms import ClosedForms, Seen
     from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet
 
 LARGER = 1.25
@@ -179,15 +181,17 @@ def draw(
     faces = walk.run("faces", project_faces, view)
     solid = solid_items(view, faces)
     straight = _straight_lines(walk, scene, view, faces, solid, kinds, crease_angle_deg)
-    sheets = _sheets(walk, scene, view)
-    reached = np.concatenate([view.points, *(sheet.vertices.T for sheet in sheets)], axis=1)
+    forms = _closed_forms(walk, scene, view, kinds)
+    sheets = _sheets(walk, scene, view, forms)
+    balls = () if forms is None else (forms.reached,)
+    reached = np.concatenate([view.points, *balls, *(sheet.vertices.T for sheet in sheets)], axis=1)
     scale = mm_per_image(view, reached, page, fit)
     while True:
         # Chords take one half of the tolerance, Béziers through their ends the other.
         tolerance = 0.5 * tolerance_mm / scale
-        every = _with_curves(walk, scene, view, sheets, kinds, straight, tolerance, allowed)
+        every = _with_curves(walk, scene, view, sheets, forms, kinds, straight, tolerance, allowed)
         frame = frame_of(view, every, page, fit)
-        framed = walk.run("frame", in_frame, view, every, frame)
+        framed = _behind_balls(walk, view, forms, walk.run("frame", in_frame, view, every, frame))
         seen = _visibility(walk, view, faces, solid, framed)
         placement = frame or fitted_lines(view, framed, seen, page)
         if (
@@ -257,11 +261,13 @@ def lines_in_place(
     solid = solid_items(view, faces)
     straight = _straight_lines(walk, scene, view, faces, solid, kinds, crease_angle_deg)
     tolerance = 0.5 * tolerance_mm / placement.scale
-    sheets = _sheets(walk, scene, view)
-    every = _with_curves(walk, scene, view, sheets, kinds, straight, tolerance, budget_of(budget))
+    forms = _closed_forms(walk, scene, view, kinds)
+    sheets = _sheets(walk, scene, view, forms)
+    every = _with_curves(walk, scene, view, sheets, forms, kinds, straight, tolerance, budget_of(budget))
     # Lines may reach too far where what the picture was fitted to does not.
     cut = not placement.whole or view.reaches_too_far(every.start, every.end)
     framed = walk.run("frame", in_frame, view, every, placement if cut else None)
+    framed = _behind_balls(walk, view, forms, framed)
     seen = _visibility(walk, view, faces, solid, framed)
     return walk.run("strokes", strokes_on_page, view, framed, seen, placement)
 
@@ -316,13 +322,44 @@ def _check_style(style: str, **others: bool) -> None:
             raise InputError(f"{name} does not go with the style {style}, which shows all lines, in colours of its own")
 
 
-def _sheets(walk: Walk, scene: Scene, view: View) -> tuple[SmoothSheet, ...]:
-    """The smooth surfaces of the scene, if it has any."""
+def _closed_forms(walk: Walk, scene: Scene, view: View, kinds: frozenset[LineKind]) -> ClosedForms | None:
+    """The spheres and ellipsoids of the scene, if it has any, and their lines as they are seen among them."""
+    if not walk.calls_for("balls"):
+        return None
+    from vectorplot.visibility.quadrics.closed_forms import closed_forms
+
+    return walk.run("balls", closed_forms, scene, view, kinds, _seen_among_balls(walk, "balls", view))
+
+
+def _seen_among_balls(walk: Walk, stage: str, view: View) -> Seen:
+    """What becomes of the arcs on balls: all of them, the visible parts, or all parts counted."""
+    from vectorplot.visibility.quadrics import hidden_arcs
+
+    if walk.calls_for("all lines"):
+        return hidden_arcs.whole_arcs
+    done = walk.fraction(stage)
+    if walk.calls_for("visible lines"):
+        return partial(hidden_arcs.visible_arcs, progress=done)
+    return partial(hidden_arcs.counted_arcs, items=len(view.occludes), progress=done)
+
+
+def _behind_balls(walk: Walk, view: View, forms: ClosedForms | None, lines: Lines) -> Lines:
+    """The lines cut where spheres and ellipsoids begin or end to hide them, if there are any."""
+    if forms is None or not walk.calls_for("behind balls"):
+        return lines
+    from vectorplot.visibility.quadrics.closed_forms import lines_behind
+
+    seen = _seen_among_balls(walk, "behind balls", view)
+    return walk.run("behind balls", lines_behind, view, forms, lines, seen)
+
+
+def _sheets(walk: Walk, scene: Scene, view: View, forms: ClosedForms | None) -> tuple[SmoothSheet, ...]:
+    """The smooth surfaces of the scene that are not drawn in closed form, if it has any."""
     if not walk.calls_for("curves"):
         return ()
     from vectorplot.visibility.smooth.tracing.traced import scene_sheets
 
-    return scene_sheets(scene, view)
+    return scene_sheets(scene, view, frozenset() if forms is None else forms.items)
 
 
 def _with_curves(
@@ -330,12 +367,14 @@ def _with_curves(
     scene: Scene,
     view: View,
     sheets: tuple[SmoothSheet, ...],
+    forms: ClosedForms | None,
     kinds: frozenset[LineKind],
     lines: Lines,
     tolerance: float,
     budget: Budget,
 ) -> Lines:
-    """The lines and the curves of smooth surfaces, cut where one of these begins to hide them or ends, if they hide."""
+    """The lines and the curves of smooth surfaces, cut where one of these begins to hide them or ends, if they hide;
+    those of balls as they are seen among these."""
     if not walk.calls_for("curves"):
         return lines
     from vectorplot.visibility.smooth.smooth_lines import with_curves, with_whole_curves
@@ -349,7 +388,11 @@ def _with_curves(
     traced = walk.run("curves", traced_scene, scene, view, sheets, kinds, tolerance, budget, done)
     for doubt in traced.doubts:
         warnings.warn(doubt, InputWarning, stacklevel=3)
-    if not walk.calls_for("smooth surfaces"):
+    if forms is not None:
+        from vectorplot.visibility.quadrics.conic_curves import conic_curves
+
+        traced = traced.joined(conic_curves(view, forms.arcs, forms.behind, tolerance))
+    if not sheets or not walk.calls_for("smooth surfaces"):
         return with_whole_curves(view, traced, lines)
     done = walk.fraction("smooth surfaces")
     count = len(scene.items)

@@ -7,6 +7,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
+from vectorplot.surfaces.balls import ball_of
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.tolerances.of_numbers import LARGEST
 
@@ -42,6 +43,9 @@ def smooth_bounds(shape: Surface | ImplicitSurface | Curve) -> Floats:
     one whose box has no extent along an axis, be it by rounding, and for what is no surface.
     Degenerate: where a surface runs off to infinity between the points of the first grid, it ends with them.
     """
+    if ball := ball_of(shape):
+        check_range(ball.bounds)
+        return ball.bounds
     if is_parametrised(shape):
         return _parametrised_bounds(shape)
     if is_implicit(shape):

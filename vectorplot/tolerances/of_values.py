@@ -103,3 +103,7 @@ DERIVATIVES_AGREE = 1e-6
 VALUES_AGREE = 1e-9
 """A user's function may give values for a whole array that differ by this part from those one by one: more is another
 function."""
+
+HOMOTHETIC = 1e-12
+"""Two ellipsoids whose forms differ by less than this part are one form in two sizes: what the inverse of a matrix and
+two products leave of their digits."""

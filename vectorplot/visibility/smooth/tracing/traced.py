@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -47,11 +47,17 @@ class TracedScene:
     def __len__(self) -> int:
         return len(self.curves)
 
+    def joined(self, curves: Curves) -> TracedScene:
+        """The same with more curves to draw."""
+        return replace(self, curves=together([self.curves, curves]))
 
-def scene_sheets(scene: Scene, view: View) -> tuple[SmoothSheet, ...]:
-    """The sheets of all smooth items."""
+
+def scene_sheets(scene: Scene, view: View, without: Collection[int] = ()) -> tuple[SmoothSheet, ...]:
+    """The sheets of all smooth items without some, given by their numbers."""
     sheets: list[SmoothSheet] = []
     for number, item in enumerate(scene.items):
+        if number in without:
+            continue
         if is_parametrised(item.shape):
             sheets.append(sheet_of_parametrised(view, item.shape, number, item.hides))
         elif is_implicit(item.shape):

@@ -14,6 +14,10 @@ from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
 from vectorplot.visibility.smooth.sheets.family import Along, Chords, Family
 
 
+def _none() -> Ints:
+    return np.zeros(0, dtype=np.intp)
+
+
 @dataclass(frozen=True, eq=False)
 class Curves:
     """Polylines in the view's coordinates.
@@ -22,7 +26,8 @@ class Curves:
     two sheets meet; of those in faces of a mesh the normal of the face in which the chord from the point lies; else
     NaN; offsets (m+1,); closed (m,): the last point is the first again, its place whole periods
     away; kind (m,) LineKind values; item (m,); family (m,) indices into families; level (m,) the value that the
-    condition of its family has along a curve.
+    condition of its family has along a curve; side (m,): of an outline 1 or -1 where its surface lies to its left or
+    right and that is known already, else 0; behind (m,): by how many items it is hidden already.
     """
 
     points: Floats = field(metadata=EACH_POINT)
@@ -35,6 +40,13 @@ class Curves:
     family: Ints = field(metadata=EACH_LINE)
     level: Floats = field(metadata=EACH_LINE)
     families: tuple[Family, ...]
+    side: Ints = field(default_factory=_none, metadata=EACH_LINE)
+    behind: Ints = field(default_factory=_none, metadata=EACH_LINE)
+
+    def __post_init__(self) -> None:
+        for name in ("side", "behind"):
+            if not len(getattr(self, name)):
+                object.__setattr__(self, name, np.zeros(len(self), dtype=np.intp))
 
     def __len__(self) -> int:
         return len(self.offsets) - 1

@@ -1,0 +1,129 @@
+"""Arcs of conics in space, and straight lines: what the engine of convex quadrics hides."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.visibility.quadrics.sight import Sight
+from vectorplot.words import LineKind
+
+
+@dataclass(frozen=True, eq=False)
+class Arcs:
+    """The points middle + cos(t) first + sin(t) second, low <= t <= high; of a straight line middle + t first.
+
+    middle, first, second (n,3) in the coordinates of sight; low, high (n,); straight (n,); kind, item (n,); own (n,2)
+    the bodies on which an arc lies, or -1; side (n,): 1 or -1 where it is an outline, and its body to the left or right
+    of it, else 0.
+    """
+
+    middle: Floats
+    first: Floats
+    second: Floats
+    low: Floats
+    high: Floats
+    straight: Bools
+    kind: Ints
+    item: Ints
+    own: Ints
+    side: Ints
+
+    def __len__(self) -> int:
+        return len(self.low)
+
+    def at(self, which: Ints, t: Floats) -> tuple[Floats, Floats, Floats]:
+        """Points (k,3) of arcs which (k,) at t (k,), and their first and second derivatives by t."""
+        middle, first, second = self.middle[which], self.first[which], self.second[which]
+        straight = self.straight[which][:, None]
+        cosine, sine = np.cos(t)[:, None], np.sin(t)[:, None]
+        along = cosine * first + sine * second
+        points = middle + np.where(straight, t[:, None] * first, along)
+        slopes = np.where(straight, first, cosine * second - sine * first)
+        return points, slopes, np.where(straight, 0.0, -along)
+
+    def in_view(self, sight: Sight) -> Arcs:
+        """The arcs in the coordinates of the view."""
+        first, second = sight.vectors(self.first), sight.vectors(self.second)
+        return replace(self, middle=sight.points_of_view(self.middle), first=first, second=second)
+
+    def some(self, which: Ints | Bools) -> Arcs:
+        """Some of the arcs."""
+        return Arcs(*(getattr(self, row.name)[which] for row in fields(self)))
+
+
+@dataclass(frozen=True, eq=False)
+class OwnSides:
+    """What bodies hide of curves on themselves: where the linear form (k,4) is negative, arc (k,) is turned away on a
+    body of item (k,)."""
+
+    arc: Ints
+    form: Floats
+    item: Ints
+
+
+def arcs_on(
+    circles: tuple[Floats, Floats, Floats],
+    span: tuple[Floats, Floats],
+    kind: LineKind,
+    item: Ints,
+    own: Ints,
+    side: Ints | None = None,
+) -> Arcs:
+    """Arcs of one kind: their middles and conjugate radii, and from where to where (n,) they go."""
+    count = len(item)
+    straight = np.zeros(count, dtype=np.bool_)
+    sides = np.zeros(count, dtype=np.intp) if side is None else side
+    return Arcs(*circles, *span, straight, np.full(count, int(kind)), item, own, sides)
+
+
+def joined_arcs(parts: Sequence[tuple[Arcs, OwnSides]]) -> tuple[Arcs, OwnSides]:
+    """All arcs of all parts, and what their own bodies hide of them."""
+    none, number = np.zeros((0, 3)), np.zeros(0)
+    whole = np.zeros(0, dtype=np.intp)
+    flags = np.zeros(0, dtype=np.bool_)
+    pairs = np.zeros((0, 2), dtype=np.intp)
+    empty = Arcs(none, none, none, number, number, flags, whole, whole, pairs, whole)
+    arcs = [empty, *(arcs for arcs, _ in parts)]
+    shift = ragged.starts([len(some) for some in arcs])[1:]
+    sides = [OwnSides(whole, np.zeros((0, 4)), whole)]
+    sides += [replace(own, arc=own.arc + first) for (_, own), first in zip(parts, shift.tolist(), strict=True)]
+    return (
+        Arcs(*(np.concatenate([getattr(some, row.name) for some in arcs]) for row in fields(Arcs))),
+        OwnSides(*(np.concatenate([getattr(some, row.name) for some in sides]) for row in fields(OwnSides))),
+    )
+
+
+def beyond_near(sight: Sight, arcs: Arcs, sides: OwnSides) -> tuple[Arcs, OwnSides]:
+    """The parts of arcs of conics that are no nearer to the eye than the near plane."""
+    if not sight.central:
+        return arcs, sides
+    # Depth is base + reach cos(t - turn): no less than near within half of turn.
+    base, reach = arcs.middle[:, 2], np.hypot(arcs.first[:, 2], arcs.second[:, 2])
+    doubtful = base - reach < sight.near
+    if not doubtful.any():
+        return arcs, sides
+    turn = np.arctan2(arcs.second[:, 2], arcs.first[:, 2])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        half = np.arccos(np.clip((sight.near - base) / reach, -1.0, 1.0))
+    half = np.where(base + reach < sight.near, -1.0, np.where(reach > 0.0, half, np.pi))
+    which, low, high = [np.flatnonzero(~doubtful)], [arcs.low[~doubtful]], [arcs.high[~doubtful]]
+    some = np.flatnonzero(doubtful)
+    for turns in (-1.0, 0.0, 1.0):
+        middle = turn[some] + 2.0 * np.pi * turns
+        begin, end = np.maximum(middle - half[some], arcs.low[some]), np.minimum(middle + half[some], arcs.high[some])
+        there = begin < end
+        which.append(some[there])
+        low.append(begin[there])
+        high.append(end[there])
+    chosen = np.concatenate(which)
+    cut = replace(arcs.some(chosen), low=np.concatenate(low), high=np.concatenate(high))
+    order = np.argsort(sides.arc, kind="stable")
+    first = np.searchsorted(sides.arc[order], np.arange(len(arcs) + 1))
+    count = np.diff(first)[chosen]
+    index = order[ragged.ranges(first[chosen], count)]
+    return cut, OwnSides(ragged.owner(count), sides.form[index], sides.item[index])

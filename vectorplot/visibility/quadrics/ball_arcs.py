@@ -1,0 +1,152 @@
+"""The lines on spheres and ellipsoids: contours, parameter lines, isophotes and plane sections, all of them conics."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.vectors import cross, dot
+from vectorplot.scene.curve_light import curve_light
+from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.view import View
+from vectorplot.visibility.quadrics.arcs import Arcs, OwnSides, arcs_on
+from vectorplot.visibility.quadrics.balls import Balls
+from vectorplot.words import LineKind
+
+Found = tuple[Arcs, OwnSides]
+Wants = Callable[[Item, LineKind], bool]
+
+
+def ball_arcs(scene: Scene, view: View, balls: Balls, wants: Wants) -> list[Found]:
+    """The lines that items with balls ask for; wants(item, kind) tells."""
+    items = [scene.items[k] for k in balls.item.tolist()]
+    return [
+        _contours(balls, _wanting(items, wants, LineKind.CONTOUR)),
+        *_parameter_lines(balls, items, _wanting(items, wants, LineKind.PARAMETER)),
+        _isophotes(scene, view, balls, items, _wanting(items, wants, LineKind.ISOPHOTE)),
+        _sections(view, balls, items, _wanting(items, wants, LineKind.SECTION)),
+    ]
+
+
+def _wanting(items: Sequence[Item], wants: Wants, kind: LineKind) -> Ints:
+    return np.array([k for k, item in enumerate(items) if wants(item, kind)], dtype=np.intp)
+
+
+def on_balls(
+    balls: Balls,
+    circles: tuple[Floats, Floats, Floats],
+    kind: LineKind,
+    ball: Ints,
+    span: tuple[float, float] = (0.0, 2.0 * np.pi),
+) -> Found:
+    """Circles of balls (n,), in the picture where the ball shows."""
+    own = np.stack([ball, np.full_like(ball, -1)], axis=1)
+    low, high = np.full(len(ball), span[0]), np.full(len(ball), span[1])
+    arcs = arcs_on(circles, (low, high), kind, balls.item[ball], own)
+    hiding = np.flatnonzero(balls.hides[ball])
+    return arcs, OwnSides(hiding, balls.polar_planes(ball[hiding]), balls.item[ball[hiding]])
+
+
+def _contours(balls: Balls, which: Ints) -> Found:
+    """The contours, which no part of their own ball hides."""
+    middle, first, second = balls.contours(which)
+    # Where it runs counter-clockwise in the picture its ball is on the left.
+    outward = cross(first, second)
+    sight = middle if balls.sight.central else np.broadcast_to([0.0, 0.0, 1.0], middle.shape)
+    side = np.where(dot(outward, sight) > 0.0, 1, -1)
+    own = np.stack([which, np.full_like(which, -1)], axis=1)
+    low, high = np.zeros(len(which)), np.full(len(which), 2.0 * np.pi)
+    arcs = arcs_on((middle, first, second), (low, high), LineKind.CONTOUR, balls.item[which], own, side)
+    none = np.zeros(0, dtype=np.intp)
+    return arcs, OwnSides(none, np.zeros((0, 4)), none)
+
+
+def _parameter_lines(balls: Balls, items: Sequence[Item], which: Ints) -> list[Found]:
+    """Meridians, from pole to pole, and circles of latitude."""
+    columns = np.array([items[k].curves.columns for k in which.tolist()], dtype=np.intp)
+    ball, angle = np.repeat(which, columns), 2.0 * np.pi * ragged.place(columns) / np.repeat(columns, columns)
+    frame = balls.frame[ball]
+    equator = np.cos(angle)[:, None] * frame[:, 0] + np.sin(angle)[:, None] * frame[:, 1]
+    quarter = 0.5 * np.pi
+    circles = (balls.centre[ball], equator, frame[:, 2])
+    meridians = on_balls(balls, circles, LineKind.PARAMETER, ball, (-quarter, quarter))
+    rows = np.array([items[k].curves.rows for k in which.tolist()], dtype=np.intp)
+    inner = np.maximum(rows - 1, 0)
+    ball = np.repeat(which, inner)
+    latitude = np.pi * (ragged.place(inner) + 1) / np.repeat(rows, inner) - quarter
+    frame = balls.frame[ball]
+    radius = np.cos(latitude)[:, None]
+    middle = balls.centre[ball] + np.sin(latitude)[:, None] * frame[:, 2]
+    circles = (middle, radius * frame[:, 0], radius * frame[:, 1])
+    return [meridians, on_balls(balls, circles, LineKind.PARAMETER, ball)]
+
+
+def _isophotes(scene: Scene, view: View, balls: Balls, items: Sequence[Item], which: Ints) -> Found:
+    """The isophotes of spheres: circles about the direction of the light."""
+    counts = np.array([len(items[k].curves.isophotes) for k in which.tolist()], dtype=np.intp)
+    which, counts = which[counts > 0], counts[counts > 0]
+    parallel, position = [], []
+    for k in which.tolist():
+        light = curve_light(scene, view, items[k])
+        parallel.append(light.parallel)
+        position.append(light.position)
+    lamp = np.array(position).reshape(-1, 3)
+    away = np.array(parallel, dtype=np.bool_)[:, None]
+    sight = balls.sight
+    lamps = sight.points(view.points_of(lamp).T) - balls.centre[which]
+    towards = np.where(away, sight.vectors(lamp @ view.axes.T), lamps)
+    distance = np.sqrt(dot(towards, towards)) / balls.reach[which, 0]
+    # In the frame of the unit sphere, which a mirrored one turns inside out.
+    s = np.einsum("ni,nij->nj", towards, balls.inverse[which])
+    s /= np.sqrt(dot(s, s))[:, None]
+    turned = np.sign(np.linalg.det(balls.frame[which])) * (-1.0)
+    owner = ragged.owner(counts)
+    cosine = np.concatenate([np.zeros(0), *(items[k].curves.isophotes for k in which.tolist())]) * turned[owner]
+    far, near_by = away[owner, 0], distance[owner]
+    with np.errstate(all="ignore"):
+        root = np.sqrt(np.maximum(near_by * near_by - 1.0 + cosine * cosine, 0.0))
+        height = np.where(far, cosine, (1.0 - cosine * cosine + cosine * root) / near_by)
+        # Inside a ball a lamp lights nothing outside of it.
+        there = far | (near_by * near_by - 1.0 + cosine * cosine >= 0.0)
+    kept = np.flatnonzero(there & (np.abs(height) < 1.0))
+    ball = which[owner[kept]]
+    return on_balls(balls, balls.circles(ball, s[owner[kept]], height[kept]), LineKind.ISOPHOTE, ball)
+
+
+def _sections(view: View, balls: Balls, items: Sequence[Item], which: Ints) -> Found:
+    """The sections with planes."""
+    ball: list[int] = []
+    normals: list[tuple[float, float, float]] = []
+    offsets: list[float] = []
+    for k in which.tolist():
+        for section in items[k].curves.sections:
+            ball += [k] * len(section.offsets)
+            normals += [section.normal] * len(section.offsets)
+            offsets += section.offsets
+    normal = np.array(normals).reshape(-1, 3)
+    height = (np.array(offsets) - normal @ view.centre) / view.scale
+    in_view = normal @ view.axes.T
+    of = np.array(ball, dtype=np.intp)
+    sight = balls.sight
+    at = sight.points(in_view * height[:, None])
+    return plane_circles(balls, of, sight.vectors(in_view), at, LineKind.SECTION)
+
+
+def plane_circles(balls: Balls, ball: Ints, normal: Floats, point: Floats, kind: LineKind) -> Found:
+    """The circles in which planes through points (n,3), with normals (n,3), meet balls (n,); none where they do not, or
+    touch."""
+    kept, s, height = unit_planes(balls, ball, normal, point)
+    return on_balls(balls, balls.circles(ball[kept], s, height), kind, ball[kept])
+
+
+def unit_planes(balls: Balls, ball: Ints, normal: Floats, point: Floats) -> tuple[Ints, Floats, Floats]:
+    """Which planes meet the balls, and as planes s.unit = height of the unit sphere: unit (k,3), height (k,)."""
+    s = np.einsum("nij,nj->ni", balls.frame[ball], normal)
+    size = np.sqrt(dot(s, s))
+    height = dot(point - balls.centre[ball], normal)
+    touching = balls.tolerance * np.sqrt(dot(normal, normal))
+    kept = np.flatnonzero(np.abs(height) < size - touching)
+    return kept, s[kept] / size[kept, None], height[kept] / size[kept]

@@ -1,0 +1,157 @@
+"""The circles in which spheres and ellipsoids meet each other and the faces of polyhedra."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.exact import intervals
+from vectorplot.features.meshes.mesh_intersections import overlapping_boxes
+from vectorplot.geometry import ragged
+from vectorplot.geometry.vectors import cross, dot
+from vectorplot.scene.view import View
+from vectorplot.tolerances.of_lengths import UNION_OF_SEGMENT
+from vectorplot.tolerances.of_values import HOMOTHETIC
+from vectorplot.visibility.polyhedra.hidden_lines import SLIVER
+from vectorplot.visibility.quadrics.arcs import OwnSides, arcs_on
+from vectorplot.visibility.quadrics.ball_arcs import Found, on_balls, plane_circles, unit_planes
+from vectorplot.visibility.quadrics.balls import Balls
+from vectorplot.words import LineKind
+
+
+def overlapping_balls(balls: Balls) -> tuple[Ints, Ints]:
+    """Pairs i < j of balls of which the boxes overlap."""
+    low, high = (balls.centre - balls.reach).T, (balls.centre + balls.reach).T
+    one, two = overlapping_boxes(low, high, low, high)
+    first = one < two
+    return one[first], two[first]
+
+
+def are_homothetic(balls: Balls, one: Ints, two: Ints) -> tuple[Bools, Floats]:
+    """Which pairs are of one form, in one direction, so that they meet in a plane; and the square of the ratio of their
+    sizes."""
+    inside = np.einsum("nij,njk->nik", balls.frame[one], balls.inverse[two])
+    product = np.einsum("nij,nkj->nik", inside, inside)
+    ratio = np.einsum("nii->n", product) / 3.0
+    off = np.abs(product - ratio[:, None, None] * np.eye(3)).max(axis=(1, 2), initial=0.0)
+    return np.asarray(off <= HOMOTHETIC * ratio), ratio
+
+
+def balls_with_balls(balls: Balls, one: Ints, two: Ints, wants: Bools) -> Found:
+    """The circles of pairs of balls that are_homothetic; wants (n,): the balls that want them.
+
+    A circle belongs to the item, of those that want it, that comes first in the scene. Degenerate: balls that touch, or
+    are one, have none.
+    """
+    kept = (wants[one] | wants[two]) & (balls.same[one] != balls.same[two])
+    one, two = one[kept], two[kept]
+    swap = ~wants[one] | (wants[two] & (balls.item[two] < balls.item[one]))
+    one, two = np.where(swap, two, one), np.where(swap, one, two)
+    # The second ball where the first one is the unit sphere: |s inside + arm| = 1.
+    inside = np.einsum("nij,njk->nik", balls.frame[one], balls.inverse[two])
+    arm = np.einsum("ni,nij->nj", balls.centre[one] - balls.centre[two], balls.inverse[two])
+    ratio = (inside * inside).sum(axis=(1, 2)) / 3.0
+    normal = np.einsum("nij,nj->ni", inside, arm)
+    size = np.sqrt(dot(normal, normal))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        height = (1.0 - dot(arm, arm) - ratio) / (2.0 * size)
+        touching = balls.tolerance / balls.reach[one].max(axis=1, initial=0.0)
+        met = np.flatnonzero((np.abs(height) < 1.0 - touching) & (size > 0.0))
+    one, two = one[met], two[met]
+    circles = balls.circles(one, normal[met] / size[met, None], height[met])
+    arcs, first = on_balls(balls, circles, LineKind.INTERSECTION, one)
+    arcs.own[:, 1] = two
+    second = np.flatnonzero(balls.hides[two])
+    sides = (
+        np.concatenate([first.arc, second]),
+        np.concatenate([first.form, balls.polar_planes(two[second])]),
+        np.concatenate([first.item, balls.item[two[second]]]),
+    )
+    return arcs, OwnSides(*sides)
+
+
+def balls_with_faces(view: View, balls: Balls, wants: Bools) -> Found:
+    """The arcs in which balls meet the faces of polyhedra; wants (i,): the items that want them.
+
+    An arc belongs to the item, of those that want it, that comes first in the scene. Degenerate: a face that a ball
+    touches has none.
+    """
+    sight = balls.sight
+    points = sight.points(view.points.T)
+    at_corner = points[view.corners].T
+    starts = view.offsets[:-1]
+    if not len(starts) or not len(balls):
+        return plane_circles(balls, np.zeros(0, np.intp), np.zeros((0, 3)), np.zeros((0, 3)), LineKind.INTERSECTION)
+    low, high = np.minimum.reduceat(at_corner, starts, axis=1), np.maximum.reduceat(at_corner, starts, axis=1)
+    ball, face = overlapping_boxes((balls.centre - balls.reach).T, (balls.centre + balls.reach).T, low, high)
+    kept = wants[balls.item[ball]] | wants[view.face_item[face]]
+    ball, face = ball[kept], face[kept]
+    normals, origin = _newell(points, view, np.unique(face))
+    place = np.searchsorted(np.unique(face), face)
+    normal, origin = normals[place], origin[place]
+    good = dot(normal, normal) > 0.0
+    ball, face, normal, origin = ball[good], face[good], normal[good], origin[good]
+    met, s, height = unit_planes(balls, ball, normal, origin)
+    ball, face, normal = ball[met], face[met], normal[met]
+    middle, first, second = balls.circles(ball, s, height)
+    return _within_faces(view, points, balls, (middle, first, second), ball, face, normal, wants)
+
+
+def _within_faces(
+    view: View,
+    points: Floats,
+    balls: Balls,
+    circles: tuple[Floats, Floats, Floats],
+    ball: Ints,
+    face: Ints,
+    normal: Floats,
+    wants: Bools,
+) -> Found:
+    """The parts of circles in the planes of faces that lie in these, which are convex."""
+    middle, first, second = circles
+    size = view.face_sizes[face]
+    circle = ragged.owner(size)
+    position = ragged.ranges(view.offsets[face], size)
+    start = points[view.corners[position]]
+    along = points[view.corners[view.after(position)]] - start
+    inward = cross(normal[circle], along)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        inward /= np.sqrt(dot(inward, inward))[:, None]
+    # Outside of the edge where base + reach cos(t - turn) < 0.
+    base = dot(middle[circle] - start, inward)
+    x, y = dot(first[circle], inward), dot(second[circle], inward)
+    reach, turn = np.hypot(x, y), np.arctan2(y, x)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        half = np.arccos(np.clip(base / reach, -1.0, 1.0))
+    out = np.isfinite(base) & (base < reach)
+    circle, turn, half = circle[out], turn[out], np.where(base[out] <= -reach[out], np.pi, half[out])
+    low = np.mod(turn + np.pi - half, 2.0 * np.pi) / (2.0 * np.pi)
+    high = low + half / np.pi
+    round_ = high > 1.0
+    owner = np.concatenate([circle, circle[round_]])
+    low, high = np.concatenate([low, np.zeros(round_.sum())]), np.concatenate([np.minimum(high, 1.0), high[round_] - 1])
+    gap = np.full(len(ball), UNION_OF_SEGMENT)
+    zones = intervals.union(owner, low, high, gap)
+    of, low, high = intervals.complement(len(ball), *zones, gap)
+    radius = np.sqrt(np.maximum(dot(first, first), dot(second, second)))[of]
+    long = (high - low) * 2.0 * np.pi * radius > SLIVER * balls.tolerance
+    of, low, high = of[long], low[long] * 2.0 * np.pi, high[long] * 2.0 * np.pi
+    item, other = balls.item[ball[of]], view.face_item[face[of]]
+    item = np.where(wants[item] & (~wants[other] | (item < other)), item, other)
+    own = np.stack([ball[of], np.full_like(of, -1)], axis=1)
+    arcs = arcs_on((middle[of], first[of], second[of]), (low, high), LineKind.INTERSECTION, item, own)
+    hiding = np.flatnonzero(balls.hides[ball[of]])
+    return arcs, OwnSides(hiding, balls.polar_planes(ball[of[hiding]]), balls.item[ball[of[hiding]]])
+
+
+def _newell(points: Floats, view: View, face: Ints) -> tuple[Floats, Floats]:
+    """Unit normals (f,3) of faces by their corners' sum of cross products, and a corner of each."""
+    size = view.face_sizes[face]
+    position = ragged.ranges(view.offsets[face], size)
+    origin = points[view.corners[view.offsets[face]]]
+    base = np.repeat(origin, size, axis=0)
+    areas = cross(points[view.corners[position]] - base, points[view.corners[view.after(position)]] - base)
+    normal = np.add.reduceat(areas, ragged.starts(size), axis=0) if len(face) else areas
+    with np.errstate(divide="ignore", invalid="ignore"):
+        unit = normal / np.sqrt(dot(normal, normal))[:, None]
+    return np.where(np.isfinite(unit), unit, 0.0), origin

@@ -1,0 +1,109 @@
+"""The spheres and ellipsoids of a scene as its eye sees them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.vectors import dot
+from vectorplot.scene.scene import Item
+from vectorplot.scene.view import View
+from vectorplot.surfaces.balls import Ball
+from vectorplot.visibility.quadrics.sight import Sight
+
+
+@dataclass(frozen=True, eq=False)
+class Balls:
+    """Images of the unit sphere in the coordinates of sight: the points centre + s @ frame; centre (n,3),
+    frame (n,3,3), item (n,); hides (n,); tolerance: what counts as distance zero."""
+
+    sight: Sight
+    centre: Floats
+    frame: Floats
+    item: Ints
+    hides: Bools
+    tolerance: float
+
+    def __len__(self) -> int:
+        return len(self.item)
+
+    @cached_property
+    def inverse(self) -> Floats:
+        """(n,3,3): s = (point - centre) @ inverse."""
+        return np.asarray(np.linalg.inv(self.frame))
+
+    @cached_property
+    def eye(self) -> Floats:
+        """(n,3) the eye where the ball is the unit sphere; of a parallel projection the unit vector towards it."""
+        if self.sight.central:
+            return np.asarray(np.einsum("ni,nij->nj", -self.centre, self.inverse))
+        towards = -self.inverse[:, 2]
+        return np.asarray(towards / np.sqrt(dot(towards, towards))[:, None])
+
+    @cached_property
+    def reach(self) -> Floats:
+        """(n,3) half the sides of the boxes around the balls."""
+        return np.asarray(np.sqrt((self.frame * self.frame).sum(axis=1)))
+
+    @cached_property
+    def same(self) -> Ints:
+        """(n,) the first ball at the same place and of the same form: each other hides nothing of it."""
+        shape = np.einsum("nki,nkj->nij", self.frame, self.frame).reshape(-1, 9)
+        size = self.reach.max(axis=1, initial=0.0, keepdims=True)
+        numbers = np.concatenate([self.centre, shape / np.where(size > 0.0, size, 1.0)], axis=1)
+        key = np.round(numbers / (4.0 * self.tolerance)).astype(np.int64)
+        _, first, group = np.unique(key, axis=0, return_index=True, return_inverse=True)
+        return np.asarray(first[group.reshape(-1)])
+
+    def polar_planes(self, which: Ints) -> Floats:
+        """(k,4) linear forms, of unit gradient, positive on the eye's side of the polar plane: where a ball shows."""
+        gradient = np.einsum("nij,nj->ni", self.inverse[which], self.eye[which])
+        constant = -dot(gradient, self.centre[which]) - (1.0 if self.sight.central else 0.0)
+        form = np.concatenate([gradient, constant[:, None]], axis=1)
+        return np.asarray(form / np.sqrt(dot(gradient, gradient))[:, None])
+
+    def circles(self, which: Ints, normal: Floats, height: Floats) -> tuple[Floats, Floats, Floats]:
+        """Centres and two conjugate radii (k,3) of the sections of balls with planes: s.normal = height of the unit
+        sphere, unit normals (k,3)."""
+        first, second = across(normal)
+        radius = np.sqrt(np.maximum(1.0 - height * height, 0.0))[:, None]
+        parts = (height[:, None] * normal, radius * first, radius * second)
+        middle, p, q = (np.einsum("ni,nij->nj", part, self.frame[which]) for part in parts)
+        return self.centre[which] + middle, p, q
+
+    def contours(self, which: Ints) -> tuple[Floats, Floats, Floats]:
+        """Centres and two conjugate radii (k,3) of the contours."""
+        eye = self.eye[which]
+        distance = np.sqrt(dot(eye, eye))
+        height = 1.0 / distance if self.sight.central else np.zeros(len(which))
+        return self.circles(which, eye / distance[:, None], height)
+
+    def some(self, which: Ints | Bools) -> Balls:
+        """Some of the balls."""
+        return Balls(
+            self.sight, self.centre[which], self.frame[which], self.item[which], self.hides[which], self.tolerance
+        )
+
+
+def balls_of(view: View, items: Sequence[Item], which: Ints, balls: Sequence[Ball]) -> Balls:
+    """Balls of the world, those of the items which (n,), as the eye of a view sees them."""
+    sight = Sight(view)
+    centre = np.array([ball.centre for ball in balls]).reshape(-1, 3)
+    frame = np.array([ball.frame for ball in balls]).reshape(-1, 3, 3)
+    turned = view.axes.T / view.scale
+    hides = np.array([items[k].hides for k in which.tolist()], dtype=np.bool_)
+    in_view = (centre - view.centre) @ turned
+    return Balls(sight, sight.points(in_view), sight.vectors(frame @ turned), which, hides, view.tolerance)
+
+
+def across(directions: Floats) -> tuple[Floats, Floats]:
+    """Two unit vectors (n,3) across each unit vector (n,3), and each other."""
+    axis = np.zeros_like(directions)
+    axis[np.arange(len(directions)), np.abs(directions).argmin(axis=1)] = 1.0
+    first = np.cross(directions, axis)
+    first /= np.sqrt(dot(first, first))[:, None]
+    return first, np.cross(directions, first)
