@@ -337,8 +337,8 @@ class Scene:
 
         Errors: InputError, with the item's name, for a surface without a finite point.
         """
-        boxes = [_bounds(item.name, item.shape) for item in self.items if not isinstance(item.shape, Mesh)]
-        corners = np.concatenate([self.vertices, *boxes]) if boxes else self.vertices
+        smooth = [item for item in self.items if not isinstance(item.shape, Mesh)]
+        corners = np.concatenate([self.vertices, *(_bounds(item.name, item.shape) for item in smooth)])
         if not len(corners):
             return np.zeros((2, 3))
         return np.array([corners.min(axis=0), corners.max(axis=0)])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -61,6 +61,12 @@ class ClosedForms:
         corners = [balls.centre + balls.reach * sign for sign in _CORNERS]
         return np.concatenate([balls.sight.points_of_view(some).T for some in corners], axis=1)
 
+
+CURVE_PIECES = 256
+"""Boxes around a curve in space, in the search for balls that it may lie on."""
+
+BOX_SLACK = 0.01
+"""Boxes are made larger by this part on every side: a curve may bulge between the points looked at."""
 
 _CORNERS = np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, 1.0, -1.0)
 
@@ -179,34 +185,41 @@ def _apart(scene: Scene, view: View, balls: Balls, one: Ints, two: Ints, wants: 
 
 
 def _meets_others(scene: Scene, view: View, balls: Balls, wants: Bools) -> Bools:
-    """(n,) which balls may have an intersection, that is wanted, with a smooth surface that is not among them."""
+    """(n,) which balls may have an intersection that is wanted with a smooth surface that is not among them, or carry
+    a curve that is an item: chords of one that lies on a ball are inside of it."""
     mine = frozenset(balls.item.tolist())
-    others = [
-        number
-        for number, item in enumerate(scene.items)
-        if number not in mine and not isinstance(item.shape, Mesh) and not is_curve(item.shape)
-    ]
+    others = [number for number, item in enumerate(scene.items) if number not in mine and _is_smooth(item)]
     result = np.zeros(len(balls), dtype=np.bool_)
     if not others or not len(balls):
         return result
-    low, high = (np.stack(column, axis=1) for column in zip(*_boxes(scene, others), strict=True))
-    world = view.axes.T * view.scale
-    centre = balls.sight.points_of_view(balls.centre) @ world.T + view.centre
-    frame = balls.sight.vectors(balls.frame) @ world.T
+    boxes = [_boxes(scene.items[number]) for number in others]
+    low, high = (np.concatenate(column, axis=1) for column in zip(*boxes, strict=True))
+    owner = np.repeat(np.array(others, dtype=np.intp), [box[0].shape[1] for box in boxes])
+    turned = view.axes * view.scale
+    centre = balls.sight.points_of_view(balls.centre) @ turned + view.centre
+    frame = balls.sight.vectors(balls.frame) @ turned
     reach = np.sqrt((frame * frame).sum(axis=1))
-    ball, other = overlapping_boxes((centre - reach).T, (centre + reach).T, low, high)
-    wanted = wants[balls.item[ball]] | wants[np.array(others, dtype=np.intp)[other]]
-    result[ball[wanted]] = True
+    ball, box = overlapping_boxes((centre - reach).T, (centre + reach).T, low, high)
+    carries = np.array([is_curve(item.shape) for item in scene.items], dtype=np.bool_)
+    result[ball[carries[owner[box]] | wants[owner[box]] | wants[balls.item[ball]]]] = True
     return result
 
 
-def _boxes(scene: Scene, items: Iterable[int]) -> list[tuple[Floats, Floats]]:
-    boxes = []
-    for number in items:
+def _is_smooth(item: Item) -> bool:
+    return not isinstance(item.shape, Mesh)
+
+
+def _boxes(item: Item) -> tuple[Floats, Floats]:
+    """Smallest and largest coordinates (3,k) of boxes of the world around a smooth shape, piece by piece of a curve."""
+    if is_curve(item.shape):
+        points = item.shape.points(np.linspace(item.shape.start, item.shape.end, CURVE_PIECES + 1))
+        low, high = np.minimum(points[:-1], points[1:]), np.maximum(points[:-1], points[1:])
+        good = np.isfinite(low).all(axis=1) & np.isfinite(high).all(axis=1)
+        low, high = low[good], high[good]
+    else:
         try:
-            low, high = smooth_bounds(scene.items[number].shape)  # type: ignore[arg-type]
+            low, high = (side[None] for side in smooth_bounds(item.shape))  # type: ignore[arg-type]
         except InputError as error:
-            raise InputError(f"{scene.items[number].name}: {error.cause}") from None
-        slack = 0.01 * (high - low).max()
-        boxes.append((low - slack, high + slack))
-    return boxes
+            raise InputError(f"{item.name}: {error.cause}") from None
+    slack = BOX_SLACK * (high - low).max(axis=1, initial=0.0, keepdims=True)
+    return (low - slack).T, (high + slack).T

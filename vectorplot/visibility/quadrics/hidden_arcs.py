@@ -129,6 +129,8 @@ def _hidden_zones(
 def _slabs(covers: tuple[Covers, ...], most: int) -> Iterator[tuple[Covers, Ints]]:
     """The covers of all kinds front to back, slab by slab."""
     nearest = np.concatenate([some.nearest for some in covers])
+    if not len(nearest):
+        return
     count = min(max(len(nearest) // IN_SLAB, FEWEST_SLABS), most)
     bounds = np.quantile(nearest, np.linspace(0.0, 1.0, count + 1))
     bounds[0], bounds[-1] = -np.inf, np.inf
