@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
-from vectorplot.surfaces.balls import ball_of
+from vectorplot.surfaces.balls import ball_of, bounds_of_balls
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.tolerances.of_numbers import LARGEST
 
@@ -27,11 +27,18 @@ LARGEST_SPREAD = 1e9
 """A surface or a curve that reaches so many times farther than half of its points do runs off to infinity."""
 
 
+def in_range(bounds: Floats) -> Bools:
+    """(...,) whether bounds (...,2,3) are of sizes whose powers stay in the range of floating point numbers."""
+    largest = np.abs(bounds).max(axis=(-2, -1))
+    extent = (bounds[..., 1, :] / 2.0 - bounds[..., 0, :] / 2.0).max(axis=-1)
+    return np.asarray((largest <= LARGEST) & ~((extent > 0.0) & (extent < 1.0 / LARGEST)), dtype=np.bool_)
+
+
 def check_range(bounds: Floats) -> None:
     """An InputError for bounds (2,3) of sizes whose powers leave the range of floating point numbers."""
-    largest = float(np.abs(bounds).max())
-    extent = float((bounds[1] / 2.0 - bounds[0] / 2.0).max())
-    if largest > LARGEST or 0.0 < extent < 1.0 / LARGEST:
+    if not in_range(bounds):
+        largest = float(np.abs(bounds).max())
+        extent = float((bounds[1] / 2.0 - bounds[0] / 2.0).max())
         raise InputError(f"coordinates up to {largest:g} and an extent of {extent:g} are out of range")
 
 
@@ -44,8 +51,9 @@ def smooth_bounds(shape: Surface | ImplicitSurface | Curve) -> Floats:
     Degenerate: where a surface runs off to infinity between the points of the first grid, it ends with them.
     """
     if ball := ball_of(shape):
-        check_range(ball.bounds)
-        return ball.bounds
+        (bounds,) = bounds_of_balls([ball])
+        check_range(bounds)
+        return np.asarray(bounds)
     if is_parametrised(shape):
         return _parametrised_bounds(shape)
     if is_implicit(shape):

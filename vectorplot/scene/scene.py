@@ -12,8 +12,9 @@ from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.extent import smooth_bounds
+from vectorplot.scene.extent import in_range, smooth_bounds
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
+from vectorplot.surfaces.balls import ball_of, bounds_of_balls
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 from vectorplot.words import MATERIALS, check_colour, line_words, unknown
 
@@ -337,8 +338,13 @@ class Scene:
 
         Errors: InputError, with the item's name, for a surface without a finite point.
         """
-        smooth = [item for item in self.items if not isinstance(item.shape, Mesh)]
-        corners = np.concatenate([self.vertices, *(_bounds(item.name, item.shape) for item in smooth)])
+        smooth = [(item.name, item.shape) for item in self.items if not isinstance(item.shape, Mesh)]
+        balls = [ball_of(shape) for _, shape in smooth]
+        boxes = bounds_of_balls([ball for ball in balls if ball is not None])
+        if in_range(boxes).all():
+            smooth = [named for named, ball in zip(smooth, balls, strict=True) if ball is None]
+        others = (_bounds(name, shape) for name, shape in smooth)
+        corners = np.concatenate([self.vertices, boxes.reshape(-1, 3), *others])
         if not len(corners):
             return np.zeros((2, 3))
         return np.array([corners.min(axis=0), corners.max(axis=0)])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,12 +19,6 @@ class Ball:
     centre: Floats
     frame: Floats
 
-    @property
-    def bounds(self) -> Floats:
-        """(2,3) smallest and largest coordinates."""
-        reach = np.sqrt((self.frame * self.frame).sum(axis=0))
-        return np.stack([self.centre - reach, self.centre + reach])
-
 
 def ball_of(shape: object) -> Ball | None:
     """The ball that a shape is the whole surface of, u the longitude, v the latitude of the unit sphere; else None."""
@@ -38,3 +33,12 @@ def ball_of(shape: object) -> Ball | None:
 
 
 _AXES = np.eye(3)
+
+
+def bounds_of_balls(balls: Sequence[Ball]) -> Floats:
+    """(n,2,3) smallest and largest coordinates of balls."""
+    centre = np.array([ball.centre for ball in balls]).reshape(-1, 1, 3)
+    frame = np.array([ball.frame for ball in balls]).reshape(-1, 3, 3)
+    with np.errstate(over="ignore"):
+        reach = np.sqrt((frame * frame).sum(axis=1))[:, None]
+    return np.concatenate([centre - reach, centre + reach], axis=1)
