@@ -79,19 +79,23 @@ def refined(
 def _badly_shaded(view: View, lighting: Lighting, triangles: Floats, source: Ints, shortest: float) -> Floats:
     """(t,3) the lengths of the sides of triangles (t,3,3) of the image, by the corners at which they begin, on which
     the shade is not that between their ends; 0 for the others, and for those that are no longer than shortest."""
-    if not len(triangles):
-        return np.zeros((0, 3))
     after = triangles[:, [1, 2, 0]]
-    within = (triangles[:, None] * (1.0 - BETWEEN) + after[:, None] * BETWEEN).reshape(len(triangles), -1, 3)
-    both = np.concatenate([triangles, within], axis=1)
+    length = np.hypot(*(after - triangles)[..., :2].transpose(2, 0, 1))
+    length = np.where(length > shortest, length, 0.0)
+    some = np.flatnonzero(length.any(axis=1))
+    if not len(some):
+        return length
+    one, two = triangles[some], after[some]
+    within = (one[:, None] * (1.0 - BETWEEN) + two[:, None] * BETWEEN).reshape(len(some), -1, 3)
+    both = np.concatenate([one, within], axis=1)
     flat, count = unmapped(view, np.ascontiguousarray(both.reshape(-1, 3).T)), both.shape[1]
-    offsets = np.arange(0, count * len(triangles) + 1, count)
-    shade = np.atleast_2d(corner_shades_of(view, lighting, flat, offsets, source).total)
-    shade = shade.reshape(-1, len(triangles), 1 + len(BETWEEN), 3)
+    offsets = np.arange(0, count * len(some) + 1, count)
+    shade = np.atleast_2d(corner_shades_of(view, lighting, flat, offsets, source[some]).total)
+    shade = shade.reshape(-1, len(some), 1 + len(BETWEEN), 3)
     ends, share = shade[:, :, :1], BETWEEN[..., 0]
     off = np.abs(shade[:, :, 1:] - (1.0 - share) * ends - share * ends[..., [1, 2, 0]]).max(axis=(0, 2))
-    length = np.hypot(*(after - triangles)[..., :2].transpose(2, 0, 1))
-    return np.asarray(np.where((off > SHADE_ERROR) & (length > shortest), length, 0.0))
+    length[some] = np.where(off > SHADE_ERROR, length[some], 0.0)
+    return length
 
 
 def _longest(length: Floats, count: int) -> Bools:
