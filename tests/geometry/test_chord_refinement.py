@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vectorplot.geometry.chord_refinement import PROBES, Traces, refined, straight_between, torn
+from vectorplot.geometry.chord_refinement import PROBES, Traces, refined, straight_between, torn, with_standstills
 
 
 def on_circle(start, end, part):
@@ -115,3 +115,31 @@ def test_nothing_to_refine():
 
 def test_probes_are_not_symmetric():
     assert not np.isclose(sum(PROBES), 1.0)
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("offset", [0.0, 1e3])
+def test_cusps_are_among_the_points(scale, offset):
+    # An astroid that does not begin in a cusp, and a circle, which has none.
+    t = np.linspace(0.1, 0.1 + 2.0 * np.pi, 23)
+    lines = Traces(
+        np.stack([np.concatenate([t, t]) + offset, np.repeat([1.0, 0.0], 23)], axis=1), np.arange(46) % 23 == 22
+    )
+
+    def slopes(p):
+        x, astroid = p[:, 0] - offset, p[:, 1:]
+        cusped = np.stack([-(np.cos(x) ** 2) * np.sin(x), np.sin(x) ** 2 * np.cos(x)], axis=1)
+        return scale * np.where(astroid > 0.0, cusped, np.stack([-np.sin(x), np.cos(x)], axis=1))
+
+    found = with_standstills(lines, slopes)
+    assert found.last.sum() == 2 and len(found.points) == 50
+    added = np.setdiff1d(found.points[found.points[:, 1] == 1.0, 0], lines.points[:, 0]) - offset
+    assert np.abs(added - np.pi / 2.0 * np.arange(1, 5)).max() < 1e-12 * (1.0 + offset)
+
+
+def test_a_sharp_turn_is_no_cusp_and_a_point_on_a_cusp_is_not_doubled():
+    t = np.linspace(-1.0, 1.0, 8)[:, None]
+    ends = np.arange(8) == 7
+    assert len(with_standstills(Traces(t, ends), lambda p: np.column_stack([p, np.full(len(p), 1e-3)])).points) == 8
+    through = Traces(np.linspace(-1.0, 1.0, 9)[:, None], np.arange(9) == 8)
+    assert len(with_standstills(through, lambda p: np.column_stack([2.0 * p, 3.0 * p * p])).points) == 9

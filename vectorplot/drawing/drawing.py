@@ -12,6 +12,9 @@ from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.drawing.fills import Fills
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT
 
+NO_CURVE = -1
+"""Of what is no curve, or nobody knows which."""
+
 
 @dataclass(frozen=True)
 class Pen:
@@ -57,6 +60,13 @@ class Paths:
         The same points in the world.
     smooth : (m,) array of bool
         The points lie on a smooth curve, between them is more of it; none does unless said otherwise.
+    directions : (p, 2) array of float
+        Angles in radians, from the page's x axis, at which the curve that a smooth path follows arrives at each point
+        and leaves it; they differ in corners and cusps. NaN, as everywhere unless said otherwise, where they are not
+        known.
+    curve : (m,) array of int
+        The curve that a path is a part of, by a number of its own in the drawing; -1, as everywhere unless said
+        otherwise, where it is none or not known. Of a path that follows several curves that of its first part.
 
     Examples
     --------
@@ -76,10 +86,16 @@ class Paths:
     hidden_by: Ints = field(metadata=EACH_LINE)
     points3d: Floats = field(metadata=EACH_POINT)
     smooth: Bools = field(default_factory=lambda: np.zeros(0, dtype=np.bool_), metadata=EACH_LINE)
+    directions: Floats = field(default_factory=lambda: np.zeros((0, 2)), metadata=EACH_POINT)
+    curve: Ints = field(default_factory=lambda: np.zeros(0, dtype=np.intp), metadata=EACH_LINE)
 
     def __post_init__(self) -> None:
         if not len(self.smooth):
             object.__setattr__(self, "smooth", np.zeros(len(self), dtype=np.bool_))
+        if not len(self.directions) and len(self.points):
+            object.__setattr__(self, "directions", np.full((len(self.points), 2), np.nan))
+        if not len(self.curve):
+            object.__setattr__(self, "curve", np.full(len(self), NO_CURVE))
 
     def __len__(self) -> int:
         return len(self.offsets) - 1

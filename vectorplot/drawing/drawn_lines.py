@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.duplicates import without_duplicates
 from vectorplot.drawing.strokes.paths import chosen, concatenated
@@ -28,10 +31,10 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
 
     Of coincident strokes the visible one stays, then the one whose kind comes first, then the one nearer the eye.
     """
-    ends = np.stack(lines.ends(view, seen.segment, seen.low, seen.high), axis=2).reshape(3, -1)
+    parts = lines.cut(view, seen.segment, seen.low, seen.high)
+    ends = np.stack([parts.start, parts.end], axis=2).reshape(3, -1)
     points = placement.on_page(view.image_of(ends))
-    count = len(seen.segment)
-    kind, item = lines.kind[seen.segment], lines.item[seen.segment]
+    count, kind, item = len(parts), parts.kind, parts.item
     offsets = np.arange(0, 2 * count + 1, 2)
     open_ = np.zeros(count, dtype=np.bool_)
     # Lines at the same depth but for rounding go by their items: so neither size nor place decides which one stays.
@@ -39,10 +42,22 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
     order = np.lexsort((item, depth, kind, seen.hidden_by > 0))
     rank = np.empty(count, dtype=np.intp)
     rank[order] = np.arange(count)
-    paths = Paths(points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends), lines.smooth[seen.segment])
+    paths = Paths(points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends), parts.smooth)
+    if parts.chords:
+        # A page shows the image larger, not turned.
+        directions = _at_ends(parts.chords.directions(view))
+        paths = replace(paths, directions=directions, curve=parts.chords.curve)
     straight, smooth = np.flatnonzero(~paths.smooth), chosen(paths, paths.smooth)
     once = without_duplicates(chosen(paths, straight), rank[straight], COINCIDENT_MM, placement.page_from_world)
     if not len(smooth):
         return once
     curve_rank = ((smooth.hidden_by > 0) * len(LineKind) + smooth.kind) * len(view.item_vertices) + smooth.item
     return concatenated((once, without_smooth_duplicates(smooth, curve_rank, COINCIDENT_MM)))
+
+
+def _at_ends(directions: Floats) -> Floats:
+    """(2n,2) the directions at the ends of strokes of two points; (n,2): how each leaves its first, arrives at its last
+    one."""
+    result = np.full((2 * len(directions), 2), np.nan)
+    result[::2, 1], result[1::2, 0] = directions.T
+    return result

@@ -11,12 +11,16 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import Rounds
 from vectorplot.tolerances.of_parameters import JUMP_OF_DOMAIN
+from vectorplot.tolerances.of_values import STANDSTILL_OF_SPEED
 
 PROBES = (0.35, 0.7)
 """Where between two points a curve is compared with its chord: not symmetric, so that no S-shape passes."""
 
 MISSED = 0.8
 """Part of the largest deviation of a parabola that the probes see at least."""
+
+HALVINGS = 52
+"""How often the way between two points is halved until it is known where a curve turns back: to the last bit."""
 
 ROUNDS = 20
 """How often chords are cut by three at most."""
@@ -109,6 +113,33 @@ def refined(lines: Traces, between: Between, image: Image, tolerance: float, mos
         points = np.insert(points, at, new, axis=0)
         last, open_ = np.insert(last, at, False), np.insert(open_, at, True)
     return Refined(Traces(points, last), unsure, not open_.any())
+
+
+def with_standstills(lines: Traces, slopes: Callable[[Floats], Floats]) -> Traces:
+    """The polylines of curves that are given by what runs evenly along them, with the points put in at which a curve
+    stands still and turns back: its cusps.
+
+    slopes: takes points (k,c) to the derivatives (k,d) of the curves there, by what runs along them.
+    Degenerate: of two cusps between neighbouring points none is seen.
+    """
+    points, way = lines.points, _seen(slopes, lines.points)
+    with np.errstate(invalid="ignore"):
+        back = (way[1:] * way[:-1]).sum(axis=1) < 0.0
+    first = np.flatnonzero(back & ~lines.last[:-1])
+    if not len(first):
+        return lines
+    start, run, ahead = points[first], points[first + 1] - points[first], way[first]
+    low, high = np.zeros((len(first), 1)), np.ones((len(first), 1))
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        goes_on = (_seen(slopes, start + middle * run) * ahead).sum(axis=1, keepdims=True) > 0.0
+        low, high = np.where(goes_on, middle, low), np.where(goes_on, high, middle)
+    there = start + high * run
+    speed, before, after = (np.sqrt((x * x).sum(axis=1)) for x in (_seen(slopes, there), ahead, way[first + 1]))
+    stands = speed <= STANDSTILL_OF_SPEED * np.minimum(before, after)
+    stands &= (there != start).any(axis=1) & (there != points[first + 1]).any(axis=1)
+    at = first[stands] + 1
+    return Traces(np.insert(points, at, there[stands], axis=0), np.insert(lines.last, at, False))
 
 
 def deviation(image: Image, start: Floats, end: Floats, probes: Floats) -> tuple[Floats, Floats]:

@@ -119,6 +119,12 @@ def some(lines: L, which: Ints | Bools) -> L:
     return _with_rows(lines, points, which, offsets)
 
 
+def with_points(lines: L, points: Ints, which: Ints, offsets: Ints) -> L:
+    """Polylines through the points with these indices, and offsets (k+1,) among them; all else that is said of each is
+    what is said of the one of these lines (k,)."""
+    return _with_rows(lines, points, which, offsets)
+
+
 def with_points_kept(lines: L, kept: Bools) -> L:
     """The polylines with those of their points (p,) that are kept, without those that keep less than two."""
     owner = ragged.owner(np.diff(lines.offsets))

@@ -91,3 +91,10 @@ ABOVE_WHOLE = 1e-9
 
 JUST_BEFORE = 1e-9
 """Places along a line this part of a span before a point are taken for it: so rounding does not skip a point."""
+
+BESIDE_STANDSTILL = 1e-3
+"""So far inside of a chord, as a part of it, directions are taken that have a limit only at its end, and at twice and
+three times as much: the third power of it is the error, and differences keep most of their digits."""
+
+LEAST_PART = 1e-9
+"""A shorter part of a chord is what rounding leaves between two events at one place: it has no direction."""

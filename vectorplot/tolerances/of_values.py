@@ -107,3 +107,7 @@ function."""
 HOMOTHETIC = 1e-12
 """Two ellipsoids whose forms differ by less than this part are one form in two sizes: what the inverse of a matrix and
 two products leave of their digits."""
+
+STANDSTILL_OF_SPEED = 1e-5
+"""A curve that is no faster than this part of its speed at the points beside stands still: derivatives by differences
+have so many digits."""

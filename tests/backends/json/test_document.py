@@ -82,6 +82,49 @@ def test_read_gives_back_what_was_written_in_layers_by_kind(tmp_path):
     assert sorted([[s[k] for k in key] for s in ours]) == sorted([[s[k] for k in key] for s in theirs])
 
 
+def curved() -> Paths:
+    """Strokes of which every other one is smooth, with directions that are known in part, and numbers of curves."""
+    paths = mixed()
+    random = np.random.default_rng(6)
+    directions = random.uniform(-np.pi, np.pi, (len(paths.points), 2))
+    directions[random.random(directions.shape) < 0.3] = np.nan
+    number = np.arange(len(paths))
+    smooth = number % 2 == 1
+    directions[np.repeat(~smooth, np.diff(paths.offsets))] = np.nan
+    return replace(paths, smooth=smooth, directions=directions, curve=np.where(smooth & (number > 9), number, -1))
+
+
+def test_what_is_known_of_smooth_curves_comes_back(tmp_path):
+    paths = curved()
+    save(drawing_of(paths, items=("a", "b")), tmp_path / "a.json")
+    strokes = json.loads((tmp_path / "a.json").read_text())["strokes"]
+    for number, stroke in enumerate(strokes):
+        assert ("smooth" in stroke, "directions" in stroke) == (number % 2 == 1,) * 2
+        assert stroke.get("curve", -1) == paths.curve[number]
+    back = read_drawing(tmp_path / "a.json")
+    rows = [
+        sorted(
+            (s.points[s.offsets[i]].tolist(), bool(s.smooth[i]), int(s.curve[i]), repr(d.tolist()))
+            for s in some
+            for i in range(len(s))
+            for d in [s.directions[s.offsets[i] : s.offsets[i + 1]]]
+        )
+        for some in ((paths,), [strokes for layer in back.layers for strokes in layer.strokes])
+    ]
+    assert rows[0] == rows[1]
+
+
+def test_files_without_directions_are_still_read(tmp_path):
+    data = json.loads(json_bytes(drawing_of(curved(), items=("a", "b"))))
+    for stroke in data["strokes"]:
+        for key in ("smooth", "curve", "directions"):
+            stroke.pop(key, None)
+    (tmp_path / "a.json").write_text(json.dumps(data))
+    for layer in read_drawing(tmp_path / "a.json").layers:
+        for strokes in layer.strokes:
+            assert not strokes.smooth.any() and np.isnan(strokes.directions).all() and (strokes.curve == -1).all()
+
+
 def test_a_drawing_without_strokes_comes_back(empty, tmp_path):
     save(empty, tmp_path / "a.json")
     assert read_drawing(tmp_path / "a.json").layers == ()
@@ -115,6 +158,13 @@ GOOD = json.loads(json_bytes(drawing_of(paths_of([(1, 1), (2, 2)]))))
         ("strokes", [GOOD["strokes"][0] | {"points": [[1, 1], [2, float("nan")]]}]),
         ("strokes", [GOOD["strokes"][0] | {"points": [[1, 1]]}]),
         ("strokes", [GOOD["strokes"][0] | {"closed": 0}]),
+        ("strokes", [GOOD["strokes"][0] | {"smooth": 1}]),
+        ("strokes", [GOOD["strokes"][0] | {"curve": -2}]),
+        ("strokes", [GOOD["strokes"][0] | {"directions": 0}]),
+        ("strokes", [GOOD["strokes"][0] | {"directions": [[0, 0]]}]),
+        ("strokes", [GOOD["strokes"][0] | {"directions": [[0, 0], [0]]}]),
+        ("strokes", [GOOD["strokes"][0] | {"directions": [[0, None], [0, "1"]]}]),
+        ("strokes", [GOOD["strokes"][0] | {"directions": [[0, None], [0, float("inf")]]}]),
     ],
 )
 def test_a_file_that_is_no_drawing_is_refused_in_one_line(tmp_path, key, value):

@@ -266,3 +266,59 @@ def test_a_chord_whose_tangents_would_lead_far_away_is_straight():
     c = path.control[:, :, None]
     points = (1 - s) ** 3 * c[:, 0] + 3 * s * (1 - s) ** 2 * c[:, 1] + 3 * s * s * (1 - s) * c[:, 2] + s**3 * c[:, 3]
     assert shapely.distance(shapely.points(points.reshape(-1, 2)), shapely.linestrings(line)).max() < 0.42
+
+
+def both_sides(angle: np.ndarray) -> np.ndarray:
+    """(p,2,2) tangents from angles (p,2) at which a line arrives at points and leaves them."""
+    return np.stack((np.cos(angle), np.sin(angle)), axis=2)
+
+
+def test_corners_are_where_known_tangents_differ_and_nowhere_else():
+    # Two arcs meet at 10 degrees: less than any guess would call a corner.
+    t = np.linspace(0.0, 1.0, 60)
+    one, two = np.radians(90.0) * (1.0 - t), np.radians(10.0) - np.radians(90.0) * t
+    first = np.column_stack((10 * np.sin(np.pi / 2 * t), 10 - 10 * np.cos(np.pi / 2 * t)))
+    first, one = first[:, ::-1], np.pi / 2 - np.pi / 2 * t
+    swung = first[-1] + 10 * np.column_stack((np.sin(two), -np.cos(two))) * -1.0
+    second = swung - swung[0] + first[-1]
+    angle = np.concatenate((one, two[1:] + 0.0))
+    points = np.concatenate((first, second[1:]))
+    sides = np.column_stack((angle, angle))
+    sides[59] = one[-1], two[0]
+    path = fitted(points, both_sides(sides), tolerance=1e-3)
+    assert np.isclose(np.degrees(kinks(path).max()), 10.0, atol=1e-6) and (kinks(path) > 1e-6).sum() == 1
+    assert distance(dense(path), points) < 2e-3
+    # A turn by 70 degrees at one point is no corner where the tangents say that the curve goes through it.
+    narrow = np.array([[-3.0, 0.0], [-0.02, 0.0], [0.02, 0.07], [0.05, 3.0]])
+    sides = np.radians([[0, 0], [20, 20], [80, 80], [89, 89]])
+    assert kinks(fitted(narrow, both_sides(sides), tolerance=0.2)).max(initial=0.0) < 1e-7
+
+
+def test_a_cusp_that_is_known_is_left_the_way_it_was_entered():
+    t = np.linspace(-1.0, 1.0, 81)
+    points = np.column_stack((t * t, t**3))
+    angle = np.arctan2(3 * t * t, 2 * t)
+    sides = np.column_stack((angle, angle))
+    sides[40] = np.pi, 0.0
+    path = fitted(points, both_sides(sides), tolerance=1e-4)
+    assert kinks(path).max() == pytest.approx(np.pi, abs=1e-9)
+    assert [0.0, 0.0] in path.control[:, 0].tolist()
+    assert distance(points, dense(path)) < 1.1e-4
+
+
+def test_tangents_that_are_not_known_are_found_beside_those_that_are():
+    x = np.linspace(0, 6, 300)
+    points = np.column_stack((x, np.sin(x)))
+    angle = np.column_stack((np.arctan(np.cos(x)),) * 2)
+    some = angle.copy()
+    some[::3] = np.nan
+    some[0] = some[-1] = np.nan
+    some[5, 0] = some[8, 1] = np.nan
+    paths = [fitted(points, both_sides(sides), tolerance=1e-4) for sides in (angle, some)]
+    assert all(kinks(path).max() < 1e-7 and path.error <= 1e-4 for path in paths)
+    # An end is that of the circle through the next point with the tangent there.
+    leaving = paths[1].control[0, 1] - paths[1].control[0, 0]
+    assert abs(np.arctan2(leaving[1], leaving[0]) - angle[0, 0]) < 1e-4
+    # Nothing known at all is the same as nothing said.
+    nothing = fitted(points, both_sides(np.full_like(angle, np.nan)), tolerance=1e-4)
+    assert np.array_equal(nothing.control, fitted(points, tolerance=1e-4).control)

@@ -27,3 +27,15 @@ def numbers_of(value: Any, shape: tuple[int, ...], name: str) -> Floats:
     if array.dtype.kind not in "iuf" or not fits or not np.isfinite(array).all():
         raise InputError(f"{name}: expected finite numbers of shape {shape}".replace("-1", "n"))
     return array.astype(np.float64)
+
+
+def numbers_or_nulls(value: Any, shape: tuple[int, ...], name: str) -> Floats:
+    """The same for lists in which numbers may be null: NaN then."""
+    try:
+        array = np.array(value, dtype=object)
+    except ValueError:
+        array = np.array(value, dtype=np.str_)
+    unknown = np.asarray(np.frompyfunc(lambda number: number is None, 1, 1)(array), dtype=np.bool_)
+    numbers = numbers_of(np.where(unknown, 0.0, array).tolist(), shape, name)
+    numbers[unknown.reshape(numbers.shape)] = np.nan
+    return numbers

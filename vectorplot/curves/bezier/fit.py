@@ -28,6 +28,8 @@ _MOST_PARTS = 8
 _MERGE_ROUNDS = 4
 _CURVE_SAMPLES = 64
 _MOST_SAMPLES = 1 << 17
+_FINER = 4
+"""A curve is compared with so many times the samples that its path is fitted to."""
 
 
 def fitted(
@@ -58,12 +60,14 @@ def fitted_paths(
     """Smooth paths within tolerance of polylines, all fitted at once; one path for each.
 
     points (p,d) with d 2 or 3, offsets (m+1,), closed (m,): the last point joins the first, which is not repeated (it
-    may be). tangents (p,d): of any length, forwards; zero where the curve has a corner.
+    may be). tangents (p,d): of any length, forwards; zero where the curve has a corner, NaN where nothing is known; or
+    (p,2,d): those with which it arrives at the point and with which it leaves it.
     Every point lies within tolerance of its path, as the paths' error says; between two points the path keeps within
     tolerance, plus c/2 tan(a), of their chord c, where a is the angle between chord and tangents: the room a smooth
     curve through the points takes, at most sag: how far the polylines are off the curves that they sample. The
-    direction is continuous except at ends and corners: where the polyline turns by more than corner_angle at one point,
-    or by more than that of a smooth curve with chords so near; and where a chord has to stay straight to be so near.
+    direction is continuous except at ends and corners, and where a chord has to stay straight to be so near. Corners
+    are where known tangents say so; where none are known, where the polyline turns by more than corner_angle at one
+    point, or by more than that of a smooth curve with chords so near.
     Errors: InputError for wrong shapes, points that are not finite, a tolerance that is not positive.
     Degenerate: repeated points count once; two points, or points on a straight line, give one straight segment; a
     single point a segment of length 0; a line without points a path without segments.
@@ -88,17 +92,21 @@ def fitted_paths(
 def fitted_curve(curve: Curve, *, tolerance: float) -> BezierPath:
     """A smooth path within tolerance of a curve x(t), t from its start to its end.
 
-    The curve is sampled with its tangents, ever finer, until a path fitted to the samples lies within tolerance of the
-    samples halfway too. Errors: InputError for a curve with points that are not finite, or one that is not within
-    tolerance with 2^17 samples.
+    The curve is sampled with its tangents, ever finer, until a path fitted to the samples lies within tolerance of
+    three more between each two of them.
+    Errors: InputError for a curve with points that are not finite, or one that is not within tolerance with 2^17
+    samples.
     """
     count = _CURVE_SAMPLES
     while count <= _MOST_SAMPLES:
-        samples = [_sampled(curve, n) for n in (count, 2 * count)]
+        samples = [_sampled(curve, n) for n in (count, _FINER * count)]
         _check(samples[0][0], np.array([0, count + 1]), samples[0][1], tolerance)
-        coarse, fine = (_Fit.of(_open_line(*s, closed=curve.closed), s[1].T, tolerance, CORNER_ANGLE) for s in samples)
+        coarse, fine = (
+            _Fit.of(_open_line(*s, closed=curve.closed), np.stack([s[1].T] * 2), tolerance, CORNER_ANGLE)
+            for s in samples
+        )
         spans = coarse.merged(coarse.divided(coarse.first_knots()))
-        check = measured_spans(fine.lines, fine.tangent, fine.room, spans, (2 * spans.first, 2 * spans.last))
+        check = measured_spans(fine.lines, fine.tangent, fine.room, spans, (_FINER * spans.first, _FINER * spans.last))
         if check.error.max() <= tolerance:
             return BezierPath(coarse.control(spans), curve.closed, float(check.error.max()))
         count *= 2
@@ -115,9 +123,9 @@ class _Fit:
     tolerance: float
 
     @classmethod
-    def of(cls, lines: Lines, given: Floats | None, tolerance: float, corner_angle: float, sag: float = np.inf) -> _Fit:
+    def of(cls, lines: Lines, given: Floats, tolerance: float, corner_angle: float, sag: float = np.inf) -> _Fit:
         total = lines.length[lines.last] - lines.length[lines.first]
-        tangent = directions(lines, given, np.minimum(_WINDOW * tolerance, total / 8.0), corner_angle, sag)
+        tangent = directions(lines, given, np.minimum(_WINDOW * tolerance, total / 8.0), corner_angle, tolerance, sag)
         chord = np.diff(lines.points, axis=1, append=lines.points[:, -1:])
         size = np.sqrt((chord * chord).sum(axis=0))
         chord /= np.where(size > 0.0, size, 1.0)
@@ -234,8 +242,10 @@ def _check(points: Floats, offsets: Ints, tangents: Floats | None, tolerance: fl
         raise InputError(f"points to fit must have shape (n, 2) or (n, 3), not {points.shape}")
     if len(offsets) == 0 or offsets[0] != 0 or offsets[-1] != len(points) or (np.diff(offsets) < 0).any():
         raise InputError("offsets must run from 0 to the number of points")
-    if tangents is not None and np.shape(tangents) != points.shape:
-        raise InputError(f"tangents must have the shape of the points, {points.shape}, not {np.shape(tangents)}")
+    both = (len(points), 2, points.shape[1])
+    if tangents is not None and np.shape(tangents) not in (points.shape, both):
+        expected = f"the shape {points.shape} of the points or {both}"
+        raise InputError(f"tangents must have {expected}, not {np.shape(tangents)}")
     if not (tolerance > 0.0 and np.isfinite(tolerance)):
         raise InputError(f"a fit needs a positive tolerance, not {tolerance:g}")
     bad = ~np.isfinite(points).all(axis=1)
@@ -243,13 +253,14 @@ def _check(points: Floats, offsets: Ints, tangents: Floats | None, tolerance: fl
         raise InputError(f"point {int(np.argmax(bad)) + 1} of those to fit is not finite")
 
 
-def _lines(points: Floats, offsets: Ints, closed: Bools, tangents: Floats | None) -> tuple[Lines, Floats | None, Ints]:
-    """Lines without repeated points, loops with their first point at the end too; tangents (d,n); which they are."""
+def _lines(points: Floats, offsets: Ints, closed: Bools, tangents: Floats | None) -> tuple[Lines, Floats, Ints]:
+    """Lines without repeated points, loops with their first point at the end too; tangents (2,d,n), NaN where they are
+    not known; which they are."""
     counts = np.diff(offsets)
     kept = np.flatnonzero(counts > 0)
     if not len(kept):
         nothing = np.zeros(0, dtype=np.intp)
-        return Lines(points.T, np.zeros(0), nothing, nothing, closed[:0], nothing), None, kept
+        return Lines(points.T, np.zeros(0), nothing, nothing, closed[:0], nothing), np.zeros((2, *points.T.shape)), kept
     # Open lines may end with a point that repeats; a loop gets its first point again, and a single point too.
     rounds = closed_round(Polylines(points, offsets, closed | (counts == 1)))
     index = rounds.index
@@ -265,7 +276,10 @@ def _lines(points: Floats, offsets: Ints, closed: Bools, tangents: Floats | None
     fresh[np.maximum(ends - 1, starts)] &= fresh[ends] | (ends - 1 == starts)
     fresh[ends] = True
     index, line = index[fresh], line[fresh]
-    given = None if tangents is None else np.asarray(tangents, dtype=np.float64)[index].T
+    given = np.full((2, points.shape[1], len(index)), np.nan)
+    if tangents is not None:
+        sides = np.asarray(tangents, dtype=np.float64).reshape(len(points), -1, points.shape[1])
+        given[:] = sides[index].transpose(1, 2, 0)
     return _measured(points[index], line, closed[kept]), given, kept
 
 

@@ -12,7 +12,7 @@ from vectorplot.geometry import ragged
 from vectorplot.tolerances.of_angles import PARABOLA_SINE_SQUARED
 from vectorplot.tolerances.of_values import RIDGE
 
-_STEPS = 3
+_STEPS = 5
 
 
 @dataclass(frozen=True, eq=False)

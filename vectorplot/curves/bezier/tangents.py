@@ -40,47 +40,66 @@ BEND = 24.0
 if both are equally far off; so many times that far it is a corner."""
 
 
+SMOOTHED = 8.0
+"""Where two tangents meet, a smooth curve through points on both sides passes by at the product of their angle and the
+shorter chord by so much, about."""
+
+
 def directions(
-    lines: Lines, given: Floats | None, window: Floats, corner_angle: float, sag: float = np.inf
+    lines: Lines, given: Floats, window: Floats, corner_angle: float, tolerance: float, sag: float = np.inf
 ) -> Directions:
     """Corners and tangents of lines.
 
-    given (d,n) tangents, or None: then each is that of the circle through the point and its neighbours at the distance
-    window (m,) of its line, so that noise below the tolerance does not turn it. A point is a corner if the line turns
-    by more than corner_angle there, and still within the window, or by more than chords allow that are no farther than
-    sag off their curve; with tangents given, if moreover they turn away by
-    a third of corner_angle from the circle's, or where one is zero or not finite.
+    given (2,d,n): tangents with which curves are known to arrive at points and to leave them; zero at a corner, NaN
+    where nothing is known. A tangent that is not known is that of the circle through the point and its neighbours at
+    the distance window (m,) of its line, so that noise below the tolerance does not turn it; at ends and corners that
+    of the circle through the next point with the tangent known there, or through the two next ones.
+    A point with known tangents is a corner if they differ by so much that no smooth curve could pass it within the
+    tolerance, or by more than corner_angle. Another one is a corner if the line turns by more than corner_angle there,
+    and still within the window, or by more than chords allow that are no farther than sag off their curve; if one
+    tangent is known, and it turns away, moreover, by a third of corner_angle from the circle's.
     """
     ends = _ends(lines)
     before, after = _next_chords(lines)
-    wide_before, wide_after = _chords(lines, window, ends)
-    pairs = ((before, after), (wide_before, wide_after))
-    corner = np.all([_cosine(*pair) < np.cos(corner_angle) for pair in pairs], axis=0)
-    corner |= np.all([_bend(*pair) > BEND * sag for pair in pairs], axis=0)
-    if given is not None:
-        given = _unit(given)
-        away = _cosine(given, _through(before, after)) < np.cos(corner_angle / 3.0)
-        corner = (corner & away) | ~(np.abs(given).sum(axis=0) > 0.0)
+    said: Bools = np.asarray(~np.isnan(given).any(axis=1))
+    sides = np.where(said[:, None], _unit(np.moveaxis(given, 1, 0)).swapaxes(0, 1), 0.0)
+    known: Bools = np.asarray(np.abs(sides).sum(axis=1) > 0.0)
+    both, either = known.all(axis=0), known.any(axis=0)
+    # What is known of one side only holds on both unless there is a corner.
+    one_side = np.where(known[0], sides[0], sides[1])
+    turn = np.arccos(np.clip(_cosine(*sides), -1.0, 1.0))
+    corner: Bools = both & ((turn > corner_angle) | (turn * _shorter(before, after) > SMOOTHED * tolerance))
+    if not both.all():
+        pairs = ((before, after), _chords(lines, window, ends))
+        bent = np.all([_cosine(*pair) < np.cos(corner_angle) for pair in pairs], axis=0)
+        bent |= np.all([_bend(*pair) > BEND * sag for pair in pairs], axis=0)
+        bent &= ~either | (_cosine(one_side, _through(before, after)) < np.cos(corner_angle / 3.0))
+        corner |= ~both & bent | (said & ~known).any(axis=0)
     corner &= ~ends
     # The seam of a loop is one point.
     loop = lines.closed
     corner[lines.last[loop]] = corner[lines.first[loop]]
     stops = corner | ends
-    smooth = _through(*_chords(lines, window, stops)) if given is None else given.copy()
+    smooth = np.where(both, _unit(sides[0] + sides[1]), one_side)
+    if not either.all():
+        smooth = np.where(either, smooth, _through(*_chords(lines, window, stops)))
     arriving, leaving = smooth, smooth.copy()
     at = np.flatnonzero(stops)
-    back, front = _one_sided(lines, at, stops, window)
-    if given is not None:
-        keep = ends[at] & (np.abs(given[:, at]).sum(axis=0) > 0.0)
-        back[:, keep] = front[:, keep] = given[:, at[keep]]
-    arriving[:, at], leaving[:, at] = back, front
+    for side, tangent in ((0, arriving), (1, leaving)):
+        own, guessed = at[known[side, at]], at[~known[side, at]]
+        tangent[:, own] = sides[side][:, own]
+        tangent[:, guessed] = _one_sided(lines, guessed, 2.0 * side - 1.0, stops, window, sides, known)
     return Directions(arriving, leaving, stops)
+
+
+def _shorter(before: Floats, after: Floats) -> Floats:
+    """(n,) the lengths of the shorter ones of vectors."""
+    return np.asarray(np.sqrt(np.minimum((before * before).sum(axis=0), (after * after).sum(axis=0))))
 
 
 def _bend(before: Floats, after: Floats) -> Floats:
     """(n,) the angles between vectors times the lengths of the shorter ones."""
-    shorter = np.sqrt(np.minimum((before * before).sum(axis=0), (after * after).sum(axis=0)))
-    return np.asarray(np.arccos(np.clip(_cosine(before, after), -1.0, 1.0)) * shorter)
+    return np.asarray(np.arccos(np.clip(_cosine(before, after), -1.0, 1.0)) * _shorter(before, after))
 
 
 def _ends(lines: Lines) -> Bools:
@@ -162,19 +181,21 @@ def _beyond(where: Floats, near: Floats, far: Floats, total: Floats, otherwise: 
     return np.where(there, found + total, otherwise)
 
 
-def _one_sided(lines: Lines, at: Ints, stops: Bools, window: Floats) -> tuple[Floats, Floats]:
-    """(d,k) tangents with which the line arrives at stops and leaves them: those of circles through three points."""
+def _one_sided(
+    lines: Lines, at: Ints, side: float, stops: Bools, window: Floats, given: Floats, known: Bools
+) -> Floats:
+    """(d,k) tangents with which the line arrives at stops (side -1) or leaves them (1): those of circles through the
+    next point with the tangent given there (2,d,n), where it is known (2,n), or through two more points."""
     reach = window[lines.line[at]]
-    found = []
-    for side in (-1.0, 1.0):
-        middle = _neighbour(lines, at, side * reach, stops)
-        end = np.where(stops[middle], middle, _neighbour(lines, middle, side * reach, stops))
-        first = side * (lines.points[:, middle] - lines.points[:, at])
-        second = side * (lines.points[:, end] - lines.points[:, middle])
-        chord = _unit(first)
-        there = np.where(np.abs(second).sum(axis=0) > 0.0, _through(first, second), chord)
-        found.append(_unit(2.0 * (chord * there).sum(axis=0) * chord - there))
-    return found[0], found[1]
+    middle = _neighbour(lines, at, side * reach, stops)
+    end = np.where(stops[middle], middle, _neighbour(lines, middle, side * reach, stops))
+    first = side * (lines.points[:, middle] - lines.points[:, at])
+    second = side * (lines.points[:, end] - lines.points[:, middle])
+    chord = _unit(first)
+    there = np.where(np.abs(second).sum(axis=0) > 0.0, _through(first, second), chord)
+    facing = 0 if side > 0.0 else 1
+    there = np.where(known[facing, middle], given[facing][:, middle], there)
+    return _unit(2.0 * (chord * there).sum(axis=0) * chord - there)
 
 
 def _through(before: Floats, after: Floats) -> Floats:

@@ -52,6 +52,7 @@ def with_curves(paths: Paths, tolerance_mm: float) -> Paths | Curves:
         rest.points,
         rest.offsets,
         rest.closed,
+        np.stack([np.cos(rest.directions), np.sin(rest.directions)], axis=2),
         tolerance=fit,
         corner_angle=CORNER_ANGLE,
         sag=CHORD_SHARE * tolerance_mm,

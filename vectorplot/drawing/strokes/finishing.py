@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from vectorplot.arrays import Floats
-from vectorplot.drawing.drawing import Layer, Paths
+from vectorplot.arrays import Floats, Ints
+from vectorplot.drawing.drawing import NO_CURVE, Layer, Paths
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.strokes.curved_strokes import with_curves
 from vectorplot.drawing.strokes.dashes import dashed
@@ -45,11 +45,21 @@ def inked(
 
 
 def long_strokes(paths: Paths) -> Paths:
-    """Strokes of one item, kind and count that follow one another joined, without collinear points."""
+    """Strokes of one item, kind and count that follow one another joined, without collinear points: those of one curve
+    first, then those of different curves, or of none, that meet end to end."""
     if not len(paths):
         return paths
-    group = (paths.item * len(LineKind) + paths.kind) * (int(paths.hidden_by.max()) + 1) + paths.hidden_by
-    return without_collinear_points(joined(paths, group, COINCIDENT_MM), COLLINEAR_MM)
+    known = paths.curve != NO_CURVE
+    if known.any():
+        curves = chosen(paths, known)
+        own = np.unique(np.stack([_group(curves), curves.curve]), axis=1, return_inverse=True)[1]
+        paths = concatenated((joined(curves, own.ravel(), COINCIDENT_MM), chosen(paths, ~known)))
+    return without_collinear_points(joined(paths, _group(paths), COINCIDENT_MM), COLLINEAR_MM)
+
+
+def _group(paths: Paths) -> Ints:
+    """(m,) equal for strokes of the same item, kind and count."""
+    return (paths.item * len(LineKind) + paths.kind) * (int(paths.hidden_by.max()) + 1) + paths.hidden_by
 
 
 def _pen_strokes(paths: Paths, hidden: str, world: Floats) -> Paths:

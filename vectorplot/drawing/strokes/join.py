@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.chains import NO_END, Chains, chains
 from vectorplot.drawing.strokes.neighbours import clusters
-from vectorplot.drawing.strokes.paths import chosen, world_per_mm
+from vectorplot.drawing.strokes.paths import chosen, directed, world_per_mm
 from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import with_points
 from vectorplot.geometry.repair.weld import close_points
 
 SAME_PLACE = 100.0
@@ -170,16 +173,21 @@ def _assembled(paths: Paths, open_: Ints, order: Chains) -> Paths:
     source = np.concatenate((stroke[order.offsets[:-1]], loops))
     closed = np.concatenate((order.cyclic, np.ones(len(loops), dtype=np.bool_)))
     closed[: len(order.cyclic)] &= counts[: len(order.cyclic)] > 2
-    return Paths(
-        paths.points[index],
-        ragged.offsets(counts),
-        closed,
-        paths.kind[source],
-        paths.item[source],
-        paths.hidden_by[source],
-        paths.points3d[index],
-        paths.smooth[source],
-    )
+    whole = with_points(paths, index, source, ragged.offsets(counts))
+    turned = np.zeros(len(index), dtype=np.bool_)
+    turned[: kept.sum()] = np.repeat(backwards, kept)
+    directions = directed(whole.directions, turned)
+    joint, first = _joints(order, kept, dropped), np.where(backwards, begin + dropped, begin - dropped)
+    directions[joint, 1] = directed(paths.directions[first], backwards)[~head, 1]
+    return replace(whole, closed=closed, directions=directions)
+
+
+def _joints(order: Chains, kept: Ints, dropped: Ints) -> Ints:
+    """(j,) where the points stand at which strokes that lose their first one are joined to those before them."""
+    last = np.cumsum(kept) - 1
+    before = np.arange(len(kept)) - 1
+    before[order.offsets[:-1]] = order.offsets[1:] - 1
+    return last[before[dropped > 0]]
 
 
 def _stepped(begin: Ints, counts: Ints, backwards: Bools) -> Ints:

@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.geometry import ragged
-from vectorplot.geometry.polylines import joined, some
+from vectorplot.geometry.polylines import joined, some, with_points
 
 
 def world_per_mm(paths: Paths) -> float:
@@ -41,9 +41,15 @@ def unrolled(paths: Paths, start: Ints, extra: Ints) -> Paths:
     local = ragged.ranges(start, longer)
     index = np.repeat(paths.offsets[:-1], longer) + local % np.maximum(np.repeat(counts, longer), 1)
     open_ = np.zeros(len(paths), dtype=np.bool_)
-    return replace(
-        paths, points=paths.points[index], offsets=ragged.offsets(longer), closed=open_, points3d=paths.points3d[index]
-    )
+    return replace(with_points(paths, index, np.arange(len(paths)), ragged.offsets(longer)), closed=open_)
+
+
+def directed(directions: Floats, backwards: Bools) -> Floats:
+    """(p,2) the directions at points, turned round at those that strokes run through backwards (p,) now."""
+    if not backwards.any():
+        return directions
+    other_way = np.where(directions > 0.0, directions - np.pi, directions + np.pi)[:, ::-1]
+    return np.where(backwards[:, None], other_way, directions)
 
 
 def sections(
@@ -53,18 +59,23 @@ def sections(
 
     Part i belongs to stroke[i]; it begins on the segment that starts at point first[i], at the fraction t_first[i],
     and ends on the segment of last[i] at t_last[i]. The points in the world divide their segments so that their
-    images are the points on the page: for a central projection the fraction differs from that on the page.
+    images are the points on the page: for a central projection the fraction differs from that on the page. Directions
+    are those of the points; in the middle of a segment none is known.
     """
     inner = last - first
     counts = inner + 2
     offsets = ragged.offsets(counts)
     points = np.empty((offsets[-1], 2))
     points3d = np.empty((offsets[-1], 3))
+    directions = np.full((offsets[-1], 2), np.nan)
     between = ragged.ranges(first + 1, inner)
     places = ragged.ranges(offsets[:-1] + 1, inner)
     points[places], points3d[places] = paths.points[between], paths.points3d[between]
+    directions[places] = paths.directions[between]
     for places, segment, t in ((offsets[:-1], first, t_first), (offsets[1:] - 1, last, t_last)):
         points[places], points3d[places] = _divided(paths, segment, t, page_from_world)
+        for point, there in ((segment, t == 0.0), (segment + 1, t == 1.0)):
+            directions[places[there]] = paths.directions[point[there]]
     open_ = np.zeros(len(stroke), dtype=np.bool_)
     return Paths(
         points,
@@ -75,6 +86,8 @@ def sections(
         paths.hidden_by[stroke],
         points3d,
         paths.smooth[stroke],
+        directions,
+        paths.curve[stroke],
     )
 
 

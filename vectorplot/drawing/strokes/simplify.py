@@ -10,6 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.paths import world_per_mm
 from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import with_points
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 _ROUNDS = 6
@@ -51,13 +52,8 @@ def without_collinear_points(paths: Paths, tolerance_mm: float) -> Paths:
     stays[source[~kept]] = False
     left = counts.copy()
     left[some] = np.add.reduceat(kept.astype(np.intp), line.offsets[:-1]) - paths.closed[some]
-    return replace(
-        paths,
-        points=paths.points[stays],
-        points3d=paths.points3d[stays],
-        offsets=ragged.offsets(left),
-        closed=paths.closed & ((left > 2) | (left == counts)),
-    )
+    fewer = with_points(paths, np.flatnonzero(stays), np.arange(len(paths)), ragged.offsets(left))
+    return replace(fewer, closed=paths.closed & ((left > 2) | (left == counts)))
 
 
 def _goes_straight(paths: Paths, tolerance_mm: float) -> Bools:

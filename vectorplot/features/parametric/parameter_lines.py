@@ -13,7 +13,7 @@ from vectorplot.features.parametric.curve_tracing import Tracing, extent, wrappe
 from vectorplot.features.parametric.poles import poles
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
 from vectorplot.geometry.budget import unresolved
-from vectorplot.geometry.chord_refinement import Traces, refined, straight_between, torn
+from vectorplot.geometry.chord_refinement import Traces, refined, straight_between, torn, with_standstills
 from vectorplot.geometry.polylines import some
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT, ZERO_OF_EXTENT
@@ -124,9 +124,15 @@ def _refined(surface: Surface, axis: int, lines: Traces, tracing: Tracing, size:
         return points if tracing.picture is None else tracing.picture(points)
 
     most = tracing.budget.points * max(1.0, int(lines.last.sum()) / LINES_A_BUDGET)
+
+    def slopes(ways: Floats) -> Floats:
+        u, v = (ways[:, 0], ways[:, 1]) if axis == 0 else (ways[:, 1], ways[:, 0])
+        return surface.partials(u, v)[1 - axis]
+
     found = refined(lines, straight_between, image, tolerance, most)
     domain = np.array(surface.domain.size)
-    return torn(found.lines, image, tolerance, domain if axis == 0 else domain[::-1]), found.enough
+    whole = torn(found.lines, image, tolerance, domain if axis == 0 else domain[::-1])
+    return with_standstills(whole, slopes), found.enough
 
 
 def _curves(surface: Surface, axis: int, lines: Traces) -> SurfaceCurves:

@@ -9,11 +9,18 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_parameters import BESIDE_STANDSTILL
 from vectorplot.visibility.smooth.sheets import projection
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
+NONE = -1
+
 STEPS = 3
 """Steps of Newton from the part of a chord to that of its curve, which is close to it."""
+
+STANDING = 0.02
+"""Where the image of a curve moves slower than this part of its mean speed along a chord it stands still there or has
+come from a standstill near by."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +44,47 @@ class ChordParts:
         A place inside of a line becomes that of the curve of which the image is nearest.
         """
         return self._put(view, low, start, self.begin), self._put(view, high, end, self.end)
+
+    @property
+    def curve(self) -> Ints:
+        """(n,) the curves that the lines are parts of; -1 for lines that are of none."""
+        return np.where(self.chord >= 0, np.append(self.curves.owner, NONE)[self.chord], NONE)
+
+    def directions(self, view: View) -> Floats:
+        """(n,2) the angles in the image, in radians from its first axis, at which curves leave the starts of the lines
+        and arrive at their ends; NaN for lines that are of none.
+
+        Where the image of a curve stands still, as in a cusp, its direction is the limit from inside of the line.
+        """
+        result = np.full((len(self.chord), 2), np.nan)
+        on = np.flatnonzero(self.chord >= 0)
+        count, span = len(on), (self.end - self.begin)[on]
+        chord, part = np.tile(self.chord[on], 2), np.concatenate([self.begin[on], self.end[on]])
+        image, way, straight = self._images(view, chord, part)
+        long = np.linalg.norm(image[count:] - image[:count], axis=1) / np.where(span > 0.0, span, 1.0)
+        # A standstill, or a place at which nothing is known but the chord.
+        odd = np.flatnonzero(straight | ~(np.linalg.norm(way, axis=1) > STANDING * np.tile(long, 2)))
+        if len(odd):
+            inwards = BESIDE_STANDSTILL * np.concatenate([span, -span])
+            way[odd] = self._limits(view, chord[odd], part[odd], inwards[odd])
+        angle = np.where(way.any(axis=1), np.arctan2(way[:, 1], way[:, 0]), np.nan)
+        result[on] = angle.reshape(2, count).T
+        return result
+
+    def _images(self, view: View, chord: Ints, part: Floats) -> tuple[Floats, Floats, Bools]:
+        """Places (k,2) in the image, how they move (k,2), and whether (k,) that is only how the chord runs."""
+        here, points = self.curves.with_exact_slopes(chord, part), self.curves.points
+        straight = (here.slopes == points[chord + 1] - points[chord]).all(axis=1)
+        way = projection.image_slopes(view, here.points, here.slopes)
+        return projection.image(view, here.points), way, straight
+
+    def _limits(self, view: View, chord: Ints, part: Floats, step: Floats) -> Floats:
+        """(k,2) the limits of directions at parts of chords, from three places beside them."""
+        beside = np.concatenate([part + many * step for many in (1.0, 2.0, 3.0)])
+        way = self._images(view, np.tile(chord, 3), beside)[1]
+        size = np.linalg.norm(way, axis=1, keepdims=True)
+        one, two, three = (way / np.where(size > 0.0, size, 1.0)).reshape(3, len(chord), 2)
+        return np.asarray(3.0 * one - 3.0 * two + three)
 
     def _put(self, view: View, share: Floats, points: Floats, outer: Floats) -> Floats:
         """(n,) parts of the curves; points (3,n) inside of lines are put onto them."""

@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Ints
 from vectorplot.geometry.budget import USUAL, Budget, unheard, unresolved
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_parameters import LEAST_PART
 from vectorplot.visibility.polyhedra.lines import Lines
 from vectorplot.visibility.smooth.events.edge_sides import covered_sides
 from vectorplot.visibility.smooth.events.events import all_events
@@ -56,7 +57,7 @@ def with_whole_curves(view: View, traced: TracedScene, lines: Lines) -> Lines:
 def _as_lines(view: View, traced: TracedScene, lines: Lines, curves: Curves, found: HiddenCurves) -> Lines:
     """The chords of pieces of curves: those of the scene, and after them the straight lines."""
     start, end, chords, behind = cut_curves(curves, found)
-    long = (start != end).any(axis=1)
+    long = (start != end).any(axis=1) & (chords.end - chords.begin > LEAST_PART)
     start, end, chords, behind = start[long], end[long], chords.some(long), behind[long]
     chord, curve = chords.chord, curves.owner[chords.chord]
     smooth = curve < len(traced.curves)

@@ -8,11 +8,12 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.paths import chosen
+from vectorplot.drawing.strokes.paths import chosen, directed
 from vectorplot.drawing.strokes.pen_order.tour import greedy_tour
 from vectorplot.drawing.strokes.pen_order.tour_ends import Places
 from vectorplot.drawing.strokes.pen_order.tour_moves import shortened
 from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import with_points
 
 
 def pen_ordered(paths: Paths) -> Paths:
@@ -117,8 +118,8 @@ def _drawn(paths: Paths, start: Ints, order: Ints, against: Bools) -> Paths:
     size = np.repeat(counts, counts)
     local -= np.where(local >= size, size, 0)
     index = np.repeat(paths.offsets[:-1][order], counts) + local
-    result = chosen(paths, order)
-    return replace(result, points=paths.points[index], points3d=paths.points3d[index])
+    drawn = with_points(paths, index, order, ragged.offsets(counts))
+    return replace(drawn, directions=directed(drawn.directions, np.repeat(against, counts)))
 
 
 # Closed strokes ---------------------------------------------------------------------------------------------------

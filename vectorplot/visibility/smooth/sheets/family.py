@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Floats, Ints
 from vectorplot.features.implicit.implicit_conditions import SpatialCondition
 from vectorplot.features.implicit.singular_equations import SingularEquations, line_tangents, onto_lines
 from vectorplot.features.parametric.conditions import Condition
@@ -34,6 +34,13 @@ class Chords:
     second_places: tuple[Floats, Floats]
     level: Floats
 
+    def some(self, which: Ints) -> Chords:
+        """Some of the chords."""
+        places, points, second = (
+            (start[which], end[which]) for start, end in (self.places, self.points, self.second_places)
+        )
+        return Chords(places, points, second, self.level[which])
+
 
 @dataclass(frozen=True, eq=False)
 class Along:
@@ -44,6 +51,10 @@ class Along:
     points: Floats
     slopes: Floats
     second_places: Floats = field(default_factory=lambda: np.zeros((0, 3)))
+
+    def some(self, which: Ints) -> Along:
+        """Some of the points, of those that have second places."""
+        return Along(self.places[which], self.points[which], self.slopes[which], self.second_places[which])
 
 
 class Family(Protocol):

@@ -10,7 +10,7 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry import ragged
-from vectorplot.geometry.chord_refinement import MISSED, PROBES, deviation
+from vectorplot.geometry.chord_refinement import Traces, refined, straight_between, with_standstills
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_extent import SETTLED_ON_SHEET, ZERO_OF_EXTENT
@@ -89,26 +89,16 @@ def space_curve(view: View, curve: Curve, item: int, sheets: tuple[SmoothSheet, 
 
 
 def _sampled(view: View, curve: Curve, tracing: Tracing) -> Floats:
-    """(k,) parameters between which chords are within tolerance."""
-    picture = tracing.picture or (lambda points: points)
+    """(k,) parameters between which chords are within tolerance, those of cusps among them."""
 
-    def images(t: Floats) -> Floats:
-        return picture(view.points_of(curve.points(t)).T)
+    def image(t: Floats) -> Floats:
+        points = view.points_of(curve.points(t[:, 0])).T
+        return points if tracing.picture is None else tracing.picture(points)
 
     t = np.linspace(curve.start, curve.end, FIRST_CHORDS + 1)
-    open_ = np.ones(FIRST_CHORDS, dtype=np.bool_)
-    while open_.any() and len(t) < MOST_POINTS:
-        first = np.flatnonzero(open_)
-        low, high = t[first], t[first + 1]
-        off, _ = deviation(images, low, high, np.stack([low + p * (high - low) for p in PROBES]))
-        bad = first[off > MISSED * (tracing.tolerance or np.inf)]
-        middle = 0.5 * (t[bad] + t[bad + 1])
-        # Both halves of a chord that was cut are looked at again.
-        open_ = np.zeros(len(open_), dtype=np.bool_)
-        open_[bad] = True
-        open_ = np.insert(open_, bad + 1, True)
-        t = np.insert(t, bad + 1, middle)
-    return t
+    whole = Traces(t[:, None], np.arange(len(t)) == len(t) - 1)
+    finer = refined(whole, straight_between, image, tracing.tolerance or np.inf, MOST_POINTS)
+    return with_standstills(finer.lines, lambda t: curve.tangents(t[:, 0])).points[:, 0]
 
 
 def _placed(sheet: ParametricSheet, points: Floats) -> tuple[Floats, float]:

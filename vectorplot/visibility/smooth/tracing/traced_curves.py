@@ -81,12 +81,37 @@ class Curves:
 
         A part a little below 0 or above 1 lies on the curve too, beyond the ends of the chord.
         """
-        places, points, slopes = (np.empty((len(chord), 3)) for _ in range(3))
-        second = np.full((len(chord), 3), np.nan)
-        family = self.family[self.owner[chord]]
+        return self._between(self._chords(chord), self.family[self.owner[chord]], part)
+
+    def with_exact_slopes(self, chord: Ints, part: Floats) -> Along:
+        """The same for parts from 0 to 1, the directions of slopes those of the curves there.
+
+        Inside of a chord those of at are off as the chord is off its curve. The point found ends a new chord, that to
+        the farther end of the old one, at the ends of which slopes are exact.
+        """
+        found = self.at(chord, part)
+        inner = np.flatnonzero((part > 0.0) & (part < 1.0))
+        if len(inner):
+            late = part[inner] > 0.5
+            whole, to = self._chords(chord[inner]), found.some(inner)
+            second = np.where(np.isfinite(to.second_places), to.second_places, whole.second_places[0])
+            shorter = Chords(
+                _with_end(whole.places, to.places, late),
+                _with_end(whole.points, to.points, late),
+                _with_end(whole.second_places, second, late),
+                whole.level,
+            )
+            again = self._between(shorter, self.family[self.owner[chord[inner]]], np.where(late, 1.0, 0.0))
+            found.slopes[inner] = again.slopes / np.where(late, part[inner], 1.0 - part[inner])[:, None]
+        return found
+
+    def _between(self, chords: Chords, family: Ints, part: Floats) -> Along:
+        """The curves of families (k,) at a part (k,) of their chords."""
+        places, points, slopes = (np.empty((len(part), 3)) for _ in range(3))
+        second = np.full((len(part), 3), np.nan)
         for number in np.unique(family).tolist():
             which = np.flatnonzero(family == number)
-            found = self.families[number].between(self._chords(chord[which]), part[which])
+            found = self.families[number].between(chords.some(which), part[which])
             places[which], points[which], slopes[which] = found.places, found.points, found.slopes
             if self.families[number].second >= 0:
                 second[which] = found.second_places
@@ -100,6 +125,11 @@ class Curves:
     def some(self, which: Ints) -> Curves:
         """Some of the curves."""
         return some(self, which)
+
+
+def _with_end(ends: tuple[Floats, Floats], new: Floats, last: Bools) -> tuple[Floats, Floats]:
+    """What chords (k,) have at both ends, with new values in place of those at the last ones, or else at the first."""
+    return np.where(last[:, None], ends[0], new), np.where(last[:, None], new, ends[1])
 
 
 def together(parts: Sequence[Curves]) -> Curves:
