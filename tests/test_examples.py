@@ -146,6 +146,7 @@ def segments_by_layer(path: Path) -> dict[str, np.ndarray]:
     }
 
 
+@pytest.mark.slow
 def test_the_gallery_shows_nothing_else_and_its_page_is_fresh(made):
     names = {path: [file.name for file in made(path)] for path in (*SCENES, *EXAMPLES)}
     drawn = [name for pictures in names.values() for name in pictures]
@@ -156,16 +157,19 @@ def test_the_gallery_shows_nothing_else_and_its_page_is_fresh(made):
     assert page.read_text(encoding="utf-8") == GALLERY.page(names), "run: python docs/gallery.py"
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G2.3-fig7")
 def test_the_roller_and_its_two_doubles_have_one_image(made):
     assert [file.stem for file in made(ROOT / "examples" / "roller.py")] == ["roller", "roller_t1", "roller_t2"]
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G2.5-fig11")
 def test_the_frustum_in_the_world_is_a_box_after_t2(made):
     assert len(made(ROOT / "examples" / "viewing_frustum.py")) == 2
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G3.4-split")
 def test_a_chess_pawn_falls_into_convex_parts_that_fill_it(made):
     assert len(made(ROOT / "examples" / "convex_parts.py")) == 2
@@ -204,6 +208,7 @@ PAINTED = {
 """The figures of shading, of the painter's order, and of shadows, mirrors, patterns and glass."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("figure", PAINTED)
 def test_figures_of_painted_pictures_are_made_and_asserted(figure, made):
     path = ROOT / "examples" / f"{PAINTED[figure]}.py"
@@ -211,6 +216,7 @@ def test_figures_of_painted_pictures_are_made_and_asserted(figure, made):
     assert "assert" in path.read_text(encoding="utf-8").partition("def main")[2]
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G5.0-painter")
 @pytest.mark.parametrize("name", sorted(GALLERY.PAINTED))
 def test_scenes_are_painted_as_well(name, made):
@@ -260,6 +266,7 @@ RENDERED = {
 """The figures of pixels, and the scripts that render them and assert what they show."""
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.6-nautilus", "R-demos")
 @pytest.mark.parametrize("figure", RENDERED)
 def test_figures_of_pixels_are_rendered_and_asserted(figure, made):
@@ -289,6 +296,7 @@ FIGURES = {
 """The figures of mathematical curves and surfaces, and the scripts that draw them and assert what they show."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("figure", FIGURES)
 def test_figures_of_curves_and_surfaces_are_drawn_and_asserted(figure, made):
     path = ROOT / "examples" / f"{FIGURES[figure]}.py"
@@ -296,11 +304,13 @@ def test_figures_of_curves_and_surfaces_are_drawn_and_asserted(figure, made):
     assert "assert" in path.read_text(encoding="utf-8").partition("def main")[2]
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.3-contour")
 def test_the_contour_polygon_converges_to_the_true_contour(made):
     assert made(ROOT / "examples" / "function_graph.py")
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G3.6-demo")
 def test_sample_intersections_have_their_pictures(made):
     sources = [ROOT / "data" / name for name in ("cubes.scene", "pencil.scene", "intersections.scene")]

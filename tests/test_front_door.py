@@ -80,6 +80,7 @@ def test_examples_and_pages_import_no_deeper_than_a_room():
         assert name in importlib.import_module(module).__all__, f"{file}: {module} does not export {name}"
 
 
+@pytest.mark.slow
 def test_type_checkers_know_what_examples_import(tmp_path):
     taken = sorted({(module, name) for _, module, name in imports_of_users() if name})
     lines = [f"from {module} import {name} as name_{i}" for i, (module, name) in enumerate(taken)]
@@ -116,6 +117,7 @@ def test_what_no_room_exports_is_an_attribute_error():
         exec("from vectorplot.surfaces import rubber")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("verb", ["draw", "paint", "read", "render", "save"])
 def test_a_verb_stays_a_verb_when_modules_were_imported_first(verb):
     script = f"import vectorplot as vp, vectorplot.{verb}; import vectorplot.cli.main; assert callable(vp.{verb})"
@@ -124,6 +126,7 @@ def test_a_verb_stays_a_verb_when_modules_were_imported_first(verb):
     subprocess.run([sys.executable, "-c", script], check=True)
 
 
+@pytest.mark.slow
 def test_all_may_be_loaded_at_once():
     """As programs are built that cannot wait: the environment asks lazy_loader to load every name at import."""
     script = "import os; os.environ['EAGER_IMPORT'] = '1'\n"

@@ -10,6 +10,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from support.sources import tree_of
 
 import vectorplot
 from vectorplot.save import _BACKENDS
@@ -65,7 +66,7 @@ def test_a_room_imports_only_what_stands_left_of_it(file):
     path = Path(file)
     home = room(path.parts)
     assert home in ORDER, f"{file}: {home} has no place in the import order"
-    tree = ast.parse((PACKAGE / path).read_text(encoding="utf-8"))
+    tree = tree_of(PACKAGE / path)
     for module in imported_modules(tree, ("vectorplot", *path.parts[:-1])):
         target = room(module)
         if target not in ORDER:  # a name of the package itself, such as __version__
@@ -79,7 +80,7 @@ def test_a_room_imports_only_what_stands_left_of_it(file):
 def modules_imported_by(file: str) -> set[str]:
     """The files of the package that a file imports anywhere, for types alone too; names are taken for their module."""
     path = Path(file)
-    tree = ast.parse((PACKAGE / path).read_text(encoding="utf-8"))
+    tree = tree_of(PACKAGE / path)
     found = set()
     for module in imported_modules(tree, ("vectorplot", *path.parts[:-1])):
         for parts in (module, module[:-1]):
@@ -104,7 +105,7 @@ def test_no_files_import_each_other_in_a_circle():
 
 def exported(stub: Path) -> set[str]:
     """The files that a room's stub takes names from."""
-    tree = ast.parse(stub.read_text(encoding="utf-8"))
+    tree = tree_of(stub)
     room = stub.parent.relative_to(PACKAGE)
     imports = [node for node in tree.body if isinstance(node, ast.ImportFrom)]
     modules = {node.module or alias.name for node in imports for alias in node.names}
@@ -125,6 +126,7 @@ def unreached_from(stubs: Iterable[Path]) -> set[str]:
     return {file for file in FILES if not file.endswith("__init__.py")} - reached
 
 
+@pytest.mark.slow
 def test_every_file_serves_the_command_or_what_a_room_exports():
     """What nobody can reach is not finished, or forgotten."""
     assert unreached_from(PACKAGE.rglob("*.pyi")) == set()
@@ -141,7 +143,7 @@ def test_no_file_takes_what_another_keeps_to_itself():
     """Names with an underscore in front are a file's own."""
     taken = []
     for file in FILES:
-        for node in ast.walk(ast.parse((PACKAGE / file).read_text(encoding="utf-8"))):
+        for node in ast.walk(tree_of(PACKAGE / file)):
             if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("vectorplot"):
                 taken += [
                     f"{file}: {alias.name}"
@@ -155,12 +157,12 @@ def test_no_file_takes_what_another_keeps_to_itself():
 def test_a_room_has_few_files_and_says_what_it_is_for(folder):
     files = [path for path in folder.glob("*.py") if path.name != "__init__.py"]
     assert len(files) <= MOST_FILES, f"{folder.name} has {len(files)} files: give it rooms of its own"
-    assert ast.get_docstring(ast.parse((folder / "__init__.py").read_text(encoding="utf-8")))
+    assert ast.get_docstring(tree_of(folder / "__init__.py"))
 
 
 @pytest.mark.parametrize("file", [file for file in FILES if not file.startswith(("backends/", "cli/"))])
 def test_heavy_packages_are_imported_inside_functions(file):
-    tree = ast.parse((PACKAGE / file).read_text(encoding="utf-8"))
+    tree = tree_of(PACKAGE / file)
     for node in tree.body:
         names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
         names += [node.module or ""] if isinstance(node, ast.ImportFrom) else []

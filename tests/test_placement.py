@@ -24,6 +24,7 @@ PAGE = Page(120.0, 90.0, 5.0)
 CAMERAS = [Camera((8.0, -9.0, 7.0), (0.5, 0.2, -0.3), twist_deg=20.0), Camera((8.0, -9.0, 7.0), parallel=True)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("fit", "camera"), [(True, CAMERAS[0]), (False, CAMERAS[0]), (True, CAMERAS[1])])
 @pytest.mark.parametrize("surface", [False, True])
 @pytest.mark.parametrize("verb", ["draw", "paint", "erasing", "render"])

@@ -7,6 +7,7 @@ import re
 
 import pytest
 from support.paths import DOCS, PACKAGE
+from support.sources import tree_of
 
 ERRATUM = re.compile(r"\b(?:G\d|N|R|V)-\d\d\b|\bD-\d\b")
 
@@ -14,7 +15,7 @@ ERRATUM = re.compile(r"\b(?:G\d|N|R|V)-\d\d\b|\bD-\d\b")
 def docstrings():
     """The docstrings of the package, those of constants too, each on one line."""
     for path in sorted(PACKAGE.rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in ast.walk(tree_of(path)):
             if (
                 isinstance(node, ast.Expr)
                 and isinstance(node.value, ast.Constant)

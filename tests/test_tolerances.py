@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from support.paths import DOCS
+from support.sources import tree_of
 
 import vectorplot
 from vectorplot.tolerances import of_extent, of_numbers
@@ -68,7 +69,7 @@ def test_no_small_number_stands_outside_the_table():
     for path in sorted(PACKAGE.rglob("*.py")):
         name = path.relative_to(PACKAGE).as_posix()
         if path not in TABLE and name not in SHAPES:
-            tree = ast.parse(path.read_text(encoding="utf-8"))
+            tree = tree_of(path)
             bare += [f"vectorplot/{name}:{line}" for line in small_numbers(tree)]
     assert not bare, "give it a name and a reason in vectorplot/tolerances: " + ", ".join(bare)
 
@@ -80,18 +81,20 @@ def test_every_tolerance_has_a_reason_and_one_home(table):
     assert not [name for name, count in Counter(entry.name for entry in entries).items() if count > 1]
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G1.1-convention")
 def test_nobody_gives_a_name_of_the_table_another_meaning(table):
     names = {entry.name for path in TABLE for entry in table.tolerances(path)}
     again = []
     for path in sorted(set(PACKAGE.rglob("*.py")) - set(TABLE)):
-        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        for node in tree_of(path).body:
             if isinstance(node, ast.Assign):
                 bound = {part.id for target in node.targets for part in ast.walk(target) if isinstance(part, ast.Name)}
                 again += [f"{path.relative_to(PACKAGE).as_posix()}: {name}" for name in bound & names]
     assert not again
 
 
+@pytest.mark.slow
 def test_every_tolerance_is_used(table):
     used = table.uses()
     assert not [
@@ -102,6 +105,7 @@ def test_every_tolerance_is_used(table):
     ]
 
 
+@pytest.mark.slow
 def test_the_page_of_tolerances_is_fresh(table):
     assert (DOCS / "tolerances.md").read_text(encoding="utf-8") == table.page(), "run python docs/tolerances.py"
 

@@ -74,6 +74,7 @@ def test_nothing_and_lines_only() -> None:
     assert len(visible_fills(line, FLAT)) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["town", "table", "interpenetrating", "patterns"])
 def test_the_picture_stays_the_same_and_nothing_overlaps(name: str) -> None:
     assert_same_picture(paint(vp.read(DATA / f"{name}.scene"), smooth=False))

@@ -64,6 +64,7 @@ def test_polygons_that_cross_themselves_are_in_none_and_those_cut_open_to_a_hole
     assert groups([hole, SQUARE]) == [0, 0]
 
 
+@pytest.mark.slow
 def test_heaps_are_left_alone_in_time():
     rng = np.random.default_rng(1)
     assert groups(list(SQUARE + rng.uniform(-4.0, 4.0, (20_000, 1, 2)))) == [-1] * 20_000

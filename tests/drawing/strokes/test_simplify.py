@@ -152,6 +152,7 @@ def seconds_and_points(paths, tolerance):
     return min(times), len(result.points)
 
 
+@pytest.mark.slow
 def test_half_a_million_points_of_circles_and_sixty_thousand_corners_take_no_time_to_speak_of():
     angle = np.linspace(0, 2 * np.pi, 24000, endpoint=False)
     circle = np.c_[np.cos(angle), np.sin(angle)]

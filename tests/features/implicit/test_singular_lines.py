@@ -114,6 +114,7 @@ def compared(lines: Polylines, off: Off, whole: float, count: int, size: float) 
     assert length(lines) == pytest.approx(whole, rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(49)
 @pytest.mark.parametrize("name", list(EDGES))
 def test_cuspidal_edges_are_found_whole(name: str) -> None:
@@ -123,6 +124,7 @@ def test_cuspidal_edges_are_found_whole(name: str) -> None:
     assert len(lines.doubles) == (1 if name == "swallowtail" else 0)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(48)
 @pytest.mark.parametrize("name", list(DOUBLES))
 def test_lines_in_which_a_surface_crosses_itself_are_found_whole(name: str) -> None:
@@ -132,6 +134,7 @@ def test_lines_in_which_a_surface_crosses_itself_are_found_whole(name: str) -> N
     assert len(lines.edges) == (2 if "swallowtail" in name else 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("away", [0.0, 1e3])
 def test_wherever_the_surface_stands_and_whatever_its_size(size: float, away: float) -> None:
@@ -142,6 +145,7 @@ def test_wherever_the_surface_stands_and_whatever_its_size(size: float, away: fl
     assert hunt(home).max() < 5e-9 * (1.0 + away)
 
 
+@pytest.mark.slow
 def test_what_has_none_has_none() -> None:
     for text in ("x^2+y^2+z^2-0.5", "x^2+y^2-z^2", "4*(x^2+y^2+z^2)+16*x*y*z-1", "x^3-z", "x*y+0.01", "y^3-z^2-0.001"):
         assert not len(found(implicit(text, 0.9))), text

@@ -98,6 +98,7 @@ def test_heights_of_a_patch_bend_as_the_surface_does() -> None:
 CUBE = box((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0))
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.3-sections")
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("offset", [0.0, 1e6])

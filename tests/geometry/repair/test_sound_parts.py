@@ -75,6 +75,7 @@ def test_what_is_sound_mending_leaves_alone(seed: int) -> None:
             assert name not in ("strip", "its neighbour", "far", "cube", "loose"), name
 
 
+@pytest.mark.slow
 def test_files_of_many_open_parts_are_read_as_fast_as_one_mesh(tmp_path) -> None:
     def written(meshes: list[Mesh]) -> vp.Scene:
         lines, base = [], 1

@@ -74,6 +74,7 @@ def seen_from_everywhere(mesh: Mesh, seed: int, parallel: bool) -> Camera:
     return Camera(eye=tuple(eye), target=tuple(target), parallel=parallel)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G5.4-graph")
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("make", [field, scattered])
@@ -124,6 +125,7 @@ def test_what_else_is_in_the_picture_is_compared_and_only_that(monkeypatch, para
             assert pairs.shape[1] and (pairs[0] != pairs[1]).all()
 
 
+@pytest.mark.slow
 def test_circles_with_other_things_are_cut_as_ever() -> None:
     x, y = np.meshgrid(np.linspace(0.0, 2.0, 9), np.linspace(0.0, 2.0, 9), indexing="ij")
     number = np.arange(81).reshape(9, 9)
