@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from vectorplot.features.implicit.implicit_curves import implicit_contour, implicit_isophotes
+from vectorplot.features.implicit.implicit_mesh import implicit_mesh
 from vectorplot.features.implicit.implicit_tracing import ImplicitTracing
 from vectorplot.features.implicit.polygonize import polygonized, settled_mesh
 from vectorplot.features.meshes.mesh_lines import mesh_plane_sections
@@ -26,7 +27,7 @@ def seconds(task):
 @pytest.mark.bench
 def test_contour_and_nine_isophotes_of_an_implicit_torus():
     def lines():
-        tracing = ImplicitTracing(mesh=settled_mesh(TORUS, 64)[0])
+        tracing = ImplicitTracing(mesh=implicit_mesh(TORUS, 64))
         implicit_contour(TORUS, (8, -3, 6), tracing=tracing)
         implicit_isophotes(TORUS, (2, 1, 3), np.linspace(-0.9, 0.9, 9), tracing=tracing)
 

@@ -249,7 +249,7 @@ def _level(surface: ImplicitSurface) -> _Level:
     lines = singular_lines(surface, mesh)
     if not len(lines):
         mesh = settled_mesh(surface, IMPLICIT_CELLS)[0]
-    return _Level(surface, led_into_singular_set(surface, mesh, lines)[0], lines)
+    return _Level(surface, led_into_singular_set(surface, mesh, lines), lines)
 
 
 @dataclass(frozen=True, eq=False)

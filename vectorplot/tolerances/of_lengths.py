@@ -26,6 +26,10 @@ SLACK_OF_LENGTH = 1e-11
 """Part of a line's length by which places along it are kept apart from their own neighbours: more than the sum of its
 steps loses."""
 
+BESIDE_LINE = 1e-3
+"""Part of the way from a singular line of a surface to the middle of its neighbours at which a sheet is looked at that
+ends there: near enough for any page, and far enough that its normal is no rounding."""
+
 COLLINEAR_OF_LENGTH = 1e-3
 """A stroke lies along another only within this part of the shorter one's length too: a short one has no direction
 else."""

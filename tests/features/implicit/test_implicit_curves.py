@@ -18,8 +18,8 @@ from vectorplot.features.implicit.implicit_curves import (
     implicit_point_light_isophotes,
     with_points,
 )
+from vectorplot.features.implicit.implicit_mesh import implicit_mesh
 from vectorplot.features.implicit.implicit_tracing import ImplicitTracing
-from vectorplot.features.implicit.polygonize import settled_mesh
 from vectorplot.features.parametric.contour import contour, parallel_contour
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.isophotes import isophotes, point_light_isophotes
@@ -134,7 +134,7 @@ def test_contours_of_cylinder_and_hyperboloid_end_on_the_sides_of_the_box():
 @pytest.mark.parametrize("apex", [(0.0, 0.0, 0.0), (0.1, 0.03, -0.21)])
 def test_contour_of_a_cone_runs_through_the_apex_without_a_spike(apex):
     cone = implicit_cone(0.5, apex, (0, 0, 1), BOX)
-    curves = implicit_contour(cone, (5.0, 1.0, -0.5), tracing=ImplicitTracing(mesh=settled_mesh(cone)[0]))
+    curves = implicit_contour(cone, (5.0, 1.0, -0.5), tracing=ImplicitTracing(mesh=implicit_mesh(cone, 64)))
     assert len(curves.nodes) == 1 and np.abs(curves.nodes[0] - apex).max() < 1e-12
     assert len(curves) == 2 and not curves.closed.any()
     for k in range(2):

@@ -39,7 +39,7 @@ def test_sheets_that_cross_end_on_their_common_line(text: str, along: tuple[floa
 def test_what_has_no_singular_point_stays_as_it_is() -> None:
     ball = implicit("x^2+y^2+z^2-0.8")
     mesh = settled_mesh(ball, 16)[0]
-    led = led_into_singular_set(ball, mesh, singular_lines(ball, mesh))[0]
+    led = led_into_singular_set(ball, mesh, singular_lines(ball, mesh))
     assert (led.vertices == mesh.vertices).all() and (led.corners == mesh.corners).all()
     nothing = settled_mesh(implicit("x^2+y^2+z^2+1"), 16)[0]
-    assert led_into_singular_set(ball, nothing, singular_lines(ball, nothing))[0] is nothing
+    assert not led_into_singular_set(ball, nothing, singular_lines(ball, nothing)).face_count

@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.meshes.level_segments import split_at_middles
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 REACH = 2.0
 """How often further than a triangle is wide the curve may be for the triangle to be looked at."""
@@ -26,9 +27,15 @@ STUBBORN = 3
 @dataclass(frozen=True, eq=False)
 class Nodes:
     """Points with a condition: points (n,3); fixed (n,3): coordinates that stay as they are; values (n,) and slopes
-    (n,3) of the condition; gradients (n,3) of the function whose zeros the surface is."""
+    (n,3) of the condition; gradients (n,3) of the function whose zeros the surface is.
+
+    on_line (n,): points on singular lines of the surface; what is said of them holds at places (n,3), beside them in
+    the sheet that the node is of. Elsewhere these are the points.
+    """
 
     points: Floats
+    places: Floats
+    on_line: Bools
     fixed: Bools
     values: Floats
     slopes: Floats
@@ -38,6 +45,8 @@ class Nodes:
         """These and more, numbered on."""
         return Nodes(
             np.concatenate([self.points, more.points]),
+            np.concatenate([self.places, more.places]),
+            np.concatenate([self.on_line, more.on_line]),
             np.concatenate([self.fixed, more.fixed]),
             np.concatenate([self.values, more.values]),
             np.concatenate([self.slopes, more.slopes]),
@@ -47,7 +56,13 @@ class Nodes:
     def chosen(self, which: Ints) -> Nodes:
         """Some of them."""
         return Nodes(
-            self.points[which], self.fixed[which], self.values[which], self.slopes[which], self.gradients[which]
+            self.points[which],
+            self.places[which],
+            self.on_line[which],
+            self.fixed[which],
+            self.values[which],
+            self.slopes[which],
+            self.gradients[which],
         )
 
 
@@ -68,7 +83,7 @@ class Band:
 def curve_band(
     nodes: Nodes,
     triangles: Ints,
-    middles: Callable[[Floats, Floats, Bools], Nodes],
+    middles: Callable[[Nodes, Nodes], Nodes],
     tangential: Callable[[Floats, Ints], Floats],
     *,
     finest: float,
@@ -78,8 +93,8 @@ def curve_band(
 
     Where slopes at the corners of a triangle point different ways, and values are small enough that they could vanish
     inside, it is cut until its sides are shorter than finest, or there are more than most of them; or STUBBORN times if
-    it stays at a singular point of the surface. middles(starts, ends, fixed) makes nodes between the ends
-    of sides; tangential(slopes (k,3,3) at corners, source (k,)) are the parts of slopes in the surface.
+    it stays at a singular point of the surface. middles(starts, ends) makes nodes between the ends of
+    sides; tangential(slopes (k,3,3) at corners, source (k,)) are the parts of slopes in the surface.
     """
     source = np.arange(len(triangles))
     reached = _reached(nodes, triangles, tangential(nodes.slopes[triangles], source), REACH)
@@ -98,18 +113,23 @@ def curve_band(
         if not goes_on.any() or not complete or level == LEVELS:
             break
         split = split_at_middles(triangles, goes_on, len(nodes.points))
-        ends = nodes.points[split.low], nodes.points[split.high]
-        fixed = nodes.fixed[split.low] & nodes.fixed[split.high]
-        nodes = nodes.joined(middles(*ends, fixed))
+        nodes = nodes.joined(middles(nodes.chosen(split.low), nodes.chosen(split.high)))
         triangles, source, stuck = split.triangles, source[split.parent], stuck[split.parent]
     singular = odd & (stuck > STUBBORN)
-    return Band(nodes, triangles, source, np.flatnonzero(odd & ~singular), np.flatnonzero(singular), complete)
+    # On singular lines that are known curves end, however they come there.
+    known = nodes.on_line[triangles].any(axis=1)
+    return Band(
+        nodes, triangles, source, np.flatnonzero(odd & ~singular & ~known), np.flatnonzero(singular & ~known), complete
+    )
 
 
 def _at_singular_points(nodes: Nodes, triangles: Ints) -> Bools:
     """(t,) triangles at whose corners gradients differ by more than the smallest of them is long: the finer a triangle
-    on a regular surface is, the less do they differ; beside a singular point they do on triangles of all sizes."""
+    on a regular surface is, the less do they differ; beside a singular point they do on triangles of all sizes. Next to
+    a singular line they are of all lengths, and only their directions count."""
     g = nodes.gradients[triangles]
+    beside = nodes.on_line[triangles].any(axis=1)
+    g[beside] /= np.maximum(np.linalg.norm(g[beside], axis=2, keepdims=True), LEAST_DIVISOR)
     least = (g * g).sum(axis=2).min(axis=1)
     apart = g - np.roll(g, 1, axis=1)
     return np.asarray(least < (apart * apart).sum(axis=2).max(axis=1), dtype=np.bool_)

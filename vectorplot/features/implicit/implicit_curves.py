@@ -115,9 +115,9 @@ def implicit_intersection(
     Degenerate: surfaces that touch in a point give an isolated one; that coincide in an area, a doubt.
     Source: Glaeser, section 8.4, equation 29.
     """
-    tracing = _meshed(surface, tracing)
-    mesh = tracing.mesh
-    if mesh is None or not mesh.face_count:
+    own, _ = mesh_of(surface, tracing)
+    mesh, tracing = own.mesh, replace(tracing, mesh=own)
+    if not mesh.face_count:
         return no_curves()
     long = np.linalg.norm(other.gradients(mesh.vertices), axis=1)
     slope = float(np.quantile(long[np.isfinite(long)], 0.95)) if np.isfinite(long).any() else 0.0
@@ -155,14 +155,17 @@ def implicit_borders(surface: ImplicitSurface, *, tracing: ImplicitTracing = DEF
 
     Rims of holes, where F is not finite, are known to a cell of the lattice only, and a doubt says so.
     """
-    tracing = _meshed(surface, tracing)
-    mesh = tracing.mesh
-    if mesh is None or not mesh.face_count:
+    own, _ = mesh_of(surface, tracing)
+    mesh = own.mesh
+    if not mesh.face_count:
         return no_curves()
     uses = edge_uses(mesh)
     corner = uses.corner[uses.first[uses.count == 1]]
     a, b = mesh.corners[corner], mesh.corners[mesh.next_corner[corner]]
     sides = box_sides(surface, mesh.vertices)
+    # On singular lines sheets go on in each other, with vertices of their own.
+    ends = ~(own.on_line[a] & own.on_line[b])
+    a, b = a[ends], b[ends]
     common = sides[a] & sides[b]
     families = [
         _border(surface, mesh.vertices, a, b, axis, np.flatnonzero(common[:, axis]), tracing) for axis in range(3)
@@ -198,11 +201,6 @@ def with_points(curves: ImplicitCurves, points: Floats, after: Ints) -> Implicit
     counts = np.bincount(np.searchsorted(curves.offsets, after, side="right") - 1, minlength=len(curves))
     offsets = curves.offsets + ragged.offsets(counts)
     return replace(curves, points=np.insert(curves.points, after + 1, points, axis=0), offsets=offsets.astype(np.intp))
-
-
-def _meshed(surface: ImplicitSurface, tracing: ImplicitTracing) -> ImplicitTracing:
-    """The tracing with the surface polygonised."""
-    return replace(tracing, mesh=mesh_of(surface, tracing)[0])
 
 
 def _family(

@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.curve_band import Band
+from vectorplot.features.implicit.implicit_mesh import ImplicitMesh
 from vectorplot.features.implicit.implicit_refinement import CurveInSpace
 from vectorplot.features.implicit.polygonize import checked_values, onto_surface
 from vectorplot.geometry import ragged
@@ -52,11 +53,11 @@ class SpecialPoints:
     unclear: Floats
 
 
-def special_points(curve: CurveInSpace, mesh: Mesh, band: Band) -> SpecialPoints:
+def special_points(curve: CurveInSpace, own: ImplicitMesh, band: Band) -> SpecialPoints:
     """The special points of a curve, from the triangles of its band that are still open at the finest resolution."""
-    corners = mesh.vertices[mesh.corners.reshape(-1, 3)]
+    corners = own.mesh.vertices[own.mesh.corners.reshape(-1, 3)]
     longest = float(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max())
-    singular = singular_points(curve.surface, mesh, longest)
+    singular = _met_by(curve, isolated_singular_points(curve.surface, own, longest))
     triangles = band.nodes.points[band.triangles[band.open]]
     near = np.zeros((0, 3))
     if not len(triangles):
@@ -74,6 +75,25 @@ def special_points(curve: CurveInSpace, mesh: Mesh, band: Band) -> SpecialPoints
     radii = np.concatenate([np.full(len(singular), ROUND_SINGULAR * longest), np.full(len(nodes), ROUND_NODE * finest)])
     unclear = found[~crossing & ~point]
     return SpecialPoints(np.concatenate([singular, nodes]), radii, isolated, ROUND_NODE * finest, unclear)
+
+
+def isolated_singular_points(surface: ImplicitSurface, own: ImplicitMesh, reach: float) -> Floats:
+    """(k,3) singular points of the surface on none of its singular lines, and those in which these end."""
+    found = singular_points(surface, own.mesh, reach)
+    low, high = np.asarray(surface.box, dtype=np.float64)
+    for _, lines in own.lines.kinds:
+        found = found[_apart(found, lines.points, reach)]
+        open_ = ~lines.closed
+        ends = lines.points[np.concatenate([lines.offsets[:-1][open_], lines.offsets[1:][open_] - 1])]
+        inside = ((ends > low) & (ends < high)).all(axis=1)
+        found = _distinct(np.concatenate([found, ends[inside]]), 0.5 * reach)
+    return found
+
+
+def _met_by(curve: CurveInSpace, points: Floats) -> Floats:
+    """Those of the points (k,3) that the curve passes, as far as the condition tells: where it is about normals it has
+    no value at a singular point, and holds next to it."""
+    return points[~(np.abs(curve.values(points)) > NODE_IN_SPACE * curve.size)]
 
 
 def singular_points(surface: ImplicitSurface, mesh: Mesh, reach: float) -> Floats:

@@ -12,9 +12,11 @@ from vectorplot.errors import InputError
 from vectorplot.features.implicit.curve_band import Band, Nodes, curve_band
 from vectorplot.features.implicit.implicit_conditions import SpatialCondition
 from vectorplot.features.implicit.implicit_folds import without_folds
+from vectorplot.features.implicit.implicit_mesh import ImplicitMesh, implicit_mesh, sheets_apart
 from vectorplot.features.implicit.implicit_nodes import joined_at_nodes, special_points
 from vectorplot.features.implicit.implicit_refinement import CurveInSpace, Picture, curve_in_space, refined_chords
-from vectorplot.features.implicit.polygonize import onto_surface, settled_mesh
+from vectorplot.features.implicit.polygonize import onto_surface
+from vectorplot.features.implicit.singular_lines import SingularLines
 from vectorplot.features.meshes.level_segments import level_segments
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
@@ -24,10 +26,13 @@ from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, closed_round, indices_along, joined
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.tolerances.of_extent import APART_OF_EXTENT, CHORD_OF_EXTENT, DOT_OF_EXTENT
-from vectorplot.tolerances.of_lengths import WIDE_OF_AREA
+from vectorplot.tolerances.of_lengths import BESIDE_LINE, WIDE_OF_AREA
 from vectorplot.tolerances.of_numbers import ROUNDING_OF_TERMS
 from vectorplot.tolerances.of_parameters import RESOLUTION
 from vectorplot.tolerances.of_values import FLAT_OF_VALUES
+
+NEXT_TO = 4.0
+"""So many times as far from a singular line as sheets are looked at a curve may end that goes on to it."""
 
 THINNED = 0.3
 """Part of the width of triangles that crossings on their sides may follow one another in: nearer ones add nothing."""
@@ -38,7 +43,7 @@ class ImplicitTracing:
     """How curves on an implicit surface are traced.
 
     cells: along the longest side of the box, of the lattice on which the surface is polygonised. mesh: the surface
-    polygonised already (see `settled_mesh`), for several families of curves. resolution: the part of the box down to
+    polygonised already (see `implicit_mesh`), for several families of curves. resolution: the part of the box down to
     which triangles are cut where the curve is not clear; closed curves smaller than that may be missed.
     tolerance: points are put in until chords stay within this distance of the true curve; None: a thousandth of the
     extent of the surface. picture: takes points (k,3) to where the tolerance is measured, (k,2) or (k,3), for example
@@ -46,7 +51,7 @@ class ImplicitTracing:
     """
 
     cells: int = 48
-    mesh: Mesh | None = None
+    mesh: ImplicitMesh | None = None
     resolution: float = RESOLUTION
     tolerance: float | None = None
     picture: Picture | None = None
@@ -91,9 +96,12 @@ def no_curves(doubts: tuple[str, ...] = ()) -> ImplicitCurves:
     return ImplicitCurves(none, np.zeros(1, dtype=np.intp), flags, np.zeros(0), none, none, doubts)
 
 
-def mesh_of(surface: ImplicitSurface, tracing: ImplicitTracing) -> tuple[Mesh, tuple[str, ...]]:
-    """The surface polygonised, and what is doubtful about that."""
-    return (tracing.mesh, ()) if tracing.mesh is not None else settled_mesh(surface, tracing.cells)
+def mesh_of(surface: ImplicitSurface, tracing: ImplicitTracing) -> tuple[ImplicitMesh, tuple[str, ...]]:
+    """The surface polygonised, and what is doubtful about that, unless it was polygonised before."""
+    if tracing.mesh is not None:
+        return tracing.mesh, ()
+    own = implicit_mesh(surface, tracing.cells)
+    return own, own.doubts
 
 
 def curves_in_space(
@@ -111,18 +119,18 @@ def curves_in_space(
     Errors: InputError for a resolution or tolerance that is not positive.
     """
     _check(tracing)
-    mesh, doubts = mesh_of(surface, tracing)
-    if not mesh.face_count:
+    own, doubts = mesh_of(surface, tracing)
+    if not own.mesh.face_count:
         return no_curves(doubts)
     curve = curve_in_space(surface, condition, size)
     extent = curve.extent
-    nodes, area = _nodes(curve, mesh)
+    nodes, triangles, area = _nodes(curve, own)
     if area:
         doubts += ("the condition holds all over a part of the surface: no lines there",)
     band = curve_band(
         nodes,
-        mesh.corners.reshape(-1, 3),
-        lambda starts, ends, fixed: _middles(curve, starts, ends, fixed, area),
+        triangles,
+        lambda starts, ends: _middles(curve, own.lines, starts, ends, area),
         lambda slopes, source: slopes,
         finest=tracing.resolution * extent,
         most=tracing.budget.triangles,
@@ -131,7 +139,7 @@ def curves_in_space(
         doubts += (unresolved("a curve on an implicit surface is finer than its triangles"),)
     if len(band.singular):
         doubts += ("the gradient vanishes along lines: curves are known to a hundredth of the box there",)
-    special = special_points(curve, mesh, band)
+    special = special_points(curve, own, band)
     points, pairs, spans = _crossings(curve, band)
     tolerance = CHORD_OF_EXTENT * extent if tracing.tolerance is None else tracing.tolerance
     lines, closed, dots = _polylines(points, pairs, spans, DOT_OF_EXTENT * extent)
@@ -145,7 +153,8 @@ def curves_in_space(
     if len(special.unclear):
         doubts += (f"{len(special.unclear)} places where a curve on an implicit surface is finer than the resolution",)
     isolated = np.concatenate([special.isolated, dots[_apart(dots, special.isolated, APART_OF_EXTENT * extent)]])
-    found = curves_of_lines(finer.lines, closed, level=level, doubts=doubts)
+    ended = _ended_on_lines(curve, own, finer.lines, closed)
+    found = curves_of_lines(ended, closed, level=level, doubts=doubts)
     return replace(found, isolated=isolated, nodes=special.nodes)
 
 
@@ -162,15 +171,28 @@ def box_sides(surface: ImplicitSurface, points: Floats) -> Bools:
     return np.asarray((points == low) | (points == high), dtype=np.bool_)
 
 
-def _nodes(curve: CurveInSpace, mesh: Mesh) -> tuple[Nodes, bool]:
-    """The vertices with the condition, and whether it holds in some area."""
-    points = mesh.vertices
-    w = curve.values(points)
-    small = np.asarray((np.abs(w) <= FLAT_OF_VALUES * curve.size)[mesh.corners.reshape(-1, 3)].all(axis=1))
-    area = bool(small.any()) and _is_area(curve, mesh, small)
-    near = np.abs(w) <= _slack(curve, area)
+def _nodes(curve: CurveInSpace, own: ImplicitMesh) -> tuple[Nodes, Ints, bool]:
+    """The vertices with the condition, those on singular lines once for every sheet; triangles (t,3) of them; and
+    whether it holds in some area."""
+    sheets = sheets_apart(own.mesh, own.on_line)
+    points = own.mesh.vertices[sheets.vertex]
+    on_line = own.on_line[sheets.vertex]
     fixed = box_sides(curve.surface, points)
-    return Nodes(points, fixed, np.where(near, 0.0, w), *_slopes_and_gradients(curve, points)), area
+    places = points.copy()
+    places[on_line] = _beside(curve.surface, points[on_line], sheets.inner[on_line], fixed[on_line])
+    w = curve.values(places)
+    small = np.asarray((np.abs(w) <= FLAT_OF_VALUES * curve.size)[sheets.triangles].all(axis=1))
+    area = bool(small.any()) and _is_area(curve, own.mesh, small)
+    near = np.abs(w) <= _slack(curve, area)
+    values = np.where(near, 0.0, w)
+    nodes = Nodes(points, places, on_line, fixed, values, *_slopes_and_gradients(curve, places))
+    return nodes, sheets.triangles, area
+
+
+def _beside(surface: ImplicitSurface, points: Floats, inner: Floats, fixed: Bools) -> Floats:
+    """(n,3) places of the surface next to points (n,3) on its singular lines, on the way to inner points (n,3)."""
+    way = np.where(fixed, 0.0, BESIDE_LINE * (inner - points))
+    return onto_surface(surface, points + way, reach=np.linalg.norm(way, axis=1), fixed=fixed)[0]
 
 
 def _slopes_and_gradients(curve: CurveInSpace, points: Floats) -> tuple[Floats, Floats]:
@@ -196,12 +218,24 @@ def _slack(curve: CurveInSpace, area: bool) -> float:
     return FLAT_OF_VALUES * curve.size if area else ROUNDING_OF_TERMS * curve.size
 
 
-def _middles(curve: CurveInSpace, starts: Floats, ends: Floats, fixed: Bools, area: bool) -> Nodes:
-    """New nodes between old ones, on the surface."""
-    reach = np.linalg.norm(ends - starts, axis=1) / 2.0
-    on = onto_surface(curve.surface, (starts + ends) / 2.0, reach=reach, fixed=fixed)[0]
-    w = curve.values(on)
-    return Nodes(on, fixed, np.where(np.abs(w) <= _slack(curve, area), 0.0, w), *_slopes_and_gradients(curve, on))
+def _middles(curve: CurveInSpace, lines: SingularLines, starts: Nodes, ends: Nodes, area: bool) -> Nodes:
+    """New nodes between old ones, on the surface; between those on a singular line, on that."""
+    reach = np.linalg.norm(ends.points - starts.points, axis=1) / 2.0
+    fixed = starts.fixed & ends.fixed
+    middles = (starts.points + ends.points) / 2.0
+    points = onto_surface(curve.surface, middles, reach=reach, fixed=fixed)[0]
+    on_line = starts.on_line & ends.on_line
+    along = np.flatnonzero(on_line)
+    found, on = lines.onto(middles[along], reach[along])
+    on_line[along[~on]] = False
+    along, found = along[on], found[on]
+    inner = found + (starts.places + ends.places - starts.points - ends.points)[along] / (2.0 * BESIDE_LINE)
+    points[along] = found
+    places = points.copy()
+    places[along] = _beside(curve.surface, found, inner, fixed[along])
+    w = curve.values(places)
+    values = np.where(np.abs(w) <= _slack(curve, area), 0.0, w)
+    return Nodes(points, places, on_line, fixed, values, *_slopes_and_gradients(curve, places))
 
 
 def _crossings(curve: CurveInSpace, band: Band) -> tuple[Floats, Ints, Floats]:
@@ -209,7 +243,7 @@ def _crossings(curve: CurveInSpace, band: Band) -> tuple[Floats, Ints, Floats]:
     positive on the left; and the widths (k,) of the triangles there."""
     nodes = band.nodes
     found = level_segments(band.triangles, nodes.values)
-    a, b = nodes.points[found.low], nodes.points[found.high]
+    a, b = nodes.places[found.low], nodes.places[found.high]
     w0, w1 = nodes.values[found.low], nodes.values[found.high]
     fixed = nodes.fixed[found.low] & nodes.fixed[found.high]
     reach = np.linalg.norm(b - a, axis=1)
@@ -255,6 +289,18 @@ def _polylines(points: Floats, pairs: Ints, spans: Floats, dot: float) -> tuple[
     real = length > dot
     kept &= real[line]
     return lines.some(kept), branches.closed[real], own[starts[:-1]][~real]
+
+
+def _ended_on_lines(curve: CurveInSpace, own: ImplicitMesh, lines: Traces, closed: Bools) -> Traces:
+    """The polylines, those that end beside singular lines of the surface with the end on it."""
+    if not len(own.lines):
+        return lines
+    corners = own.mesh.vertices[own.mesh.corners.reshape(-1, 3)]
+    longest = float(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max())
+    ends = np.concatenate([lines.starts[~closed], lines.ends[~closed]])
+    points = lines.points.copy()
+    points[ends] = own.lines.met(curve.condition, points[ends], NEXT_TO * BESIDE_LINE * longest)
+    return Traces(points, lines.last)
 
 
 def _apart(points: Floats, others: Floats, distance: float) -> Ints:

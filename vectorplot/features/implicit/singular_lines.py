@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.implicit.implicit_conditions import SpatialCondition
 from vectorplot.features.implicit.singular_equations import (
     CuspidalEdges,
     DoubleLines,
@@ -36,6 +37,9 @@ FARTHEST = 1.7
 
 FORWARD = 0.5
 """Cosine with the tangent above which another point lies ahead."""
+
+MEETING_STEPS = 3
+"""Steps of Newton along a line to where a condition holds, from close by."""
 
 STRAYS = 0.5
 """Part of a step that a line may bend aside on it."""
@@ -85,6 +89,26 @@ class SingularLines:
             rest = np.flatnonzero(~on)
             found[rest], on[rest] = onto_lines(equations, points[rest], reach[rest])
         return found, on
+
+    def met(self, condition: SpatialCondition, points: Floats, reach: float) -> Floats:
+        """Points (n,3), those nearer to a line than reach moved to where a condition holds on it; where it has no value
+        there, as one about normals, onto the line."""
+        result = points.copy()
+        for equations, _ in self.kinds:
+            start, on = onto_lines(equations, points, np.full(len(points), reach))
+            row, x = np.flatnonzero(on), start[on]
+            for _ in range(MEETING_STEPS):
+                with np.errstate(all="ignore"):
+                    tangent = line_tangents(equations, x)
+                    step = -condition.values(x) / (condition.gradients(x) * tangent).sum(axis=1)
+                near = np.abs(step) <= reach
+                moved, there = onto_lines(
+                    equations, x[near] + step[near, None] * tangent[near], reach + 0.0 * step[near]
+                )
+                near[near] = there
+                x[near] = moved[there]
+            result[row] = x
+        return result
 
 
 def singular_lines(surface: ImplicitSurface, mesh: Mesh) -> SingularLines:

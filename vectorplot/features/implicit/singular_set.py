@@ -10,6 +10,7 @@ from vectorplot.features.implicit.singular_equations import SingularEquations, o
 from vectorplot.features.implicit.singular_lines import SLOW, SingularLines, usual_gradient
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import Polylines, closed_round
+from vectorplot.geometry.repair.weld import distinct_points
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -38,28 +39,41 @@ ROUNDS = 8
 """Steps of Newton's method for where the gradient vanishes."""
 
 
-def led_into_singular_set(surface: ImplicitSurface, mesh: Mesh, lines: SingularLines) -> tuple[Mesh, Bools]:
-    """The mesh, its vertices near the singular lines of the surface and near isolated singular points moved there,
-    without the triangles that are then no more than a part of a line; and which vertices (v,) are on such a line.
+def led_into_singular_set(surface: ImplicitSurface, mesh: Mesh, lines: SingularLines) -> Mesh:
+    """The mesh, its vertices near the singular lines of the surface, and near isolated singular points, moved there."""
+    points, triangles = _into_points(surface, mesh.vertices, REACH * _longest(mesh)), mesh.corners.reshape(-1, 3)
+    led = Mesh.from_triangles(points, triangles[~_flat(points[triangles])])
+    return led_into_lines(surface, led, lines)[0]
+
+
+def led_into_lines(surface: ImplicitSurface, mesh: Mesh, lines: SingularLines) -> tuple[Mesh, Bools]:
+    """The mesh, its vertices near the singular lines of the surface moved there, without the triangles that are then no
+    more than a part of a line; and which vertices (v,) are on such a line.
 
     Where two sheets cross, polygonised ones turn away from each other and leave a gap; the wings of a cuspidal edge end
     before it, and polygons go across from one to the other. Now all end on the line. Vertices on the sides of the box
     stay on them.
     """
-    if not mesh.face_count:
-        return mesh, np.zeros(0, dtype=np.bool_)
-    triangles = mesh.corners.reshape(-1, 3)
-    corners = mesh.vertices[triangles]
-    longest = float(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max())
-    points = _into_points(surface, mesh.vertices, REACH * longest)
-    there = np.zeros(len(points), dtype=np.bool_)
+    there = np.zeros(len(mesh.vertices), dtype=np.bool_)
+    if not mesh.face_count or not len(lines):
+        return mesh, there
+    points, triangles, longest = mesh.vertices, mesh.corners.reshape(-1, 3), _longest(mesh)
     for equations, some in lines.kinds:
         near = _Near(equations, some)
         points = near.led(points, ~there, REACH * longest, there)
         for _ in range(TWICE if some is lines.edges else 0):
             points = near.led(points, _tips(surface, points, triangles, there), TIPS * longest, there)
+    # Vertices that were led to the end of a line are one.
+    first, number = distinct_points(points)
+    points, there, triangles = points[first], there[first], number[triangles]
     kept = ~there[triangles].all(axis=1) & ~_flat(points[triangles])
     return Mesh.from_triangles(points, triangles[kept]), there
+
+
+def _longest(mesh: Mesh) -> float:
+    """The longest side of the triangles."""
+    corners = mesh.vertices[mesh.corners.reshape(-1, 3)]
+    return float(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(initial=0.0))
 
 
 def _flat(corners: Floats) -> Bools:

@@ -137,7 +137,8 @@ def implicit_mesh_section(
     Degenerate: a face that only touches the surface gives an isolated point; one that lies in it a doubt.
     Source: Glaeser, section 8.4 (face-face sections).
     """
-    own, doubts = mesh_of(surface, tracing)
+    polygonised, doubts = mesh_of(surface, tracing)
+    own = polygonised.mesh
     two = MeshSheet(mesh)
     if not own.face_count or not len(two.faces):
         return ImplicitMeshSection(no_curves(doubts), np.zeros((0, 3)))

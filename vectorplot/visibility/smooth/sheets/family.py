@@ -184,7 +184,7 @@ class SpatialCurves:
             tangent = np.cross(one, two)
             tangent = tangent * (dot(way, way) / dot(tangent, way))[:, None]
         at = base + off
-        slopes = np.where(np.isfinite(tangent.sum(axis=1, keepdims=True)), tangent, way)
+        slopes = np.where(np.isfinite(tangent).all(axis=1, keepdims=True), tangent, way)
         return Along(at, at, slopes, at[: len(at) if self.second >= 0 else 0])
 
 
@@ -232,6 +232,6 @@ class NearChords:
 
 def no_longer(steps: Floats, longest: Floats) -> Floats:
     """(k,3) the steps, those longer than this (k,) shortened; none where they are not finite."""
-    steps = np.where(np.isfinite(steps.sum(axis=1, keepdims=True)), steps, 0.0)
+    steps = np.where(np.isfinite(steps).all(axis=1, keepdims=True), steps, 0.0)
     long = np.sqrt(dot(steps, steps))
     return np.asarray(steps * np.minimum(1.0, longest / np.maximum(long, LEAST_DIVISOR))[:, None])

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.implicit.polygonize import polygonized, settled_mesh
+from vectorplot.features.implicit.implicit_mesh import ImplicitMesh, mesh_with_lines
+from vectorplot.features.implicit.polygonize import polygonized
 from vectorplot.features.implicit.singular_equations import CuspidalEdges
-from vectorplot.features.implicit.singular_lines import SingularLines, singular_lines
-from vectorplot.features.implicit.singular_set import led_into_singular_set
-from vectorplot.geometry.mesh import Mesh
+from vectorplot.features.implicit.singular_lines import singular_lines
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.surfaces.placed import PlacedImplicit
@@ -38,7 +37,7 @@ class ImplicitSheet:
     """An implicit surface within its box, and its tessellation; places are points in the view's coordinates.
 
     surface: in the view's coordinates; home: the same one as it was given, in the world, where its box is; view: the
-    way from the one to the other; mesh: the surface polygonised, in the world; doubts: about that mesh.
+    way from the one to the other; own: the surface polygonised, in the world.
     """
 
     surface: PlacedImplicit
@@ -49,9 +48,7 @@ class ImplicitSheet:
     vertices: Floats
     corners: Ints
     sags: Floats
-    mesh: Mesh
-    lines: SingularLines
-    doubts: tuple[str, ...]
+    own: ImplicitMesh
 
     @property
     def vertex_places(self) -> Floats:
@@ -152,18 +149,19 @@ def implicit_sheet(view: View, surface: ImplicitSurface, item: int, hides: bool)
     """
     placed = placed_in_view(view, surface)
     cells = FEWEST
-    lines = singular_lines(surface, polygonized(surface, cells))
+    mesh = polygonized(surface, cells)
+    lines = singular_lines(surface, mesh)
     while True:
-        mesh, doubts = (polygonized(surface, cells), ()) if len(lines) else settled_mesh(surface, cells)
-        led = led_into_singular_set(surface, mesh, lines)[0]
-        vertices = np.ascontiguousarray(view.points_of(led.vertices).T)
-        corners = led.corners.reshape(-1, 3)
+        own = mesh_with_lines(surface, mesh, lines, cells)
+        vertices = np.ascontiguousarray(view.points_of(own.mesh.vertices).T)
+        corners = own.mesh.corners.reshape(-1, 3)
         off = _sags(placed, vertices[corners])
-        if np.quantile(np.append(off, 0.0), MOST_OF_ALL) <= SAG or doubts or 2 * cells > MOST:
+        if np.quantile(np.append(off, 0.0), MOST_OF_ALL) <= SAG or own.doubts or 2 * cells > MOST:
             # Those at singular points stay far off; of the others the worst speaks for all.
             sags = np.maximum(off, min(float(off.max(initial=0.0)), SAG))
-            return ImplicitSheet(placed, surface, view, item, hides, vertices, corners, sags, mesh, lines, doubts)
+            return ImplicitSheet(placed, surface, view, item, hides, vertices, corners, sags, own)
         cells *= 2
+        mesh = polygonized(surface, cells)
 
 
 def placed_in_view(view: View, surface: ImplicitSurface) -> PlacedImplicit:

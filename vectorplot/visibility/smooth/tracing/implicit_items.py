@@ -59,7 +59,7 @@ def curves_of_implicit(
     borders = implicit_borders(sheet.home, tracing=tracing)
     found += _singular(sheet, number, tracing)
     parts = [as_spatial_curves(curves, kind, sheet, family) for kind, family, curves in found]
-    doubts = (*sheet.doubts, *(text for _, _, curves in found for text in curves.doubts), *borders.doubts)
+    doubts = (*sheet.own.doubts, *(text for _, _, curves in found for text in curves.doubts), *borders.doubts)
     return [*parts, *_borders(borders, sheet, number)], doubts
 
 
@@ -72,7 +72,7 @@ def tracing_in_world(sheet: ImplicitSheet, tracing: Tracing) -> ImplicitTracing:
         return own if picture is None else picture(own)
 
     return ImplicitTracing(
-        mesh=sheet.mesh,
+        mesh=sheet.own,
         resolution=tracing.resolution,
         tolerance=tracing.tolerance,
         picture=image,
@@ -132,8 +132,8 @@ def _singular(sheet: ImplicitSheet, number: int, tracing: ImplicitTracing) -> li
     result: list[Found] = []
     here = sheet.surface
     for kind, equations, lines, own in (
-        (LineKind.CREASE, sheet.lines.edge_equations, sheet.lines.edges, CuspidalEdges(here, UNIT)),
-        (LineKind.INTERSECTION, sheet.lines.double_equations, sheet.lines.doubles, DoubleLines(here, UNIT)),
+        (LineKind.CREASE, sheet.own.lines.edge_equations, sheet.own.lines.edges, CuspidalEdges(here, UNIT)),
+        (LineKind.INTERSECTION, sheet.own.lines.double_equations, sheet.own.lines.doubles, DoubleLines(here, UNIT)),
     ):
         found = refined_line(equations, lines, tracing)
         result.append((kind, SingularCurves(own, number), found))

@@ -1,0 +1,80 @@
+"""Implicit surfaces polygonised up to their singular lines, sheet by sheet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.implicit.polygonize import polygonized, settled_mesh
+from vectorplot.features.implicit.singular_lines import SingularLines, singular_lines
+from vectorplot.features.implicit.singular_set import led_into_lines
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.repair.weld import chained
+from vectorplot.surfaces.surface import ImplicitSurface
+
+
+@dataclass(frozen=True, eq=False)
+class ImplicitMesh:
+    """A surface as triangles that end on its singular lines; on_line (v,): which vertices are on one; lines; doubts: a
+    sentence where it could not be settled how the surface hangs together."""
+
+    mesh: Mesh
+    on_line: Bools
+    lines: SingularLines
+    doubts: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Sheets:
+    """Triangles (t,3) of nodes; vertex (n,): that of the mesh which a node stands for. One on a singular line has a
+    node in every sheet that ends there; inner (n,3): the middle of its neighbours in this sheet; itself for others."""
+
+    triangles: Ints
+    vertex: Ints
+    inner: Floats
+
+
+def implicit_mesh(surface: ImplicitSurface, cells: int) -> ImplicitMesh:
+    """The surface polygonised with so many cells along the longest side of its box, or more until it is settled how it
+    hangs together.
+
+    Errors: as for `polygonized`.
+    """
+    mesh = polygonized(surface, cells)
+    return mesh_with_lines(surface, mesh, singular_lines(surface, mesh), cells)
+
+
+def mesh_with_lines(surface: ImplicitSurface, mesh: Mesh, lines: SingularLines, cells: int) -> ImplicitMesh:
+    """The surface polygonised as a mesh, of so many cells, up to its singular lines. Where it has none the mesh is made
+    finer until it is settled how it hangs together: with lines it never is, for sheets that cross are joined by chance.
+    """
+    doubts: tuple[str, ...] = ()
+    if not len(lines):
+        mesh, doubts = settled_mesh(surface, cells)
+    led, on_line = led_into_lines(surface, mesh, lines)
+    return ImplicitMesh(led, on_line, lines, doubts)
+
+
+def sheets_apart(mesh: Mesh, on_line: Bools) -> Sheets:
+    """The triangles of a mesh cut apart along singular lines; on_line (v,): the vertices on them."""
+    triangles = mesh.corners.reshape(-1, 3).copy()
+    count = len(mesh.vertices)
+    row, place = np.nonzero(on_line[triangles])
+    vertex = triangles[row, place]
+    others = np.stack([triangles[row, (place + k) % 3] for k in (1, 2)], axis=1)
+    inside = ~on_line[others]
+    # Triangles are in one sheet that share a side from the line into it.
+    corner, which = np.nonzero(inside)
+    key = vertex[corner] * count + others[corner, which]
+    order = np.argsort(key, kind="stable")
+    same = np.flatnonzero(key[order][1:] == key[order][:-1])
+    label = chained(len(row), corner[order[same]], corner[order[same + 1]])
+    heads, number = np.unique(label, return_inverse=True)
+    triangles[row, place] = count + number
+    total, many = np.zeros((len(heads), 3)), np.zeros(len(heads))
+    np.add.at(total, number[corner], mesh.vertices[others[corner, which]])
+    np.add.at(many, number[corner], 1.0)
+    inner = np.concatenate([mesh.vertices, total / np.maximum(many, 1.0)[:, None]])
+    return Sheets(triangles, np.concatenate([np.arange(count), vertex[heads]]), inner)
