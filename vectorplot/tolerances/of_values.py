@@ -54,6 +54,10 @@ a line."""
 VANISHED_GRADIENT = 1e-6
 """Part of the usual gradient, and of what it makes of the way to go, below which gradient and value are zero."""
 
+NOISE_OF_GRADIENT = 1e-10
+"""Part of the usual gradient of an implicit surface that is rounding at the points of its singular lines: their normals
+tell nothing."""
+
 VANISHED_VALUE = 1e-9
 """Part of what the usual gradient makes of the way to go below which the value at a singular point is zero: at a double
 point it is the square of the gradient."""

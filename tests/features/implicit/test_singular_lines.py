@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from vectorplot.features.implicit.implicit_curves import implicit_plane_sections
 from vectorplot.features.implicit.implicit_tracing import ImplicitTracing
 from vectorplot.features.implicit.polygonize import polygonized
 from vectorplot.features.implicit.singular_curves import refined_line
@@ -158,3 +159,20 @@ def test_refined_lines_keep_the_tolerance() -> None:
     assert hunt(curves.points).max() < 1e-9
     # To first order the distance is that of the two equations.
     assert hunt(middles).max() < 1e-4 * 60.0
+
+
+@pytest.mark.hard(49)
+@pytest.mark.parametrize("offset", [-0.2, 0.024, 0.13])
+def test_sections_have_their_cusps_on_the_edge(offset: float) -> None:
+    curves = implicit_plane_sections(implicit("y^3-z^2", 1.2), (0.2, 0.3, 1.0), [offset])
+    ends = curves.points[np.concatenate([curves.offsets[:-1], curves.offsets[1:] - 1])]
+    place = np.array([offset / 0.2 * np.sqrt(1.13), 0.0, 0.0])
+    assert not curves.closed.any() and (np.linalg.norm(ends - place, axis=1) < 1e-9).sum() == 2
+
+
+@pytest.mark.hard(48)
+def test_curves_go_on_beyond_a_line_in_which_the_surface_crosses_itself() -> None:
+    curves = implicit_plane_sections(implicit("(x+0.3*z)*(y-0.2*z)", 1.2), (0.2, 0.3, 1.0), [0.1])
+    ends = curves.points[np.concatenate([curves.offsets[:-1], curves.offsets[1:] - 1])]
+    place = np.array([-0.3, 0.2, 1.0]) * 0.1 * np.sqrt(1.13)
+    assert len(curves) == 4 and (np.linalg.norm(ends - place, axis=1) < 1e-9).sum() == 4

@@ -30,7 +30,7 @@ def test_the_tessellation_lies_on_the_sheet() -> None:
     assert np.abs(sheet.points(sheet.vertices) - sheet.vertices).max() < 1e-12
     assert sheet.on_sheet(sheet.vertices).all()
     assert 0.0 < sheet.sags.max() < 3e-3
-    assert sheet.doubts == ()
+    assert sheet.own.doubts == ()
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.implicit_mesh import ImplicitMesh, mesh_with_lines
 from vectorplot.features.implicit.polygonize import polygonized
 from vectorplot.features.implicit.singular_equations import CuspidalEdges
-from vectorplot.features.implicit.singular_lines import singular_lines
+from vectorplot.features.implicit.singular_lines import singular_lines, usual_gradient
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.surfaces.placed import PlacedImplicit
@@ -18,6 +19,7 @@ from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.tolerances.of_angles import SAME_DIRECTION_SINE
 from vectorplot.tolerances.of_numbers import ROUNDING
 from vectorplot.tolerances.of_parameters import OUTSIDE_DOMAIN
+from vectorplot.tolerances.of_values import NOISE_OF_GRADIENT
 
 FEWEST, MOST = 48, 192
 """Cells along the longest side of the box on which a surface is polygonised, at least and at most."""
@@ -81,7 +83,12 @@ class ImplicitSheet:
             long = np.linalg.norm(slopes, axis=1)
             way = _tangential(directions, slopes / long[:, None])
             bend = -np.einsum("ki,kij,kj->k", way, self.surface.hessians(places), way) / long
-        return np.where(np.isfinite(bend), bend, 0.0)
+        return np.where(np.isfinite(bend) & (long > self.least), bend, 0.0)
+
+    @cached_property
+    def least(self) -> float:
+        """The length of gradients that are rounding: at singular points."""
+        return NOISE_OF_GRADIENT * usual_gradient(self.surface, self.vertices)
 
     def moved(self, places: Floats, steps: Floats) -> Floats:
         """(k,3) the places that small tangential steps lead to."""
