@@ -1,0 +1,98 @@
+"""Many spheres from a scene to a drawing: run with ``pytest tests/bench/bench_quadrics.py -s``."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from vectorplot.draw import draw
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.plan import StageReport
+from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
+from vectorplot.surfaces.families.ellipsoid import Sphere
+
+pytestmark = pytest.mark.bench
+
+CAMERA = Camera(eye=(30.0, -20.0, 18.0), target=(5.0, 5.0, 5.0))
+
+
+def heap(count: int, lines: SurfaceLines = NO_LINES) -> Scene:
+    """Spheres at random, one in two of which pierces another."""
+    rng = np.random.default_rng(3)
+    centres = rng.uniform(0.0, 10.0, (count, 3))
+    radii = rng.uniform(0.1, 0.35, count) * (1000.0 / count) ** (1.0 / 3.0)
+    pairs = zip(centres.tolist(), radii.tolist(), strict=True)
+    return Scene(tuple(Item(str(k), Sphere(r, c), curves=lines) for k, (c, r) in enumerate(pairs)))
+
+
+def protein(count: int) -> Scene:
+    """Atoms packed as in a protein: each meets about ten others."""
+    rng = np.random.default_rng(3)
+    side = np.arange(int(np.ceil((2.0 * count) ** (1.0 / 3.0))))
+    places = np.stack(np.meshgrid(side, side, side), axis=-1).reshape(-1, 3) * 2.65
+    places = places - places.mean(axis=0) + rng.normal(size=places.shape) * 0.5
+    places = places[np.argsort((places**2).sum(axis=1))[:count]] * (10.0 / 60.0) + 5.0
+    radii = rng.choice([1.52, 1.55, 1.7, 1.7, 1.8], count) * (10.0 / 60.0)
+    pairs = zip(places.tolist(), radii.tolist(), strict=True)
+    return Scene(tuple(Item(str(k), Sphere(r, c)) for k, (c, r) in enumerate(pairs)))
+
+
+def seconds(action: Callable[[], object], repeat: int = 3) -> float:
+    """The shortest of a few times, of the processor."""
+    times = []
+    for _ in range(repeat):
+        start = time.process_time()
+        action()
+        times.append(time.process_time() - start)
+    return min(times)
+
+
+def bare(scene: Scene) -> float:
+    """What projecting 32 points of each sphere and sorting them by depth takes."""
+    centres = np.array([item.shape.centre for item in scene.items])
+    around = np.random.default_rng(1).normal(size=(32, 1, 3))
+
+    def project() -> None:
+        points = (centres + around).reshape(-1, 3) - np.array(CAMERA.eye)
+        image = points[:, :2] / points[:, 2:]
+        np.argsort(points[:, 2] + 0.0 * image[:, 0], kind="stable")
+
+    return seconds(project, 5)
+
+
+def measured(name: str, scenes: dict[int, Scene]) -> float:
+    """The growth exponent at the end of a row of scenes."""
+    print(f"\n{name}")
+    times = []
+    for count, scene in scenes.items():
+        draw(scene, CAMERA)
+        times.append(seconds(lambda s=scene: draw(s, CAMERA)))
+        print(f"  {count:>7,}: {times[-1]:6.3f} s, {times[-1] / bare(scene):5.0f} times projecting 32 points each")
+    sizes = list(scenes)
+    return float(np.log(times[-1] / times[-2]) / np.log(sizes[-1] / sizes[-2]))
+
+
+def test_contours_and_circles_of_many_spheres() -> None:
+    exponent = measured("spheres", {count: heap(count) for count in (100, 1000, 10000)})
+    print(f"  growth exponent {exponent:.2f}")
+    stages: list[StageReport] = []
+    draw(heap(10000), CAMERA, explain=stages.append)
+    print("  " + ", ".join(f"{stage.name} {stage.seconds:.3f}" for stage in stages))
+    assert exponent < 1.2
+
+
+def test_twelve_meridians_each() -> None:
+    lines = SurfaceLines(columns=12)
+    exponent = measured("spheres with 12 meridians", {count: heap(count, lines) for count in (100, 1000, 4000)})
+    print(f"  growth exponent {exponent:.2f}")
+    assert exponent < 1.2
+
+
+def test_a_protein() -> None:
+    exponent = measured("atoms that pierce each other", {count: protein(count) for count in (500, 5000)})
+    print(f"  growth exponent {exponent:.2f}")
+    assert exponent < 1.2
