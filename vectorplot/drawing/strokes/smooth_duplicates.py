@@ -44,14 +44,20 @@ def without_smooth_duplicates(paths: Paths, rank: Ints, tolerance_mm: float) -> 
     chords = chosen(paths, smooth)
     group = np.unique(rank[smooth], return_inverse=True)[1].astype(np.intp)
     own = np.unique(np.stack([group, chords.curve]), axis=1, return_inverse=True)[1].ravel()
-    ends, mate = chords.points.reshape(-1, 2, 2), linked_ends(chords, own, tolerance_mm)
+    ends = chords.points.reshape(-1, 2, 2)
     length = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
     slopes = _known_slopes(ends, chords.directions)
     if np.isnan(slopes).any():
-        slopes = np.where(np.isnan(slopes), _slopes(ends, mate), slopes)
+        slopes = np.where(np.isnan(slopes), _slopes(ends, linked_ends(chords, own, tolerance_mm)), slopes)
+    covered = _covered(ends, slopes, group, tolerance_mm)
+    if not covered.any():
+        return paths
     room = tolerance_mm + HEIGHT_SHARE * float((length * np.abs(slopes).max(axis=1)).max()) / 4.0
     touching = TOUCHING_MM * (room / TOUCHING_AT_MM) ** 0.25
-    covered = _in_rows(_covered(ends, slopes, group, tolerance_mm), mate, length, touching)
+    # What lies in rows along curves of which no part is covered needs no look.
+    some = np.flatnonzero(np.isin(own, own[covered]))
+    mate = linked_ends(chosen(chords, some), own[some], tolerance_mm)
+    covered[some] = _in_rows(covered[some], mate, length[some], touching)
     if not covered.any():
         return paths
     kept = np.ones(len(paths), dtype=np.bool_)
@@ -60,12 +66,13 @@ def without_smooth_duplicates(paths: Paths, rank: Ints, tolerance_mm: float) -> 
 
 
 def _known_slopes(ends: Floats, directions: Floats) -> Floats:
-    """(m,2) slopes of the curve against its chords (m,2,2) at their ends, by directions (2m,2) at these; NaN where they
-    are not known, or steep."""
+    """(m,2) slopes of the curve against its chords (m,2,2) at their ends, by directions (2m,2) at these; that of an arc of
+    a circle where one is not known, or steep, NaN where both are."""
     along = ends[:, 1] - ends[:, 0]
     angle = np.stack([directions[::2, 1], directions[1::2, 0]], axis=1) - np.arctan2(along[:, 1], along[:, 0])[:, None]
     with np.errstate(invalid="ignore"):
-        return np.where((np.cos(angle) > 0.0) & (np.abs(np.tan(angle)) < _STEEPEST), np.tan(angle), np.nan)
+        slopes = np.where((np.cos(angle) > 0.0) & (np.abs(np.tan(angle)) < _STEEPEST), np.tan(angle), np.nan)
+    return np.where(np.isnan(slopes), -slopes[:, ::-1], slopes)
 
 
 def _slopes(ends: Floats, mate: Ints) -> Floats:
@@ -91,33 +98,52 @@ def _slopes(ends: Floats, mate: Ints) -> Floats:
 
 def _covered(ends: Floats, slopes: Floats, rank: Ints, tolerance: float) -> Bools:
     """(m,) which chords (m,2,2) lie on arcs over chords of smaller rank."""
+    along = ends[:, 1] - ends[:, 0]
+    length = np.hypot(*along.T)
+    normal = np.column_stack((-along[:, 1], along[:, 0])) / length[:, None]
+    height = length * np.abs(slopes).max(axis=1) / 4.0
+    middle = ends.mean(axis=1) + (length * (slopes[:, 0] - slopes[:, 1]) / 8.0)[:, None] * normal
+    # The ends are points of the curve; the middle is known but for a little. Few middles lie on other curves, while
+    # many ends do.
+    some = np.flatnonzero(rank > rank.min())
+    for points, room in (
+        (middle, tolerance + HEIGHT_SHARE * height),
+        (ends[:, 0], np.full(len(ends), tolerance)),
+        (ends[:, 1], np.full(len(ends), tolerance)),
+    ):
+        some = some[_on_arcs(points[some], room[some], rank[some], ends, slopes, rank, tolerance)]
+    covered = np.zeros(len(ends), dtype=np.bool_)
+    covered[some] = True
+    return covered
+
+
+def _on_arcs(
+    points: Floats, room: Floats, rank: Ints, ends: Floats, slopes: Floats, arc_rank: Ints, tolerance: float
+) -> Bools:
+    """(k,) which points (k,2) lie within room (k,) on arcs over chords (m,2,2) of smaller rank."""
     import shapely
 
+    on_some = np.zeros(len(points), dtype=np.bool_)
+    if not len(points):
+        return on_some
     along = ends[:, 1] - ends[:, 0]
     length = np.hypot(*along.T)
     unit = along / length[:, None]
-    normal = np.column_stack((-unit[:, 1], unit[:, 0]))
     height = length * np.abs(slopes).max(axis=1) / 4.0
-    middle = ends.mean(axis=1) + (length * (slopes[:, 0] - slopes[:, 1]) / 8.0)[:, None] * normal
-    points = np.concatenate((ends[:, 0], ends[:, 1], middle))
-    own = np.tile(np.arange(len(ends)), 3)
-    # The ends are points of the curve; the middle is known but for a little.
-    room = tolerance + HEIGHT_SHARE * np.concatenate((np.zeros(2 * len(ends)), height))
     # Each arc looks no farther than its own height: one long chord would else call for all pairs.
     tree = shapely.STRtree(shapely.points(points))
     reach = tolerance + (1.0 + HEIGHT_SHARE) * height + HEIGHT_SHARE * float(height.max())
     arc, point = tree.query(shapely.linestrings(ends), predicate="dwithin", distance=reach)
-    better = rank[arc] < rank[own[point]]
+    better = arc_rank[arc] < rank[point]
     point, arc = point[better], arc[better]
     arm = points[point] - ends[arc, 0]
     s = (arm * unit[arc]).sum(axis=1) / length[arc]
     rise = length[arc] * (slopes[arc, 0] * s * (1.0 - s) ** 2 - slopes[arc, 1] * s * s * (1.0 - s))
-    off = np.abs((arm * normal[arc]).sum(axis=1) - rise)
+    off = np.abs(unit[arc, 0] * arm[:, 1] - unit[arc, 1] * arm[:, 0] - rise)
     slack = tolerance / length[arc]
     on = (s >= -slack) & (s <= 1.0 + slack) & (off <= room[point] + HEIGHT_SHARE * height[arc])
-    hit = np.zeros(len(points), dtype=np.bool_)
-    hit[point[on]] = True
-    return np.asarray(hit.reshape(3, -1).all(axis=0))
+    on_some[point[on]] = True
+    return on_some
 
 
 def _in_rows(covered: Bools, mate: Ints, length: Floats, touching: float) -> Bools:
