@@ -66,8 +66,8 @@ def without_smooth_duplicates(paths: Paths, rank: Ints, tolerance_mm: float) -> 
 
 
 def _known_slopes(ends: Floats, directions: Floats) -> Floats:
-    """(m,2) slopes of the curve against its chords (m,2,2) at their ends, by directions (2m,2) at these; that of an arc of
-    a circle where one is not known, or steep, NaN where both are."""
+    """(m,2) slopes of the curve against its chords (m,2,2) at their ends, by directions (2m,2) at these; that of an arc
+    of a circle where one is not known, or steep, NaN where both are."""
     along = ends[:, 1] - ends[:, 0]
     angle = np.stack([directions[::2, 1], directions[1::2, 0]], axis=1) - np.arctan2(along[:, 1], along[:, 0])[:, None]
     with np.errstate(invalid="ignore"):
