@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 from support.smooth_scenes import lit, ring, views
@@ -129,21 +131,26 @@ def test_scenes_with_implicit_surfaces_as_rays_see_them(name: str) -> None:
         assert compared > 70
 
 
+SHAPES = (ImplicitTorus(3.0, 1.0), SADDLE)
+
+
+@cache
+def shapes_seen(parallel: bool) -> Chords:
+    """Where they stand, from an eye that other tests move with them."""
+    scene = lit(*(Item("item", shape, curves=FEW) for shape in SHAPES))
+    return chords_seen(scene, Camera((9.0, -11.0, 7.0), (0.1, 0.2, 0.0), parallel=parallel))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("scale", "offset"), [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e6)])
 def test_size_and_place_change_nothing(scale: float, offset: float) -> None:
     place = offset * np.array([1.0, -1.0, 1.0])
-    shapes = [ImplicitTorus(3.0, 1.0), SADDLE]
-    here = lit(*(Item("item", shape, curves=FEW) for shape in shapes))
-    moved = [PlacedImplicit(shape, scale * np.eye(3), place) for shape in shapes]
+    moved = [PlacedImplicit(shape, scale * np.eye(3), place) for shape in SHAPES]
     there = lit(*(Item("item", shape, curves=FEW) for shape in moved))
     for parallel in (False, True):
         eye, target = np.array([9.0, -11.0, 7.0]), np.array([0.1, 0.2, 0.0])
-        cameras = [
-            Camera(tuple((k * eye + shift).tolist()), tuple((k * target + shift).tolist()), parallel=parallel)
-            for k, shift in ((1.0, 0.0), (scale, place))
-        ]
-        a, b = chords_seen(here, cameras[0]), chords_seen(there, cameras[1])
+        eye, target = (tuple((scale * point + place).tolist()) for point in (eye, target))
+        a, b = shapes_seen(parallel), chords_seen(there, Camera(eye, target, parallel=parallel))
         assert np.abs(a.lengths() - b.lengths() / scale).max() < 1e-5 * a.length.sum()
 
 
