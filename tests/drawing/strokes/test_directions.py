@@ -19,7 +19,6 @@ from vectorplot.drawing.strokes.page_clip import clipped
 from vectorplot.drawing.strokes.paths import chosen, concatenated
 from vectorplot.drawing.strokes.pen_order.order import pen_ordered
 from vectorplot.drawing.strokes.simplify import without_collinear_points
-from vectorplot.drawing.strokes.smooth_duplicates import without_smooth_duplicates
 
 
 def ellipse(t):
@@ -127,17 +126,6 @@ def test_curves_that_meet_are_joined_each_to_itself_first():
 
 def spans(paths):
     return zip(paths.curve, paths.offsets[:-1], paths.offsets[1:], strict=True)
-
-
-def test_arcs_of_known_directions_tell_what_lies_on_them():
-    # The finer chords of the same ellipse lie on the arcs over the coarse ones, of which no three follow one another.
-    coarse = chosen(chords(np.linspace(0.0, 6.0, 31)), np.arange(0, 30, 2))
-    fine = chosen(chords(np.linspace(0.0, 6.0, 271), 1), np.flatnonzero(np.arange(270) // 9 % 2 == 0))
-    both = concatenated((coarse, fine))
-    rank = np.repeat([0, 1], [len(coarse), len(fine)])
-    assert len(without_smooth_duplicates(both, rank, 1e-3)) == len(coarse)
-    unknown = replace(both, directions=np.full_like(both.directions, np.nan))
-    assert len(without_smooth_duplicates(unknown, rank, 1e-3)) > len(coarse)
 
 
 def test_the_path_has_the_directions_that_are_known():

@@ -28,11 +28,9 @@ def without_smooth_duplicates(paths: Paths, rank: Ints, tolerance_mm: float) -> 
     paths: strokes of two points; those that are smooth are chords between points of a curve; rank (m,): equal for all
     chords of a curve, which gives way to curves of smaller rank only. A chord goes if its ends and the middle of its
     own arc lie on arcs of smaller rank, within tolerance_mm and a little of the arcs' height, and so does all
-    of its curve, or TOUCHING_MM of it in a row; chords without length go too. Strokes keep their order. Chords follow
-    one another where they belong to one curve, or if that is not known, to curves of one rank.
+    of its curve, or TOUCHING_MM of it in a row; chords without length go too. Strokes keep their order.
     Degenerate: curves that overlap in part may go on doing so over less than a chord at the ends of the common part.
-    Source: cubic Hermite arcs over the chords, with the tangents that are known, or else those of circles through three
-    neighbouring points.
+    Source: cubic Hermite arcs over the chords, with the tangents of circles through three neighbouring points.
     """
     along = paths.points[paths.offsets[1:] - 1] - paths.points[paths.offsets[:-1]]
     long = ~paths.smooth | along.any(axis=1)
@@ -43,36 +41,21 @@ def without_smooth_duplicates(paths: Paths, rank: Ints, tolerance_mm: float) -> 
         return paths
     chords = chosen(paths, smooth)
     group = np.unique(rank[smooth], return_inverse=True)[1].astype(np.intp)
-    own = np.unique(np.stack([group, chords.curve]), axis=1, return_inverse=True)[1].ravel()
     ends = chords.points.reshape(-1, 2, 2)
     length = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
-    slopes = _known_slopes(ends, chords.directions)
-    if np.isnan(slopes).any():
-        slopes = np.where(np.isnan(slopes), _slopes(ends, linked_ends(chords, own, tolerance_mm)), slopes)
+    mate = linked_ends(chords, group, tolerance_mm)
+    slopes = _slopes(ends, mate)
     covered = _covered(ends, slopes, group, tolerance_mm)
     if not covered.any():
         return paths
     room = tolerance_mm + HEIGHT_SHARE * float((length * np.abs(slopes).max(axis=1)).max()) / 4.0
     touching = TOUCHING_MM * (room / TOUCHING_AT_MM) ** 0.25
-    # What lies in rows along curves of which no part is covered needs no look.
-    some = np.flatnonzero(np.isin(own, own[covered]))
-    mate = linked_ends(chosen(chords, some), own[some], tolerance_mm)
-    covered[some] = _in_rows(covered[some], mate, length[some], touching)
+    covered = _in_rows(covered, mate, length, touching)
     if not covered.any():
         return paths
     kept = np.ones(len(paths), dtype=np.bool_)
     kept[smooth[covered]] = False
     return chosen(paths, kept)
-
-
-def _known_slopes(ends: Floats, directions: Floats) -> Floats:
-    """(m,2) slopes of the curve against its chords (m,2,2) at their ends, by directions (2m,2) at these; that of an arc
-    of a circle where one is not known, or steep, NaN where both are."""
-    along = ends[:, 1] - ends[:, 0]
-    angle = np.stack([directions[::2, 1], directions[1::2, 0]], axis=1) - np.arctan2(along[:, 1], along[:, 0])[:, None]
-    with np.errstate(invalid="ignore"):
-        slopes = np.where((np.cos(angle) > 0.0) & (np.abs(np.tan(angle)) < _STEEPEST), np.tan(angle), np.nan)
-    return np.where(np.isnan(slopes), -slopes[:, ::-1], slopes)
 
 
 def _slopes(ends: Floats, mate: Ints) -> Floats:
