@@ -59,3 +59,20 @@ def test_cuspidal_edges_are_creases_and_double_lines_intersections() -> None:
         low, high = np.array(straight)
         assert np.abs(points[:, low == high]).max() < 1e-9, text
         assert (points.min(axis=0) <= low + 1e-9).all() and (points.max(axis=0) >= high - 1e-9).all(), text
+
+
+def polynomial(random: np.random.Generator, degree: int) -> str:
+    """One with random coefficients, about six in ten of those it could have."""
+    powers = [(i, j, k) for i in range(degree + 1) for j in range(degree + 1 - i) for k in range(degree + 1 - i - j)]
+    terms = [f"({random.normal():.3f})*x^{i}*y^{j}*z^{k}" for i, j, k in powers if random.random() < 0.6]
+    return f"({'+'.join(terms) or 'x'})"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2, 9])
+def test_products_and_discriminants_of_random_surfaces_as_rays_see_them(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    one, two = (polynomial(random, 1 + int(random.integers(2))) for _ in range(2))
+    scene = scene_of(f"{one}^3-{two}^2" if seed % 2 == 0 else f"{one}*{two}", 1.0)
+    camera, drawing = drawn(scene, tuple(random.normal(size=3) * 3.0), 1.0)
+    assert assert_drawing_is_right(drawing, scene, camera, samples=200) > 20
