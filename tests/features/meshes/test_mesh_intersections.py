@@ -1,9 +1,12 @@
+from itertools import combinations
+
 import numpy as np
 import pytest
 
 from vectorplot.features.meshes.edges import Faces
 from vectorplot.features.meshes.mesh_intersections import Intersections, face_intersections
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.rotations import axis_frame
 from vectorplot.testing.shapes import box
 from vectorplot.testing.surfaces import bumpy_icosphere
 
@@ -64,3 +67,15 @@ def test_apart_and_within_there_is_nothing() -> None:
 def test_the_order_of_parts_changes_nothing() -> None:
     one, two = box((-1, -1, -1), (1, 1, 1)), bumpy_icosphere(2)
     assert np.isclose(length(met(one, two)), length(met(two, one)))
+
+
+def test_long_thin_bars_meet_where_they_meet_two_by_two() -> None:
+    rng = np.random.default_rng(4)
+    bars = []
+    for centre, axis in zip(rng.uniform(0.0, 1.0, (100, 3)), rng.normal(size=(100, 3)), strict=True):
+        bar = box((-0.01, -0.01, -0.6), (0.01, 0.01, 0.6))
+        bars.append(Mesh(bar.vertices @ axis_frame(axis) + centre, bar.corners, bar.offsets))
+    together = met(*bars)
+    apart = [met(one, two) for one, two in combinations(bars, 2)]
+    assert len(together.one) == sum(len(pair.one) for pair in apart) > 100
+    assert np.isclose(length(together), sum(map(length, apart)))

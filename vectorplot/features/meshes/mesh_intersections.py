@@ -11,10 +11,15 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.meshes.edges import Faces, unit_normals
 from vectorplot.geometry import ragged
+from vectorplot.geometry.columns import cross, dot
+from vectorplot.geometry.mesh import next_positions
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 PAIRS_AT_ONCE = 1 << 18
 """Pairs of faces handled at once."""
+
+SLIM_FACES, FEWEST_PAIRS = 12, 1024
+"""Parts of so few faces are looked at more closely where so many pairs of boxes overlap."""
 
 AXIS_SHIFT = 16.0
 """Coordinates stay below this; pairs of parts are kept apart on a sweep's axis by multiples of it."""
@@ -64,6 +69,8 @@ def _pairs_of_faces(faces: Faces, part: Ints, tolerance: float) -> tuple[Ints, I
     low, high = low - tolerance, high + tolerance
     a, b = overlapping_boxes(low, high, low, high)
     a, b = a[a < b], b[a < b]
+    near = _not_crossing_past(faces, part, a, b, tolerance)
+    a, b = a[near], b[near]
     meeting = np.zeros(parts, dtype=np.bool_)
     meeting[a], meeting[b] = True, True
     face = np.flatnonzero(meeting[part])
@@ -71,6 +78,49 @@ def _pairs_of_faces(faces: Faces, part: Ints, tolerance: float) -> tuple[Ints, I
         return none, none
     one, two = _within_pairs(*_boxes(faces, face, tolerance), part[face], (a, b), low, high)
     return face[one], face[two]
+
+
+def _not_crossing_past(faces: Faces, part: Ints, one: Ints, two: Ints, tolerance: float) -> Bools:
+    """(n,) which pairs of parts no plane along the longest edges of both keeps apart: the boxes of long thin things,
+    such as bars, overlap nearly always, and hardly any meet."""
+    size = np.bincount(part)[part]
+    slim = np.flatnonzero(size <= SLIM_FACES)
+    close = np.ones(len(one), dtype=np.bool_)
+    if not len(slim) or len(one) < FEWEST_PAIRS:
+        return close
+    position, face, _ = _corners_of(faces, slim)
+    order = np.argsort(part[slim[face]], kind="stable")
+    corner = faces.corners[position][order]
+    offsets = np.searchsorted(part[slim[face]][order], np.arange(int(part.max()) + 2))
+    along = _longest_edges(faces, part)
+    kept = np.flatnonzero((np.diff(offsets)[one] > 0) & (np.diff(offsets)[two] > 0))
+    for first in range(0, len(kept), PAIRS_AT_ONCE):
+        pair = kept[first : first + PAIRS_AT_ONCE]
+        axis = cross(along[:, one[pair]], along[:, two[pair]])
+        spans = [_spans(faces, corner, offsets, which[pair], axis) for which in (one, two)]
+        gap = tolerance * np.sqrt((axis * axis).sum(axis=0))
+        apart = (spans[0][0] > spans[1][1] + gap) | (spans[1][0] > spans[0][1] + gap)
+        close[pair[apart]] = False
+    return close
+
+
+def _longest_edges(faces: Faces, part: Ints) -> Floats:
+    """(3,p) a longest edge of every part."""
+    after = next_positions(faces.offsets, np.arange(len(faces.corners)))
+    edge = faces.points[:, faces.corners[after]] - faces.points[:, faces.corners]
+    owner = np.repeat(part, np.diff(faces.offsets))
+    order = np.lexsort((dot(edge, edge), owner))
+    last = np.searchsorted(owner[order], np.arange(int(part.max()) + 1), side="right") - 1
+    return edge[:, order[last]]
+
+
+def _spans(faces: Faces, corner: Ints, offsets: Ints, which: Ints, axis: Floats) -> tuple[Floats, Floats]:
+    """From where to where (n,) parts reach along axes (3,n); corner: of all parts, one after the other."""
+    size = offsets[which + 1] - offsets[which]
+    points = faces.points[:, corner[ragged.ranges(offsets[which], size)]]
+    height = dot(points, np.repeat(axis, size, axis=1))
+    starts = ragged.starts(size)
+    return np.minimum.reduceat(height, starts), np.maximum.reduceat(height, starts)
 
 
 def _part_boxes(faces: Faces, part: Ints, parts: int) -> tuple[Floats, Floats]:
