@@ -16,7 +16,7 @@ from vectorplot.visibility.quadrics.sight import Sight
 from vectorplot.visibility.smooth.sheets.family import Along, Chords
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
-LOOKS = 5
+LOOKS = 9
 """Places along an arc at which one looks how sharply its image bends."""
 
 FEWEST, MOST = 8, 4096
