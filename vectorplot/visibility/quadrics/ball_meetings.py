@@ -20,11 +20,24 @@ from vectorplot.words import LineKind
 
 
 def overlapping_balls(balls: Balls) -> tuple[Ints, Ints]:
-    """Pairs i < j of balls of which the boxes overlap."""
+    """Pairs i < j of balls that meet, and some that do not but nearly."""
     low, high = (balls.centre - balls.reach).T, (balls.centre + balls.reach).T
     one, two = overlapping_boxes(low, high, low, high)
-    first = one < two
-    return one[first], two[first]
+    close = one < two
+    one, two = one[close], two[close]
+    close = _near(balls, one, two) & _near(balls, two, one)
+    return one[close], two[close]
+
+
+def _near(balls: Balls, one: Ints, two: Ints) -> Bools:
+    """(n,) whether, where the first ball of a pair is the unit sphere, the second one comes so near its centre: a ball
+    by its radius, another ellipsoid by its box."""
+    frame = np.einsum("nij,njk->nik", balls.frame[two], balls.inverse[one])
+    centre = np.einsum("ni,nij->nj", balls.centre[two] - balls.centre[one], balls.inverse[one])
+    alike, ratio = are_homothetic(balls, two, one)
+    beside = np.maximum(np.abs(centre) - np.sqrt((frame * frame).sum(axis=1)), 0.0)
+    distance = np.sqrt(dot(centre, centre))
+    return np.where(alike, distance <= 1.0 + np.sqrt(ratio), dot(beside, beside) <= 1.0)
 
 
 def are_homothetic(balls: Balls, one: Ints, two: Ints) -> tuple[Bools, Floats]:

@@ -200,6 +200,9 @@ def _meets_others(scene: Scene, view: View, balls: Balls, wants: Bools) -> Bools
     frame = balls.sight.vectors(balls.frame) @ turned
     reach = np.sqrt((frame * frame).sum(axis=1))
     ball, box = overlapping_boxes((centre - reach).T, (centre + reach).T, low, high)
+    beside = np.maximum(np.maximum(low[:, box].T - centre[ball], centre[ball] - high[:, box].T), 0.0)
+    near = np.sqrt(dot(beside, beside)) <= np.linalg.norm(frame[ball], ord=2, axis=(1, 2))
+    ball, box = ball[near], box[near]
     carries = np.array([is_curve(item.shape) for item in scene.items], dtype=np.bool_)
     result[ball[carries[owner[box]] | wants[owner[box]] | wants[balls.item[ball]]]] = True
     return result
