@@ -8,7 +8,7 @@ Source: Glaeser, section 2.5.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import EACH_POINT
 
 LEFT, RIGHT, ABOVE, BELOW, INFRONT, BEHIND = 1, 2, 4, 8, 16, 32
 """Region codes; a point outside in two ways has their sum. Source: Cohen and Sutherland."""
@@ -172,7 +173,7 @@ class Polygons:
     """Polygons one after the other: points (c, k), offsets (n+1,): polygon i has the points offsets[i] to
     offsets[i+1]."""
 
-    points: Floats
+    points: Floats = field(metadata=EACH_POINT)
     offsets: Ints
 
     @classmethod

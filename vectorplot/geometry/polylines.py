@@ -3,7 +3,8 @@
 Curves on a surface, in faces of a mesh, on two sheets or on a page are polylines of which more is known: parameters
 beside every point, a level or a kind beside every line. Such a type has the fields ``offsets`` and mostly ``closed`` as
 Polylines have them, and marks with EACH_POINT, EACH_LINE, APART or DOUBTS what its other fields belong to; the
-functions here then take care of all of them.
+functions here then take care of all of them. Fields of coordinates (3,p) are marked with IN_COLUMNS of records.py as
+well.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.records import entries, in_a_row
 
 _BELONGS_TO = "belongs to"
 
@@ -137,22 +139,22 @@ def _with_rows(lines: L, points: Ints | Bools, which: Ints | Bools, offsets: Int
     values = {f.name: getattr(lines, f.name) for f in fields(lines)}
     chosen = {"point": points, "line": which}
     rows = {
-        f.name: values[f.name][chosen[f.metadata[_BELONGS_TO]]]
+        f.name: entries(f, values[f.name], chosen[f.metadata[_BELONGS_TO]])
         for f in fields(lines)
-        if f.metadata.get(_BELONGS_TO) in chosen
+        if f.metadata.get(_BELONGS_TO) in chosen and values[f.name] is not None
     }
     return replace(lines, offsets=offsets, **rows)
 
 
 def joined(parts: Sequence[L]) -> L:
     """All polylines of at least one part, one part after the other, with all that is said of them; a doubt that several
-    parts have is said once. A field without a mark is that of the first part."""
+    parts have is said once. A field without a mark, or with nothing in it, is that of the first part."""
     rows: dict[str, Any] = {}
     for f in fields(parts[0]):
         values = [getattr(part, f.name) for part in parts]
         if f.metadata == DOUBTS:
             rows[f.name] = tuple(dict.fromkeys(text for texts in values for text in texts))
-        elif _BELONGS_TO in f.metadata:
-            rows[f.name] = np.concatenate(values)
+        elif _BELONGS_TO in f.metadata and values[0] is not None:
+            rows[f.name] = in_a_row(f, values)
     offsets = ragged.offsets(np.concatenate([np.diff(part.offsets) for part in parts]))
     return replace(parts[0], offsets=offsets, **rows)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
+from vectorplot.geometry.records import IN_COLUMNS
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,17 +24,17 @@ class Decals:
     cover (None: all of it).
     """
 
-    points: Floats
+    points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)
     offsets: Ints
-    face: Ints
-    kind: Ints
-    grade: Ints
-    light: Ints
-    colour: Ints
-    level: Ints
+    face: Ints = field(metadata=EACH_LINE)
+    kind: Ints = field(metadata=EACH_LINE)
+    grade: Ints = field(metadata=EACH_LINE)
+    light: Ints = field(metadata=EACH_LINE)
+    colour: Ints = field(metadata=EACH_LINE)
+    level: Ints = field(metadata=EACH_LINE)
     colours: tuple[str, ...] = ()
-    lacking: Ints | None = None
-    opacity: Floats | None = None
+    lacking: Ints | None = field(default=None, metadata=EACH_LINE)
+    opacity: Floats | None = field(default=None, metadata=EACH_LINE)
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
@@ -43,22 +44,7 @@ class Decals:
 
     def of(self, decals: Ints) -> Decals:
         """Some of the decals, given by their numbers, in that order."""
-        sizes = np.diff(self.offsets)[decals]
-        offsets = ragged.offsets(sizes)
-        corners = ragged.ranges(self.offsets[:-1][decals], sizes)
-        return Decals(
-            self.points[:, corners],
-            offsets,
-            self.face[decals],
-            self.kind[decals],
-            self.grade[decals],
-            self.light[decals],
-            self.colour[decals],
-            self.level[decals],
-            self.colours,
-            None if self.lacking is None else self.lacking[decals],
-            None if self.opacity is None else self.opacity[decals],
-        )
+        return some(self, decals)
 
     @property
     def lights_lacking(self) -> Ints:
@@ -91,19 +77,9 @@ def joined_decals(*decals: Decals) -> Decals:
     colours = tuple(dict.fromkeys(name for d in decals for name in d.colours))
     number = {name: k for k, name in enumerate(colours)}
     renamed = [np.array([*(number[name] for name in d.colours), -1], dtype=np.intp)[d.colour] for d in decals]
-    counts = [d.offsets[-1] for d in decals]
-    starts = ragged.starts(counts)
-    offsets = [np.zeros(1, dtype=np.intp), *(d.offsets[1:] + s for d, s in zip(decals, starts, strict=True))]
-    return Decals(
-        np.concatenate([d.points for d in decals], axis=1),
-        np.concatenate(offsets),
-        np.concatenate([d.face for d in decals]),
-        np.concatenate([d.kind for d in decals]),
-        np.concatenate([d.grade for d in decals]),
-        np.concatenate([d.light for d in decals]),
-        np.concatenate(renamed),
-        np.concatenate([d.level for d in decals]),
-        colours,
-        np.concatenate([d.lights_lacking for d in decals]),
-        np.concatenate([d.opacities for d in decals]),
+    return joined(
+        [
+            replace(d, colour=colour, colours=colours, lacking=d.lights_lacking, opacity=d.opacities)
+            for d, colour in zip(decals, renamed, strict=True)
+        ]
     )

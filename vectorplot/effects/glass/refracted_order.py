@@ -8,8 +8,9 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry.convex.plane_cuts import polygon_areas
+from vectorplot.geometry.polylines import joined
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import ImageFaces, joined, unmapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
 from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.painter.pairs.candidates import box_pairs
@@ -39,7 +40,7 @@ def bent_order(view: View, parts: ImageFaces, face: Ints, tolerance: float) -> I
     rank = component_ranks(count, before, after)
     circled = (np.bincount(rank, minlength=1)[rank] > 1)[face]
     pieces = _pieces(view, parts.some(np.flatnonzero(circled)))
-    whole = joined(parts.some(np.flatnonzero(~circled)), replace(pieces, rank=np.arange(len(pieces))))
+    whole = joined((parts.some(np.flatnonzero(~circled)), replace(pieces, rank=np.arange(len(pieces)))))
     number = np.empty(int(parts.source.max(initial=-1)) + 1, dtype=np.intp)
     number[parts.source] = rank[face]
     return whole.some(np.lexsort((whole.rank, number[whole.source])))

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.glass.sight_rays import Passages, virtual_points
-from vectorplot.geometry import ragged
+from vectorplot.geometry import polylines, ragged, records
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT
+from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import over_corners
 
@@ -31,35 +33,27 @@ class Soup:
     """Convex polygons: points (3,c) in the view, offsets (n+1,), source (n,) the faces of the view, or whatever else,
     that they are of, way (n,) the way on which light takes from each to the eye."""
 
-    points: Floats
+    points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)
     offsets: Ints
-    source: Ints
-    way: Ints
+    source: Ints = field(metadata=EACH_LINE)
+    way: Ints = field(metadata=EACH_LINE)
 
     def __len__(self) -> int:
         return len(self.source)
 
     def some(self, which: Ints) -> Soup:
         """Some of the polygons."""
-        position, offsets = ragged.take(self.offsets, which)
-        return Soup(self.points[:, position], offsets, self.source[which], self.way[which])
+        return polylines.some(self, which)
 
     def on_ways(self, polygon: Ints, way: Ints) -> Soup:
         """Polygons (n,), each on a way (n,) of its own."""
-        position, offsets = ragged.take(self.offsets, polygon)
-        return Soup(self.points[:, position], offsets, self.source[polygon], way)
+        return replace(self.some(polygon), way=way)
 
 
 def joined_soups(parts: list[Soup]) -> Soup:
     """The polygons of all."""
-    sizes = [np.zeros(0, dtype=np.intp), *(np.diff(part.offsets) for part in parts)]
     none = np.zeros(0, dtype=np.intp)
-    return Soup(
-        np.concatenate([np.zeros((3, 0)), *(part.points for part in parts)], axis=1),
-        ragged.offsets(np.concatenate(sizes)),
-        np.concatenate([none, *(part.source for part in parts)]),
-        np.concatenate([none, *(part.way for part in parts)]),
-    )
+    return polylines.joined((Soup(np.zeros((3, 0)), ragged.offsets(none), none, none), *parts))
 
 
 def bent(view: View, passages: Passages, soup: Soup, windows: Floats, tolerance: float) -> Soup:
@@ -96,8 +90,8 @@ class _Triangles:
     """Triangles: corners (3,3,t): coordinate, corner, triangle; outer (3,t): whether the side that begins at each
     corner is part of the outline of a polygon; source, way (t,) as of Soup."""
 
-    corners: Floats
-    outer: Bools
+    corners: Floats = field(metadata=IN_COLUMNS)
+    outer: Bools = field(metadata=IN_COLUMNS)
     source: Ints
     way: Ints
 
@@ -130,12 +124,7 @@ class _Triangles:
                         self.way[which[own]],
                     )
                 )
-        return _Triangles(
-            np.concatenate([part.corners for part in parts], axis=2),
-            np.concatenate([part.outer for part in parts], axis=1),
-            np.concatenate([part.source for part in parts]),
-            np.concatenate([part.way for part in parts]),
-        )
+        return records.joined(parts)
 
 
 PIECES = {

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,8 @@ from vectorplot.effects.shadows.shadow_shades import LEVELS
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.plane_cuts import Parts
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
+from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.geometry.regions import cells_of, corners_of, polygons_of, unions, without_holes, without_splinters
 from vectorplot.scene.view import View
 
@@ -39,11 +41,11 @@ class Shadows:
     """Polygons on faces: points (3,c) in the view, offsets (m+1,); face (m,) of the view; lacking (m,): the lights that
     do not get there, bit k for light k; whole (m,): it is the whole face. Those that one light casts are convex."""
 
-    points: Floats
+    points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)
     offsets: Ints
-    face: Ints
-    lacking: Ints
-    whole: Bools
+    face: Ints = field(metadata=EACH_LINE)
+    lacking: Ints = field(metadata=EACH_LINE)
+    whole: Bools = field(metadata=EACH_LINE)
 
     def __len__(self) -> int:
         return len(self.face)
@@ -60,8 +62,7 @@ class Shadows:
 
     def some(self, which: Ints) -> Shadows:
         """Some of them, in the order asked for."""
-        position, offsets = ragged.take(self.offsets, which)
-        return Shadows(self.points[:, position], offsets, self.face[which], self.lacking[which], self.whole[which])
+        return some(self, which)
 
     def without_needless(self) -> Shadows:
         """The same without those on faces that another shadow for want of the same lights covers whole."""
@@ -77,16 +78,8 @@ class Shadows:
 def joined_shadows(shadows: Sequence[Shadows]) -> Shadows:
     """All shadows one after the other."""
     none = np.zeros(0, dtype=np.intp)
-    if not shadows:
-        return Shadows(np.zeros((3, 0)), np.zeros(1, dtype=np.intp), none, none, none.astype(np.bool_))
-    sizes = np.concatenate([np.diff(s.offsets) for s in shadows])
-    return Shadows(
-        np.concatenate([s.points for s in shadows], axis=1),
-        ragged.offsets(sizes),
-        np.concatenate([s.face for s in shadows]),
-        np.concatenate([s.lacking for s in shadows]),
-        np.concatenate([s.whole for s in shadows]),
-    )
+    nothing = Shadows(np.zeros((3, 0)), ragged.offsets(none), none, none, none.astype(np.bool_))
+    return joined((nothing, *shadows))
 
 
 def graded(view: View, shadows: Shadows) -> Shadows:
@@ -153,10 +146,10 @@ def _arranged(view: View, shadows: Shadows) -> Shadows:
     on, light_of = np.divmod(key, len(light))
     one = (np.bincount(on) == 1)[on]
     region = np.empty(len(key), dtype=object)
-    for some, grid in ((one, view.tolerance), (~one, None)):
-        mine = np.flatnonzero(some[of])
+    for which, grid in ((one, view.tolerance), (~one, None)):
+        mine = np.flatnonzero(which[of])
         # The borders of several regions are brought to a grid when they meet.
-        region[some] = unions(polygons[mine], np.searchsorted(np.flatnonzero(some), of[mine]), grid)
+        region[which] = unions(polygons[mine], np.searchsorted(np.flatnonzero(which), of[mine]), grid)
     cells, cell, missing = _cells(region, on, light[light_of], view.tolerance)
     cells, which = without_holes(cells, np.arange(len(cells)))
     flat, offsets = corners_of(cells)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -10,6 +10,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.plane_cuts import polygon_areas
 from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex, inside_convex
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
+from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.projected_faces import Floats32
 
@@ -24,27 +26,19 @@ class SeenThrough:
     for the face itself.
     """
 
-    points: Floats
+    points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)
     offsets: Ints
-    source: Ints
-    window: Ints
-    pane: Ints
-    decal: Ints
+    source: Ints = field(metadata=EACH_LINE)
+    window: Ints = field(metadata=EACH_LINE)
+    pane: Ints = field(metadata=EACH_LINE)
+    decal: Ints = field(metadata=EACH_LINE)
 
     def __len__(self) -> int:
         return len(self.source)
 
     def some(self, which: Ints) -> SeenThrough:
         """Some of the polygons, in the order asked for."""
-        position, offsets = ragged.take(self.offsets, which)
-        return SeenThrough(
-            self.points[:, position],
-            offsets,
-            self.source[which],
-            self.window[which],
-            self.pane[which],
-            self.decal[which],
-        )
+        return some(self, which)
 
 
 def nothing_seen() -> SeenThrough:
@@ -97,18 +91,7 @@ def joined_seen(parts: list[SeenThrough]) -> SeenThrough:
 
 def one_after_another(parts: list[SeenThrough]) -> SeenThrough:
     """The polygons of all parts as they come."""
-    if not parts:
-        return nothing_seen()
-    starts = ragged.starts([part.offsets[-1] for part in parts])
-    offsets = [np.zeros(1, dtype=np.intp), *(p.offsets[1:] + s for p, s in zip(parts, starts, strict=True))]
-    return SeenThrough(
-        np.concatenate([part.points for part in parts], axis=1),
-        np.concatenate(offsets),
-        np.concatenate([part.source for part in parts]),
-        np.concatenate([part.window for part in parts]),
-        np.concatenate([part.pane for part in parts]),
-        np.concatenate([part.decal for part in parts]),
-    )
+    return joined((nothing_seen(), *parts))
 
 
 def clipped_pairs(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.mesh import next_positions
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
+from vectorplot.geometry.records import IN_COLUMNS
 
 PAIRS_AT_ONCE = 1 << 15
 """Pairs handled at once: few enough for the processor's cache."""
@@ -39,10 +41,10 @@ class Parts:
     """What is left of pairs: points (3,c), offsets (m+1,); pair (m,): the pair each part belongs to, ascending; whole
     (m,): nothing was cut off."""
 
-    points: Floats
+    points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)
     offsets: Ints
-    pair: Ints
-    whole: Bools
+    pair: Ints = field(metadata=EACH_LINE)
+    whole: Bools = field(metadata=EACH_LINE)
 
     def __len__(self) -> int:
         return len(self.pair)
@@ -115,13 +117,7 @@ def parts_of(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings,
     for low in range(0, len(crossings), PARTS_AT_ONCE):
         lot = crossings.some(np.arange(low, min(low + PARTS_AT_ONCE, len(crossings))))
         found.append(_cut(points, offsets, polygon, lot, tolerance))
-    sizes = np.concatenate([np.diff(f.offsets) for f in found])
-    return Parts(
-        np.concatenate([f.points for f in found], axis=1),
-        ragged.offsets(sizes),
-        np.concatenate([f.pair for f in found]),
-        np.concatenate([f.whole for f in found]),
-    )
+    return joined(found)
 
 
 def cut_by_planes(
@@ -183,12 +179,12 @@ def _cut(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings, tol
     counts = np.diff(crossings.first)
     found: list[tuple[Ints, Polygons]] = []
     here = np.arange(len(crossings))
-    now = _picked(points.T, offsets, polygon[crossings.pair])
+    now = some(Polygons(points.T, offsets), polygon[crossings.pair])
     for step in range(int(counts.max(initial=0)) + 1):
         done = counts[here] == step
-        found.append((here[done], _picked(now.points, now.offsets, np.flatnonzero(done))))
+        found.append((here[done], some(now, np.flatnonzero(done))))
         rest = np.flatnonzero(~done)
-        here, now = here[rest], _picked(now.points, now.offsets, rest)
+        here, now = here[rest], some(now, rest)
         a, b, c, d = np.repeat(crossings.planes[:, crossings.first[here] + step], np.diff(now.offsets), axis=1)
         height = a * now.points[:, 0] + b * now.points[:, 1] + c * now.points[:, 2] - d
         height[np.abs(height) <= tolerance] = 0.0
@@ -201,20 +197,12 @@ def _cut(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings, tol
 def _parts(found: list[tuple[Ints, Polygons]], crossings: Crossings, tolerance: float) -> Parts:
     """All parts in the order of their pairs, without those that are narrower than the tolerance."""
     here = np.concatenate([f[0] for f in found])
-    sizes = np.concatenate([np.diff(f[1].offsets) for f in found])
-    corners = np.concatenate([f[1].points for f in found])
-    offsets = ragged.offsets(sizes)
+    both = joined([polygons for _, polygons in found])
     whole = crossings.whole[here]
-    order = np.flatnonzero(_wider(corners.T, offsets, tolerance) | whole)
+    order = np.flatnonzero(_wider(both.points.T, both.offsets, tolerance) | whole)
     order = order[np.argsort(here[order], kind="stable")]
-    result = _picked(corners, offsets, order)
+    result = some(both, order)
     return Parts(np.ascontiguousarray(result.points.T), result.offsets, crossings.pair[here[order]], whole[order])
-
-
-def _picked(points: Floats, offsets: Ints, which: Ints) -> Polygons:
-    """Some of the polygons with the points (c,3)."""
-    position, ends = ragged.take(offsets, which)
-    return Polygons(points[position], ends)
 
 
 def _wider(points: Floats, offsets: Ints, tolerance: float) -> Bools:

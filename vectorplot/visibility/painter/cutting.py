@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.visibility.painter.image_faces import ImageFaces, joined
+from vectorplot.geometry.polylines import joined
+from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.pairs.face_pairs import (
     APART,
@@ -83,7 +84,7 @@ def _with_trees(faces: ImageFaces, place: Ints, circled: Bools, tolerance: float
     done, left = np.flatnonzero(~circled), np.flatnonzero(circled)
     pieces, parent, rank = partitioned(faces.some(left), place[left], tolerance)
     places = np.concatenate([place[done], place[left][parent]])
-    return joined(faces.some(done), pieces), dense(places, np.concatenate([np.zeros(len(done), dtype=np.intp), rank]))
+    return joined((faces.some(done), pieces)), dense(places, np.concatenate([np.zeros(len(done), dtype=np.intp), rank]))
 
 
 def _sorted_out(faces: ImageFaces, place: Ints, pairs: Pairs) -> Ints:
@@ -164,7 +165,7 @@ def _cut(
     children[kept, 0] = np.arange(len(kept))
     children[victim, 0] = len(kept) + np.arange(len(victim))
     children[victim, 1] = len(kept) + len(victim) + np.arange(len(victim))
-    return joined(faces.some(kept), joined(below, above)), np.concatenate([kept, victim, victim]), children
+    return joined((faces.some(kept), below, above)), np.concatenate([kept, victim, victim]), children
 
 
 def _inherited(faces: ImageFaces, pairs: Pairs, children: Ints, tolerance: float) -> Pairs:

@@ -3,7 +3,7 @@ polygon over its image."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -12,6 +12,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.mesh import next_positions
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, some
+from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.geometry.repair.winding import unbalanced_vertices
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, newell
@@ -26,11 +28,11 @@ class ImageFaces:
     polygon is (a part of); rank (n,): the order in which faces that lie in one plane are drawn.
     """
 
-    points: Floats
+    points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)
     offsets: Ints
-    planes: Floats
-    source: Ints
-    rank: Ints
+    planes: Floats = field(metadata=EACH_LINE | IN_COLUMNS)
+    source: Ints = field(metadata=EACH_LINE)
+    rank: Ints = field(metadata=EACH_LINE)
 
     def __len__(self) -> int:
         return len(self.source)
@@ -43,10 +45,7 @@ class ImageFaces:
 
     def some(self, which: Ints) -> ImageFaces:
         """Some of the polygons, in the order asked for."""
-        position, offsets = ragged.take(self.offsets, which)
-        return ImageFaces(
-            self.points[:, position], offsets, self.planes[:, which], self.source[which], self.rank[which]
-        )
+        return some(self, which)
 
     def heights(self, face: Ints, x: Floats, y: Floats) -> Floats:
         """(..., p) heights of the planes of faces (p,) above the points x, y (..., p) of the image."""
@@ -57,17 +56,6 @@ class ImageFaces:
     def steepness(self) -> Floats:
         """(n,) how many tolerances in height one tolerance in the image makes, and one more."""
         return np.asarray(1.0 + np.abs(self.planes[3]) + np.abs(self.planes[4]), dtype=np.float64)
-
-
-def joined(one: ImageFaces, two: ImageFaces) -> ImageFaces:
-    """The polygons of both, one after the other."""
-    return ImageFaces(
-        np.concatenate([one.points, two.points], axis=1),
-        np.concatenate([one.offsets, two.offsets[1:] + one.offsets[-1]]),
-        np.concatenate([one.planes, two.planes], axis=1),
-        np.concatenate([one.source, two.source]),
-        np.concatenate([one.rank, two.rank]),
-    )
 
 
 def over_corners(reduce: np.ufunc, row: Floats, offsets: Ints) -> Floats:

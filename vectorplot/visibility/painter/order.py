@@ -10,11 +10,12 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import joined
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
 from vectorplot.visibility.painter.groups import group_ranks
-from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces, joined
+from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces
 from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.pairs.bodies import Bodies, convex_bodies, outlined_items
 from vectorplot.visibility.painter.pairs.body_pairs import UNDECIDED, body_relations
@@ -95,7 +96,7 @@ def painters_order(
         slices = in_slices(view, faces.some(np.flatnonzero(item == number)), (sliced or {})[number])
         found = ribbons(view, projected.facing, slices)
         counts[number], uncut = len(found), uncut + len(slices.faces)
-        ordered = joined(ribbon_order(view, slices, found), ordered)
+        ordered = joined((ribbon_order(view, slices, found), ordered))
     return Painted(ordered, uncut, rest.knots, rest.undone, counts)
 
 
@@ -158,7 +159,7 @@ def _ordered(
     # Pieces keep their group: it is what their source had.
     group_of_source = np.full(view.face_count, -1, dtype=np.intp)
     group_of_source[faces.source] = rank[things.of_face]
-    whole = joined(faces.some(rest), pieces)
+    whole = joined((faces.some(rest), pieces))
     places = np.concatenate([np.zeros(len(rest), dtype=np.intp), place])
     order = np.lexsort((whole.rank, places, group_of_source[whole.source]))
     return Painted(whole.some(order), len(faces), np.unique(view.face_item[pieces.source]), undone)

@@ -7,8 +7,8 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
+from vectorplot.geometry.polylines import joined, some
 from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.pairs.candidates import box_pairs
@@ -62,11 +62,11 @@ def cut_into_slices(points: ArrayLike, offsets: Ints, axis: int, levels: ArrayLi
     while (across := last > first).any():
         whole, cut = np.flatnonzero(~across), np.flatnonzero(across)
         middle = (first[cut] + last[cut] + 1) // 2
-        some = _some(pieces, cut)
-        limit = np.repeat(level[middle - 1], np.diff(some.offsets))
-        height = some.points[:, axis] - limit
-        below, above = (_cut_at(some, side * height, axis, level[middle - 1]) for side in (-1.0, 1.0))
-        pieces = _joined(_some(pieces, whole), below, above)
+        split = some(pieces, cut)
+        limit = np.repeat(level[middle - 1], np.diff(split.offsets))
+        height = split.points[:, axis] - limit
+        below, above = (_cut_at(split, side * height, axis, level[middle - 1]) for side in (-1.0, 1.0))
+        pieces = joined((some(pieces, whole), below, above))
         source = np.concatenate([source[whole], source[cut], source[cut]])
         first, last = (
             np.concatenate([first[whole], first[cut], middle]),
@@ -79,16 +79,6 @@ def _cut_at(polygons: Polygons, height: Floats, axis: int, level: Floats) -> Pol
     part, is_new = cut_polygons(polygons, height)
     part.points[is_new, axis] = np.repeat(level, np.diff(part.offsets))[is_new]
     return part
-
-
-def _some(polygons: Polygons, which: Ints) -> Polygons:
-    position, offsets = ragged.take(polygons.offsets, which)
-    return Polygons(polygons.points[position], offsets)
-
-
-def _joined(*lots: Polygons) -> Polygons:
-    sizes = np.concatenate([np.diff(lot.offsets) for lot in lots])
-    return Polygons(np.concatenate([lot.points for lot in lots]), ragged.offsets(sizes))
 
 
 def sliced_order(faces: ImageFaces, place: Ints, tolerance: float) -> ImageFaces:

@@ -6,7 +6,8 @@ import numpy as np
 
 from vectorplot.arrays import Ints
 from vectorplot.geometry import ragged
-from vectorplot.visibility.painter.image_faces import ImageFaces, joined
+from vectorplot.geometry.polylines import joined
+from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.splitting import dense, halves, height_span
 
 TRIED = 5
@@ -50,7 +51,7 @@ def partitioned(faces: ImageFaces, group: Ints, tolerance: float) -> tuple[Image
         level[in_plane] = faces.rank[in_plane]
         open_cell[in_plane] = False
         source = np.concatenate([kept, cut, cut])
-        faces = joined(faces.some(kept), joined(below, above))
+        faces = joined((faces.some(kept), below, above))
         half = np.full(len(cut), BELOW), np.full(len(cut), ABOVE)
         cell = dense(cell[source], np.concatenate([sides[kept], *half]), level[source])
         parent, open_cell = parent[source], open_cell[source]
