@@ -20,7 +20,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.fills_without_overlaps import in_space
 from vectorplot.drawing.painted_fills import Overlay, stacked
-from vectorplot.geometry import ragged
+from vectorplot.geometry import ragged, records
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.regions import (
     corners_of,
@@ -200,11 +200,11 @@ class _Layers:
     kind: Ints
 
     def some(self, which: Ints) -> _Layers:
-        return _Layers(*(column[which] for column in vars(self).values()))
+        return records.some(self, which)
 
     @classmethod
     def joined(cls, *parts: _Layers) -> _Layers:
-        return cls(*(np.concatenate(columns) for columns in zip(*(vars(p).values() for p in parts), strict=True)))
+        return records.joined(parts)
 
 
 def _cut_apart(base: Fills, stack: Ints, layers: _Layers, fills: Fills) -> _Layers:

@@ -15,6 +15,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.tessellation import edges_of
+from vectorplot.geometry import records
 from vectorplot.geometry.vectors import cross
 from vectorplot.tolerances.of_parameters import JUMP_OF_DOMAIN
 
@@ -57,15 +58,11 @@ class Vertices:
 
     def some(self, which: Ints | Bools) -> Vertices:
         """Those with these numbers."""
-        return Vertices(self.places[which], self.points[which], self.normals[which])
+        return records.some(self, which)
 
     def joined(self, other: Vertices) -> Vertices:
         """These and others behind them."""
-        return Vertices(
-            np.concatenate((self.places, other.places)),
-            np.concatenate((self.points, other.points)),
-            np.concatenate((self.normals, other.normals)),
-        )
+        return records.joined((self, other))
 
     @property
     def known(self) -> Bools:

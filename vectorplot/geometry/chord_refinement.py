@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry import ragged
+from vectorplot.geometry import ragged, records
 from vectorplot.geometry.polylines import Rounds
 from vectorplot.tolerances.of_parameters import JUMP_OF_DOMAIN
 from vectorplot.tolerances.of_values import STANDSTILL_OF_SPEED
@@ -60,7 +60,7 @@ class Traces:
 
     def some(self, kept: Bools) -> Traces:
         """The points that are kept; the last one of a polyline has to be."""
-        return Traces(self.points[kept], self.last[kept])
+        return records.some(self, kept)
 
     def unrepeated(self, closed: Bools) -> tuple[Bools, Ints]:
         """Which points (n,) to keep where closed (m,) polylines do not repeat their first one, and the offsets (m+1,)

@@ -7,6 +7,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier.paths import BezierPaths, bezier_points, split
 from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import joined, some
 
 _HALVINGS = 55
 """From 1 down to the rounding of a double."""
@@ -27,30 +28,18 @@ def clipped_paths(paths: BezierPaths, low: Floats, high: Floats) -> tuple[Bezier
     leaves = np.bincount(owner[out], minlength=len(paths)) > 0
     if not leaves.any():
         which = np.flatnonzero(size)
-        return _chosen(paths, which), which
+        return some(paths, which), which
     whole = np.flatnonzero(~leaves & (size > 0))
     parts, source = _inside(paths, owner, out, np.flatnonzero(leaves[owner]), (low, high))
-    both = BezierPaths(
-        np.concatenate((_chosen(paths, whole).control, parts.control)),
-        ragged.offsets(np.concatenate((size[whole], np.diff(parts.offsets)))),
-        np.concatenate((paths.closed[whole], parts.closed)),
-        np.concatenate((paths.error[whole], parts.error)),
-    )
+    both = joined((some(paths, whole), parts))
     owners = np.concatenate((whole, source))
     order = np.argsort(owners, kind="stable")
-    return _chosen(both, order), owners[order]
+    return some(both, order), owners[order]
 
 
 def _any_outside(points: Floats, low: Floats, high: Floats) -> Bools:
     """(n,) whether any of the points (n,k,2) is outside the box."""
     return np.asarray(((points < low) | (points > high)).any(axis=(1, 2)))
-
-
-def _chosen(paths: BezierPaths, which: Ints) -> BezierPaths:
-    size = np.diff(paths.offsets)[which]
-    offsets = ragged.offsets(size)
-    index = ragged.ranges(paths.offsets[which], size)
-    return BezierPaths(paths.control[index], offsets, paths.closed[which], paths.error[which])
 
 
 def _inside(

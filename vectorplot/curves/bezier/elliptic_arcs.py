@@ -11,7 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier.arcs import arc_error
 from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.errors import InputError
-from vectorplot.geometry import ragged
+from vectorplot.geometry import ragged, records
 from vectorplot.tolerances.of_angles import LOOP_TURN, WHOLE_TURN
 from vectorplot.tolerances.of_parameters import ABOVE_WHOLE
 from vectorplot.tolerances.of_values import SINGULAR_DETERMINANT
@@ -55,20 +55,11 @@ class EllipseArcs:
     @classmethod
     def joined(cls, parts: Sequence[EllipseArcs]) -> EllipseArcs:
         """All arcs of all parts."""
-        parts = (cls.none(), *parts)
-        return cls(
-            np.concatenate([part.stroke for part in parts]),
-            np.concatenate([part.centre for part in parts]),
-            np.concatenate([part.first for part in parts]),
-            np.concatenate([part.second for part in parts]),
-            np.concatenate([part.start for part in parts]),
-            np.concatenate([part.end for part in parts]),
-        )
+        return records.joined((cls.none(), *parts))
 
     def some(self, which: Ints | Bools) -> EllipseArcs:
         """Some of the arcs."""
-        pairs = (self.centre[which], self.first[which], self.second[which])
-        return EllipseArcs(self.stroke[which], *pairs, self.start[which], self.end[which])
+        return records.some(self, which)
 
     def points(self, t: Floats) -> Floats:
         """(a,...,2) points at the parameters t (a,...)."""

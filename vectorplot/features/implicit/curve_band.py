@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.meshes.level_segments import split_at_middles
+from vectorplot.geometry import records
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 REACH = 2.0
@@ -43,27 +44,11 @@ class Nodes:
 
     def joined(self, more: Nodes) -> Nodes:
         """These and more, numbered on."""
-        return Nodes(
-            np.concatenate([self.points, more.points]),
-            np.concatenate([self.places, more.places]),
-            np.concatenate([self.on_line, more.on_line]),
-            np.concatenate([self.fixed, more.fixed]),
-            np.concatenate([self.values, more.values]),
-            np.concatenate([self.slopes, more.slopes]),
-            np.concatenate([self.gradients, more.gradients]),
-        )
+        return records.joined((self, more))
 
     def chosen(self, which: Ints) -> Nodes:
         """Some of them."""
-        return Nodes(
-            self.points[which],
-            self.places[which],
-            self.on_line[which],
-            self.fixed[which],
-            self.values[which],
-            self.slopes[which],
-            self.gradients[which],
-        )
+        return records.some(self, which)
 
 
 @dataclass(frozen=True, eq=False)

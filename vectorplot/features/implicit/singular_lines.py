@@ -15,6 +15,7 @@ from vectorplot.features.implicit.singular_equations import (
     line_tangents,
     onto_lines,
 )
+from vectorplot.geometry import records
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import Polylines
@@ -158,11 +159,7 @@ class _Beads:
     def joined(self, points: Floats, tangents: Floats) -> _Beads:
         """These and more."""
         fresh = np.full((len(points), 2), NONE)
-        return _Beads(
-            np.concatenate([self.points, points]),
-            np.concatenate([self.tangents, tangents]),
-            np.concatenate([self.next, fresh]),
-        )
+        return records.joined((self, _Beads(points, tangents, fresh)))
 
 
 def _traced(equations: SingularEquations, start: Floats) -> Polylines:

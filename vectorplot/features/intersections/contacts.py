@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.intersections.sheets import Sheet
 from vectorplot.features.intersections.triangle_pairs import overlapping_in_cells
+from vectorplot.geometry import records
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_lengths import CONTACT_FOUND_OF_CELL, CONTACT_SETTLED_OF_CELL, ONE_CONTACT_OF_CELL
@@ -44,7 +45,7 @@ class Contacts:
 
     def of(self, which: Ints | Bools) -> Contacts:
         """Some of them."""
-        return Contacts(*(getattr(self, f.name)[which] for f in fields(self)))
+        return records.some(self, which)
 
     def __len__(self) -> int:
         return len(self.one)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Literal
 
@@ -10,9 +10,10 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.meshes.edges import Faces, unit_normals
-from vectorplot.geometry import ragged
+from vectorplot.geometry import ragged, records
 from vectorplot.geometry.columns import cross, dot
 from vectorplot.geometry.mesh import next_positions
+from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 PAIRS_AT_ONCE = 1 << 18
@@ -29,8 +30,8 @@ AXIS_SHIFT = 16.0
 class Intersections:
     """Segments in which two faces meet: start and end (3,n), and the two faces (n,)."""
 
-    start: Floats
-    end: Floats
+    start: Floats = field(metadata=IN_COLUMNS)
+    end: Floats = field(metadata=IN_COLUMNS)
     one: Ints
     two: Ints
 
@@ -47,10 +48,8 @@ def face_intersections(faces: Faces, part: Ints, tolerance: float) -> Intersecti
     one, two = _pairs_of_faces(faces, part, tolerance)
     for first in range(0, len(one), PAIRS_AT_ONCE):
         found.append(_meet(faces, one[first : first + PAIRS_AT_ONCE], two[first : first + PAIRS_AT_ONCE], tolerance))
-    start, end = (np.concatenate([getattr(f, name) for f in found], axis=1) for name in ("start", "end"))
-    one, two = (np.concatenate([getattr(f, name) for f in found]) for name in ("one", "two"))
-    kept = _first_of_equal(start, end, tolerance)
-    return Intersections(start[:, kept], end[:, kept], one[kept], two[kept])
+    whole = records.joined(found)
+    return records.some(whole, _first_of_equal(whole.start, whole.end, tolerance))
 
 
 def _first_of_equal(start: Floats, end: Floats, tolerance: float) -> Ints:

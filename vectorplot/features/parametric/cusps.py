@@ -10,6 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.parametric.conditions import Contour
 from vectorplot.features.parametric.curve_tracing import wrapped
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, with_points
+from vectorplot.geometry import records
 from vectorplot.geometry.vectors import dot, normalize
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Domain
@@ -101,7 +102,7 @@ class _Pieces:
 
     def chosen(self, which: Ints) -> _Pieces:
         """Those at some positions."""
-        return _Pieces(self.start[which], self.end[which], self.low[which], self.high[which], self.after[which])
+        return records.some(self, which)
 
 
 def _changing(contour: Contour, curves: SurfaceCurves) -> _Pieces:
@@ -116,8 +117,7 @@ def _changing(contour: Contour, curves: SurfaceCurves) -> _Pieces:
         return plain
     cut = _cut_at_least(contour, doubtful)
     fine = cut.chosen(np.flatnonzero(cut.low * cut.high < 0.0))
-    names = ("start", "end", "low", "high", "after")
-    return _Pieces(*(np.concatenate([getattr(plain, name), getattr(fine, name)]) for name in names))
+    return records.joined((plain, fine))
 
 
 def _segments(contour: Contour, curves: SurfaceCurves) -> _Pieces:

@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.zeros.grid_triangulation import normals_among, other_diagonal
 from vectorplot.features.zeros.zero_cells import Cells, Lattice, Subdivision, corner_values, in_domain
+from vectorplot.geometry import records
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +30,7 @@ def triangles_near(subdivision: Subdivision, w: Floats, near: Bools) -> Corners:
     lattice = subdivision.lattice
     plain, fans = _plain_cells(subdivision, w, near), _fans(subdivision, w)
     parts = [_cut(lattice, w, plain), *fans]
-    return Corners(*(np.concatenate([getattr(part, name) for part in parts]) for name in Corners.__annotations__))
+    return records.joined(parts)
 
 
 def _plain_cells(subdivision: Subdivision, w: Floats, near: Bools) -> Cells:

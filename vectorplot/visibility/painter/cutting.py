@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import records
 from vectorplot.geometry.polylines import joined
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.mikado import component_ranks
@@ -43,7 +44,7 @@ class Pairs:
 
     def some(self, which: Ints | Bools) -> Pairs:
         """Some of the pairs."""
-        return Pairs(self.first[which], self.second[which], self.codes[which])
+        return records.some(self, which)
 
 
 def cut_into_order(faces: ImageFaces, group: Ints, pairs: Pairs, tolerance: float) -> tuple[ImageFaces, Ints]:

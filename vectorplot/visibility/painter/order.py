@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry import ragged
+from vectorplot.geometry import ragged, records
 from vectorplot.geometry.polylines import joined
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
@@ -287,18 +287,14 @@ def _ranks(faces: ImageFaces, things: _Things, more: int, before: Ints, after: I
 
 def _pairs_within(faces: ImageFaces, group: Ints, thing: Ints, tolerance: float) -> Pairs:
     """Pairs of faces of one group, but not of one thing, whose images overlap."""
-    found: list[Pairs] = []
+    none = np.zeros(0, dtype=np.intp)
+    found = [Pairs(none, none, none.astype(np.int8))]
     for first, second in box_pairs(faces.box, tolerance):
         mine = np.flatnonzero((group[first] == group[second]) & (thing[first] != thing[second]))
         first, second = first[mine], second[mine]
         pairs = Pairs(first, second, face_relations(faces, first, second, tolerance))
         found.append(pairs.some(pairs.codes != APART))
-    none = np.zeros(0, dtype=np.intp)
-    return Pairs(
-        np.concatenate([none, *(p.first for p in found)]),
-        np.concatenate([none, *(p.second for p in found)]),
-        np.concatenate([none.astype(np.int8), *(p.codes for p in found)]),
-    )
+    return records.joined(found)
 
 
 def _along_a_curve(box: Floats) -> Ints:

@@ -12,13 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.geometry import ragged
+from vectorplot.geometry import ragged, records
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import ABOUT_AXIS
-from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
+from vectorplot.visibility.painter.cutting import cut_into_order
 from vectorplot.visibility.painter.image_faces import ImageFaces, mapped, polygons_of, unmapped
 from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.pairs.candidates import box_pairs
@@ -145,7 +145,7 @@ def ribbon_order(view: View, slices: Slices, found: Ribbons) -> ImageFaces:
     place = dense(found.place, rank)[of]
     left = pairs.some(~asked & (place[pairs.first] == place[pairs.second]))
     together = place[known.first] == place[known.second]
-    both = _joined(known.some(together), related(faces, left, view.tolerance))
+    both = records.joined((known.some(together), related(faces, left, view.tolerance)))
     pieces, places = cut_into_order(faces, place, both, view.tolerance)
     return pieces.some(np.lexsort((pieces.rank, places)))
 
@@ -258,7 +258,3 @@ def _overlapping_sectors(found: Ribbons) -> tuple[Ints, Ints]:
 def _key(count: int, first: Ints, second: Ints) -> Ints:
     """(n,) one number for each pair of ribbons."""
     return np.asarray(np.minimum(first, second) * count + np.maximum(first, second), dtype=np.intp)
-
-
-def _joined(one: Pairs, two: Pairs) -> Pairs:
-    return Pairs(*(np.concatenate([getattr(one, row), getattr(two, row)]) for row in ("first", "second", "codes")))

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry import ragged
+from vectorplot.geometry import ragged, records
+from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.tolerances.of_extent import SMALLEST_CELL
 
 Floats32 = NDArray[np.float32]
@@ -98,7 +99,7 @@ class Pieces:
     high: Floats
     column: Ints
     row: Ints
-    box: Floats32
+    box: Floats32 = field(metadata=IN_COLUMNS)
     nearest: Floats32
     farthest: Floats32
 
@@ -107,16 +108,7 @@ class Pieces:
 
     def some(self, which: Ints | Bools) -> Pieces:
         """Some of the pieces."""
-        return Pieces(
-            self.segment[which],
-            self.low[which],
-            self.high[which],
-            self.column[which],
-            self.row[which],
-            self.box[:, which],
-            self.nearest[which],
-            self.farthest[which],
-        )
+        return records.some(self, which)
 
 
 def cell_size(start: Floats, end: Floats, typical: float) -> float:

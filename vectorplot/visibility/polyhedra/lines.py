@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,9 +20,10 @@ from vectorplot.features.meshes.mesh_lines import (
     mesh_point_light_isophotes,
 )
 from vectorplot.features.meshes.patterns import pattern_outline
-from vectorplot.geometry import ragged
+from vectorplot.geometry import ragged, records
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import segments
+from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.geometry.repair.winding import pieces_of_faces
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
@@ -41,8 +42,8 @@ class Lines:
     lines; smooth (n,): a chord of a smooth curve, both of its ends on it; behind (n,): how many smooth surfaces hide
     all of it; chords: which parts of smooth curves they are, if some are."""
 
-    start: Floats
-    end: Floats
+    start: Floats = field(metadata=IN_COLUMNS)
+    end: Floats = field(metadata=IN_COLUMNS)
     kind: Ints
     item: Ints
     side: Ints
@@ -94,15 +95,8 @@ def _divided(start: Floats, end: Floats, low: Floats, high: Floats) -> tuple[Flo
 
 def joined_lines(parts: Collection[Lines]) -> Lines:
     """All lines of all parts, none of which has chords of smooth curves."""
-    return Lines(
-        np.concatenate([np.zeros((3, 0)), *(p.start for p in parts)], axis=1),
-        np.concatenate([np.zeros((3, 0)), *(p.end for p in parts)], axis=1),
-        np.concatenate([np.zeros(0, dtype=np.intp), *(p.kind for p in parts)]),
-        np.concatenate([np.zeros(0, dtype=np.intp), *(p.item for p in parts)]),
-        np.concatenate([np.zeros(0, dtype=np.intp), *(p.side for p in parts)]),
-        np.concatenate([np.zeros(0, dtype=np.bool_), *(p.smooth for p in parts)]),
-        np.concatenate([np.zeros(0, dtype=np.intp), *(p.behind for p in parts)]),
-    )
+    ends, none = np.zeros((3, 0)), np.zeros(0, dtype=np.intp)
+    return records.joined((straight_lines(ends, ends, none, none, none), *parts))
 
 
 def straight_lines(start: Floats, end: Floats, kind: Ints, item: Ints, side: Ints) -> Lines:

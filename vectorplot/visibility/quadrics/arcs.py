@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry import ragged
+from vectorplot.geometry import ragged, records
 from vectorplot.visibility.quadrics.sight import Sight
 from vectorplot.words import LineKind
 
@@ -53,7 +53,7 @@ class Arcs:
 
     def some(self, which: Ints | Bools) -> Arcs:
         """Some of the arcs."""
-        return Arcs(*(getattr(self, row.name)[which] for row in fields(self)))
+        return records.some(self, which)
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,10 +92,7 @@ def joined_arcs(parts: Sequence[tuple[Arcs, OwnSides]]) -> tuple[Arcs, OwnSides]
     shift = ragged.starts([len(some) for some in arcs])[1:]
     sides = [OwnSides(whole, np.zeros((0, 4)), whole)]
     sides += [replace(own, arc=own.arc + first) for (_, own), first in zip(parts, shift.tolist(), strict=True)]
-    return (
-        Arcs(*(np.concatenate([getattr(some, row.name) for some in arcs]) for row in fields(Arcs))),
-        OwnSides(*(np.concatenate([getattr(some, row.name) for some in sides]) for row in fields(OwnSides))),
-    )
+    return records.joined(arcs), records.joined(sides)
 
 
 def beyond_near(sight: Sight, arcs: Arcs, sides: OwnSides) -> tuple[Arcs, OwnSides]:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.exact import intervals
-from vectorplot.geometry import ragged
+from vectorplot.geometry import ragged, records
 from vectorplot.geometry.vectors import dot
 from vectorplot.visibility.polyhedra.hidden_lines import SLIVER, Progress, Visibility
 from vectorplot.visibility.quadrics.arcs import Arcs, OwnSides
@@ -61,7 +61,7 @@ def visible_arcs(balls: Balls, arcs: Arcs, sides: OwnSides, progress: Progress) 
     for hidden in _hidden_zones(balls, covers, pieces, alive, arcs, sides, MOST_SLABS, progress):
         alive[hidden.piece[hidden.whole]] = False
         found.append(hidden)
-    zones = _together(found)
+    zones = records.joined(found)
     gap = _gaps(arcs, balls.tolerance)
     union = intervals.union(zones.arc, zones.low, zones.high, gap)
     owner, low, high = intervals.complement(len(arcs), *union, gap)
@@ -76,7 +76,7 @@ def counted_arcs(balls: Balls, arcs: Arcs, sides: OwnSides, items: int, progress
     covers = ball_covers(balls, np.flatnonzero(balls.hides))
     pieces = cut_arcs(balls.sight, arcs, typical_size(covers))
     alive = np.ones(len(pieces), dtype=np.bool_)
-    zones = _together(list(_hidden_zones(balls, covers, pieces, alive, arcs, sides, 1, progress)))
+    zones = records.joined(list(_hidden_zones(balls, covers, pieces, alive, arcs, sides, 1, progress)))
     gap = _gaps(arcs, balls.tolerance)
     key, owner = np.unique(zones.arc * items + zones.item, return_inverse=True)
     of, low, high = intervals.union(owner.reshape(-1), zones.low, zones.high, gap[key // items])
@@ -96,10 +96,6 @@ def _gaps(arcs: Arcs, tolerance: float) -> Floats:
     radius = np.sqrt(np.maximum(dot(arcs.first, arcs.first), dot(arcs.second, arcs.second)))
     length = radius * (arcs.high - arcs.low)
     return np.minimum(SLIVER * tolerance / np.where(length > 0.0, length, 1.0), 1.0)
-
-
-def _together(parts: list[_Hidden]) -> _Hidden:
-    return _Hidden(*(np.concatenate([getattr(part, row.name) for part in parts]) for row in fields(_Hidden)))
 
 
 def _hidden_zones(

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry import ragged
+from vectorplot.geometry import ragged, records
+from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.visibility.polyhedra.grid import Floats32
 from vectorplot.visibility.quadrics.arcs import Arcs
 from vectorplot.visibility.quadrics.sight import Sight
@@ -25,11 +26,11 @@ class Pieces:
     from middle - half to middle + half in the arc's parameter; box (4,n) left, right, bottom, top in the image; nearest
     and farthest (n,) depth."""
 
-    control: Floats
+    control: Floats = field(metadata=IN_COLUMNS)
     arc: Ints
     middle: Floats
     half: Floats
-    box: Floats32
+    box: Floats32 = field(metadata=IN_COLUMNS)
     nearest: Floats
     farthest: Floats
 
@@ -38,7 +39,7 @@ class Pieces:
 
     def some(self, which: Ints | Bools) -> Pieces:
         """Some of the pieces."""
-        return Pieces(*(getattr(self, row.name)[..., which] for row in fields(self)))
+        return records.some(self, which)
 
     def parameters(self, arcs: Arcs, which: Ints, t: Floats) -> Floats:
         """(k,) the arcs' parameters at t, 0 to 1 along pieces which (k,)."""

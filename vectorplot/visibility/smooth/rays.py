@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import records
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import GRAZING_ANGLE
@@ -47,14 +48,7 @@ class Samples:
 
     def some(self, which: Ints) -> Samples:
         """Some of the points."""
-        return Samples(
-            self.points[which],
-            self.sheet[which],
-            self.places[which],
-            self.second[which],
-            self.second_places[which],
-            self.contour[which],
-        )
+        return records.some(self, which)
 
 
 def counts_in_front(

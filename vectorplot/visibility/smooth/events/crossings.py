@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import records
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import ALONG_EDGE_SINE
@@ -54,7 +55,7 @@ class Pairs:
 
     def some(self, which: Bools | Ints) -> Pairs:
         """Some of the pairs."""
-        return Pairs(self.chord[which], self.part[which], self.edge[which], self.edge_part[which])
+        return records.some(self, which)
 
 
 def crossings(
@@ -157,7 +158,7 @@ class _Boxes:
 
     def some(self, which: Ints) -> _Boxes:
         """Some of the chords."""
-        return _Boxes(self.chord[which], self.start[which], self.end[which], self.nearest[which], self.farthest[which])
+        return records.some(self, which)
 
     @cached_property
     def tree(self) -> shapely.STRtree:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import records
 from vectorplot.tolerances.of_lengths import BEYOND_END, SAME_EVENT
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
@@ -29,12 +30,7 @@ class Events:
 def all_events(parts: Sequence[Events]) -> Events:
     """All events of all parts."""
     none = np.zeros(0, dtype=np.intp)
-    return Events(
-        np.concatenate([none, *(p.chord for p in parts)]),
-        np.concatenate([np.zeros(0), *(p.part for p in parts)]),
-        np.concatenate([none, *(p.item for p in parts)]),
-        np.concatenate([none, *(p.change for p in parts)]),
-    )
+    return records.joined((Events(none, np.zeros(0), none, none), *parts))
 
 
 def hopped(curves: Curves, chord: Ints, part: Floats) -> tuple[Ints, Floats]:

@@ -11,6 +11,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.features.implicit.implicit_conditions import SpatialCondition
 from vectorplot.features.implicit.singular_equations import SingularEquations, line_tangents, onto_lines
 from vectorplot.features.parametric.conditions import Condition
+from vectorplot.geometry import records
 from vectorplot.geometry.vectors import dot
 from vectorplot.tolerances.of_lengths import FAMILY_SETTLED
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -54,7 +55,7 @@ class Along:
 
     def some(self, which: Ints) -> Along:
         """Some of the points, of those that have second places."""
-        return Along(self.places[which], self.points[which], self.slopes[which], self.second_places[which])
+        return records.some(self, which)
 
 
 class Family(Protocol):
