@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.drawing import FillKind, Fills, placed_faces
+from vectorplot.drawing import FillKind, Fills, placement_of_faces
 from vectorplot.scene import look
 from vectorplot.textbook import erasing_edges, interleaved
 from vectorplot.visibility import painters_order
@@ -31,7 +31,7 @@ def main(folder: Path) -> None:
     scene = vp.read(DATA / "three_bars.scene")
     view = look(scene, scene.camera)
     painted = painters_order(view)
-    place = placed_faces(view, painted.faces, PAGE, True)
+    place = placement_of_faces(view, painted.faces, PAGE, True)
     parts = []
     for corners, starts, ends in interleaved(painted.faces, erasing_edges(view, painted.faces)):
         face = place.on_page(corners[:2])

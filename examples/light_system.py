@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry import CoordinateSystem, switched
+from vectorplot.geometry import CoordinateSystem, changed_coordinates
 
 DATA = Path(__file__).resolve().parent.parent / "data"
 
@@ -28,7 +28,7 @@ def main(folder: Path) -> None:
     screen = CoordinateSystem.of_image(table.camera)
     lit = light.from_world(table.vertices)
     assert np.allclose(CoordinateSystem.of_image(seen_by_lamp).from_world(table.vertices), lit)
-    assert np.allclose(switched(screen.from_world(table.vertices), screen, light), lit)
+    assert np.allclose(changed_coordinates(screen.from_world(table.vertices), screen, light), lit)
 
 
 if __name__ == "__main__":

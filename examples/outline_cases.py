@@ -13,7 +13,7 @@ import vectorplot as vp
 from vectorplot.geometry import box, convex_hull, placed
 from vectorplot.scene import look
 from vectorplot.textbook import Position, relative_position
-from vectorplot.visibility import mapped
+from vectorplot.visibility import image_points
 
 CASES = {
     Position.DISJOINT: ((3.6, 0.0, 0.0), 1.0),
@@ -43,7 +43,7 @@ def main(folder: Path) -> None:
         view = look(scene, camera)
         outlines = []
         for start, end in zip(view.item_vertices[:-1], view.item_vertices[1:], strict=True):
-            points = mapped(view, view.points[:, start:end]).T
+            points = image_points(view, view.points[:, start:end]).T
             outlines.append(points[convex_hull(points)])
         found = relative_position(*outlines)
         assert found.position is position

@@ -5,7 +5,7 @@ import pytest
 
 import vectorplot as vp
 import vectorplot.scene.view as views
-from vectorplot.drawing.painted_fills import placed_faces
+from vectorplot.drawing.painted_fills import placement_of_faces
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import FARTHEST_OFF_AXIS_DEG
 from vectorplot.geometry.mesh import Mesh
@@ -67,7 +67,7 @@ def places(scene: Scene, camera: Camera, fit: bool = True) -> tuple[Placement | 
     lines = straight_lines(view.points, np.roll(view.points, 1, axis=1), none, none, none)
     return (
         frame_of(view, lines, PAGE, fit),
-        placed_faces(view, painters_order(view).faces, PAGE, fit),
+        placement_of_faces(view, painters_order(view).faces, PAGE, fit),
         picture_placement(view, 120, 90, fit),
     )
 

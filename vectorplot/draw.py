@@ -189,7 +189,7 @@ def draw(
     while True:
         # Chords take one half of the tolerance, Béziers through their ends the other.
         tolerance = 0.5 * tolerance_mm / scale
-        every = _with_curves(walk, scene, view, sheets, forms, kinds, straight, tolerance, allowed)
+        every = _lines_and_chords(walk, scene, view, sheets, forms, kinds, straight, tolerance, allowed)
         frame = frame_of(view, every, page, fit)
         framed = _behind_balls(walk, view, forms, walk.run("frame", in_frame, view, every, frame))
         seen = _visibility(walk, view, faces, solid, framed)
@@ -263,7 +263,7 @@ def lines_in_place(
     tolerance = 0.5 * tolerance_mm / placement.scale
     forms = _closed_forms(walk, scene, view, kinds)
     sheets = _sheets(walk, scene, view, forms)
-    every = _with_curves(walk, scene, view, sheets, forms, kinds, straight, tolerance, budget_of(budget))
+    every = _lines_and_chords(walk, scene, view, sheets, forms, kinds, straight, tolerance, budget_of(budget))
     # Lines may reach too far where what the picture was fitted to does not.
     cut = not placement.whole or view.reaches_too_far(every.start, every.end)
     framed = walk.run("frame", in_frame, view, every, placement if cut else None)
@@ -362,7 +362,7 @@ def _sheets(walk: Walk, scene: Scene, view: View, forms: ClosedForms | None) -> 
     return scene_sheets(scene, view, frozenset() if forms is None else forms.items)
 
 
-def _with_curves(
+def _lines_and_chords(
     walk: Walk,
     scene: Scene,
     view: View,
@@ -377,7 +377,7 @@ def _with_curves(
     those of balls as they are seen among these."""
     if not walk.calls_for("curves"):
         return lines
-    from vectorplot.visibility.smooth.smooth_lines import with_curves, with_whole_curves
+    from vectorplot.visibility.smooth.smooth_lines import cut_lines_and_chords, whole_lines_and_chords
     from vectorplot.visibility.smooth.tracing.traced import traced_scene
 
     if tolerance < FINEST_CHORD_OF_EXTENT:
@@ -393,10 +393,10 @@ def _with_curves(
 
         traced = traced.joined(conic_curves(view, forms.arcs, forms.behind, tolerance))
     if not sheets or not walk.calls_for("smooth surfaces"):
-        return with_whole_curves(view, traced, lines)
+        return whole_lines_and_chords(view, traced, lines)
     done = walk.fraction("smooth surfaces")
     count = len(scene.items)
-    cut, unsure = walk.run("smooth surfaces", with_curves, view, traced, lines, count, tolerance, budget, done)
+    cut, unsure = walk.run("smooth surfaces", cut_lines_and_chords, view, traced, lines, count, tolerance, budget, done)
     for item, text in unsure:
         warnings.warn(f"{scene.items[item].name}: {text}", InputWarning, stacklevel=3)
     return cut if not walk.calls_for("visible lines") else cut.some(cut.behind == 0)

@@ -14,7 +14,7 @@ from vectorplot.draw import default_camera, lines_in_place, seen_part, with_smoo
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.layers import layers_by_kind
-from vectorplot.drawing.painted_fills import Overlay, fills_on_page, placed_faces, shown_faces, stacked
+from vectorplot.drawing.painted_fills import Overlay, fills_on_page, placement_of_faces, shown_faces, stacked
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.errors import InputError
 from vectorplot.features.facets import Within
@@ -40,7 +40,7 @@ from vectorplot.shading.light.palettes import palette as shades_of
 from vectorplot.shading.light.refinement import SHORTEST_MM, refined
 from vectorplot.visibility.painter.gathering import side_by_side
 from vectorplot.visibility.painter.height_fields import known_orders
-from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
 from vectorplot.visibility.painter.order import Painted, painters_order
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 from vectorplot.words import LINE_WORDS, LineKind, check_word, line_kinds
@@ -185,7 +185,7 @@ def paint(
         faces = faces.some(walk.run("transparent sheets", gathered, faces, sheet, view.tolerance))
     plane = plane_numbers(view)
     faces = faces.some(side_by_side(faces, _planes_of(facets.scene, view, faces, plane), view.tolerance))
-    placement = placed_faces(view, faces, page, fit)
+    placement = placement_of_faces(view, faces, page, fit)
     seen = _Seen(facets.scene, view, projected, shown_faces(faces, placement), placement)
     world = placement.page_from_world
     here = view_lights(view, scene.lights)
@@ -343,7 +343,7 @@ def _finer(seen: _Seen, lighting: Lighting, most: int) -> ImageFaces:
 
 def _shades(seen: _Seen, lighting: Lighting) -> Shades:
     faces = seen.faces
-    points = unmapped(seen.view, faces.points)
+    points = view_points(seen.view, faces.points)
     return corner_shades_of(seen.view, lighting, points, faces.offsets, faces.source)
 
 

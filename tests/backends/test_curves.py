@@ -24,7 +24,7 @@ from support.backend_samples import (
 from vectorplot.backends.cairo.surfaces import png_bytes
 from vectorplot.backends.svg.document import svg_bytes
 from vectorplot.drawing.drawing import Curves, Drawing, Pen
-from vectorplot.drawing.strokes.curved_strokes import with_curves
+from vectorplot.drawing.strokes.curved_strokes import curved_strokes
 from vectorplot.drawing.strokes.paths import concatenated
 from vectorplot.errors import InputError
 from vectorplot.save import FORMATS, save, write
@@ -35,7 +35,7 @@ TOLERANCE = 0.02
 
 def smooth(*lines, closed=False, tolerance=TOLERANCE):
     paths = paths_of(*lines, closed=closed)
-    return with_curves(replace(paths, smooth=np.ones(len(paths), np.bool_)), tolerance)
+    return curved_strokes(replace(paths, smooth=np.ones(len(paths), np.bool_)), tolerance)
 
 
 def ellipse(t, a=30.0, b=18.0, turn=0.5, centre=(60.0, 40.0)):
@@ -58,7 +58,7 @@ def curved() -> Drawing:
     open_ones = [ellipse(4 * T[::10]), ellipse(-2.5 * T[::10], 12, 12, 0, (20, 60)), wave(T), [(5, 5), (115, 6)]]
     both = concatenated((smooth(*open_ones[:3]).paths, paths_of(*open_ones[3:])))
     rings = smooth(ellipse(FULL, 20, 20), ellipse(FULL, 8, 20, 1.0), loop, closed=True)
-    return drawing_of(with_curves(both, TOLERANCE), rings, title="Curves")
+    return drawing_of(curved_strokes(both, TOLERANCE), rings, title="Curves")
 
 
 def as_polylines(drawing: Drawing) -> Drawing:
@@ -171,7 +171,7 @@ def test_json_holds_the_polylines(curved):
 
 def test_strokes_stand_in_their_order():
     paths = concatenated((paths_of([(1, 1), (2, 2)]), smooth(wave(T[300:400])).paths, paths_of([(3, 3), (4, 5)])))
-    mark = with_curves(paths, TOLERANCE)
+    mark = curved_strokes(paths, TOLERANCE)
     (layer,) = ET.fromstring(svg_bytes(drawing_of(mark))).findall(f"{SVG}g")
     assert [child.tag.removeprefix(SVG) for child in layer] == ["polyline", "path", "polyline"]
 

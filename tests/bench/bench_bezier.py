@@ -9,7 +9,7 @@ import pytest
 
 from vectorplot.curves.bezier.fit import fitted_paths
 from vectorplot.drawing.drawing import Curves, Paths
-from vectorplot.drawing.strokes.curved_strokes import with_curves
+from vectorplot.drawing.strokes.curved_strokes import curved_strokes
 
 pytestmark = pytest.mark.bench
 
@@ -64,7 +64,7 @@ def test_curves_of_a_hundred_thousand_points():
     times = []
     for _ in range(5):
         start = time.process_time()
-        curves = with_curves(paths, 0.02)
+        curves = curved_strokes(paths, 0.02)
         times.append(time.process_time() - start)
     assert isinstance(curves, Curves)
     segments = len(curves.beziers.control)

@@ -15,7 +15,7 @@ from vectorplot.visibility.polyhedra.lines import edge_lines, intersection_lines
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.polyhedra.pairs import Segments
 from vectorplot.visibility.projected_faces import project_faces
-from vectorplot.visibility.smooth.smooth_lines import with_curves
+from vectorplot.visibility.smooth.smooth_lines import cut_lines_and_chords
 from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind
 
@@ -49,7 +49,7 @@ def chords_seen(scene: Scene, camera: Camera, *, tolerance: float = 5e-5) -> Cho
     edges = edge_lines(scene, view, faces, kinds, 25.0, np.ones(len(solid), dtype=np.bool_))
     straight = joined_lines([edges, intersection_lines(scene, view, faces, kinds, solid)])
     traced = traced_scene(scene, view, scene_sheets(scene, view), kinds, tolerance)
-    every, _ = with_curves(view, traced, straight, len(scene.items), tolerance)
+    every, _ = cut_lines_and_chords(view, traced, straight, len(scene.items), tolerance)
     lines = in_frame(view, every, frame_of(view, every, Page(), True))
     seen = counted_parts(view, faces, solid, Segments(lines.start, lines.end), lambda part: None)
     seen = replace(seen, hidden_by=seen.hidden_by + lines.behind[seen.segment])

@@ -7,7 +7,7 @@ from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box, cyclic_bars, interpenetrating_boxes, rotated_boxes
 from vectorplot.textbook.erasing_faces import Erased, erasing_edges, interleaved
-from vectorplot.visibility.painter.image_faces import ImageFaces, mapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, image_points
 from vectorplot.visibility.painter.order import painters_order
 
 CAMERA = Camera(eye=(9.0, -12.0, 7.0))
@@ -82,8 +82,8 @@ def test_cuts_of_the_painter_are_no_edges(scene: Scene) -> None:
     view, faces, erased = painted(scene)
     assert len(faces) > 0
     start, end = (
-        mapped(view, view.points[:, view.corners]),
-        mapped(view, view.points[:, view.corners[view.after(np.arange(len(view.corners)))]]),
+        image_points(view, view.points[:, view.corners]),
+        image_points(view, view.points[:, view.corners[view.after(np.arange(len(view.corners)))]]),
     )
     for a, b in zip(erased.start[:2].T, erased.end[:2].T, strict=True):
         on = np.ones(start.shape[1], dtype=bool)

@@ -1,8 +1,8 @@
 from .drawing import Curves, Drawing, Layer, Paths, Pen
 from .fills import FillKind, Fills
 from .fills_without_overlaps import visible_fills
-from .painted_fills import placed_faces
-from .strokes.curved_strokes import with_curves
+from .painted_fills import placement_of_faces
+from .strokes.curved_strokes import curved_strokes
 from .strokes.long_strokes import split_long
 from .strokes.pen_order.order import pen_ordered, travel_mm
 
@@ -14,10 +14,10 @@ __all__ = [
     "Layer",
     "Paths",
     "Pen",
+    "curved_strokes",
     "pen_ordered",
-    "placed_faces",
+    "placement_of_faces",
     "split_long",
     "travel_mm",
     "visible_fills",
-    "with_curves",
 ]

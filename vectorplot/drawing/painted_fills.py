@@ -13,7 +13,7 @@ from vectorplot.scene.placement import Placement, field_of_vision, fitted_pictur
 from vectorplot.scene.scene import Page
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.framing import framed_faces
-from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +47,7 @@ def interleaved(base: Fills, overlays: Sequence[Overlay]) -> Fills:
     return overlaid(Overlay(base, np.arange(len(base))), overlays).fills
 
 
-def placed_faces(view: View, faces: ImageFaces, page: Page, fit: bool) -> Placement:
+def placement_of_faces(view: View, faces: ImageFaces, page: Page, fit: bool) -> Placement:
     """The place on the page of a picture of painted polygons."""
     used = np.zeros(view.face_count, dtype=np.bool_)
     used[faces.source] = True
@@ -79,5 +79,5 @@ def fills_on_page(
     item and kind (m,) as of Fills."""
     flat = placement.on_page(points[:2])
     return Fills(
-        np.ascontiguousarray(flat), offsets, colours, opacity, item, view.world_of(unmapped(view, points)), kind
+        np.ascontiguousarray(flat), offsets, colours, opacity, item, view.world_of(view_points(view, points)), kind
     )

@@ -10,7 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import ImageFaces, mapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, image_points
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +57,7 @@ def _images(view: View, first: Ints, second: Ints) -> tuple[Floats, Floats, Ints
     """The images of edges between vertices, cut off at the near plane, and which edges have one."""
     start, end = view.points[:, first], view.points[:, second]
     if view.eye is None:
-        return mapped(view, start), mapped(view, end), np.arange(len(first))
+        return image_points(view, start), image_points(view, end), np.arange(len(first))
     near, far = view.depth[first] - view.near, view.depth[second] - view.near
     gap = np.where((near < 0.0) != (far < 0.0), near - far, 1.0)
     crossing = start + (near / gap) * (end - start)
@@ -65,7 +65,7 @@ def _images(view: View, first: Ints, second: Ints) -> tuple[Floats, Floats, Ints
     finish = np.where(far < 0.0, crossing, end)
     known = np.flatnonzero((near >= 0.0) | (far >= 0.0))
     image = [np.zeros((3, len(first))), np.zeros((3, len(first)))]
-    image[0][:, known], image[1][:, known] = mapped(view, begin[:, known]), mapped(view, finish[:, known])
+    image[0][:, known], image[1][:, known] = image_points(view, begin[:, known]), image_points(view, finish[:, known])
     return image[0], image[1], known
 
 

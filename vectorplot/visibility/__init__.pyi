@@ -1,5 +1,5 @@
 from .painter.groups import ObjectOrder, gordian_knots, group_ranks, grouped_order, knot_report, object_order
-from .painter.image_faces import ImageFaces, image_faces, mapped
+from .painter.image_faces import ImageFaces, image_faces, image_points
 from .painter.mikado import Mikado, mikado
 from .painter.order import Painted, painters_order
 from .painter.pairs.face_pairs import APART, BEHIND, COPLANAR, IN_FRONT, STRADDLING
@@ -26,8 +26,8 @@ __all__ = [
     "group_ranks",
     "grouped_order",
     "image_faces",
+    "image_points",
     "knot_report",
-    "mapped",
     "mikado",
     "object_order",
     "painters_order",

@@ -9,7 +9,7 @@ from support.sample_paths import lines_of, polylines
 
 from vectorplot.curves.bezier.paths import bezier_points, bezier_tangents
 from vectorplot.drawing.drawing import Curves, Layer, Paths, Pen
-from vectorplot.drawing.strokes.curved_strokes import one_mark, with_curves
+from vectorplot.drawing.strokes.curved_strokes import curved_strokes, one_mark
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.errors import InputError
 
@@ -81,7 +81,7 @@ CURVES = {
 def test_curves_lie_within_the_tolerance_of_the_true_ones(name, tolerance):
     curve, start, end, closed = CURVES[name]
     line = sampled(curve, start, end, tolerance / 2, closed)
-    drawn = with_curves(polylines(line, smooth=(0,), closed=(0,) if closed else ()), tolerance)
+    drawn = curved_strokes(polylines(line, smooth=(0,), closed=(0,) if closed else ()), tolerance)
     away = farthest(curve, start, end, drawn.beziers)
     print(f"{name}: {len(line)} points, {len(drawn.beziers.control)} segments, {away:.5f} mm")
     assert away <= tolerance
@@ -92,7 +92,7 @@ def test_curves_lie_within_the_tolerance_of_the_true_ones(name, tolerance):
 @pytest.mark.parametrize("radius", [0.05, 0.3, 1.0, 7.0, 30.0, 95.0, 3000.0])
 def test_a_circle_is_round(radius):
     line = sampled(circle(radius), 0.0, 2 * np.pi, closed=True)
-    drawn = with_curves(polylines(line, smooth=(0,), closed=(0,)), TOLERANCE)
+    drawn = curved_strokes(polylines(line, smooth=(0,), closed=(0,)), TOLERANCE)
     control = drawn.beziers.control
     points = bezier_points(control[:, None], np.linspace(0, 1, 50)[None].repeat(len(control), axis=0)) - 100
     assert np.abs(np.hypot(points[..., 0], points[..., 1]) - radius).max() <= TOLERANCE / 2
@@ -112,7 +112,7 @@ def test_the_contour_of_a_torus_has_corners_at_its_cusps_and_nowhere_else():
     cusps = np.array([t, np.pi - t, np.pi + t, 2 * np.pi - t])
     bounds = np.concatenate(([cusps[-1] - 2 * np.pi], cusps))
     line = np.concatenate([sampled(curve, a, b)[:-1] for a, b in pairwise(bounds)])
-    drawn = with_curves(polylines(line, smooth=(0,), closed=(0,)), TOLERANCE)
+    drawn = curved_strokes(polylines(line, smooth=(0,), closed=(0,)), TOLERANCE)
     assert farthest(curve, 0.0, 2 * np.pi, drawn.beziers) <= TOLERANCE
     corners = control_corners(drawn.beziers.control, closed=True)
     assert len(corners) == 4
@@ -134,7 +134,7 @@ def control_corners(control, closed):
 def test_the_direction_is_continuous(name):
     curve, start, end, closed = CURVES[name]
     line = sampled(curve, start, end, closed=closed)
-    drawn = with_curves(polylines(line, smooth=(0,), closed=(0,) if closed else ()), TOLERANCE)
+    drawn = curved_strokes(polylines(line, smooth=(0,), closed=(0,) if closed else ()), TOLERANCE)
     assert not len(control_corners(drawn.beziers.control, closed))
 
 
@@ -156,7 +156,7 @@ def mixed():
 
 
 def test_strokes_keep_their_order_and_straight_ones_stay_polylines():
-    drawn = with_curves(mixed(), TOLERANCE)
+    drawn = curved_strokes(mixed(), TOLERANCE)
     assert isinstance(drawn, Curves) and len(drawn) == 8
     assert (np.diff(drawn.beziers.offsets) > 0).tolist() == [False, True, True, False, False, True, False, True]
     assert drawn.arcs.stroke.tolist() == [2, 7]
@@ -170,18 +170,18 @@ def test_strokes_keep_their_order_and_straight_ones_stay_polylines():
 
 def test_without_smooth_strokes_there_are_no_curves():
     straight = polylines([(0, 0), (1, 1), (2, 0)], [(0, 0), (5, 5)], smooth=(1,))
-    assert with_curves(straight, TOLERANCE) is straight
-    assert len(with_curves(Paths.empty(), TOLERANCE)) == 0
+    assert curved_strokes(straight, TOLERANCE) is straight
+    assert len(curved_strokes(Paths.empty(), TOLERANCE)) == 0
 
 
 @pytest.mark.parametrize("tolerance", [0.0, -1.0, np.nan, np.inf])
 def test_impossible_tolerances_are_refused(tolerance):
     with pytest.raises(InputError, match="positive tolerance"):
-        with_curves(mixed(), tolerance)
+        curved_strokes(mixed(), tolerance)
 
 
 def test_marks_of_a_layer_become_one():
-    curves = with_curves(mixed(), TOLERANCE)
+    curves = curved_strokes(mixed(), TOLERANCE)
     plain = polylines([(0, 0), (1, 1)], [(3, 3), (4, 4)])
     whole = one_mark((plain, curves, Paths.empty(), curves))
     assert len(whole) == len(whole.beziers) == 18

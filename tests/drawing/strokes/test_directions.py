@@ -10,7 +10,7 @@ from support.sample_paths import polylines
 
 from vectorplot.curves.bezier.paths import bezier_tangents
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.curved_strokes import with_curves
+from vectorplot.drawing.strokes.curved_strokes import curved_strokes
 from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.drawing.strokes.finishing import long_strokes
 from vectorplot.drawing.strokes.join import joined
@@ -134,7 +134,7 @@ def test_the_path_has_the_directions_that_are_known():
     x = ring.points[:, 0] - 100
     bent = np.column_stack((ring.points[:, 0], ring.points[:, 1] + 0.002 * x * x))
     angle = np.arctan2(np.sin(ring.directions) + 0.004 * x[:, None] * np.cos(ring.directions), np.cos(ring.directions))
-    beziers = with_curves(replace(ring, points=bent, directions=angle), 0.02).beziers
+    beziers = curved_strokes(replace(ring, points=bent, directions=angle), 0.02).beziers
     knots = beziers.control[:, 0]
     place = np.argmin(np.linalg.norm(bent[:, None] - knots, axis=2), axis=0)
     way = bezier_tangents(beziers.control, np.zeros(len(knots)))

@@ -13,7 +13,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Material, Pattern, Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import interpenetrating_boxes
-from vectorplot.visibility.painter.image_faces import mapped
+from vectorplot.visibility.painter.image_faces import image_points
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.projected_faces import project_faces
 
@@ -93,4 +93,4 @@ def test_uncut_faces_keep_their_decals_as_they_are() -> None:
     for k, decal in enumerate(parts.decal):
         small = decals.points[:, decals.offsets[decal] : decals.offsets[decal + 1]]
         shown = parts.points[:, parts.offsets[k] : parts.offsets[k + 1]]
-        assert np.allclose(np.sort(shown[0]), np.sort(mapped(view, small)[0]), atol=1e-8)
+        assert np.allclose(np.sort(shown[0]), np.sort(image_points(view, small)[0]), atol=1e-8)

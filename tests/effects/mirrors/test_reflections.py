@@ -14,7 +14,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Material, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box
-from vectorplot.visibility.painter.image_faces import ImageFaces, mapped, unmapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, image_points, view_points
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.projected_faces import project_faces
 
@@ -159,7 +159,7 @@ def test_a_mirror_shows_the_same_at_any_size_and_place(scale: float, shift: floa
 def test_doubles_wholly_within_the_window_keep_every_digit_and_those_beside_it_are_not_looked_at() -> None:
     picture = Picture(*on_a_mirror())
     view, seen = picture.view, picture.seen
-    doubles = mapped(view, picture.mirrors.reflected(0, view.points))
+    doubles = image_points(view, picture.mirrors.reflected(0, view.points))
     assert {int(view.face_item[face]) for face in seen.source} == {1, 2}
     for face, polygon in outlines(picture):
         corners = doubles[:, view.corners[view.offsets[face] : view.offsets[face + 1]]]
@@ -186,7 +186,7 @@ def test_corners_of_doubles_tell_the_points_they_are_doubles_of() -> None:
     for seed in (1, 3):
         picture = Picture(*random_scene(seed))
         view, seen = picture.view, picture.seen
-        assert np.allclose(mapped(view, unmapped(view, seen.points)), seen.points, atol=1e-12)
+        assert np.allclose(image_points(view, view_points(view, seen.points)), seen.points, atol=1e-12)
         points = originals(view, picture.mirrors, seen)
         for face, a, b in zip(seen.source, seen.offsets[:-1], seen.offsets[1:], strict=True):
             corners = view.points[:, view.corners[view.offsets[face] : view.offsets[face + 1]]]

@@ -249,10 +249,10 @@ def test_the_shadow_lies_on_the_ray_from_the_lamp(p):
 def test_direct_switch_equals_the_way_through_the_world(p):
     screen = CoordinateSystem.of_screen(BOOK, WINDOW)
     light = CoordinateSystem.of_light((4, -6, 9), TARGET)
-    there = pr.switched(screen.from_world(p), screen, light)
+    there = pr.changed_coordinates(screen.from_world(p), screen, light)
     assert np.allclose(there, light.from_world(p), atol=1e-11)
-    assert np.allclose(pr.switched(there, light, screen), screen.from_world(p), atol=1e-8)
-    assert np.allclose(pr.switched(p, CoordinateSystem.world(), light), light.from_world(p), atol=1e-15)
+    assert np.allclose(pr.changed_coordinates(there, light, screen), screen.from_world(p), atol=1e-8)
+    assert np.allclose(pr.changed_coordinates(p, CoordinateSystem.world(), light), light.from_world(p), atol=1e-15)
 
 
 @pytest.mark.capability("G2.4-target-origin")

@@ -18,7 +18,7 @@ from vectorplot.shading.shadows.trapezoid import (
     focus_area,
     focus_distance,
     line_of_sight,
-    mapped,
+    projective_images,
     rectangle,
     searched_line,
     side_directions,
@@ -61,8 +61,8 @@ def test_the_first_sample_call_of_the_notes():
     assert np.allclose(found.matrix, exact, **CLOSE), "TV54"
     assert found.shift == pytest.approx(2.0 / np.sqrt(5.0), abs=1e-12)
     assert found.stretch == pytest.approx(0.8, abs=1e-12)
-    assert np.allclose(mapped(found.matrix, [(2, 1), (4, 0), (7, 1), (0, 4.5)]), SQUARE, **CLOSE), "TV55"
-    assert np.allclose(mapped(found.matrix, (3, 1.5)), (-0.1, 0.4), **CLOSE), "TV56"
+    assert np.allclose(projective_images(found.matrix, [(2, 1), (4, 0), (7, 1), (0, 4.5)]), SQUARE, **CLOSE), "TV55"
+    assert np.allclose(projective_images(found.matrix, (3, 1.5)), (-0.1, 0.4), **CLOSE), "TV56"
 
 
 @pytest.mark.capability("N5-rect-matrix", "N7-test")
@@ -71,12 +71,12 @@ def test_the_second_sample_call_of_the_notes_is_a_rectangle():
     corners = np.array([(1, 1), (3, 2), (2, 4), (0, 3)], dtype=np.float64)
     found = square_map(corners)
     assert np.allclose(found.matrix, [(0.8, 0.4, -2.2), (-0.4, 0.8, -1.4), (0, 0, 1)], **CLOSE), "TV57"
-    assert np.allclose(mapped(found.matrix, (1.5, 2)), (-0.2, -0.4), **CLOSE)
+    assert np.allclose(projective_images(found.matrix, (1.5, 2)), (-0.2, -0.4), **CLOSE)
     for slant in (0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-5):
         near = corners + np.array([(0, 0), (0, 0), (slant, 0), (-slant, 0)])
         matrix = square_map(near).matrix
         assert np.isfinite(matrix).all()
-        assert np.abs(mapped(matrix, near) - SQUARE).max() < 2e-4, "affine, or all but"
+        assert np.abs(projective_images(matrix, near) - SQUARE).max() < 2e-4, "affine, or all but"
 
 
 @pytest.mark.capability("N2-axis", "N2-topbase", "N2-eta")
@@ -109,9 +109,9 @@ def test_the_corners_of_the_trapezoid():
         (1.40075213703826, 0.626652271832905, 1),
     ]
     assert np.allclose(matrix, tv60, rtol=0.0, atol=1e-12), "TV60"
-    focus = mapped(matrix, AXIS.origin + 3.0 * AXIS.direction)
+    focus = projective_images(matrix, AXIS.origin + 3.0 * AXIS.direction)
     assert np.allclose(focus, (0.0021736175159055, 0.6), rtol=0.0, atol=1e-12), "TV61"
-    assert np.abs(mapped(matrix, HULL)).max() <= 1.0 + 1e-12
+    assert np.abs(projective_images(matrix, HULL)).max() <= 1.0 + 1e-12
     left, right = side_directions(HULL, AXIS, eta)
     assert AXIS.left @ left > AXIS.left @ right
 
@@ -121,7 +121,7 @@ def test_the_rectangle_of_the_same_hull():
     assert np.allclose(widths(HULL, AXIS), (1.99378723440206, -2.73845475568476), rtol=0.0, atol=1e-12), "TV62"
     corners = rectangle(HULL, AXIS)
     assert area(corners) > 0.0
-    inside = mapped(quadrilateral_map(corners), HULL)
+    inside = projective_images(quadrilateral_map(corners), HULL)
     assert np.abs(inside).max() <= 1.0 + 1e-12
     focus = 0.8 * AXIS.length
     assert np.allclose(bounding_trapezoid(HULL, AXIS, focus), corners), "at the pole"
@@ -146,7 +146,7 @@ def test_the_recipe_as_eight_matrices_and_as_three_rows():
     assert np.allclose(image[:3] / image[3], tv64, **CLOSE), "TV64"
     fast = recipe_map(RECIPE)
     assert np.allclose(fast / fast[2, 2], rows / rows[2, 2], **CLOSE)
-    assert np.allclose(mapped(fast, RECIPE), SQUARE, **CLOSE)
+    assert np.allclose(projective_images(fast, RECIPE), SQUARE, **CLOSE)
     gl = column_major(fast).reshape(4, 4).T
     assert np.allclose(gl @ (1, 2, 7, 1), (*(fast[:2] @ (1, 2, 1)), 7, fast[2] @ (1, 2, 1)), **CLOSE)
     with pytest.raises(InputError, match="parallel"):
@@ -166,7 +166,7 @@ def test_any_convex_quadrilateral_becomes_the_square(seed):
     if np.diff(angle).min() < 0.05 or angle[3] - angle[0] > 2.0 * np.pi - 0.05:
         return
     corners = rng.uniform(-9, 9, 2) + rng.uniform(0.1, 9) * np.stack([np.cos(angle), 0.7 * np.sin(angle)], axis=1)
-    assert np.abs(mapped(quadrilateral_map(corners), corners) - SQUARE).max() < 1e-9
+    assert np.abs(projective_images(quadrilateral_map(corners), corners) - SQUARE).max() < 1e-9
 
 
 @given(st.integers(0, 2**32 - 1))
@@ -182,11 +182,11 @@ def test_every_way_gives_the_same_map_of_a_trapezoid(seed):
     corners = corners @ turn.T + rng.uniform(-5, 5, 2)
     inner = rng.dirichlet(np.ones(4), 20) @ corners
     images = [
-        mapped(square_map(corners).matrix, inner),
-        mapped(quadrilateral_map(corners), inner),
-        -mapped(recipe_map(corners[[2, 3, 0, 1]]), inner),
+        projective_images(square_map(corners).matrix, inner),
+        projective_images(quadrilateral_map(corners), inner),
+        -projective_images(recipe_map(corners[[2, 3, 0, 1]]), inner),
         # A base shorter than the top line, where the printed branch would leave the square (erratum N-05).
-        -mapped(square_map(corners[[2, 3, 0, 1]]).matrix, inner),
+        -projective_images(square_map(corners[[2, 3, 0, 1]]).matrix, inner),
     ]
     for image in images[1:]:
         assert np.abs(image - images[0]).max() < 1e-7
@@ -218,9 +218,9 @@ def test_the_map_without_branches_is_that_of_the_corners(seed):
         return
     direct = tapered_map(image, axis, axis.length / eta)
     stepwise = square_map(trapezoid(image, axis, eta)).matrix
-    assert np.abs(mapped(direct, image) - mapped(stepwise, image)).max() < 1e-9
-    assert np.abs(mapped(direct, image)).max() <= 1.0 + 1e-9
-    assert mapped(direct, focus)[1] == pytest.approx(0.6, abs=1e-9)
+    assert np.abs(projective_images(direct, image) - projective_images(stepwise, image)).max() < 1e-9
+    assert np.abs(projective_images(direct, image)).max() <= 1.0 + 1e-9
+    assert projective_images(direct, focus)[1] == pytest.approx(0.6, abs=1e-9)
     # Before it fades, as seen from the side, the taper is that of the formula.
     if axis.top >= 0.0:
         assert taper_of_focus(axis, depth) == pytest.approx(axis.length / eta, rel=1e-9)
@@ -240,7 +240,7 @@ def turning_maps(angles, beside):
         matrix = tapered_map(image, axis, taper)
         assert np.isfinite(matrix).all()
         assert (matrix[2, :2] @ image.T + matrix[2, 2] > 0.999999).all(), "nothing is mirrored"
-        yield mapped(matrix, image), taper
+        yield projective_images(matrix, image), taper
 
 
 @pytest.mark.slow
@@ -288,7 +288,9 @@ def test_the_focus_of_the_centre_of_its_far_plane_and_of_its_hull():
             eta = eta_of_focus(axis.length, distance)
             at = axis.origin + (axis.top + distance) * axis.direction
             corners = trapezoid(image, axis, eta)
-            assert mapped(square_map(corners).matrix, at)[1] == pytest.approx(0.6, abs=1e-6), "on the 80 % line"
+            assert projective_images(square_map(corners).matrix, at)[1] == pytest.approx(0.6, abs=1e-6), (
+                "on the 80 % line"
+            )
 
 
 @pytest.mark.capability("N2-orientation")
@@ -303,7 +305,7 @@ def test_corners_run_counter_clockwise_and_maps_turn_nothing_over(seed):
     ):
         assert area(corners) > 0.0
         moved = corners.mean(axis=0) + 0.3 * (corners - corners.mean(axis=0))
-        found = mapped(square_map(corners).matrix, moved)
+        found = projective_images(square_map(corners).matrix, moved)
         assert area(found) > 0.0, "a triangle that faces the lamp faces it in the map too"
 
 
@@ -364,7 +366,7 @@ def test_points_on_a_line_and_a_single_point_still_have_a_map():
         matrix = tapered_map(points, axis, 1.5)
         assert np.isfinite(matrix).all()
         assert np.linalg.matrix_rank(matrix) == 3
-        assert np.abs(mapped(matrix, points)).max() <= 1.0 + 1e-9
+        assert np.abs(projective_images(matrix, points)).max() <= 1.0 + 1e-9
 
 
 def test_hulls_of_few_points():

@@ -21,7 +21,7 @@ from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box, numbered
 from vectorplot.testing.surfaces import torus_mesh
 from vectorplot.textbook.graph_orders import graph_triangles
-from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces, unmapped
+from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces, view_points
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.painter.ribbons import in_slices, ribbon_order, ribbons
 from vectorplot.visibility.projected_faces import project_faces
@@ -132,7 +132,7 @@ def test_ribbons_are_runs_of_one_face_type_within_their_sectors_and_the_farther_
     found = ribbons(view, projected.facing, slices)
     faces, of = slices.faces, found.of_piece
 
-    height = slices.frame[2] @ unmapped(view, faces.points)
+    height = slices.frame[2] @ view_points(view, faces.points)
     ends = np.concatenate([[-np.inf], slices.levels, [np.inf]])
     piece = np.repeat(np.arange(len(faces)), np.diff(faces.offsets))
     near = 1e-8
@@ -141,7 +141,7 @@ def test_ribbons_are_runs_of_one_face_type_within_their_sectors_and_the_farther_
     for value in (projected.facing[faces.source], slices.slice_):
         assert len(np.unique(np.stack([of, value]), axis=1).T) == len(found), "one slice and one side each"
 
-    level = slices.frame[:2] @ unmapped(view, faces.points)
+    level = slices.frame[:2] @ view_points(view, faces.points)
     if parallel:
         ahead = slices.frame[:2, 2] / np.linalg.norm(slices.frame[:2, 2])
         angle, distance = ahead[0] * level[1] - ahead[1] * level[0], -(ahead @ level)
@@ -157,7 +157,7 @@ def test_ribbons_are_runs_of_one_face_type_within_their_sectors_and_the_farther_
     painted = ribbon_order(view, slices, found)
     key = faces.source * (len(slices.levels) + 1) + slices.slice_
     assert len(painted) == len(faces)
-    middle = slices.frame[2] @ unmapped(view, painted.points)
+    middle = slices.frame[2] @ view_points(view, painted.points)
     slice_ = np.searchsorted(slices.levels, np.add.reduceat(middle, painted.offsets[:-1]) / np.diff(painted.offsets))
     order = of[np.argsort(key)[np.searchsorted(np.sort(key), painted.source * (len(slices.levels) + 1) + slice_)]]
     place = np.argsort(np.unique(order, return_index=True)[1])

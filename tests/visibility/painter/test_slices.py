@@ -17,7 +17,7 @@ from vectorplot.testing.shapes import box, numbered, scene_of
 from vectorplot.testing.surfaces import torus_mesh
 from vectorplot.textbook.graph_orders import graph_order, graph_triangles
 from vectorplot.textbook.ring_orders import ring_order, sliced_meridian
-from vectorplot.visibility.painter.image_faces import image_faces, mapped, polygons_of
+from vectorplot.visibility.painter.image_faces import image_faces, image_points, polygons_of
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.painter.precedence import Precedence
 from vectorplot.visibility.painter.slices import cut_into_slices, eye_coordinate, slice_order, sliced_order
@@ -141,7 +141,7 @@ def test_surfaces_in_horizontal_slices(seed):
     rank = np.empty(6, dtype=np.intp)
     rank[slice_order(np.concatenate([[-99.0], levels, [99.0]]), eye[2])] = np.arange(6)
     faces = polygons_of(
-        mapped(view, view.points_of(pieces.points)), pieces.offsets, np.arange(len(source)), view.tolerance
+        image_points(view, view.points_of(pieces.points)), pieces.offsets, np.arange(len(source)), view.tolerance
     )
     ordered = sliced_order(faces, rank[number[faces.source]], view.tolerance)
     assert wrong_points(view, replace(ordered, source=source[ordered.source])) == 0
@@ -172,7 +172,7 @@ def test_graphs_over_any_domain_in_horizontal_slices_from_above_below_and_amid_t
     pieces, source, number = cut_into_slices(world, view.offsets, 2, levels)
     rank = np.empty(7, dtype=np.intp)
     rank[slice_order(np.concatenate([[-99.0], levels, [99.0]]), height)] = np.arange(7)
-    points = mapped(view, view.points_of(pieces.points))
+    points = image_points(view, view.points_of(pieces.points))
     faces = polygons_of(points, pieces.offsets, np.arange(len(source)), view.tolerance)
     ordered = sliced_order(faces, rank[number[faces.source]], view.tolerance)
     assert wrong_points(view, replace(ordered, source=source[ordered.source])) == 0

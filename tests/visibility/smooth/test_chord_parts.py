@@ -16,7 +16,7 @@ from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.visibility.polyhedra.lines import joined_lines
 from vectorplot.visibility.smooth.chord_parts import ChordParts
 from vectorplot.visibility.smooth.sheets import projection
-from vectorplot.visibility.smooth.smooth_lines import with_curves, with_whole_curves
+from vectorplot.visibility.smooth.smooth_lines import cut_lines_and_chords, whole_lines_and_chords
 from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
 from vectorplot.words import LineKind
 
@@ -47,7 +47,7 @@ def test_directions_are_those_of_the_curves(name):
     for number, camera in enumerate(views(scene, 2, seed=len(name))):
         view = look(scene, camera)
         traced = traced_scene(scene, view, scene_sheets(scene, view), frozenset(LineKind), 1e-4)
-        chords = with_whole_curves(view, traced, joined_lines([])).chords
+        chords = whole_lines_and_chords(view, traced, joined_lines([])).chords
         random = np.random.default_rng(number)
         begin, end = np.sort(random.uniform(0.0, 1.0, (2, len(chords.chord))), axis=0)
         some = random.permutation(len(begin))[:400]
@@ -70,7 +70,7 @@ def test_at_a_cusp_a_contour_arrives_and_turns_back(shape, parallel):
     scene = Scene((Item("ring", shape),))
     view = look(scene, Camera((0.0, -12.0, 5.0), (0.0, 0.0, 0.0), parallel=parallel))
     traced = traced_scene(scene, view, scene_sheets(scene, view), frozenset({LineKind.CONTOUR}), 1e-4)
-    lines = with_curves(view, traced, joined_lines([]), 1, 1e-4)[0]
+    lines = cut_lines_and_chords(view, traced, joined_lines([]), 1, 1e-4)[0]
     chords = lines.chords
     direction, image = chords.directions(view), view.image_of(lines.end).T
     gap = np.abs(lines.start[:, 1:] - lines.end[:, :-1]).max(axis=0)

@@ -28,7 +28,7 @@ CORNER_ANGLE = np.radians(60.0)
 within half a tolerance, turn by less unless it is no larger than a few tolerances."""
 
 
-def with_curves(paths: Paths, tolerance_mm: float) -> Paths | Curves:
+def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | Curves:
     """The strokes with curves for the smooth ones: arcs of ellipses where they are, cubic Bézier paths elsewhere.
 
     A curve begins and ends where its stroke does and lies within tolerance_mm of the curve that the stroke samples, if

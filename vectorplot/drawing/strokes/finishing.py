@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import NO_CURVE, Layer, Paths
 from vectorplot.drawing.fills import Fills
-from vectorplot.drawing.strokes.curved_strokes import with_curves
+from vectorplot.drawing.strokes.curved_strokes import curved_strokes
 from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.drawing.strokes.join import joined
 from vectorplot.drawing.strokes.long_strokes import split_long
@@ -38,7 +38,9 @@ def inked(
         strokes = tuple(_pen_strokes(paths, hidden, world) for paths in layer.strokes)
         if longest_mm is not None:
             strokes = tuple(split_long(paths, longest_mm, world) for paths in strokes)
-        drawn = iter(strokes if curve_tolerance_mm is None else (with_curves(s, curve_tolerance_mm) for s in strokes))
+        drawn = iter(
+            strokes if curve_tolerance_mm is None else (curved_strokes(s, curve_tolerance_mm) for s in strokes)
+        )
         marks = tuple(mark if isinstance(mark, Fills) else next(drawn) for mark in layer.marks)
         found.append(replace(layer, marks=marks))
     return tuple(found)

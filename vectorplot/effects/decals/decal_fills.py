@@ -20,7 +20,7 @@ from vectorplot.scene.view import View
 from vectorplot.shading.light.face_shades import Shades
 from vectorplot.shading.light.painted_colours import Lighting, colours_of, corner_shades_of, opacities, smooth_faces
 from vectorplot.shading.light.palettes import COLOUR_MAP, Colours, shaded_colours
-from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
 
 
 def decal_fills(
@@ -45,7 +45,7 @@ def shown_decals(view: View, lighting: Lighting, decals: Decals) -> Decals:
 
 def laid_fills(view: View, lighting: Lighting, decals: Decals, parts: Laid, placement: Placement) -> Fills:
     """Parts of decals in the shades of their faces, those that lack lights darker."""
-    points = unmapped(view, parts.points)
+    points = view_points(view, parts.points)
     shades = corner_shades_of(view, lighting, points, parts.offsets, decals.face[parts.decal])
     shade = _shades(decals, parts, shades)
     for number in np.unique(decals.light[(decals.kind == FillKind.LIGHT) & (decals.light >= 0)]).tolist():

@@ -12,7 +12,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import mapped
+from vectorplot.visibility.painter.image_faces import image_points
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +44,7 @@ def laid(view: View, decals: Decals, points: Floats, offsets: Ints, source: Ints
     corner, starts = ragged.take(offset, pair)
     border, borders = ragged.take(offsets, piece)
     cut, ends, kept = clipped_by_convex(
-        mapped(view, shape[:, corner]), starts, points[:2, border], borders, tolerance=view.tolerance
+        image_points(view, shape[:, corner]), starts, points[:2, border], borders, tolerance=view.tolerance
     )
     decal, piece = which[pair[kept]], piece[kept]
     order = np.lexsort((decal, decals.level[decal], piece))

@@ -25,7 +25,7 @@ from vectorplot.geometry.convex.plane_cuts import cut_by_planes
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.light.painted_colours import opacities
-from vectorplot.visibility.painter.image_faces import ImageFaces, mapped, polygons_of
+from vectorplot.visibility.painter.image_faces import ImageFaces, image_points, polygons_of
 from vectorplot.visibility.painter.pairs.candidates import boxes_over
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import ProjectedFaces
@@ -213,7 +213,7 @@ def _panes_of(glass: _Glass, front: Ints, back: int) -> Panes:
     every = np.arange(len(front))
     outlines = replace(glass.solid.outlines(np.full(len(front), back)), source=every, way=front)
     backs = bent(view, glass.solid.passages(glass.front), outlines, glass.boxes, glass.tolerance)
-    faces = polygons_of(mapped(view, backs.points), backs.offsets, np.arange(len(backs)), view.tolerance)
+    faces = polygons_of(image_points(view, backs.points), backs.offsets, np.arange(len(backs)), view.tolerance)
     points, ends, face, pane = _in_panes(view, faces, backs.way, glass.panes)
     parts = ImageFaces(points, ends, faces.planes[:, face], glass.panes.faces.source[pane], faces.rank[face])
     return _open(glass, Panes(parts, backs.source[faces.source[face]], glass.panes.window[pane]))
@@ -247,7 +247,7 @@ def _behind(glass: _Glass, beams: Beams, soup: Soup) -> SeenThrough:
     used = np.unique(found.way)
     outlines = replace(solid.outlines(beams.back[used]), source=used, way=beams.front[used])
     backs = bent(view, solid.passages(glass.front), outlines, glass.boxes, glass.tolerance)
-    faces = polygons_of(mapped(view, backs.points), backs.offsets, np.arange(len(backs)), view.tolerance)
+    faces = polygons_of(image_points(view, backs.points), backs.offsets, np.arange(len(backs)), view.tolerance)
     points, ends, face, pane = _in_panes(view, faces, backs.way, glass.panes)
     source = glass.panes.faces.source[pane]
     parts = ImageFaces(points, ends, faces.planes[:, face], source, faces.rank[face])
@@ -284,7 +284,7 @@ def _shown(glass: _Glass, soup: Soup, lying: Soup, panes: Panes) -> SeenThrough:
     """Bent polygons as far as they are seen in the panes of their ways, back to front, each followed by the bent decals
     (lying, whose sources are their numbers) on its face."""
     view = glass.view
-    faces = polygons_of(mapped(view, soup.points), soup.offsets, np.arange(len(soup)), view.tolerance)
+    faces = polygons_of(image_points(view, soup.points), soup.offsets, np.arange(len(soup)), view.tolerance)
     points, offsets, face, pane = _in_panes(view, faces, soup.way, panes)
     if not len(pane):
         return nothing_seen()
@@ -311,7 +311,7 @@ def _shown(glass: _Glass, soup: Soup, lying: Soup, panes: Panes) -> SeenThrough:
 def _laid_on(glass: _Glass, parts: ImageFaces, face: Ints, way: Ints, lying: Soup) -> tuple[Ints, SeenThrough]:
     """Bent decals clipped with the parts (n,) of their faces on their ways: which part each lies on."""
     view = glass.view
-    marks = polygons_of(mapped(view, lying.points), lying.offsets, np.arange(len(lying)), view.tolerance)
+    marks = polygons_of(image_points(view, lying.points), lying.offsets, np.arange(len(lying)), view.tolerance)
     own_face, own_way = glass.decals.face[lying.source[marks.source]], lying.way[marks.source]
     pairs = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
     for mark, part in boxes_over(marks.box, parts.box, view.tolerance):

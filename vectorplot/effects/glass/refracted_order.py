@@ -10,7 +10,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry.convex.plane_cuts import polygon_areas
 from vectorplot.geometry.polylines import joined
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import ImageFaces, unmapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
 from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.painter.pairs.candidates import box_pairs
@@ -55,7 +55,7 @@ def _larger_first(parts: ImageFaces, face: Ints, count: int) -> Ints:
 
 def _pieces(view: View, parts: ImageFaces) -> ImageFaces:
     """Polygons back to front, each compared with each."""
-    points: Floats = unmapped(view, parts.points)
+    points: Floats = view_points(view, parts.points)
     corners = np.arange(points.shape[1])
     double = replace(
         view,

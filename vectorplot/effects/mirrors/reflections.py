@@ -18,7 +18,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, unmapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, view_points
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import ProjectedFaces, newell, project_faces
@@ -219,7 +219,7 @@ def _with_cut_faces(view: View, whole: Ints, cut: Ints, height: Floats) -> tuple
 
 def originals(view: View, mirrors: Mirrors, seen: SeenThrough) -> Floats:
     """(3,c) the points of the view that are seen at the corners of doubles: where shades are to be taken from."""
-    points = unmapped(view, seen.points)
+    points = view_points(view, seen.points)
     plane_of_face = np.full(view.face_count, -1, dtype=np.intp)
     plane_of_face[mirrors.face] = mirrors.plane
     plane = np.repeat(plane_of_face[seen.pane], np.diff(seen.offsets))

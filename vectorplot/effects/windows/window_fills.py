@@ -13,7 +13,7 @@ from vectorplot.effects.windows.window_polygons import SeenThrough
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.view import View
 from vectorplot.shading.light.painted_colours import Lighting, colours_of, corner_shades_of, opacities
-from vectorplot.visibility.painter.image_faces import unmapped
+from vectorplot.visibility.painter.image_faces import view_points
 
 
 def seen_fills(view: View, lighting: Lighting, seen: SeenThrough, placement: Placement, kind: FillKind) -> Overlay:
@@ -21,7 +21,7 @@ def seen_fills(view: View, lighting: Lighting, seen: SeenThrough, placement: Pla
 
     Degenerate: nothing seen gives nothing. Source: Glaeser, sections 6.4 and 6.6.
     """
-    shades = corner_shades_of(view, lighting, unmapped(view, seen.points), seen.offsets, seen.source)
+    shades = corner_shades_of(view, lighting, view_points(view, seen.points), seen.offsets, seen.source)
     source = np.repeat(seen.source, np.diff(seen.offsets))
     fills = fills_on_page(
         view,

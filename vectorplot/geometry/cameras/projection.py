@@ -219,7 +219,7 @@ class CoordinateSystem:
         return np.asarray(result)
 
 
-def switched(points: ArrayLike, source: CoordinateSystem, target: CoordinateSystem) -> Floats:
+def changed_coordinates(points: ArrayLike, source: CoordinateSystem, target: CoordinateSystem) -> Floats:
     """Points (..., 3) of one system in another, such as from the screen to a lamp. Source: Glaeser, section 2.4."""
     return target.from_world(source.to_world(points))
 

@@ -28,7 +28,7 @@ def scaled(placement: Placement, x: float, y: float, z: float) -> Placement:
     return (x * a, x * b, x * c, x * t, y * d, y * e, y * f, y * u, z * g, z * h, z * i, z * v)
 
 
-def mapped(placement: Placement, rows: Placement) -> Placement:
+def affinely_mapped(placement: Placement, rows: Placement) -> Placement:
     """A placement followed by an affine map: the first three rows of its matrix (4,4)."""
     if placement == IDENTITY:
         return rows
@@ -85,7 +85,7 @@ def read_matrix(words: Words, at: int, owner: str, placement: Placement) -> tupl
         determinant = np.linalg.det(np.array(rows).reshape(3, 4)[:, :3])
     if not determinant:
         words.fail(at, f"{owner}matrix: its determinant is 0")
-    return _finite(words, at, owner, mapped(placement, tuple(rows))), end
+    return _finite(words, at, owner, affinely_mapped(placement, tuple(rows))), end
 
 
 def _finite(words: Words, at: int, owner: str, placement: Placement) -> Placement:

@@ -9,7 +9,7 @@ from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
 from vectorplot.shading.light.painted_colours import Lighting, corner_shades_of, smooth_faces
 from vectorplot.tolerances.of_numbers import ROUNDING
-from vectorplot.visibility.painter.image_faces import unmapped
+from vectorplot.visibility.painter.image_faces import view_points
 
 SHADE_ERROR = 2.0 / 255.0
 """By how much of a palette shades in the middle of sides may be off."""
@@ -88,7 +88,7 @@ def _badly_shaded(view: View, lighting: Lighting, triangles: Floats, source: Int
     one, two = triangles[some], after[some]
     within = (one[:, None] * (1.0 - BETWEEN) + two[:, None] * BETWEEN).reshape(len(some), -1, 3)
     both = np.concatenate([one, within], axis=1)
-    flat, count = unmapped(view, np.ascontiguousarray(both.reshape(-1, 3).T)), both.shape[1]
+    flat, count = view_points(view, np.ascontiguousarray(both.reshape(-1, 3).T)), both.shape[1]
     offsets = np.arange(0, count * len(some) + 1, count)
     shade = np.atleast_2d(corner_shades_of(view, lighting, flat, offsets, source[some]).total)
     shade = shade.reshape(-1, len(some), 1 + len(BETWEEN), 3)

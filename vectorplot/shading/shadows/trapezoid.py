@@ -196,7 +196,7 @@ def tapered_map(points: ArrayLike, axis: Axis, taper: float) -> Floats:
     return np.stack([right, upward, weight])
 
 
-def mapped(matrix: Floats, points: ArrayLike) -> Floats:
+def projective_images(matrix: Floats, points: ArrayLike) -> Floats:
     """(..., 2) points (..., 2) after a projective map (3, 3)."""
     p = np.asarray(points, dtype=np.float64)
     h = p @ matrix[:, :2].T + matrix[:, 2]
@@ -205,7 +205,7 @@ def mapped(matrix: Floats, points: ArrayLike) -> Floats:
 
 def focus_area(matrix: Floats, focus_points: ArrayLike) -> float:
     """The area that the convex hull of points (n, 2) has in the map, as part of it. Degenerate: 0 on a line."""
-    p = mapped(matrix, focus_points)
+    p = projective_images(matrix, focus_points)
     hull = convex_hull(p)
     after = np.roll(hull, -1, axis=0)
     return float((hull[:, 0] * after[:, 1] - hull[:, 1] * after[:, 0]).sum()) / 8.0

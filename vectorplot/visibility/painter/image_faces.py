@@ -114,17 +114,18 @@ def image_faces(view: View, which: Ints) -> ImageFaces:
     position, offsets = ragged.take(view.offsets, which)
     corner = view.corners[position]
     if view.eye is None or not (view.depth[corner] < view.near).any():
-        return polygons_of(mapped(view, view.points)[:, corner], offsets, which, view.tolerance)
+        return polygons_of(image_points(view, view.points)[:, corner], offsets, which, view.tolerance)
     points = view.points[:, corner]
     cut, _ = cut_polygons(Polygons(points.T, offsets), view.depth_of(points) - view.near)
     full = np.flatnonzero(np.diff(cut.offsets))
     offsets = np.append(cut.offsets[full], len(cut.points))
-    return polygons_of(mapped(view, cut.points.T), offsets, which[full], view.tolerance)
+    return polygons_of(image_points(view, cut.points.T), offsets, which[full], view.tolerance)
 
 
-def mapped(view: View, points: Floats) -> Floats:
-    """(3,n) points (3,n) of the view after the projective map; without meaning where they are nearer than the near
-    plane."""
+def image_points(view: View, points: Floats) -> Floats:
+    """(3,n) x and y in the image, and heights that grow towards the eye, of points (3,n) of the view: the projective
+    map that makes sight lines parallel. Without meaning where they are nearer than the near plane.
+    """
     if view.eye is None:
         height = points[2]
     else:
@@ -135,8 +136,8 @@ def mapped(view: View, points: Floats) -> Floats:
     return np.concatenate([view.image_of(points), height[None]])
 
 
-def unmapped(view: View, points: Floats) -> Floats:
-    """(3,n) the points of the view of which points (3,n) are the images and heights: the inverse of mapped.
+def view_points(view: View, points: Floats) -> Floats:
+    """(3,n) the points of the view of which points (3,n) are the images and heights: the inverse of image_points.
 
     Source: Glaeser, section 2.4 (the transformation T2).
     """
@@ -148,7 +149,8 @@ def unmapped(view: View, points: Floats) -> Floats:
 
 
 def polygons_of(points: Floats, offsets: Ints, source: Ints, tolerance: float) -> ImageFaces:
-    """Polygons of mapped corners (3,c), all turned counter-clockwise; those narrower than the tolerance left out.
+    """Polygons of corners (3,c) as of image_points, all turned counter-clockwise; those narrower than the tolerance
+    left out.
 
     Where faces lie in one plane the larger one is drawn first; of equal ones the lower, the left one, the one nearer
     to the lower border of the image, and at last the one listed first.

@@ -19,7 +19,7 @@ from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import ABOUT_AXIS
 from vectorplot.visibility.painter.cutting import cut_into_order
-from vectorplot.visibility.painter.image_faces import ImageFaces, mapped, polygons_of, unmapped
+from vectorplot.visibility.painter.image_faces import ImageFaces, image_points, polygons_of, view_points
 from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.pairs.candidates import box_pairs
 from vectorplot.visibility.painter.pairs.face_pairs import drawn_before
@@ -71,12 +71,12 @@ def in_slices(view: View, faces: ImageFaces, planes: Section) -> Slices:
     normal = view.axes @ np.array(planes.normal)
     frame = axis_frame(normal)
     levels = (np.unique(planes.offsets) - np.dot(planes.normal, view.centre)) / view.scale
-    points = unmapped(view, faces.points).T @ frame.T
+    points = view_points(view, faces.points).T @ frame.T
     above = np.minimum(np.searchsorted(levels, points[:, 2] - view.tolerance), len(levels) - 1)
     points[:, 2] = np.where(np.abs(points[:, 2] - levels[above]) <= view.tolerance, levels[above], points[:, 2])
     pieces, parent, slice_ = cut_into_slices(points, faces.offsets, 2, levels)
     made = polygons_of(
-        mapped(view, np.ascontiguousarray((pieces.points @ frame).T)),
+        image_points(view, np.ascontiguousarray((pieces.points @ frame).T)),
         pieces.offsets,
         np.arange(len(parent)),
         view.tolerance,
@@ -186,7 +186,7 @@ def _about_axis(view: View, slices: Slices) -> tuple[Floats, Floats, Floats, Flo
     """The sector of every piece about the axis through the eye, from low to high (p,), and its smallest and largest
     distance from it; where sight lines are parallel, the strip along them, and how far it is down them."""
     offsets = slices.faces.offsets
-    level = slices.frame[:2] @ unmapped(view, slices.faces.points)
+    level = slices.frame[:2] @ view_points(view, slices.faces.points)
     if view.eye is None:
         towards = slices.frame[:2, 2]
         length = float(np.hypot(*towards))

@@ -25,7 +25,7 @@ OUTLINES = (LineKind.CONTOUR, LineKind.BOUNDARY)
 """Kinds of curves to one side of which there is nothing of their sheet."""
 
 
-def with_curves(
+def cut_lines_and_chords(
     view: View,
     traced: TracedScene,
     lines: Lines,
@@ -46,7 +46,7 @@ def with_curves(
     return _as_lines(view, traced, lines, curves, found), doubts
 
 
-def with_whole_curves(view: View, traced: TracedScene, lines: Lines) -> Lines:
+def whole_lines_and_chords(view: View, traced: TracedScene, lines: Lines) -> Lines:
     """Straight lines and the chords of curves, from end to end, as if nothing hid them."""
     curves = together([traced.curves, _straight(lines)])
     pieces = cut(curves, all_events([]), 0)
