@@ -8,7 +8,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.pools import pools
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.view import View, look
-from vectorplot.shading.shadows.shadow_buffer import light_system
+from vectorplot.shading.shadows.shadow_buffer import aimed_system
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.testing.shapes import box, rotated_boxes
 from vectorplot.visibility.polyhedra.occluders import solid_items
@@ -72,7 +72,7 @@ def test_every_lights_pool_is_what_it_sees_point_by_point(count: int, size: floa
     for light in scene.lights:
         place = tuple(np.add(middle, light.position)) if light.parallel else light.position
         view = look(scene, Camera(place, middle, parallel=light.parallel))
-        system = light_system(light, scene.vertices)
+        system = aimed_system(light, scene.vertices)
         for number, point in enumerate(scene.vertices):
             x, y, z = system.from_world(point)
             ahead = view.scale * (view.points[2, number] - view.target[2])

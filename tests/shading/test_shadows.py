@@ -30,8 +30,8 @@ from vectorplot.shading.shadows.seen_region import focus_of_depths, region_in_pi
 from vectorplot.shading.shadows.shadow_buffer import (
     LONGEST,
     ShadowBuffer,
+    aimed_system,
     is_inside,
-    light_system,
     shadow_buffer,
     shape_of,
 )
@@ -207,7 +207,7 @@ def test_the_lamps_plane_of_sun_and_lamp():
 def test_depths_of_a_tapered_map_are_the_lamps_own(light):
     points, corners = field()
     region = seen_region(raster_system(FIELD_CAMERA, COLUMNS, ROWS), COLUMNS, ROWS, bounds(points))
-    system = light_system(light, points)
+    system = aimed_system(light, points)
     tapered = shadow_map(system, trapezoid_frame(system, region, 0.8), points, corners, 700, 700)
     assert np.ptp(tapered.texel_from_light[2, :2]) > 0.0, "it has a taper"
     row, column = np.nonzero(tapered.code)
@@ -225,7 +225,7 @@ def test_depths_put_right_at_the_vertices_are_right_only_there(light):
     region = seen_region(
         raster_system(FIELD_CAMERA, COLUMNS, ROWS), COLUMNS, ROWS, bounds(points) + np.array([[0.0], [4.0]])
     )
-    system = light_system(light, points)
+    system = aimed_system(light, points)
     tapered = shadow_map(system, trapezoid_frame(system, region, 0.8), points, corners, 200, 200)
     inner = np.array([(x, y, 0.0) for x in (-5.0, 5.0) for y in (-80.0, -40.0, 20.0)])
     true = system.homogeneous(inner)
@@ -366,7 +366,7 @@ def test_a_frustum_without_taper_falls_to_the_rectangle():
     points, corners = sample(2)
     camera = Camera((0, -1e7, 3e6), (0, 0, 0), fov_deg=1e-4)
     region = seen_region(raster_system(camera, COLUMNS, ROWS), COLUMNS, ROWS, bounds(points))
-    system = light_system(SUN, points)
+    system = aimed_system(SUN, points)
     matrix = trapezoid_frame(system, region, 0.8)
     assert np.isfinite(matrix).all()
     assert np.linalg.matrix_rank(matrix) == 3
@@ -413,7 +413,7 @@ def test_nothing_casts_no_shadow_and_impossible_maps_are_refused():
     none = shadow_buffer(SUN, np.zeros((0, 3)), np.zeros((0, 3), dtype=np.intp))
     assert not none.blocks([(0.0, 0.0, 0.0)], [(0.0, 0.0, 1.0)]).any()
     flat = shadow_map(
-        light_system(SUN, points), standard_frame(np.eye(2)), points[:0], np.zeros((0, 3), dtype=np.intp), 64, 64
+        aimed_system(SUN, points), standard_frame(np.eye(2)), points[:0], np.zeros((0, 3), dtype=np.intp), 64, 64
     )
     assert not flat.code.any()
     for options in ({"bits": 12}, {"frame": "round"}, {"frame": "box"}, {"size": 2}, {"size": 10**6}):

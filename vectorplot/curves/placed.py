@@ -13,9 +13,32 @@ from vectorplot.curves.parameters import invertible, vector
 from vectorplot.curves.second_derivatives import second_derivatives
 
 
+class Placed:
+    """Something with its points x at x @ matrix + shift, matrix (3,3) and shift (3,); rotations as in
+    geometry.rotations. Dataclasses with these two fields derive from it.
+
+    Errors: InputError for a matrix (3,3) that cannot be inverted, a shift that is not three numbers.
+    """
+
+    matrix: ArrayLike
+    shift: ArrayLike
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "matrix", invertible("a placement", self.matrix))
+        object.__setattr__(self, "shift", vector("placement: shift", self.shift))
+
+    def placed_points(self, points: Floats) -> Floats:
+        """(..., 3) where points (..., 3) are placed."""
+        return np.asarray(points @ np.asarray(self.matrix) + np.asarray(self.shift))
+
+    def placed_vectors(self, vectors: Floats) -> Floats:
+        """(..., 3) what vectors (..., 3) become, such as derivatives: they are turned and scaled, not shifted."""
+        return np.asarray(vectors @ np.asarray(self.matrix))
+
+
 @dataclass(frozen=True, eq=False)
-class PlacedCurve:
-    """A curve with its points x at x @ matrix + shift; rotations as in geometry.rotations.
+class PlacedCurve(Placed):
+    """A curve that is Placed: its points x at x @ matrix + shift.
 
     Errors: InputError for a matrix (3,3) that cannot be inverted, a shift that is not three numbers.
     """
@@ -23,10 +46,6 @@ class PlacedCurve:
     curve: Curve
     matrix: ArrayLike
     shift: ArrayLike = (0.0, 0.0, 0.0)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "matrix", invertible("a placement", self.matrix))
-        object.__setattr__(self, "shift", vector("placement: shift", self.shift))
 
     @property
     def start(self) -> float:
@@ -45,12 +64,12 @@ class PlacedCurve:
 
     def points(self, t: Floats) -> Floats:
         """(..., 3) points."""
-        return np.asarray(self.curve.points(t) @ np.asarray(self.matrix) + np.asarray(self.shift))
+        return self.placed_points(self.curve.points(t))
 
     def tangents(self, t: Floats) -> Floats:
         """(..., 3) derivatives by t."""
-        return np.asarray(self.curve.tangents(t) @ np.asarray(self.matrix))
+        return self.placed_vectors(self.curve.tangents(t))
 
     def second_derivatives(self, t: Floats) -> Floats:
         """(..., 3) second derivatives by t."""
-        return np.asarray(second_derivatives(self.curve, t) @ np.asarray(self.matrix))
+        return self.placed_vectors(second_derivatives(self.curve, t))

@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
-from vectorplot.curves.parameters import invertible, vector
+from vectorplot.curves.placed import Placed
 from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
 
 
 @dataclass(frozen=True, eq=False)
-class PlacedSurface:
-    """A parametrised surface with its points x at x @ matrix + shift; rotations as in geometry.rotations.
+class PlacedSurface(Placed):
+    """A parametrised surface that is Placed: its points x at x @ matrix + shift.
 
     Errors: InputError for a matrix (3,3) that cannot be inverted, a shift that is not three numbers.
     """
@@ -26,10 +26,6 @@ class PlacedSurface:
     matrix: ArrayLike
     shift: ArrayLike = (0.0, 0.0, 0.0)
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "matrix", invertible("a placement", self.matrix))
-        object.__setattr__(self, "shift", vector("placement: shift", self.shift))
-
     @property
     def domain(self) -> Domain:
         """That of the surface."""
@@ -37,18 +33,17 @@ class PlacedSurface:
 
     def points(self, u: Floats, v: Floats) -> Floats:
         """(..., 3) points."""
-        return np.asarray(self.surface.points(u, v) @ np.asarray(self.matrix) + np.asarray(self.shift))
+        return self.placed_points(self.surface.points(u, v))
 
     def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
         """(..., 3) derivatives by u and by v."""
         a, b = self.surface.partials(u, v)
-        return a @ np.asarray(self.matrix), b @ np.asarray(self.matrix)
+        return self.placed_vectors(a), self.placed_vectors(b)
 
     def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
         """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
         uu, uv, vv = self.surface.second_partials(u, v)
-        m = np.asarray(self.matrix)
-        return uu @ m, uv @ m, vv @ m
+        return self.placed_vectors(uu), self.placed_vectors(uv), self.placed_vectors(vv)
 
 
 @runtime_checkable
@@ -87,8 +82,8 @@ def placed_once(surface: Surface, matrix: ArrayLike, shift: ArrayLike, origin: A
 
 
 @dataclass(frozen=True, eq=False)
-class PlacedImplicit:
-    """An implicit surface with its points x at x @ matrix + shift; the box is the one around the moved box.
+class PlacedImplicit(Placed):
+    """An implicit surface that is Placed: its points x at x @ matrix + shift; the box is the one around the moved box.
 
     Errors: InputError for a matrix (3,3) that cannot be inverted, a shift that is not three numbers.
     """
@@ -97,15 +92,11 @@ class PlacedImplicit:
     matrix: ArrayLike
     shift: ArrayLike = (0.0, 0.0, 0.0)
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "matrix", invertible("a placement", self.matrix))
-        object.__setattr__(self, "shift", vector("placement: shift", self.shift))
-
     @property
     def box(self) -> Floats:
         """(2,3) the box around the eight moved corners."""
         corners = np.array([[box[i] for box, i in zip(self.surface.box.T, pick, strict=True)] for pick in _PICKS])
-        moved = corners @ np.asarray(self.matrix) + np.asarray(self.shift)
+        moved = self.placed_points(corners)
         return np.stack([moved.min(axis=0), moved.max(axis=0)])
 
     def values(self, points: Floats) -> Floats:

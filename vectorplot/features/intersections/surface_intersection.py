@@ -24,7 +24,7 @@ from vectorplot.features.intersections.surface_pairs import Traced, traced, with
 from vectorplot.features.intersections.triangle_pairs import Piercings, overlapping_triangles, piercings
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.tessellation import finer_grids
-from vectorplot.geometry import ragged
+from vectorplot.geometry.chord_refinement import Traces
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT, ONE_POINT_OF_EXTENT, ZERO_OF_EXTENT
@@ -183,8 +183,5 @@ def doubts_about(all_: Joined) -> tuple[str, ...]:
 def repeats_dropped(all_: Joined) -> tuple[Bools, Ints, Bools]:
     """Which points to keep, since closed curves repeat their first; offsets (m+1,) then, and closed (m,)."""
     closed = np.array([c.closed for c in all_.courses], dtype=np.bool_)
-    last: Ints = np.flatnonzero(all_.points.last)
-    kept = np.ones(len(all_.points.last), dtype=np.bool_)
-    kept[last[closed]] = False
-    sizes = np.diff(last, prepend=-1) - closed
-    return kept, ragged.offsets(sizes), closed
+    kept, offsets = Traces(all_.points.one, all_.points.last).unrepeated(closed)
+    return kept, offsets, closed

@@ -106,7 +106,7 @@ def shadow_buffer(
         half = max(size // 2, 4), max((rows or size) // 2, 4)
         maps = (_side_map(light, way, p, corners, half, bits, biased) for way in SIDES)
         return ShadowBuffer(tuple(maps))
-    system = light_system(light, p)
+    system = aimed_system(light, p)
     matrix = _frame(system, p, frame, region)
     if wanted_focus is not None and region is not None and len(region.points):
         size = adapted_size(size, _focus_share(system, matrix, region), wanted_focus, int(LONGEST) * size)
@@ -179,8 +179,8 @@ def _affordable_size(lights: Sequence[Light], points: Floats, maps: MapSettings)
     return smaller
 
 
-def light_system(light: Light, points: Floats) -> CoordinateSystem:
-    """The system of a light, with its target in the middle of the points (n, 3)."""
+def aimed_system(light: Light, points: Floats) -> CoordinateSystem:
+    """The coordinate system of a light that looks at the middle of the points (n, 3)."""
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
     if light.parallel:
         return CoordinateSystem.of_parallel_light(light.position, middle)

@@ -18,7 +18,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.cameras.projection import CoordinateSystem
 from vectorplot.scene.scene import Light
 from vectorplot.shading.raster.screen import ScreenTriangles, screen_triangles
-from vectorplot.shading.shadows.shadow_buffer import SIDES, is_inside, light_system
+from vectorplot.shading.shadows.shadow_buffer import SIDES, aimed_system, is_inside
 from vectorplot.shading.shadows.shadow_map import standard_frame
 from vectorplot.tolerances.of_extent import LAMP_OF_EXTENT, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import INFINITE
@@ -48,7 +48,7 @@ def blocked_exactly(light: Light, points: ArrayLike, triangle: Ints, vertices: A
         return result
     extent = float(np.ptp(v, axis=0).max())
     if not is_inside(light, v):
-        return _blocked(light_system(light, v), None, p, triangle, v, corners, extent)
+        return _blocked(aimed_system(light, v), None, p, triangle, v, corners, extent)
     place = np.asarray(light.position, dtype=np.float64)
     for way in SIDES:
         system = CoordinateSystem.of_light(place, place + extent * way)
