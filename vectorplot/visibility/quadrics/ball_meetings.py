@@ -8,14 +8,17 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.exact import intervals
 from vectorplot.features.meshes.mesh_intersections import overlapping_boxes
 from vectorplot.geometry import ragged
+from vectorplot.geometry.records import joined
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_lengths import UNION_OF_SEGMENT
 from vectorplot.tolerances.of_values import HOMOTHETIC
 from vectorplot.visibility.polyhedra.hidden_lines import SLIVER
+from vectorplot.visibility.projected_faces import newell
 from vectorplot.visibility.quadrics.arcs import OwnSides, arcs_on
 from vectorplot.visibility.quadrics.ball_arcs import Found, on_balls, plane_circles, unit_planes
 from vectorplot.visibility.quadrics.balls import Balls
+from vectorplot.visibility.quadrics.sight import Sight
 from vectorplot.words import LineKind
 
 
@@ -75,12 +78,7 @@ def balls_with_balls(balls: Balls, one: Ints, two: Ints, wants: Bools) -> Found:
     arcs, first = on_balls(balls, circles, LineKind.INTERSECTION, one)
     arcs.own[:, 1] = two
     second = np.flatnonzero(balls.hides[two])
-    sides = (
-        np.concatenate([first.arc, second]),
-        np.concatenate([first.form, balls.polar_planes(two[second])]),
-        np.concatenate([first.item, balls.item[two[second]]]),
-    )
-    return arcs, OwnSides(*sides)
+    return arcs, joined((first, OwnSides(second, balls.polar_planes(two[second]), balls.item[two[second]])))
 
 
 def balls_with_faces(view: View, balls: Balls, wants: Bools) -> Found:
@@ -99,15 +97,25 @@ def balls_with_faces(view: View, balls: Balls, wants: Bools) -> Found:
     ball, face = overlapping_boxes((balls.centre - balls.reach).T, (balls.centre + balls.reach).T, low, high)
     kept = wants[balls.item[ball]] | wants[view.face_item[face]]
     ball, face = ball[kept], face[kept]
-    normals, origin = _newell(points, view, np.unique(face))
-    place = np.searchsorted(np.unique(face), face)
-    normal, origin = normals[place], origin[place]
+    normal, origin = _planes(view, sight, face)
     good = dot(normal, normal) > 0.0
     ball, face, normal, origin = ball[good], face[good], normal[good], origin[good]
     met, s, height = unit_planes(balls, ball, normal, origin)
     ball, face, normal = ball[met], face[met], normal[met]
     middle, first, second = balls.circles(ball, s, height)
     return _within_faces(view, points, balls, (middle, first, second), ball, face, normal, wants)
+
+
+def _planes(view: View, sight: Sight, face: Ints) -> tuple[Floats, Floats]:
+    """Unit normals (n,3) of faces (n,) in the coordinates of sight, zero where there are none, and a corner of each."""
+    which, number = np.unique(face, return_inverse=True)
+    area, _, first = newell(view, which)
+    # Coordinates of sight are mirrored ones: there a normal shows to the other side.
+    normal = -sight.vectors(area.T)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        normal = normal / np.sqrt(dot(normal, normal))[:, None]
+    unit = np.where(np.isfinite(normal), normal, 0.0)
+    return unit[number], sight.points(view.points[:, first].T)[number]
 
 
 def _within_faces(
@@ -155,16 +163,3 @@ def _within_faces(
     arcs = arcs_on((middle[of], first[of], second[of]), (low, high), LineKind.INTERSECTION, item, own)
     hiding = np.flatnonzero(balls.hides[ball[of]])
     return arcs, OwnSides(hiding, balls.polar_planes(ball[of[hiding]]), balls.item[ball[of[hiding]]])
-
-
-def _newell(points: Floats, view: View, face: Ints) -> tuple[Floats, Floats]:
-    """Unit normals (f,3) of faces by their corners' sum of cross products, and a corner of each."""
-    size = view.face_sizes[face]
-    position = ragged.ranges(view.offsets[face], size)
-    origin = points[view.corners[view.offsets[face]]]
-    base = np.repeat(origin, size, axis=0)
-    areas = cross(points[view.corners[position]] - base, points[view.corners[view.after(position)]] - base)
-    normal = np.add.reduceat(areas, ragged.starts(size), axis=0) if len(face) else areas
-    with np.errstate(divide="ignore", invalid="ignore"):
-        unit = normal / np.sqrt(dot(normal, normal))[:, None]
-    return np.where(np.isfinite(unit), unit, 0.0), origin

@@ -17,10 +17,10 @@ from vectorplot.visibility.quadrics.sight import Sight
 class Covers:
     """Regions of space in which everything is hidden.
 
-    cover k hides the points X = (x,y,z,1) with linear[j,:,k].X > 0 for all j and, if there are squares, with
-    squares[0,:,k].X squared larger than the sum of the squares of the others. slack (n,): what counts as zero of the
-    difference, where squares[0,:,k].X is 1. linear (l,4,n) have gradients of length 1. body (n,), item (n,); box (4,n)
-    in the image; nearest, farthest (n,) depth.
+    Cover k hides the points X = (x,y,z,1) with linear[j,:,k].X > 0 for all j and, if there are squares, with
+    squares[0,:,k].X squared larger than the sum of the squares of the others. linear (l,4,n): forms with gradients of
+    length 1; squares (q,4,n): forms; slack (n,): what counts as zero of the difference, where squares[0,:,k].X is 1.
+    body (n,): the ball; item (n,); box (4,n) left, right, bottom, top in the image; nearest, farthest (n,) depth.
     """
 
     linear: Floats

@@ -24,6 +24,7 @@ IN_SLAB, FEWEST_SLABS, MOST_SLABS = 1500, 4, 24
 """Covers are tried front to back in slabs of about so many, so that what is hidden early drops out."""
 
 OWN_AT_ONCE = 1 << 16
+"""Arcs that their own bodies hide are looked at so many at once: more would need much memory."""
 
 
 @dataclass(frozen=True, eq=False)
