@@ -138,8 +138,8 @@ def test_no_light_between_faces_in_the_shadow(height: float, opacity: float) -> 
     scene = Scene((Item("FLOOR", floor(height)), roof), (Light((0.3, 0.2, 1.0), parallel=True, intensity=1.0),))
     drawing = paint(scene, Camera((9, -14, 11), (0, 0, 0.5), fov_deg=30.0), page=Page(90.0, 70.0, 4.0))
     for dpi in (110, 170):
-        # Borders of shaded triangles are drawn in more than one way. On even ones floor, shadow and roof are each rounded
-        # by half a level.
+        # Borders of shaded triangles are drawn in more than one way. On even ones floor, shadow and roof are each
+        # rounded by half a level.
         limit = 8.0 if height > 0.0 else 1.5
         found = 255.0 * grey_of_png(png_bytes(drawing, dpi=dpi))
         fine = 255.0 * grey_of_png(png_bytes(drawing, dpi=FINER * dpi))
