@@ -133,3 +133,19 @@ def test_graphs_with_holes_at_their_borders_are_painted(text: str) -> None:
     (fills,) = drawing.layers[0].marks
     # Its square is shown, less what is cut off.
     assert len(fills) > 50 and (np.ptp(fills.points, axis=0) > 50.0).all()
+
+
+@pytest.mark.parametrize("lamps", [1, 4])
+def test_waves_without_an_end_are_painted_in_the_light_of_lamps(lamps: int) -> None:
+    places = [(3.0, -2.0, 5.0), (-4.0, -3.0, 4.0), (1.0, -3.0, 4.0), (0.0, 4.0, 3.0)][:lamps]
+    lights = tuple(vp.Light(place, name=f"L{k}") for k, place in enumerate(places))
+    scene = vp.Scene((vp.Item("WAVES", graph_of("sin(1/hypot(x,y))")),), lights=lights)
+    before = time.process_time()
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", InputWarning)
+        drawing = vp.paint(scene, vp.Camera((5.0, -7.0, 5.0), (0.0, 0.0, 0.0)), page=PAGE, budget=0.1)
+    assert time.process_time() - before < 0.25 * SECONDS
+    (line,) = [str(entry.message) for entry in caught if "shadows" in str(entry.message)]
+    assert line.startswith("WAVES: ") and ", ".join(light.name for light in lights) in line
+    (fills,) = drawing.layers[0].marks
+    assert len(fills) > 1 << 13

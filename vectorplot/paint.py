@@ -394,20 +394,22 @@ def _shaded(
     seen = replace(seen, faces=_finer(seen, lighting, budget.facets))
     shades = walk.run("shades", _shades, seen, lighting)
     aura = aura_mm / seen.placement.scale
-    decals, lighting = _decals(walk, seen, lighting, aura)
+    decals, lighting = _decals(walk, seen, lighting, aura, budget)
     laid = _laid(seen, lighting, decals)
-    overlays = _overlays(walk, seen, lighting, decals, aura, tolerance_mm)
+    overlays = _overlays(walk, seen, lighting, decals, aura, tolerance_mm, budget)
     return walk.run("fills", _fills, walk, seen, lighting, shades, laid, overlays, page)
 
 
-def _decals(walk: Walk, seen: _Seen, lighting: Lighting, aura: float) -> tuple[tuple[Decals, ...], Lighting]:
+def _decals(
+    walk: Walk, seen: _Seen, lighting: Lighting, aura: float, budget: Budget
+) -> tuple[tuple[Decals, ...], Lighting]:
     """The polygons that lie on faces, in the order in which they are painted."""
     scene, view, projected = seen.scene, seen.view, seen.projected
     found: list[Decals] = []
     if walk.calls_for("shadows"):
         from vectorplot.effects.decals.scene_decals import scene_shadows
 
-        found.append(walk.run("shadows", scene_shadows, view, scene.lights, projected, aura))
+        found.append(walk.run("shadows", scene_shadows, view, scene.items, scene.lights, projected, aura, budget))
     if walk.calls_for("mirror light"):
         from vectorplot.effects.decals.scene_decals import scene_mirror_light
 
@@ -422,7 +424,7 @@ def _decals(walk: Walk, seen: _Seen, lighting: Lighting, aura: float) -> tuple[t
     if walk.calls_for("clear shadows"):
         from vectorplot.effects.shadows.transparent_shadows import clear_shadows
 
-        clear = partial(clear_shadows, projected=projected)
+        clear = partial(clear_shadows, projected=projected, budget=budget)
         found.append(walk.run("clear shadows", clear, view, scene, scene.lights, found[0] if found else None))
     return tuple(found), lighting
 
@@ -437,7 +439,13 @@ def _laid(seen: _Seen, lighting: Lighting, decals: tuple[Decals, ...]) -> tuple[
 
 
 def _overlays(
-    walk: Walk, seen: _Seen, lighting: Lighting, decals: tuple[Decals, ...], aura: float, tolerance_mm: float
+    walk: Walk,
+    seen: _Seen,
+    lighting: Lighting,
+    decals: tuple[Decals, ...],
+    aura: float,
+    tolerance_mm: float,
+    budget: Budget,
 ) -> tuple[Overlay, ...]:
     """What polygons of the picture show, painted right after them and what lies on them.
 
@@ -453,7 +461,7 @@ def _overlays(
         borders = aura if walk.calls_for("shadows") else None
 
         def decals_of(number: int, there: Lighting, which: Bools) -> tuple[Decals, ...]:
-            return double_decals(seen.scene, seen.view, shown, number, there, which, borders)
+            return double_decals(seen.scene, seen.view, shown, number, there, which, borders, budget)
 
         found.append(
             walk.run("reflections", reflection_fills, seen.view, lighting, shown, decals_of, seen.faces, seen.placement)

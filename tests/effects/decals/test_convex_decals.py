@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import tracemalloc
+
 import numpy as np
 
 from vectorplot.effects.decals.convex_decals import convex_decals
+from vectorplot.effects.decals.decal_polygons import Decals
 from vectorplot.effects.shadows.shadow_decals import shadow_decals
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.plane_cuts import polygon_areas
@@ -32,3 +35,21 @@ def test_parts_are_convex_and_as_large_and_other_faces_keep_their_decals() -> No
         turns = np.cross(sides, np.roll(sides, -1, axis=0))
         assert (turns @ turns.sum(axis=0) > -1e-9).all() or not floor_only[found.face[found.offsets[:-1] == begin]]
     assert convex_decals(view, decals, ~floor_only & False) is decals
+
+
+def test_a_decal_of_many_corners_takes_memory_in_proportion() -> None:
+    count = 3000
+    view = look(numbered([box((-4, -4, -1), (4, 4, 0))]), Camera((0, 0, 12)))
+    heights = view.world_of(view.points[:, view.corners])[:, 2].reshape(-1, 4).min(axis=1)
+    top = int(np.argmax(heights))
+    angle = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)
+    reach = np.where(np.arange(count) % 2, 1.0, 2.0)
+    world = np.stack([reach * np.cos(angle), reach * np.sin(angle), np.zeros(count)], axis=1)
+    none = np.zeros(1, dtype=np.intp)
+    star = Decals(view.points_of(world), np.array([0, count]), none + top, none + 1, none, none, none - 1, none)
+    tracemalloc.start()
+    found = convex_decals(view, star, np.ones(view.face_count, dtype=np.bool_))
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert len(found) == count - 2 and (found.face == top).all()
+    assert peak < 1e7

@@ -10,13 +10,8 @@ from support.effort import several
 from vectorplot.arrays import Floats
 from vectorplot.effects.shadows.light_system import FacePlanes, light_system
 from vectorplot.effects.shadows.shadow_casters import shadow_casters
-from vectorplot.effects.shadows.shadow_decals import (
-    Receivers,
-    candidates,
-    cast_shadows,
-    shadow_crossings,
-    shadow_decals,
-)
+from vectorplot.effects.shadows.shadow_decals import cast_shadows, shadow_crossings, shadow_decals
+from vectorplot.effects.shadows.shadow_pairs import Receivers, candidates
 from vectorplot.errors import InputError
 from vectorplot.geometry.bodies_of_revolution import revolution
 from vectorplot.geometry.cameras.camera import Camera

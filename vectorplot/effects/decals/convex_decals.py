@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
@@ -31,7 +29,7 @@ def convex_decals(view: View, decals: Decals, chosen: Bools) -> Decals:
     parts, of = triangles_of(polygons)
     corners, offsets = corners_of(parts)
     of = bent[of]
-    cut = replace(some.of(of), points=frames.lifted(corners, np.repeat(of, np.diff(offsets))), offsets=offsets)
+    cut = some.parts(of, frames.lifted(corners, np.repeat(of, np.diff(offsets))), offsets)
     rest = np.ones(len(decals), dtype=np.bool_)
     rest[which[bent]] = False
     return joined_decals(decals.of(np.flatnonzero(rest)), cut)

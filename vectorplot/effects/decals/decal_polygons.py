@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some, with_points
 from vectorplot.geometry.records import IN_COLUMNS
 
 
@@ -45,6 +45,12 @@ class Decals:
     def of(self, decals: Ints) -> Decals:
         """Some of the decals, given by their numbers, in that order."""
         return some(self, decals)
+
+    def parts(self, decals: Ints, points: Floats, offsets: Ints) -> Decals:
+        """Polygons with corners points (3,c), offsets (k+1,), each a part of one of the decals (k,)."""
+        # Not through of: each of many parts of a decal would have all its corners first.
+        anywhere = np.zeros(points.shape[1], dtype=np.intp)
+        return replace(with_points(self, anywhere, decals, offsets), points=points)
 
     @property
     def lights_lacking(self) -> Ints:

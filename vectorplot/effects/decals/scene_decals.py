@@ -9,7 +9,8 @@ import numpy as np
 from vectorplot.arrays import Bools
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals.decal_polygons import Decals, joined_decals
-from vectorplot.scene.scene import Light, Scene
+from vectorplot.geometry.budget import USUAL, Budget
+from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.light.face_shades import face_shades, view_lights
 from vectorplot.shading.light.painted_colours import Lighting
@@ -17,15 +18,24 @@ from vectorplot.visibility.projected_faces import ProjectedFaces
 
 
 def scene_shadows(
-    view: View, lights: Sequence[Light], projected: ProjectedFaces, aura: float, receivers: Bools | None = None
+    view: View,
+    items: Sequence[Item],
+    lights: Sequence[Light],
+    projected: ProjectedFaces,
+    aura: float,
+    budget: Budget = USUAL,
+    receivers: Bools | None = None,
 ) -> Decals:
     """The shadows of opaque items, of every grade, with soft borders of some width in the image; receivers (f,): the
-    faces that they may fall on (None: all)."""
+    faces that they may fall on (None: all). An InputWarning names the items (i,) for which the budget did not do."""
+    from vectorplot.effects.shadows.missing_shadows import tell_missing_shadows
     from vectorplot.effects.shadows.shadow_borders import shadow_borders
-    from vectorplot.effects.shadows.shadow_decals import cast_shadows
+    from vectorplot.effects.shadows.shadow_decals import cast_within
     from vectorplot.effects.shadows.shadow_grades import graded, shadow_decals_of
 
-    single = cast_shadows(view, lights, receivers=receivers, projected=projected)
+    cast = cast_within(view, lights, budget.pairs, receivers=receivers, projected=projected)
+    tell_missing_shadows(items, lights, cast.left_out)
+    single = cast.shadows
     cells = graded(view, single)
     dark = shadow_decals_of(cells, FillKind.SHADOW)
     return dark if aura == 0.0 else joined_decals(dark, shadow_borders(view, single, cells, aura))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -68,4 +67,4 @@ def _listed(decals: Decals, frames: FaceFrames, region: Any, leader: Ints, toler
     parts, of = without_splinters(region, tolerance)
     parts, of = without_holes(parts, leader[of])
     flat, offsets = corners_of(parts)
-    return replace(decals.of(of), points=frames.lifted(flat, np.repeat(of, np.diff(offsets))), offsets=offsets)
+    return decals.parts(of, frames.lifted(flat, np.repeat(of, np.diff(offsets))), offsets)

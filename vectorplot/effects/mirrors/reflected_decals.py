@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.effects.decals.decal_polygons import Decals, joined_decals
 from vectorplot.effects.mirrors.reflections import Mirrors, doubled
+from vectorplot.geometry.budget import USUAL, Budget
 from vectorplot.scene.scene import Light, Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.light.painted_colours import Lighting
@@ -16,12 +17,20 @@ from vectorplot.visibility.projected_faces import project_faces
 
 
 def double_decals(
-    scene: Scene, view: View, mirrors: Mirrors, number: int, lighting: Lighting, shown: Bools, aura: float | None
+    scene: Scene,
+    view: View,
+    mirrors: Mirrors,
+    number: int,
+    lighting: Lighting,
+    shown: Bools,
+    aura: float | None,
+    budget: Budget = USUAL,
 ) -> tuple[Decals, ...]:
     """The decals on the doubles of faces shown (f,), in the double of the view: those of a mirrored scene in mirrored
     light, of which the same holds as of the scene.
 
-    lighting: as it is in the mirror; aura: the width of soft borders in the image, None where lights cast no shadows.
+    lighting: as it is in the mirror; aura: the width of soft borders in the image, None where lights cast no shadows;
+    budget: of the work on these.
     Source: Glaeser, section 6.4.
     """
     mirrored = doubled(view, mirrors, number)
@@ -31,7 +40,7 @@ def double_decals(
     if lights and aura is not None:
         from vectorplot.effects.decals.scene_decals import scene_shadows
 
-        found.append(scene_shadows(mirrored, lights, projected, aura, shown))
+        found.append(scene_shadows(mirrored, scene.items, lights, projected, aura, budget, shown))
     if any(item.patterns for item in scene.items):
         from vectorplot.effects.decals.pattern_decals import pattern_decals
         from vectorplot.effects.decals.scene_decals import shadowed_patterns
@@ -42,7 +51,9 @@ def double_decals(
     if lights and any(item.material.opacity < 1.0 for item in scene.items):
         from vectorplot.effects.shadows.transparent_shadows import clear_shadows
 
-        found.append(clear_shadows(mirrored, scene, lights, found[0], receivers=shown, projected=projected))
+        found.append(
+            clear_shadows(mirrored, scene, lights, found[0], receivers=shown, projected=projected, budget=budget)
+        )
     return tuple(found)
 
 

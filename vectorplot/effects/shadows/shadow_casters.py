@@ -33,6 +33,15 @@ class Casters:
     def __len__(self) -> int:
         return len(self.item)
 
+    def some(self, which: Ints) -> Casters:
+        """Some of them, given by ascending numbers."""
+        position, first = ragged.take(self.volumes.first, which)
+        number = np.full(len(self), -1, dtype=np.intp)
+        number[which] = np.arange(len(which))
+        own = np.flatnonzero(number[self.caster] >= 0)
+        volumes = PlaneBundles(self.volumes.planes[:, position], first)
+        return Casters(volumes, self.item[which], self.face[own], number[self.caster[own]])
+
 
 def shadow_casters(
     view: View, planes: FacePlanes, system: LightSystem, facing: Ints, items: Bools, solids: Bools

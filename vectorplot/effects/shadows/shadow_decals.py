@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Ints
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals.decal_polygons import Decals
-from vectorplot.effects.shadows.light_system import FacePlanes, LightBoxes, LightSystem, light_boxes, light_system
+from vectorplot.effects.shadows.light_system import FacePlanes, LightSystem, light_system
 from vectorplot.effects.shadows.shadow_casters import Casters, shadow_casters
 from vectorplot.effects.shadows.shadow_grades import Shadows, graded, joined_shadows, shadow_decals_of
+from vectorplot.effects.shadows.shadow_pairs import Receivers, apart, candidates, crowds
 from vectorplot.errors import InputError
-from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.plane_cuts import Crossings, crossings_of, parts_of
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
@@ -28,26 +28,14 @@ MOST_LIGHTS = 52
 MOST_FACES = 1024
 """A convex solid with more faces casts shadows face by face: to see that it is convex would take longer."""
 
-CASTERS_FIRST = 1 << 8
-"""Casters whose partners are looked up first: how many they have says how many casters come next."""
-
-PAIRS_AT_ONCE = 1 << 20
-"""About so many pairs of casters and receivers are handled at once."""
-
 
 @dataclass(frozen=True, eq=False)
-class Receivers:
-    """Faces that shadows may fall on: face (r,) of the view; points (3,c), offsets (r+1,)."""
+class Cast:
+    """Shadows of grade 1, and what is missing among them: left_out (3,k): the light, the item that throws none, and the
+    one on which."""
 
-    face: Ints
-    points: Floats
-    offsets: Ints
-
-    @classmethod
-    def of(cls, view: View, face: Ints) -> Receivers:
-        """Some faces of a view."""
-        position, offsets = ragged.take(view.offsets, face)
-        return cls(face, view.points[:, view.corners[position]], offsets)
+    shadows: Shadows
+    left_out: Ints
 
 
 def cast_shadows(
@@ -68,6 +56,20 @@ def cast_shadows(
     casts none on it.
     Source: Glaeser, section 6.3, figures 4 and 5.
     """
+    return cast_within(view, lights, np.inf, casters=casters, receivers=receivers, projected=projected).shadows
+
+
+def cast_within(
+    view: View,
+    lights: Sequence[Light],
+    pairs: float,
+    *,
+    casters: Bools | None = None,
+    receivers: Bools | None = None,
+    projected: ProjectedFaces | None = None,
+) -> Cast:
+    """The shadows as of cast_shadows, but for those of one item on one, in one light, for which more than so many pairs
+    would have to be looked at (see shadow_pairs.crowds)."""
     if len(lights) > MOST_LIGHTS:
         raise InputError(f"{len(lights)} lights cast shadows: at most {MOST_LIGHTS} can")
     projected = project_faces(view) if projected is None else projected
@@ -76,14 +78,18 @@ def cast_shadows(
     planes = FacePlanes.of(view)
     seen = drawn_faces(view, projected)
     seen = seen if receivers is None else seen[receivers[seen]]
-    found = []
+    found, missing = [], [np.zeros((3, 0), dtype=np.intp)]
     for number, light in enumerate(lights):
         system = light_system(view, light)
         facing = system.facing(planes, view.tolerance)
         lit = seen[facing[seen] * projected.facing[seen] > 0]
         dark = shadow_casters(view, planes, system, facing, items, solids)
-        found.append(_of_light(view, system, dark, Receivers.of(view, lit), number))
-    return joined_shadows(found)
+        bright = Receivers.of(view, lit)
+        crowded = crowds(view, system, dark, bright, pairs)
+        missing.append(np.insert(crowded, 0, number, axis=0))
+        parts = [_of_light(view, system, *some, number) for some in apart(view, dark, bright, crowded)]
+        found.append(parts[0] if len(parts) == 1 else joined_shadows(parts).without_needless())
+    return Cast(joined_shadows(found), np.concatenate(missing, axis=1))
 
 
 def _of_light(view: View, system: LightSystem, casters: Casters, receivers: Receivers, number: int) -> Shadows:
@@ -115,56 +121,6 @@ def _first_whole(found: Crossings, receiver: Ints, count: int) -> Ints:
 def shadow_crossings(view: View, casters: Casters, receivers: Receivers, caster: Ints, receiver: Ints) -> Crossings:
     """Where things cut the light off from faces, pair by pair. Source: Glaeser, section 6.3, figure 4."""
     return crossings_of(receivers.points, receivers.offsets, casters.volumes, receiver, caster, view.tolerance)
-
-
-def candidates(view: View, system: LightSystem, casters: Casters, receivers: Receivers) -> Iterator[tuple[Ints, Ints]]:
-    """Pairs of casters and receivers whose boxes overlap in an image of the light, the caster not behind; each pair
-    once, in lots.
-
-    Source: Glaeser, section 6.3 (bounding rectangles and priorities in the light systems).
-    """
-    if not len(casters) or not len(receivers.face):
-        return
-    givers = [boxes.grouped(casters.caster) for boxes in light_boxes(view, system, casters.face)]
-    takers = light_boxes(view, system, receivers.face)
-    trees = [_Tree.of(boxes, view.tolerance) for boxes in takers]
-    low, count = 0, CASTERS_FIRST
-    while low < len(casters):
-        lot = [tree.partners(boxes, low, low + count) for tree, boxes in zip(trees, givers, strict=True)]
-        low += count
-        caster, receiver = (np.concatenate([pairs[k] for pairs in lot]) for k in (0, 1))
-        if len(lot) > 1:
-            key = np.unique(caster * len(receivers.face) + receiver)
-            caster, receiver = np.divmod(key, len(receivers.face))
-        yield caster, receiver
-        count = int(np.clip(count * PAIRS_AT_ONCE / max(len(caster), 1), 1, 8 * count))
-
-
-@dataclass(frozen=True, eq=False)
-class _Tree:
-    """A tree over boxes in an image of the light."""
-
-    boxes: LightBoxes
-    tree: object
-    tolerance: float
-
-    @classmethod
-    def of(cls, boxes: LightBoxes, tolerance: float) -> _Tree:
-        import shapely
-
-        left, right, bottom, top = boxes.box[:4]
-        return cls(boxes, shapely.STRtree(shapely.box(left, bottom, right, top), node_capacity=16), tolerance)
-
-    def partners(self, boxes: LightBoxes, low: int, high: int) -> tuple[Ints, Ints]:
-        """Pairs of other boxes, with numbers from low to high, and boxes in the tree that they overlap, and do not lie
-        behind."""
-        import shapely
-
-        begin, end = np.searchsorted(boxes.which, [low, high])
-        left, right, bottom, top, nearest = boxes.box[:5, begin:end]
-        asked, found = self.tree.query(shapely.box(left, bottom, right, top))  # type: ignore[attr-defined]
-        before = np.flatnonzero(nearest[asked] < self.boxes.box[5, found] - self.tolerance)
-        return boxes.which[begin + asked[before]], self.boxes.which[found[before]]
 
 
 def shadow_decals(

@@ -14,9 +14,11 @@ from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals.decal_polygons import Decals, joined_decals, no_decals
 from vectorplot.effects.decals.face_frames import FaceFrames
 from vectorplot.effects.decals.united_decals import disjoint_decals
-from vectorplot.effects.shadows.shadow_decals import cast_shadows
+from vectorplot.effects.shadows.missing_shadows import tell_missing_shadows
+from vectorplot.effects.shadows.shadow_decals import cast_within
 from vectorplot.effects.shadows.shadow_grades import Shadows
 from vectorplot.geometry import ragged
+from vectorplot.geometry.budget import USUAL, Budget
 from vectorplot.geometry.regions import corners_of, polygons_of, unions, without_holes, without_splinters
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.view import View
@@ -39,12 +41,14 @@ def clear_shadows(
     *,
     receivers: Bools | None = None,
     projected: ProjectedFaces | None = None,
+    budget: Budget = USUAL,
 ) -> Decals:
     """The shadows of the transparent items of a scene that do not occlude: decals of the items' colours and opacities,
     each with one light, to be drawn after the shadows of what is not transparent.
 
     shadows: those; where they keep a light away nothing dims it, and where they keep others away those lack, too.
-    Things of one colour and opacity dim a light once. receivers, errors and degenerate cases as of cast_shadows.
+    Things of one colour and opacity dim a light once. receivers, errors and degenerate cases as of cast_shadows;
+    an InputWarning names the items for which the budget did not do.
     Source: Glaeser, section 6.6.
     """
     groups: dict[tuple[str, float], Bools] = {}
@@ -58,7 +62,9 @@ def clear_shadows(
     dark = no_decals() if shadows is None else shadows.of(np.flatnonzero(shadows.kind == FillKind.SHADOW))
     found = []
     for (colour, opacity), items in groups.items():
-        cast = cast_shadows(view, lights, casters=items, receivers=receivers, projected=projected)
+        found_here = cast_within(view, lights, budget.pairs, casters=items, receivers=receivers, projected=projected)
+        tell_missing_shadows(scene.items, lights, found_here.left_out)
+        cast = found_here.shadows
         here = dark.of(np.flatnonzero(np.isin(dark.face, cast.face)))
         found.append(_dimmed(view, cast, disjoint_decals(view, here), colour, opacity))
     return joined_decals(*found)
