@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 from vectorplot.features.facets import Within, facets
-from vectorplot.features.implicit.polygonize import settled_mesh
+from vectorplot.features.implicit.polygonize import polygonized, settled_mesh
 from vectorplot.features.implicit.singular_lines import singular_lines
-from vectorplot.features.implicit.singular_set import led_into_singular_set
+from vectorplot.features.implicit.singular_set import led_into_lines, led_into_singular_set
 from vectorplot.io.expressions.expression import parse_expression
 from vectorplot.io.scenes.scene_formulas import Formulas, formula_implicit
 from vectorplot.surfaces.implicit_function import ImplicitFunction
@@ -43,3 +43,16 @@ def test_what_has_no_singular_point_stays_as_it_is() -> None:
     assert (led.vertices == mesh.vertices).all() and (led.corners == mesh.corners).all()
     nothing = settled_mesh(implicit("x^2+y^2+z^2+1"), 16)[0]
     assert not led_into_singular_set(ball, nothing, singular_lines(ball, nothing)).face_count
+
+
+@pytest.mark.hard(49)
+def test_narrow_sheets_between_lines_are_not_led_into_them() -> None:
+    swallowtail = implicit("16*x^4*z-4*x^3*y^2-128*x^2*z^2+144*x*y^2*z-27*y^4+256*z^3")
+    mesh = polygonized(swallowtail, 48)
+    led, on_line = led_into_lines(swallowtail, mesh, singular_lines(swallowtail, mesh))
+    assert on_line.sum() > 20
+    # Between its self-intersection z = x^2 / 4 and its two edges lies a tail of triangular sections.
+    x, y, z = led.vertices[led.corners.reshape(-1, 3)].mean(axis=1).T
+    tail = (np.abs(y) < 0.15) & (z < 0.2 * x**2)
+    for low in np.linspace(-0.6, -0.3, 7):
+        assert (tail & (x > low) & (x < low + 0.05)).sum() >= 4, low

@@ -8,6 +8,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.polygonize import checked_values
 from vectorplot.features.implicit.singular_equations import SingularEquations, onto_lines
 from vectorplot.features.implicit.singular_lines import SLOW, SingularLines, usual_gradient
+from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import Polylines, closed_round
 from vectorplot.geometry.repair.weld import distinct_points
@@ -31,6 +32,10 @@ TWICE = 3
 
 FINER = 4
 """Points on every chord of a line that vertices are led to at first."""
+
+APART = 0.15
+"""Part of the way from a line to the nearest other one from which vertices are led to it at most: nearer to where lines
+meet the sheets between them are narrower than triangles, and would be led into the lines altogether."""
 
 FIRM = 0.03
 """Part of the largest principal second derivative below which one belongs to a direction along a singular line."""
@@ -58,8 +63,9 @@ def led_into_lines(surface: ImplicitSurface, mesh: Mesh, lines: SingularLines) -
     if not mesh.face_count or not len(lines):
         return mesh, there
     points, triangles, longest = mesh.vertices, mesh.corners.reshape(-1, 3), _longest(mesh)
-    for equations, some in lines.kinds:
-        near = _Near(equations, some)
+    rooms = _rooms([some for _, some in lines.kinds])
+    for (equations, some), room in zip(lines.kinds, rooms, strict=True):
+        near = _Near(equations, some, room)
         points = near.led(points, ~there, REACH * longest, there)
         for _ in range(TWICE if some is lines.edges else 0):
             points = near.led(points, _tips(surface, points, triangles, there), TIPS * longest, there)
@@ -82,28 +88,24 @@ def _flat(corners: Floats) -> Bools:
 
 
 class _Near:
-    """Lines of one kind, and a tree of places along them."""
+    """Lines of one kind, and a tree of places (k,3) along them; room (k,): how far the nearest other line is."""
 
-    def __init__(self, equations: SingularEquations, lines: Polylines) -> None:
+    def __init__(self, equations: SingularEquations, lines: Polylines, room: Floats) -> None:
         from scipy.spatial import cKDTree
 
-        rounds = closed_round(lines)
-        points = lines.points[rounds.index]
-        first = np.ones(len(points), dtype=np.bool_)
-        first[rounds.offsets[1:] - 1] = False
-        begin = np.flatnonzero(first)
-        share = np.arange(FINER)[:, None, None] / FINER
-        along = points[begin] + share * (points[begin + 1] - points[begin])
-        self.equations, self.places = equations, np.concatenate([along.reshape(-1, 3), points[rounds.offsets[1:] - 1]])
+        self.equations, self.places, self.room = equations, _along(lines)[0], room
         self.tree = cKDTree(self.places)
-        self.points, self.corners = points, cKDTree(points)
+        self.points = lines.points[closed_round(lines).index]
+        self.corners = cKDTree(self.points)
 
     def led(self, points: Floats, which: Bools, reach: float, there: Bools) -> Floats:
         """The points (n,3), those of which that lie nearer to a line than reach moved onto it, and marked as there."""
         low, high = np.asarray(self.equations.surface.box, dtype=np.float64)
         chosen = np.flatnonzero(which)
         far, place = self.tree.query(points[chosen], distance_upper_bound=reach)
-        chosen, place = chosen[np.isfinite(far)], place[np.isfinite(far)]
+        # Points without a line within reach have a place behind the last one.
+        near = far <= APART * np.append(self.room, 0.0)[place]
+        chosen, place = chosen[near], place[near]
         step = np.full(len(chosen), reach)
         found, on = onto_lines(self.equations, self.places[place], step)
         # Where lines end their equations have no rank: what is known is the last point.
@@ -127,6 +129,33 @@ class _Near:
         best = np.argmin(gap, axis=1) if len(start) else np.zeros(0, dtype=np.intp)
         near = gap[np.arange(len(start)), best] <= reach
         return np.where(near[:, None], self.points[best], np.nan)
+
+
+def _along(lines: Polylines) -> tuple[Floats, Ints]:
+    """(k,3) places along lines, FINER on every chord; and (k,) the line of each."""
+    rounds = closed_round(lines)
+    points, line = lines.points[rounds.index], ragged.owner(np.diff(rounds.offsets))
+    last = rounds.offsets[1:] - 1
+    begin = np.delete(np.arange(len(points)), last)
+    share = np.arange(FINER)[:, None, None] / FINER
+    along = points[begin] + share * (points[begin + 1] - points[begin])
+    places = np.concatenate([along.reshape(-1, 3), points[last]])
+    return places, np.concatenate([np.tile(line[begin], FINER), line[last]])
+
+
+def _rooms(kinds: list[Polylines]) -> list[Floats]:
+    """For places along the lines of each kind (k,): how far they are from the nearest other line of any kind; infinite
+    where there is no other."""
+    from scipy.spatial import cKDTree
+
+    first = ragged.offsets([len(lines) for lines in kinds])
+    found = [_along(lines) for lines in kinds]
+    places = np.concatenate([place for place, _ in found])
+    line = np.concatenate([own + start for (_, own), start in zip(found, first[:-1], strict=True)])
+    room = np.full(len(places), np.inf)
+    for one in range(first[-1]):
+        room[line == one] = cKDTree(places[line != one]).query(places[line == one])[0]
+    return np.split(room, ragged.offsets([len(place) for place, _ in found])[1:-1])
 
 
 def _tips(surface: ImplicitSurface, points: Floats, triangles: Ints, there: Bools) -> Bools:
