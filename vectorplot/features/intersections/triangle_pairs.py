@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.meshes.mesh_intersections import PAIRS_AT_ONCE, overlapping_boxes
 from vectorplot.features.tessellation import FREE, Tessellation
+from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes
 
 Pair = tuple[Ints, Ints]
 

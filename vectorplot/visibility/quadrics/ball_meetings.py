@@ -6,8 +6,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.exact import intervals
-from vectorplot.features.meshes.mesh_intersections import overlapping_boxes
 from vectorplot.geometry import ragged
+from vectorplot.geometry.boxes import overlapping_boxes
 from vectorplot.geometry.records import joined
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.scene.view import View

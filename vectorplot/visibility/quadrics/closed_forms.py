@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
-from vectorplot.features.meshes.mesh_intersections import overlapping_boxes
+from vectorplot.geometry.boxes import overlapping_boxes
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.curve_light import curve_light

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.visibility.polyhedra.grid import Floats32
 from vectorplot.visibility.quadrics.balls import Balls
 from vectorplot.visibility.quadrics.pieces import packed_box
@@ -41,49 +41,40 @@ def ball_covers(balls: Balls, which: Ints) -> tuple[Covers, Covers]:
 
     The inside is taken whole, for a curve that pierces the ball near its contour would slip between two halves.
     """
-    return _behind(balls, which), _inside(balls, which)
+    contours = balls.contours(which)
+    box = packed_box(*disc_boxes(balls.sight, *contours))
+    return _behind(balls, which, contours, box), _inside(balls, which, box)
 
 
-def _behind(balls: Balls, which: Ints) -> Covers:
-    middle, first, second = balls.contours(which)
-    m, p, q = (_seen(balls.sight, part, w) for part, w in ((middle, 1.0), (first, 0.0), (second, 0.0)))
+def _behind(balls: Balls, which: Ints, contours: tuple[Floats, Floats, Floats], box: Floats32) -> Covers:
+    m, p, q = (_seen(balls.sight, part, w) for part, w in zip(contours, (1.0, 0.0, 0.0), strict=True))
     rows = np.stack([np.cross(p, q), np.cross(q, m), np.cross(m, p)], axis=1)
     volume = (rows[:, 0] * m).sum(axis=1)
     squares = np.zeros((3, 4, len(which)))
     squares[:, balls.sight.seen] = (rows / volume[:, None, None]).transpose(1, 2, 0)
-    low, high, reach = _disc_box(balls.sight, (m, p, q), middle, first, second)
+    middle, first, second = contours
     return Covers(
         -balls.polar_planes(which).T[None],
         squares,
         _slack(balls, which),
         which,
         balls.item[which],
-        packed_box(low, high),
-        middle[:, 2] - reach,
+        box,
+        middle[:, 2] - np.hypot(first[:, 2], second[:, 2]),
         np.full(len(which), np.inf),
     )
 
 
-def _inside(balls: Balls, which: Ints) -> Covers:
+def _inside(balls: Balls, which: Ints, box: Floats32) -> Covers:
     squares = np.zeros((4, 4, len(which)))
     squares[0, 3] = 1.0
     inverse, centre = balls.inverse[which], balls.centre[which]
     squares[1:, :3] = inverse.transpose(2, 1, 0)
     squares[1:, 3] = -np.einsum("ni,nij->nj", centre, inverse).T
-    middle, first, second = balls.contours(which)
-    m, p, q = (_seen(balls.sight, part, w) for part, w in ((middle, 1.0), (first, 0.0), (second, 0.0)))
-    low, high, _ = _disc_box(balls.sight, (m, p, q), middle, first, second)
     depth, reach = centre[:, 2], balls.reach[which, 2]
-    return Covers(
-        np.zeros((0, 4, len(which))),
-        squares,
-        _slack(balls, which),
-        which,
-        balls.item[which],
-        packed_box(low, high),
-        depth - reach,
-        depth + reach,
-    )
+    none = np.zeros((0, 4, len(which)))
+    item = balls.item[which]
+    return Covers(none, squares, _slack(balls, which), which, item, box, depth - reach, depth + reach)
 
 
 def _seen(sight: Sight, part: Floats, weight: float) -> Floats:
@@ -96,19 +87,20 @@ def _slack(balls: Balls, which: Ints) -> Floats:
     return np.asarray(2.0 * balls.tolerance / balls.reach[which].min(axis=1, initial=np.inf))
 
 
-def _disc_box(
-    sight: Sight, seen: tuple[Floats, Floats, Floats], middle: Floats, first: Floats, second: Floats
-) -> tuple[Floats, Floats, Floats]:
-    """Lower left and upper right corners (2,n) of the images of elliptic discs, NaN where they come behind the eye; and
-    how much their depth (n,) varies about that of their middle."""
-    m, p, q = seen
-    products = m[:, :, None] * m[:, None] - p[:, :, None] * p[:, None] - q[:, :, None] * q[:, None]
-    reach = np.sqrt(first[:, 2] ** 2 + second[:, 2] ** 2)
-    last = products[:, 2, 2]
-    behind: Bools = (middle[:, 2] - reach < sight.near) if sight.central else np.zeros(len(m), dtype=np.bool_)
+def disc_boxes(sight: Sight, middle: Floats, first: Floats, second: Floats) -> tuple[Floats, Floats]:
+    """Lower left and upper right corners (2,n) of the images of elliptic discs with these middles and conjugate radii
+    (n,3); NaN where a disc comes before the near plane."""
+    if not sight.central:
+        reach = np.hypot(first[:, :2], second[:, :2])
+        return (middle[:, :2] - reach).T, (middle[:, :2] + reach).T
+    depth, rise, other = middle[:, 2:], first[:, 2:], second[:, 2:]
     with np.errstate(all="ignore"):
-        centre = products[:, :2, 2] / last[:, None]
-        square = products[:, :2, 2] ** 2 - products[:, [0, 1], [0, 1]] * last[:, None]
-        half = np.sqrt(np.maximum(square, 0.0)) / last[:, None]
-    hole = (behind | ~(last > 0.0))[:, None]
-    return np.where(hole, np.nan, centre - half).T, np.where(hole, np.nan, centre + half).T, reach
+        # Seen from the image of the middle, so that small discs keep their digits: a line through the eye that touches
+        # the disc has a slope s with (p - s rise)^2 + (q - s other)^2 = (s depth)^2.
+        centre = middle[:, :2] / depth
+        p, q = first[:, :2] - centre * rise, second[:, :2] - centre * other
+        a, b, c = depth * depth - rise * rise - other * other, p * rise + q * other, p * p + q * q
+        root = np.sqrt(b * b + a * c)
+        low, high = centre - (root + b) / a, centre + (root - b) / a
+    hole = depth - np.hypot(rise, other) < sight.near
+    return np.where(hole, np.nan, low).T, np.where(hole, np.nan, high).T
