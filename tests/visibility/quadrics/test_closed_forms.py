@@ -186,6 +186,19 @@ def test_equal_balls_are_drawn_once():
     assert len(strokes_of(one)) == len(strokes_of(two))
 
 
+def test_equal_balls_hide_the_far_sides_of_each_other_s_lines():
+    lines = SurfaceLines(columns=6, rows=4)
+    ball, twin = Item("a", Sphere(1.0), curves=lines), Item("b", PlacedSurface(Sphere(0.5), 2.0 * np.eye(3)))
+    camera = Camera(eye=(5, -9, 4))
+    drawing = draw(Scene((ball, twin)), camera, hidden="solid")
+    assert {int(paths.hidden_by[k]) for paths, k in strokes_of(drawing)} == {0, 2}
+    # What is drawn on glass is hidden by an opaque ball in its place, wherever it is turned away.
+    glass = Item("a", Sphere(1.0), material=Material("transparent"), curves=lines)
+    one, two = (draw(Scene(items), camera) for items in ((ball,), (glass, twin)))
+    lengths = [sum(length_of(paths, k) for paths, k in strokes_of(one)) for one in (one, two)]
+    assert lengths[0] == pytest.approx(lengths[1], rel=1e-3)
+
+
 def test_touching_balls_have_no_curve_in_common_and_whole_contours():
     scene = Scene((Item("a", Sphere(1.0)), Item("b", Sphere(1.0, (2.0, 0.0, 0.0)))))
     drawing = draw(scene, Camera(eye=(1.0, -9.0, 0.0), target=(1, 0, 0), parallel=True))

@@ -58,12 +58,12 @@ class Arcs:
 
 @dataclass(frozen=True, eq=False)
 class OwnSides:
-    """What bodies hide of curves on themselves: where the linear form (k,4) is negative, arc (k,) is turned away on a
-    body of item (k,)."""
+    """What bodies hide of curves on themselves: where the linear form (k,4) is negative, arc (k,) is turned away on the
+    ball (k,), and on those that are equal to it."""
 
     arc: Ints
     form: Floats
-    item: Ints
+    ball: Ints
 
 
 def arcs_on(
@@ -123,4 +123,4 @@ def beyond_near(sight: Sight, arcs: Arcs, sides: OwnSides) -> tuple[Arcs, OwnSid
     first = np.searchsorted(sides.arc[order], np.arange(len(arcs) + 1))
     count = np.diff(first)[chosen]
     index = order[ragged.ranges(first[chosen], count)]
-    return cut, OwnSides(ragged.owner(count), sides.form[index], sides.item[index])
+    return cut, OwnSides(ragged.owner(count), sides.form[index], sides.ball[index])

@@ -46,8 +46,13 @@ def on_balls(
     own = np.stack([ball, np.full_like(ball, -1)], axis=1)
     low, high = np.full(len(ball), span[0]), np.full(len(ball), span[1])
     arcs = arcs_on(circles, (low, high), kind, balls.item[ball], own)
-    hiding = np.flatnonzero(balls.hides[ball])
-    return arcs, OwnSides(hiding, balls.polar_planes(ball[hiding]), balls.item[ball[hiding]])
+    return arcs, own_sides(balls, ball)
+
+
+def own_sides(balls: Balls, ball: Ints) -> OwnSides:
+    """What balls (n,), or others that are equal to them, hide of arcs (n,) on them."""
+    hiding = np.flatnonzero(np.isin(balls.same, balls.same[balls.hides])[ball])
+    return OwnSides(hiding, balls.polar_planes(ball[hiding]), ball[hiding])
 
 
 def _contours(balls: Balls, which: Ints) -> Found:

@@ -15,8 +15,8 @@ from vectorplot.tolerances.of_lengths import UNION_OF_SEGMENT
 from vectorplot.tolerances.of_values import HOMOTHETIC
 from vectorplot.visibility.polyhedra.hidden_lines import SLIVER
 from vectorplot.visibility.projected_faces import newell
-from vectorplot.visibility.quadrics.arcs import OwnSides, arcs_on
-from vectorplot.visibility.quadrics.ball_arcs import Found, on_balls, plane_circles, unit_planes
+from vectorplot.visibility.quadrics.arcs import arcs_on
+from vectorplot.visibility.quadrics.ball_arcs import Found, on_balls, own_sides, plane_circles, unit_planes
 from vectorplot.visibility.quadrics.balls import Balls
 from vectorplot.visibility.quadrics.sight import Sight
 from vectorplot.words import LineKind
@@ -77,8 +77,7 @@ def balls_with_balls(balls: Balls, one: Ints, two: Ints, wants: Bools) -> Found:
     circles = balls.circles(one, normal[met] / size[met, None], height[met])
     arcs, first = on_balls(balls, circles, LineKind.INTERSECTION, one)
     arcs.own[:, 1] = two
-    second = np.flatnonzero(balls.hides[two])
-    return arcs, joined((first, OwnSides(second, balls.polar_planes(two[second]), balls.item[two[second]])))
+    return arcs, joined((first, own_sides(balls, two)))
 
 
 def balls_with_faces(view: View, balls: Balls, wants: Bools) -> Found:
@@ -161,5 +160,4 @@ def _within_faces(
     item = np.where(wants[item] & (~wants[other] | (item < other)), item, other)
     own = np.stack([ball[of], np.full_like(of, -1)], axis=1)
     arcs = arcs_on((middle[of], first[of], second[of]), (low, high), LineKind.INTERSECTION, item, own)
-    hiding = np.flatnonzero(balls.hides[ball[of]])
-    return arcs, OwnSides(hiding, balls.polar_planes(ball[of[hiding]]), balls.item[ball[of[hiding]]])
+    return arcs, own_sides(balls, ball[of])

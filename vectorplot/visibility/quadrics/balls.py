@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.scene import Item
 from vectorplot.scene.view import View
@@ -58,6 +59,13 @@ class Balls:
         key = np.round(numbers / (4.0 * self.tolerance)).astype(np.int64)
         _, first, group = np.unique(key, axis=0, return_index=True, return_inverse=True)
         return np.asarray(first[group.reshape(-1)])
+
+    def hiding_alike(self, which: Ints) -> tuple[Ints, Ints]:
+        """The balls that hide and are equal to balls which (k,), these included: index into which, and ball (n,)."""
+        hiding = np.flatnonzero(self.hides)
+        hiding = hiding[np.argsort(self.same[hiding], kind="stable")]
+        first, last = (np.searchsorted(self.same[hiding], self.same[which], side) for side in ("left", "right"))
+        return ragged.owner(last - first), hiding[ragged.ranges(first, last - first)]
 
     def polar_planes(self, which: Ints) -> Floats:
         """(k,4) linear forms, of unit gradient, positive on the eye's side of the polar plane: where a ball shows."""

@@ -75,6 +75,8 @@ def counted_arcs(balls: Balls, arcs: Arcs, sides: OwnSides, items: int, progress
     The visible parts are those of visible_arcs.
     """
     covers = ball_covers(balls, np.flatnonzero(balls.hides))
+    side, ball = balls.hiding_alike(sides.ball)
+    sides = OwnSides(sides.arc[side], sides.form[side], ball)
     pieces = cut_arcs(balls.sight, arcs, typical_size(covers))
     alive = np.ones(len(pieces), dtype=np.bool_)
     zones = records.joined(list(_hidden_zones(balls, covers, pieces, alive, arcs, sides, 1, progress)))
@@ -110,7 +112,7 @@ def _hidden_zones(
     progress: Progress,
 ) -> Iterator[_Hidden]:
     """What balls hide of the pieces of arcs that are alive, front to back; first what they hide of themselves."""
-    for turned, piece, side in _own_pairs(pieces, sides, len(arcs)):
+    for turned, piece, side in _own_pairs(balls, pieces, sides, len(arcs)):
         yield _zones(pieces, arcs, turned, piece, side, balls.tolerance)
     grid = grid_of(pieces, typical_size(covers))
     own = np.where(arcs.own >= 0, balls.same[arcs.own] if len(balls) else -1, -1)
@@ -139,16 +141,16 @@ def _slabs(covers: tuple[Covers, ...], most: int) -> Iterator[tuple[Covers, Ints
                 yield some, order[begin:end]
 
 
-def _own_pairs(pieces: Pieces, sides: OwnSides, arcs: int) -> Iterator[tuple[Covers, Ints, Ints]]:
+def _own_pairs(balls: Balls, pieces: Pieces, sides: OwnSides, arcs: int) -> Iterator[tuple[Covers, Ints, Ints]]:
     """Blocks (covers, piece, cover) of what bodies hide of arcs on themselves."""
     offsets = np.searchsorted(pieces.arc, np.arange(arcs + 1))
     for low in range(0, max(len(sides.arc), 1), OWN_AT_ONCE):
         block = slice(low, low + OWN_AT_ONCE)
-        arc, form, item = sides.arc[block], sides.form[block], sides.item[block]
+        arc, form, ball = sides.arc[block], sides.form[block], sides.ball[block]
         size = offsets[arc + 1] - offsets[arc]
         none = np.zeros(len(arc))
         nowhere = packed_box(np.zeros((2, len(arc))), np.zeros((2, len(arc))))
-        turned = Covers(-form.T[None], np.zeros((0, 4, len(arc))), none, arc, item, nowhere, none, none)
+        turned = Covers(-form.T[None], np.zeros((0, 4, len(arc))), none, ball, balls.item[ball], nowhere, none, none)
         yield turned, ragged.ranges(offsets[arc], size), ragged.owner(size)
 
 
