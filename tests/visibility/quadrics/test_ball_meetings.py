@@ -111,3 +111,9 @@ def test_a_sphere_resting_on_a_table_has_no_arc_with_it():
     view, balls = setup([Sphere(1.0, (0, 0, 1))], [box((-3, -3, -0.2), (3, 3, 0))])
     arcs, _ = balls_with_faces(view, balls, np.ones(2, dtype=bool))
     assert len(arcs) == 0
+
+
+def test_balls_inside_of_each_other_are_no_pairs_and_those_that_touch_or_pierce_are():
+    nested = [Sphere(float(r)) for r in (1.0, 0.8, 0.3)]
+    _, balls = setup([*nested, Sphere(0.5, (1.2, 0, 0)), Sphere(0.1, (0, 0, 0.65))])
+    assert list(zip(*(side.tolist() for side in overlapping_balls(balls)), strict=True)) == [(0, 3), (1, 3)]

@@ -64,7 +64,7 @@ def _pairs_of_faces(faces: Faces, part: Ints, tolerance: float) -> tuple[Ints, I
     low, high = low - tolerance, high + tolerance
     a, b = overlapping_boxes(low, high, low, high)
     a, b = a[a < b], b[a < b]
-    near = _not_crossing_past(faces, part, a, b, tolerance)
+    near = _may_meet(faces, part, a, b, tolerance)
     a, b = a[near], b[near]
     meeting = np.zeros(parts, dtype=np.bool_)
     meeting[a], meeting[b] = True, True
@@ -75,7 +75,7 @@ def _pairs_of_faces(faces: Faces, part: Ints, tolerance: float) -> tuple[Ints, I
     return face[one], face[two]
 
 
-def _not_crossing_past(faces: Faces, part: Ints, one: Ints, two: Ints, tolerance: float) -> Bools:
+def _may_meet(faces: Faces, part: Ints, one: Ints, two: Ints, tolerance: float) -> Bools:
     """(n,) which pairs of parts no plane along the longest edges of both keeps apart: the boxes of long thin things,
     such as bars, overlap nearly always, and hardly any meet."""
     size = np.bincount(part)[part]

@@ -56,7 +56,8 @@ def own_sides(balls: Balls, ball: Ints) -> OwnSides:
 
 
 def _contours(balls: Balls, which: Ints) -> Found:
-    """The contours, which no part of their own ball hides."""
+    """The contours, which no part of their own ball hides; of equal balls that of the first one."""
+    which = which[np.sort(np.unique(balls.same[which], return_index=True)[1])]
     middle, first, second = balls.contours(which)
     # Where it runs counter-clockwise in the picture its ball is on the left.
     outward = cross(first, second)

@@ -7,7 +7,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
-from vectorplot.geometry.boxes import overlapping_boxes
+from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes
 from vectorplot.geometry.records import joined
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.scene.view import View
@@ -28,19 +28,25 @@ def overlapping_balls(balls: Balls) -> tuple[Ints, Ints]:
     one, two = overlapping_boxes(low, high, low, high)
     close = one < two
     one, two = one[close], two[close]
-    close = _near(balls, one, two) & _near(balls, two, one)
-    return one[close], two[close]
+    near = np.zeros(len(one), dtype=np.bool_)
+    for first in range(0, len(one), PAIRS_AT_ONCE):
+        block = slice(first, first + PAIRS_AT_ONCE)
+        near[block] = _near(balls, one[block], two[block]) & _near(balls, two[block], one[block])
+    return one[near], two[near]
 
 
 def _near(balls: Balls, one: Ints, two: Ints) -> Bools:
     """(n,) whether, where the first ball of a pair is the unit sphere, the second one comes so near its centre: a ball
-    by its radius, another ellipsoid by its box."""
+    by its radius, another ellipsoid by its box; and not so near that one lies in the other."""
     frame = np.einsum("nij,njk->nik", balls.frame[two], balls.inverse[one])
     centre = np.einsum("ni,nij->nj", balls.centre[two] - balls.centre[one], balls.inverse[one])
     alike, ratio = are_homothetic(balls, two, one)
     beside = np.maximum(np.abs(centre) - np.sqrt((frame * frame).sum(axis=1)), 0.0)
     distance = np.sqrt(dot(centre, centre))
-    return np.where(alike, distance <= 1.0 + np.sqrt(ratio), dot(beside, beside) <= 1.0)
+    radius = np.sqrt(ratio)
+    # One inside the other meets it nowhere.
+    met = (distance <= 1.0 + radius) & (distance >= np.abs(1.0 - radius))
+    return np.where(alike, met, dot(beside, beside) <= 1.0)
 
 
 def are_homothetic(balls: Balls, one: Ints, two: Ints) -> tuple[Bools, Floats]:
