@@ -1,10 +1,12 @@
-"""The docstrings of what `import vectorplot as vp` offers: sections, every parameter named, examples that run."""
+"""The docstrings of what `import vectorplot as vp` and its rooms offer: sections, every parameter named, examples."""
 
 from __future__ import annotations
 
+import dataclasses
 import doctest
 import enum
 import functools
+import importlib
 import inspect
 import re
 
@@ -85,6 +87,48 @@ def test_docstrings_begin_with_one_sentence_and_keep_the_order_of_sections(name)
 @pytest.mark.parametrize("name", [*vp.__all__, *METHODS])
 def test_the_examples_run(name):
     shown = thing(name)
+    (test,) = doctest.DocTestFinder(recurse=False).find(shown, name, module=inspect.getmodule(shown), globs={})
+    assert test.examples
+    assert doctest.DocTestRunner().run(test).failed == 0
+
+
+ROOMS: list[str] = []
+
+
+def names_of(room: str) -> list[str]:
+    """The functions and classes that a room offers beside those of vp, as room.name."""
+    offered = importlib.import_module(f"vectorplot.{room}")
+    things = {name: getattr(offered, name) for name in offered.__all__ if not hasattr(vp, name)}
+    return [f"{room}.{name}" for name, shown in things.items() if inspect.isfunction(shown) or inspect.isclass(shown)]
+
+
+IN_ROOMS = [name for room in ROOMS for name in names_of(room)]
+
+
+def in_room(name: str):
+    room, shown = name.split(".")
+    return getattr(importlib.import_module(f"vectorplot.{room}"), shown)
+
+
+@pytest.mark.parametrize("name", IN_ROOMS)
+def test_what_a_room_offers_explains_every_parameter_and_what_it_returns(name):
+    shown, found = in_room(name), sections(in_room(name))
+    summary = found.pop("").strip()
+    assert summary.endswith(".") and "\n" not in summary
+    assert list(found) == [heading for heading in ORDER if heading in found]
+    if inspect.isfunction(shown):
+        signature = inspect.signature(shown)
+        assert named(found.get("Parameters", "")) == list(signature.parameters)
+        assert ("Returns" in found) == (signature.return_annotation != "None")
+    elif dataclasses.is_dataclass(shown):
+        assert named(found.get("Parameters", "")) == list(inspect.signature(shown).parameters)
+    if "raise InputError" in inspect.getsource(shown):
+        assert "InputError" in found["Raises"]
+
+
+@pytest.mark.parametrize("name", IN_ROOMS)
+def test_the_examples_of_what_a_room_offers_run(name):
+    shown = in_room(name)
     (test,) = doctest.DocTestFinder(recurse=False).find(shown, name, module=inspect.getmodule(shown), globs={})
     assert test.examples
     assert doctest.DocTestRunner().run(test).failed == 0
