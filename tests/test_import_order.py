@@ -23,7 +23,7 @@ ORDER = [
     *("drawing", "effects", "animation", "textbook", "backends"),
     *("verbs", "testing", "cli"),
 ]
-VERBS = {"draw", "paint", "read", "render", "save", "plan"}
+VERBS = {"draw", "paint", "painting", "read", "render", "save", "plan"}
 
 # A Drawing shows itself in a notebook; the import happens when the notebook asks.
 ALLOWED = {("drawing/drawing.py", "backends")}

@@ -2,60 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property, partial
-from typing import TYPE_CHECKING, Literal
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Ints
-from vectorplot.draw import default_camera, lines_in_place, seen_part, with_smooth_surfaces
-from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
-from vectorplot.drawing.fills import Colours, FillKind, Fills
-from vectorplot.drawing.layers import layers_by_kind
-from vectorplot.drawing.painted_fills import Overlay, fills_on_page, placement_of_faces, shown_faces, stacked
-from vectorplot.drawing.strokes.finishing import inked
+from vectorplot.arrays import Ints
+from vectorplot.draw import default_camera, seen_part
+from vectorplot.drawing.drawing import Drawing, Layer
+from vectorplot.drawing.painted_fills import placement_of_faces, shown_faces
 from vectorplot.errors import InputError
 from vectorplot.features.facets import Within
-from vectorplot.geometry.budget import Budget, budget_of
+from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
+from vectorplot.painting.coloured import coloured
+from vectorplot.painting.erased import erased
+from vectorplot.painting.reports import tell_groups, tell_knots, tell_slices
+from vectorplot.painting.ruler import PEN, Ruler
+from vectorplot.painting.seen import Seen
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_paint
-from vectorplot.scene.placement import Placement, allowed_in_space
+from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seams import without_seams
-from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.twins import without_twins
 from vectorplot.scene.unbounded import tell_what_is_cut_off
 from vectorplot.scene.view import View, view_of
-from vectorplot.shading.light.face_shades import Shades, item_colours, view_lights
+from vectorplot.shading.light.face_shades import view_lights
 from vectorplot.shading.light.faceted import FacetedScene, faceted
 from vectorplot.shading.light.fineness import picture_fineness
 from vectorplot.shading.light.flat_regions import plane_numbers
-from vectorplot.shading.light.painted_colours import Lighting, colours_of, corner_shades_of, opacities
+from vectorplot.shading.light.painted_colours import Lighting, opacities
 from vectorplot.shading.light.painted_normals import painted_normals
-from vectorplot.shading.light.palettes import PALETTE_SIZE, shaded_colours
-from vectorplot.shading.light.palettes import palette as shades_of
-from vectorplot.shading.light.refinement import SHORTEST_MM, refined
+from vectorplot.shading.light.palettes import PALETTE_SIZE
 from vectorplot.visibility.painter.gathering import side_by_side
 from vectorplot.visibility.painter.height_fields import known_orders
-from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
-from vectorplot.visibility.painter.order import Painted, painters_order
-from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
-from vectorplot.words import LINE_WORDS, LineKind, check_word, line_kinds
-
-if TYPE_CHECKING:
-    from vectorplot.effects.decals.decal_polygons import Decals
-
-MOST_NAMES = 5
-"""So many items of a knot are named."""
-
-PEN = Pen()
-"""What draws lines among fills."""
-
-PAPER = "white"
-"""The colour of the paper where the scene names none."""
+from vectorplot.visibility.painter.image_faces import ImageFaces
+from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.projected_faces import project_faces
+from vectorplot.words import LINE_WORDS, check_word, line_kinds
 
 
 def paint(
@@ -173,9 +159,9 @@ def paint(
     known, groups = known_orders(shown, view), _groups(scene)
     sliced = {number: planes for number, item in enumerate(scene.items) if (planes := item.curves.slices)}
     painted = walk.run("order", painters_order, view, projected, known=known, sliced=sliced, group=groups)
-    _tell_slices(walk, scene, sliced, painted)
-    _tell_knots(walk, scene, painted)
-    _tell_groups(walk, scene, painted)
+    tell_slices(walk, scene, sliced, painted)
+    tell_knots(walk, scene, painted)
+    tell_groups(walk, scene, painted)
     faces = painted.faces
     if walk.calls_for("transparent sheets"):
         from vectorplot.visibility.painter.gathering import gathered
@@ -186,7 +172,7 @@ def paint(
     plane = plane_numbers(view)
     faces = faces.some(side_by_side(faces, _planes_of(facets.scene, view, faces, plane), view.tolerance))
     placement = placement_of_faces(view, faces, page, fit)
-    seen = _Seen(facets.scene, view, projected, shown_faces(faces, placement), placement)
+    seen = Seen(facets.scene, view, projected, shown_faces(faces, placement), placement)
     world = placement.page_from_world
     here = view_lights(view, scene.lights)
     normals = np.full((3, len(view.corners)), np.nan)
@@ -196,11 +182,11 @@ def paint(
         # Pens have no gradients: meshes and planes keep one shade for each of their faces.
         normals = painted_normals(view, scene.items, (), facets.normals, plane, 0.0)
     lighting = Lighting(scene.items, here, normals, plane, palette)
-    ruler = _Ruler(scene, seen, crease_angle_deg, tolerance_mm, budget)
+    ruler = Ruler(scene, seen, crease_angle_deg, tolerance_mm, budget)
     if walk.calls_for("erasing"):
-        polygons = _erased(walk, seen, scene, ruler, kinds or line_kinds(LINE_WORDS), palette)
+        polygons = erased(walk, seen, scene, ruler, kinds or line_kinds(LINE_WORDS), palette)
     else:
-        polygons = _shaded(walk, seen, lighting, page, aura_mm, tolerance_mm, budget_of(budget))
+        polygons = coloured(walk, seen, lighting, page, aura_mm, tolerance_mm, budget_of(budget))
     if walk.calls_for("visible fills"):
         from vectorplot.drawing.fills_without_overlaps import visible_fills
 
@@ -213,56 +199,6 @@ def paint(
     if walk.calls_for("lines"):
         layers += walk.run("lines", ruler.layers, kinds, walk.fraction("lines"))
     return Drawing(page.width_mm, page.height_mm, tuple(layers), tuple(i.name for i in scene.items), scene.title, world)
-
-
-@dataclass(frozen=True, eq=False)
-class _Seen:
-    """What is painted: a scene without smooth surfaces, its view, its faces in the image, the polygons of the picture
-    back to front, and where the picture goes."""
-
-    scene: Scene
-    view: View
-    projected: ProjectedFaces
-    faces: ImageFaces
-    placement: Placement
-
-
-@dataclass(frozen=True, eq=False)
-class _Ruler:
-    """How the lines of a scene come to be on a picture of it, where its polygons have their place."""
-
-    scene: Scene
-    seen: _Seen
-    crease_angle_deg: float
-    tolerance_mm: float
-    budget: float
-
-    def layers(self, kinds: frozenset[LineKind], progress: Callable[[float], None]) -> tuple[Layer, ...]:
-        """The visible lines in layers by kind."""
-        found = self._found(self.scene, kinds, progress)
-        return inked(layers_by_kind(found), "none", self.seen.placement.page_from_world, self.tolerance_mm)
-
-    def strokes(self, scene: Scene, kinds: frozenset[LineKind]) -> Paths:
-        """The visible lines as polylines. scene: this one, whatever patterns it has."""
-        found = self._found(scene, kinds, None)
-        (layer,) = inked((Layer("", PEN, (found,)),), "none", self.seen.placement.page_from_world)
-        return layer.strokes[0]
-
-    def _found(self, scene: Scene, kinds: frozenset[LineKind], progress: Callable[[float], None] | None) -> Paths:
-        return lines_in_place(
-            scene,
-            *self._view,
-            self.seen.placement,
-            kinds,
-            crease_angle_deg=self.crease_angle_deg,
-            tolerance_mm=self.tolerance_mm,
-            budget=self.budget,
-            progress=progress,
-        )
-
-    @cached_property
-    def _view(self) -> tuple[View, ProjectedFaces]:
-        return with_smooth_surfaces(self.scene, self.seen.view, self.seen.projected)
 
 
 def _with_clear_items(scene: Scene) -> Scene:
@@ -287,35 +223,6 @@ def _groups(scene: Scene) -> Ints | None:
     return np.array([number[item.group] for item in scene.items], dtype=np.intp) if names else None
 
 
-def _tell_groups(walk: Walk, scene: Scene, painted: Painted) -> None:
-    """Tell the listener which groups stay together, and which do not."""
-    names = sorted({item.group for item in scene.items} - {""})
-    undone = [names[k] for k in painted.undone]
-    if kept := [name for name in names if name not in undone]:
-        walk.tell("groups", f"{', '.join(kept)}: ordered as wholes, then within", len(kept))
-    if undone:
-        walk.tell("groups undone", f"{', '.join(undone)}: something else comes between", len(undone))
-
-
-def _tell_slices(walk: Walk, scene: Scene, sliced: Mapping[int, Section], painted: Painted) -> None:
-    """Tell the listener which items are painted slice by slice, and which are not."""
-    for number, planes in sliced.items():
-        name = scene.items[number].name
-        if number in painted.ribbons:
-            count = painted.ribbons[number]
-            walk.tell("ribbons", f"{name}: in {len(planes.offsets) + 1} slices, ribbon by ribbon", count)
-        else:
-            walk.tell("ribbons undone", f"{name}: something else is in front of it or behind it", 0)
-
-
-def _tell_knots(walk: Walk, scene: Scene, painted: Painted) -> None:
-    """Say which items were cut because no order of whole faces was right."""
-    if len(painted) > painted.uncut:
-        names = ", ".join(scene.items[number].name for number in painted.knots[:MOST_NAMES].tolist())
-        more = f" and {len(painted.knots) - MOST_NAMES} more" if len(painted.knots) > MOST_NAMES else ""
-        walk.tell("cut", f"{names}{more}: they pierce one another, or overlap in circles", len(painted) - painted.uncut)
-
-
 def _check_options(
     shadows: str, aura_mm: float, palette: int, fills: str, crease_angle_deg: float, tolerance_mm: float
 ) -> None:
@@ -329,215 +236,3 @@ def _check_options(
         raise InputError(f"a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
     if not 0.0 < tolerance_mm < np.inf:
         raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected a length that is finite and positive")
-
-
-def _finer(seen: _Seen, lighting: Lighting, most: int) -> ImageFaces:
-    """The polygons, those that are shaded so small that no corner shows, or as many as may be."""
-    faces = seen.faces
-    shortest = SHORTEST_MM / seen.placement.scale
-    points, offsets, parent = refined(seen.view, lighting, faces.points, faces.offsets, faces.source, shortest, most)
-    if len(parent) == len(faces):
-        return faces
-    return ImageFaces(points, offsets, faces.planes[:, parent], faces.source[parent], faces.rank[parent])
-
-
-def _shades(seen: _Seen, lighting: Lighting) -> Shades:
-    faces = seen.faces
-    points = view_points(seen.view, faces.points)
-    return corner_shades_of(seen.view, lighting, points, faces.offsets, faces.source)
-
-
-def _erased(walk: Walk, seen: _Seen, scene: Scene, ruler: _Ruler, kinds: frozenset[LineKind], size: int) -> Fills:
-    """Blank polygons, and the lines of the scene on them."""
-    from vectorplot.drawing.erasing_fills import erased_fills, line_fills
-
-    view, faces = seen.view, seen.faces
-    blank = fills_on_page(
-        view,
-        faces.points,
-        faces.offsets,
-        seen.placement,
-        colours=np.repeat(_paper(scene), faces.points.shape[1], axis=0),
-        opacity=np.ones(len(faces)),
-        item=view.face_item[faces.source],
-        kind=np.full(len(faces), int(FillKind.BACKGROUND)),
-    )
-    drawn = walk.run("outlines", _coloured_strokes, scene, ruler, kinds, size)
-    lines = Fills.joined(*(line_fills(strokes, ink) for strokes, ink in drawn))
-    return walk.run("erasing", erased_fills, blank, lines, PEN.width_mm)
-
-
-def _coloured_strokes(
-    scene: Scene, ruler: _Ruler, kinds: frozenset[LineKind], size: int
-) -> list[tuple[Paths, Colours]]:
-    """The visible lines of a scene, and their inks (m,3): the middle shades of the palettes of items, and of those of
-    patterns."""
-    from vectorplot.drawing.strokes.paths import chosen
-    from vectorplot.shading.light.depth_cueing import MIDDLE
-
-    strokes = ruler.strokes(scene, kinds)
-    plain = chosen(strokes, strokes.kind != LineKind.PATTERN)
-    found = [(plain, item_colours(scene.items, plain.item, np.full(len(plain), MIDDLE), size))]
-    colours = dict.fromkeys(pattern.colour for item in scene.items for pattern in item.patterns)
-    for colour in colours if (strokes.kind == LineKind.PATTERN).any() else ():
-        items = (replace(i, patterns=tuple(p for p in i.patterns if p.colour == colour)) for i in scene.items)
-        strokes = ruler.strokes(replace(scene, items=tuple(items)), kinds)
-        own = chosen(strokes, strokes.kind == LineKind.PATTERN)
-        found.append((own, shaded_colours((colour,), np.zeros_like(own.item), np.full(len(own), MIDDLE), size)))
-    return found
-
-
-def _shaded(
-    walk: Walk, seen: _Seen, lighting: Lighting, page: Page, aura_mm: float, tolerance_mm: float, budget: Budget
-) -> Fills:
-    """The polygons of the picture in their colours, with all that lies on them and is seen in them."""
-    seen = replace(seen, faces=_finer(seen, lighting, budget.facets))
-    shades = walk.run("shades", _shades, seen, lighting)
-    aura = aura_mm / seen.placement.scale
-    decals, lighting = _decals(walk, seen, lighting, aura, budget)
-    laid = _laid(seen, lighting, decals)
-    overlays = _overlays(walk, seen, lighting, decals, aura, tolerance_mm, budget)
-    return walk.run("fills", _fills, walk, seen, lighting, shades, laid, overlays, page)
-
-
-def _decals(
-    walk: Walk, seen: _Seen, lighting: Lighting, aura: float, budget: Budget
-) -> tuple[tuple[Decals, ...], Lighting]:
-    """The polygons that lie on faces, in the order in which they are painted."""
-    scene, view, projected = seen.scene, seen.view, seen.projected
-    found: list[Decals] = []
-    if walk.calls_for("shadows"):
-        from vectorplot.effects.decals.scene_decals import scene_shadows
-
-        found.append(walk.run("shadows", scene_shadows, view, scene.items, scene.lights, projected, aura, budget))
-    if walk.calls_for("mirror light"):
-        from vectorplot.effects.decals.scene_decals import scene_mirror_light
-
-        lit, doubles = walk.run("mirror light", scene_mirror_light, scene, view, projected, lighting, found[0])
-        found.append(lit)
-        lighting = replace(lighting, doubles=doubles)
-    if walk.calls_for("patterns"):
-        from vectorplot.effects.decals.decal_polygons import joined_decals
-        from vectorplot.effects.decals.scene_decals import scene_patterns
-
-        found.append(walk.run("patterns", scene_patterns, scene, view, lighting, joined_decals(*found[:1])))
-    if walk.calls_for("clear shadows"):
-        from vectorplot.effects.shadows.transparent_shadows import clear_shadows
-
-        clear = partial(clear_shadows, projected=projected, budget=budget)
-        found.append(walk.run("clear shadows", clear, view, scene, scene.lights, found[0] if found else None))
-    return tuple(found), lighting
-
-
-def _laid(seen: _Seen, lighting: Lighting, decals: tuple[Decals, ...]) -> tuple[Overlay, ...]:
-    """What lies on the polygons of the picture."""
-    if not decals:
-        return ()
-    from vectorplot.effects.decals.decal_fills import decal_fills
-
-    return tuple(decal_fills(seen.view, lighting, some, seen.faces, seen.placement) for some in decals)
-
-
-def _overlays(
-    walk: Walk,
-    seen: _Seen,
-    lighting: Lighting,
-    decals: tuple[Decals, ...],
-    aura: float,
-    tolerance_mm: float,
-    budget: Budget,
-) -> tuple[Overlay, ...]:
-    """What polygons of the picture show, painted right after them and what lies on them.
-
-    aura: the width of soft borders of shadows in the image.
-    """
-    found = []
-    if walk.calls_for("reflections"):
-        from vectorplot.effects.mirrors.reflected_decals import double_decals
-        from vectorplot.effects.mirrors.reflection_fills import reflection_fills
-        from vectorplot.effects.mirrors.reflections import mirrors
-
-        shown = mirrors(seen.scene, seen.view, seen.projected)
-        borders = aura if walk.calls_for("shadows") else None
-
-        def decals_of(number: int, there: Lighting, which: Bools) -> tuple[Decals, ...]:
-            return double_decals(seen.scene, seen.view, shown, number, there, which, borders, budget)
-
-        found.append(
-            walk.run("reflections", reflection_fills, seen.view, lighting, shown, decals_of, seen.faces, seen.placement)
-        )
-    if walk.calls_for("refraction"):
-        from vectorplot.effects.glass.glass_fills import glass_fills
-
-        found.append(
-            walk.run(
-                "refraction",
-                glass_fills,
-                seen.scene,
-                seen.view,
-                seen.projected,
-                lighting,
-                seen.faces,
-                seen.placement,
-                tolerance_mm,
-                decals,
-            )
-        )
-    return tuple(found)
-
-
-def _fills(
-    walk: Walk,
-    seen: _Seen,
-    lighting: Lighting,
-    shades: Shades,
-    laid: tuple[Overlay, ...],
-    overlays: tuple[Overlay, ...],
-    page: Page,
-) -> Fills:
-    """The polygons of the picture on the page, with what lies on them and what is painted between them."""
-    view, faces = seen.view, seen.faces
-    item = view.face_item[faces.source]
-    opacity = opacities(seen.scene.items)[item]
-    fills = fills_on_page(
-        view,
-        faces.points,
-        faces.offsets,
-        seen.placement,
-        colours=colours_of(view, lighting, np.repeat(faces.source, np.diff(faces.offsets)), shades.total),
-        opacity=opacity,
-        item=item,
-        kind=np.where(opacity < 1.0, int(FillKind.GLASS), int(FillKind.FACE)),
-    )
-    if walk.calls_for("reflections"):
-        from vectorplot.effects.mirrors.reflection_fills import silvered
-        from vectorplot.effects.mirrors.reflections import mirrors
-
-        panes = np.isin(faces.source, mirrors(seen.scene, view, seen.projected).face)
-        fills, laid = silvered(fills, panes, _paper(seen.scene)[0], laid)
-    if walk.calls_for("refraction"):
-        from vectorplot.effects.glass.glass_fills import tinted
-        from vectorplot.effects.glass.glass_polygons import refracting_items
-
-        clear = refracting_items(seen.scene, view, seen.projected)[item]
-        fills, both = tinted(fills, clear, opacity, _paper(seen.scene)[0], (*laid, *overlays))
-        laid, overlays = both[: len(laid)], both[len(laid) :]
-    with_decals = stacked([Overlay(fills, np.arange(len(fills))), *(laid if walk.calls_for("visible fills") else ())])
-    if not walk.calls_for("visible fills"):
-        from vectorplot.drawing.flattened import flattened
-
-        world, plane = seen.placement.page_from_world, lighting.plane[faces.source]
-        with_decals = flattened(fills, laid, world, plane)
-    return Fills.joined(*_background(seen.scene, page), stacked([with_decals, *overlays]).fills)
-
-
-def _paper(scene: Scene) -> Colours:
-    """(1,3) the colour of the paper."""
-    return np.asarray(shades_of(scene.background or PAPER)[-1:])
-
-
-def _background(scene: Scene, page: Page) -> tuple[Fills, ...]:
-    """A sheet of the scene's own colour, if it names one."""
-    if scene.background is None:
-        return ()
-    return (Fills.whole_page(page.width_mm, page.height_mm, _paper(scene)[0]),)

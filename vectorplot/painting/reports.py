@@ -1,0 +1,42 @@
+"""What is said about the order of a painted picture: groups, slices, knots."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from vectorplot.plan import Walk
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.surface_lines import Section
+from vectorplot.visibility.painter.order import Painted
+
+MOST_NAMES = 5
+"""So many items of a knot are named."""
+
+
+def tell_groups(walk: Walk, scene: Scene, painted: Painted) -> None:
+    """Tell the listener which groups stay together, and which do not."""
+    names = sorted({item.group for item in scene.items} - {""})
+    undone = [names[k] for k in painted.undone]
+    if kept := [name for name in names if name not in undone]:
+        walk.tell("groups", f"{', '.join(kept)}: ordered as wholes, then within", len(kept))
+    if undone:
+        walk.tell("groups undone", f"{', '.join(undone)}: something else comes between", len(undone))
+
+
+def tell_slices(walk: Walk, scene: Scene, sliced: Mapping[int, Section], painted: Painted) -> None:
+    """Tell the listener which items are painted slice by slice, and which are not."""
+    for number, planes in sliced.items():
+        name = scene.items[number].name
+        if number in painted.ribbons:
+            count = painted.ribbons[number]
+            walk.tell("ribbons", f"{name}: in {len(planes.offsets) + 1} slices, ribbon by ribbon", count)
+        else:
+            walk.tell("ribbons undone", f"{name}: something else is in front of it or behind it", 0)
+
+
+def tell_knots(walk: Walk, scene: Scene, painted: Painted) -> None:
+    """Say which items were cut because no order of whole faces was right."""
+    if len(painted) > painted.uncut:
+        names = ", ".join(scene.items[number].name for number in painted.knots[:MOST_NAMES].tolist())
+        more = f" and {len(painted.knots) - MOST_NAMES} more" if len(painted.knots) > MOST_NAMES else ""
+        walk.tell("cut", f"{names}{more}: they pierce one another, or overlap in circles", len(painted) - painted.uncut)

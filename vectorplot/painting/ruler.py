@@ -1,0 +1,58 @@
+"""The exact visible lines of a scene, in their places on a painted picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+from vectorplot.draw import lines_in_place, with_smooth_surfaces
+from vectorplot.drawing.drawing import Layer, Paths, Pen
+from vectorplot.drawing.layers import layers_by_kind
+from vectorplot.drawing.strokes.finishing import inked
+from vectorplot.painting.seen import Seen
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import View
+from vectorplot.visibility.projected_faces import ProjectedFaces
+from vectorplot.words import LineKind
+
+PEN = Pen()
+"""What draws lines among fills."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ruler:
+    """How the lines of a scene come to be on a picture of it, where its polygons have their place."""
+
+    scene: Scene
+    seen: Seen
+    crease_angle_deg: float
+    tolerance_mm: float
+    budget: float
+
+    def layers(self, kinds: frozenset[LineKind], progress: Callable[[float], None]) -> tuple[Layer, ...]:
+        """The visible lines in layers by kind."""
+        found = self._found(self.scene, kinds, progress)
+        return inked(layers_by_kind(found), "none", self.seen.placement.page_from_world, self.tolerance_mm)
+
+    def strokes(self, scene: Scene, kinds: frozenset[LineKind]) -> Paths:
+        """The visible lines as polylines. scene: this one, whatever patterns it has."""
+        found = self._found(scene, kinds, None)
+        (layer,) = inked((Layer("", PEN, (found,)),), "none", self.seen.placement.page_from_world)
+        return layer.strokes[0]
+
+    def _found(self, scene: Scene, kinds: frozenset[LineKind], progress: Callable[[float], None] | None) -> Paths:
+        return lines_in_place(
+            scene,
+            *self._view,
+            self.seen.placement,
+            kinds,
+            crease_angle_deg=self.crease_angle_deg,
+            tolerance_mm=self.tolerance_mm,
+            budget=self.budget,
+            progress=progress,
+        )
+
+    @cached_property
+    def _view(self) -> tuple[View, ProjectedFaces]:
+        return with_smooth_surfaces(self.scene, self.seen.view, self.seen.projected)
