@@ -18,8 +18,31 @@ from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, i
 
 
 def describe(scene: Scene) -> list[str]:
-    """The lines that say what is in a scene: of every item counts, closedness, convexity and size, or which surface it
-    is and which lines there are on it, or which curve; then the whole."""
+    r"""The lines that say in words what is in a scene, as the command info prints them.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is described.
+
+    Returns
+    -------
+    list of str
+        One line for every item: counts, closedness, convexity and size of a mesh, or which surface it is and which
+        lines there are on it, or which curve; then one line on the whole.
+
+    Notes
+    -----
+    Meshes are counted with their seams joined. Sizes are those of boxes along the axes, in world units.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import io, surfaces
+    >>> print("\n".join(io.describe(vp.Scene((vp.Item("ball", surfaces.Sphere(2.0)),)))))
+    ball: surface (sphere), closed in u, size 4 x 4 x 4
+    1 item, 1 surface, 0 vertices, 0 edges, 0 faces, 0 lights, size 4 x 4 x 4
+    """
     low, high = scene.bounds
     joined = without_seams(scene)
     reports = [

@@ -30,7 +30,44 @@ MAX_ITEMS = 1_000_000
 def read_scene(path: str | os.PathLike[str]) -> Scene:
     """The scene that a file in the scene language describes.
 
-    Errors: InputError with file, line, item and the word expected. Source: Glaeser, chapter 3 and section 6.5.
+    Parameters
+    ----------
+    path : str or path
+        A text in UTF-8, of any suffix.
+
+    Returns
+    -------
+    Scene
+        With the items, lights, camera and page that the file names.
+
+    Raises
+    ------
+    InputError
+        With file, line, item and the word expected; for a file that cannot be read, is not UTF-8, is larger than 64 MiB
+        or has more than a million items.
+
+    Warns
+    -----
+    InputWarning
+        Where a colour is unknown: it is gray.
+
+    Notes
+    -----
+    `vp.read` tells this language from mesh formats by the suffix; the language stands in docs/scene-language.md.
+
+    Source: Glaeser, chapter 3 and section 6.5.
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> from vectorplot import io
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = os.path.join(folder, "die.scene")
+    ...     with open(path, "w") as file:
+    ...         _ = file.write("DIE red box solid 2 2 2")
+    ...     scene = io.read_scene(path)
+    >>> [item.name for item in scene.items]
+    ['DIE']
     """
     name = printable(str(path))
     file = Path(path)
@@ -49,10 +86,42 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
 
 
 def parse_scene(text: str, name: str = "<text>") -> Scene:
-    """The scene that a text in the scene language describes; name: what messages call the text.
+    """The scene that a text in the scene language describes.
 
-    Errors: InputError with name, line, item and the word expected; an unknown colour is gray, with an InputWarning.
+    Parameters
+    ----------
+    text : str
+        Statements and items.
+    name : str
+        What messages call the text.
+
+    Returns
+    -------
+    Scene
+        With the items, lights, camera and page that the text names.
+
+    Raises
+    ------
+    InputError
+        With name, line, item and the word expected; for more than a million items.
+
+    Warns
+    -----
+    InputWarning
+        Where a colour is unknown: it is gray.
+
+    Notes
+    -----
     Degenerate: an empty text is an empty scene.
+
+    Examples
+    --------
+    >>> from vectorplot import io
+    >>> scene = io.parse_scene("DIE red box solid 2 2 2   BALL blue surface sphere 1 translation 5 0 0")
+    >>> [(item.name, item.colour) for item in scene.items]
+    [('DIE', 'red'), ('BALL', 'blue')]
+    >>> scene.items[0].mesh.face_count
+    6
     """
     return _Reader(Words(text, name)).scene()
 

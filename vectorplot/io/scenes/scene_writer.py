@@ -20,13 +20,40 @@ from vectorplot.words import COLOURS
 
 
 def write_scene(scene: Scene) -> str:
-    """The scene in the scene language: parse_scene gives an equal scene back, to the last bit; angles of surfaces to
-    rounding.
+    """A scene as a text in the scene language, with every digit.
 
-    Every polyhedron is written by its vertices and faces, numbered from 1, surfaces by their words. The text is ASCII;
-    what is no bare word of the language is quoted.
-    Errors: InputError for what the language lacks: a surface of a function in Python.
+    Parameters
+    ----------
+    scene : Scene
+        What is written.
+
+    Returns
+    -------
+    str
+        ASCII, a line or more for every item; what is no bare word of the language is quoted.
+
+    Raises
+    ------
+    InputError
+        For what the language lacks, naming the item: a surface of a function in Python, lines of its own on a curve.
+
+    Notes
+    -----
+    parse_scene gives an equal scene back, to the last bit; angles of surfaces to rounding. Every polyhedron is written
+    by its vertices and faces, numbered from 1, surfaces by their words.
+
     Source: Glaeser, section 3.6; erratum G3-16.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import io
+    >>> text = io.write_scene(vp.Scene((), title="Nothing", page=vp.Page(100, 80, margin_mm=5)))
+    >>> print(text, end="")
+    title "Nothing"
+    page 100x80 margin 5
+    >>> io.parse_scene(text).title
+    'Nothing'
     """
     blocks: list[str] = []
     if scene.title:
