@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.triangle_rays import TriangleRays
 
 from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
@@ -191,9 +192,6 @@ def test_a_face_seen_edge_on_hides_nothing():
 @pytest.mark.parametrize("name", sorted(hard_shapes()))
 def test_every_family_is_seen_alike_by_embree(name):
     """Single precision is enough for points that keep their distance."""
-    pytest.importorskip("embreex")
-    trimesh = pytest.importorskip("trimesh")
-    intersector = pytest.importorskip("trimesh.ray.ray_pyembree")
     scene = hard_shapes()[name]
     middle = scene.bounds.mean(axis=0)
     eye = middle + np.array([1.3, -2.1, 1.7]) * (scene.bounds[1] - scene.bounds[0]).max()
@@ -202,10 +200,10 @@ def test_every_family_is_seen_alike_by_embree(name):
     sight = visible_by_rays(scene, Camera(tuple(eye), tuple(middle)), points)
     sure = sight.clearance >= 5e-4
     count = np.zeros(len(points), dtype=int)
+    way = eye - points
     for item in scene.items:
-        solid = trimesh.Trimesh(item.shape.vertices - middle, triangulated(item.shape)[0], process=False)
-        way = eye - points
-        count += intersector.RayMeshIntersector(solid).intersects_any(points - middle, way)
+        solid = TriangleRays(item.shape.vertices[triangulated(item.shape)[0]])
+        count += solid.stopped(points, way, np.ones(len(way)))
     assert sure.mean() > 0.5
     assert (count[sure] == sight.hidden_by[sure]).all()
 

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats, Ints
+from support.triangle_rays import blocked
+from vectorplot.arrays import Floats, Ints
 from vectorplot.effects.decals.decal_polygons import Decals
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
@@ -76,38 +77,6 @@ def scene_triangles(view: View) -> Floats:
     start, step = view.offsets[face[kept]], step[kept]
     corners = np.stack([view.corners[start], view.corners[start + step + 1], view.corners[start + step + 2]], axis=1)
     return view.points.T[corners]
-
-
-def blocked(points: Floats, rays: Floats, triangles: Floats) -> tuple[Bools, Floats]:
-    """(n,) whether a triangle lies across the rays (n,3) from points (n,3), and how sure that is.
-
-    A triangle that touches a point is not across its ray.
-    """
-    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
-    normal = np.cross(b - a, c - a)
-    normal /= np.maximum(np.sqrt((normal * normal).sum(axis=1)), 1e-300)[:, None]
-    length = np.sqrt((rays * rays).sum(axis=1))[:, None]
-    height = (normal * a).sum(axis=1) - points @ normal.T
-    slope = rays @ normal.T
-    across = (np.abs(slope) > 1e-9 * length) & (np.abs(height) > 1e-9)
-    share = np.where(across, height / np.where(across, slope, 1.0), -1.0)
-    ray, triangle = np.nonzero((share * length > -1e-5) & ((share - 1.0) * length < 1e-5) & across)
-    share, reach = share[ray, triangle], length[ray, 0]
-    hit = points[ray] + share[:, None] * rays[ray]
-    inside = np.full(len(ray), np.inf)
-    for start, end in ((a, b), (b, c), (c, a)):
-        along = (end - start)[triangle]
-        inward = np.cross(normal[triangle], along) / np.sqrt((along * along).sum(axis=1))[:, None]
-        inside = np.minimum(inside, (inward * (hit - start[triangle])).sum(axis=1))
-    before = np.minimum(share, 1.0 - share) * reach
-    met = (inside > 0.0) & (before > 0.0)
-    # A small step of the point turns the answer where a side of the triangle or one of its ends is near the ray.
-    doubtful = np.where(met, np.minimum(inside, before), -np.minimum(inside, before))
-    result = np.zeros(len(points), dtype=np.bool_)
-    result[ray[met]] = True
-    sure = np.full(len(points), np.inf)
-    np.minimum.at(sure, ray, np.abs(doubtful))
-    return result, sure
 
 
 def lights_blocked(view: View, lights: tuple[Light, ...], at: FacePoints) -> tuple[Ints, Floats]:

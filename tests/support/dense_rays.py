@@ -3,10 +3,9 @@ contours or borders, so singular places are places like others."""
 
 from __future__ import annotations
 
-import embreex.mesh_construction
-import embreex.rtcore_scene
 import numpy as np
 
+from support.triangle_rays import TriangleRays
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
@@ -35,8 +34,7 @@ class DenseRays:
         a, b, c, d = (part.ravel() for part in (at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]))
         triangles = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
         self.size = float(np.ptp(points, axis=0).max())
-        self.net = embreex.rtcore_scene.EmbreeScene()
-        embreex.mesh_construction.TriangleMesh(self.net, points.astype(np.float32), triangles.astype(np.int32))
+        self.net = TriangleRays(points[triangles])
 
     def hidden(
         self, shape: Surface | ImplicitSurface, camera: Camera, points: np.ndarray
@@ -60,8 +58,7 @@ class DenseRays:
 
     def _met(self, start: np.ndarray, way: np.ndarray, reach: np.ndarray) -> np.ndarray:
         if self.is_net:
-            distance = self.net.run(start.astype(np.float32), way.astype(np.float32), query="DISTANCE")
-            return np.asarray(distance < reach)
+            return self.net.stopped(start, way, reach)
         found = np.zeros(len(start), dtype=np.bool_)
         for low in range(0, len(start), AT_ONCE):
             some = slice(low, low + AT_ONCE)

@@ -4,19 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from support.triangle_rays import TriangleRays
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.shading.raster.screen import raster_system
-
-
-def intersector(vertices, triangles):
-    """What answers for rays which of the triangles (t, 3) they meet first."""
-    import embreex.mesh_construction
-    import embreex.rtcore_scene
-
-    scene = embreex.rtcore_scene.EmbreeScene()
-    soup = np.ascontiguousarray(np.asarray(vertices)[triangles], dtype=np.float32)
-    embreex.mesh_construction.TriangleMesh(scene, soup)
-    return scene
 
 
 def pixel_rays(camera: Camera, columns: int, rows: int):
@@ -34,10 +24,7 @@ def pixel_rays(camera: Camera, columns: int, rows: int):
 
 def first_triangles(vertices, triangles, origin, direction):
     """(n,) the triangle each ray meets first, -1 for none."""
-    found = intersector(vertices, triangles).run(
-        np.ascontiguousarray(origin, dtype=np.float32), np.ascontiguousarray(direction, dtype=np.float32)
-    )
-    return np.asarray(found)
+    return TriangleRays(np.asarray(vertices)[triangles]).first(origin, direction)
 
 
 def beside_edges(picture):
@@ -60,10 +47,5 @@ def stopped(vertices, triangles, places, normals, light):
     distance = np.linalg.norm(way, axis=1)
     way = way / distance[:, None]
     reach = np.full(len(places), 1e6 * size) if light.parallel else distance * (1.0 - 1e-4)
-    found = intersector(vertices, triangles).run(
-        (places + 1e-4 * size * normals).astype(np.float32),
-        np.ascontiguousarray(way, dtype=np.float32),
-        dists=reach.astype(np.float32),
-        query="OCCLUDED",
-    )
-    return np.asarray(found) >= 0, (normals * way).sum(axis=1) > 0.02
+    rays = TriangleRays(np.asarray(vertices)[triangles])
+    return rays.stopped(places + 1e-4 * size * normals, way, reach), (normals * way).sum(axis=1) > 0.02

@@ -4,10 +4,11 @@ mirrors."""
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from support.pixel_rays import intersector
+from support.triangle_rays import TriangleRays
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Page, Scene
@@ -29,9 +30,14 @@ class Faces:
     normal: Floats
     middle: Floats
 
+    @cached_property
+    def rays(self) -> TriangleRays:
+        """What shoots at them."""
+        return TriangleRays(self.triangles)
+
     def first(self, origin: Floats, direction: Floats) -> tuple[Ints, Floats]:
         """(n,) the face each ray meets first, -1 for none, and (n,3) where, exactly on its plane."""
-        found = np.asarray(_single(self.triangles, origin, direction, "INTERSECT"))
+        found = self.rays.first(origin, direction)
         face = np.where(found >= 0, self.face[found], -1)
         n, m = self.normal[face], self.middle[face]
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -43,7 +49,7 @@ class Faces:
         way = end - start
         length = np.linalg.norm(way, axis=1)
         way = way / length[:, None]
-        return np.asarray(_single(self.triangles, start, way, "OCCLUDED", length * (1.0 - 1e-6)) < 0)
+        return ~self.rays.stopped(start, way, length * (1.0 - 1e-6))
 
 
 def faces_of(scene: Scene, which: Bools | None = None) -> Faces:
@@ -100,7 +106,7 @@ def lacking(faces: Faces, scene: Scene, face: Ints, point: Floats, viewed_from: 
         slope = (way * normal).sum(axis=1)
         start = point + ABOVE * size * normal
         reach = np.full(len(point), 1e3 * size) if light.parallel else distance * (1.0 - 1e-6)
-        dark = _single(faces.triangles, start, way, "OCCLUDED", reach) >= 0
+        dark = faces.rays.stopped(start, way, reach)
         mask |= np.where(dark & (slope > 0.0) & (face >= 0), 1 << number, 0)
         sure &= np.abs(slope) > GRAZING
     return mask, sure
@@ -112,15 +118,3 @@ def clear_of_edges(labels: Ints, reach: int) -> Bools:
 
     size = 2 * reach + 1
     return np.asarray(maximum_filter(labels, size) == minimum_filter(labels, size))
-
-
-def _single(triangles: Floats, origin: Floats, direction: Floats, query: str, reach: Floats | None = None) -> Ints:
-    """(n,) the triangle each ray meets, -1 for none; in single precision, about the middle of the scene."""
-    if not len(triangles):
-        return np.full(len(origin), -1)
-    middle = triangles.reshape(-1, 3).mean(axis=0)
-    soup = (triangles - middle).reshape(-1, 3)
-    scene = intersector(soup, np.arange(len(soup)).reshape(-1, 3))
-    rays = (np.ascontiguousarray(some, dtype=np.float32) for some in (origin - middle, direction))
-    far = {} if reach is None else {"dists": np.ascontiguousarray(reach, dtype=np.float32)}
-    return np.asarray(scene.run(*rays, query=query, **far))

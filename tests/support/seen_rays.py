@@ -1,4 +1,4 @@
-"""What is seen along rays, the plain way: every ray against every triangle."""
+"""The triangles of a view, the rays of its image, and the polygons on top of points."""
 
 from __future__ import annotations
 
@@ -6,9 +6,6 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.scene.view import View
-
-CLEARANCE = 1e-7
-"""Hits nearer to the start of a ray than this are its own start."""
 
 
 def triangles(view: View) -> tuple[Floats, Ints]:
@@ -20,28 +17,6 @@ def triangles(view: View) -> tuple[Floats, Ints]:
             corners.append(view.points[:, [ring[0], ring[k], ring[k + 1]]].T)
             faces.append(face)
     return np.array(corners).reshape(-1, 3, 3), np.array(faces, dtype=np.intp)
-
-
-def first_hits(origin: Floats, direction: Floats, corners: Floats, faces: Ints) -> tuple[Ints, Floats]:
-    """(n,) the first face on each ray, -1 for none, and its distance in directions."""
-    a = corners[:, 0]
-    u, v = corners[:, 1] - a, corners[:, 2] - a
-    normal = np.cross(u, v)
-    uu, uv, vv = (u * u).sum(axis=1), (u * v).sum(axis=1), (v * v).sum(axis=1)
-    area = (uu * vv - uv * uv)[:, None]
-    # Products with these are the barycentric coordinates of what is in the plane.
-    along_u, along_v = (vv[:, None] * u - uv[:, None] * v) / area, (uu[:, None] * v - uv[:, None] * u) / area
-    slope, start = direction @ normal.T, origin @ normal.T - (a * normal).sum(axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        t = -start / slope
-        s, r = (origin @ axis.T - (a * axis).sum(axis=1) + t * (direction @ axis.T) for axis in (along_u, along_v))
-    hit = (s >= 0) & (r >= 0) & (s + r <= 1) & (t > CLEARANCE)
-    t = np.where(hit, t, np.inf)
-    if not len(faces):
-        return np.full(len(origin), -1), np.full(len(origin), np.inf)
-    which, here = t.argmin(axis=1), np.arange(len(origin))
-    nearest = t[here, which]
-    return np.where(np.isfinite(nearest), faces[which], -1), nearest
 
 
 def sight_rays(view: View, image: Floats) -> tuple[Floats, Floats]:

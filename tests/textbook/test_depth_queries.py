@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.pixel_rays import beside_edges, intersector
+from support.pixel_rays import beside_edges, first_triangles
 from support.shaded_scenes import COLUMNS, ROWS, camera_of, floor, sample, triangles_of
 
 from vectorplot.errors import InputError
@@ -38,7 +38,7 @@ def test_points_are_visible_where_no_ray_to_the_eye_is_stopped(seed):
     way = way / np.linalg.norm(way, axis=1)[:, None]
     size = np.ptp(points, axis=0).max()
     origin = (places + 1e-4 * size * way).astype(np.float32)
-    free = np.asarray(intersector(points, corners).run(origin, np.ascontiguousarray(way, dtype=np.float32))) < 0
+    free = first_triangles(points, corners, origin, way) < 0
     column, row = np.rint(in_pixels(system, places)[:, :2]).astype(int).T
     inner = ~beside_edges(buffer.source)[np.clip(row, 0, ROWS - 1), np.clip(column, 0, COLUMNS - 1)]
     inside = (row >= 0) & (row < ROWS) & (column >= 0) & (column < COLUMNS)

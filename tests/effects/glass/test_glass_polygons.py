@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 import shapely
 from support.effort import several
-from support.seen_rays import first_hits, sight_rays, topmost, triangles
+from support.seen_rays import sight_rays, topmost, triangles
+from support.triangle_rays import first_hits
 
 from vectorplot.effects.decals.decal_polygons import Decals
 from vectorplot.effects.glass.glass_polygons import refracting_items, seen_in_glass

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 from support.effort import several
-from support.seen_rays import first_hits, topmost, triangles
+from support.seen_rays import topmost, triangles
+from support.triangle_rays import first_hits
 
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.mirrors.mirror_lights import MIRRORED_SHARE, LightDouble, light_doubles, mirror_light

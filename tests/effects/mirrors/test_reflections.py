@@ -3,7 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.effort import several
-from support.seen_rays import first_hits, sight_rays, topmost, triangles
+from support.seen_rays import sight_rays, topmost, triangles
+from support.triangle_rays import first_hits
 
 from vectorplot.effects.mirrors.reflections import Mirrors, mirrored_view, mirrors, originals, reflections
 from vectorplot.effects.windows.window_polygons import SeenThrough

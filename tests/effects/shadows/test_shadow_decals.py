@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.blocked_lights import blocked, face_points, scene_triangles, wrong_points
+from support.blocked_lights import face_points, scene_triangles, wrong_points
 from support.effort import several
+from support.triangle_rays import blocked
 
 from vectorplot.arrays import Floats
 from vectorplot.effects.shadows.light_system import FacePlanes, light_system
