@@ -22,7 +22,16 @@ of them to be seen."""
 
 
 class FillKind(IntEnum):
-    """What a filled polygon is."""
+    """What a filled polygon is.
+
+    Examples
+    --------
+    >>> from vectorplot.drawing import FillKind
+    >>> FillKind.CLEAR_SHADOW.word
+    'clear_shadow'
+    >>> [kind.word for kind in FillKind][:3]
+    ['face', 'shadow', 'shadow_border']
+    """
 
     FACE = 0
     """A face, or a part of one."""
@@ -55,14 +64,48 @@ class FillKind(IntEnum):
 class Fills:
     """Filled polygons, each painted over those before it.
 
-    points (p,2) on the page in mm, y upwards; offsets (m+1,): polygon k has the corners offsets[k] to offsets[k+1]. A
-    polygon is simple, wound either way; one with holes is cut open to them first. One of two corners is a line, as wide
-    as the pen of its layer, in the mean of their colours. colours (p,3): red, green and blue of every corner; a polygon
-    whose corners have one colour is flat, any other one is convex, and shaded linearly over each triangle of the fan
-    from its first corner. opacity (m,) 0 (clear) to 1; item (m,) indices into Drawing.items, -1 for none; points3d
-    (p,3) the same points in the world; kind (m,) FillKind values.
-    Errors: InputError where the arrays do not fit together.
+    Parameters
+    ----------
+    points : (p, 2) array of float
+        On the page in mm, y upwards.
+    offsets : (m+1,) array of int
+        Polygon k has the corners offsets[k] to offsets[k+1].
+    colours : (p, 3) array of uint8
+        Red, green and blue of every corner.
+    opacity : (m,) array of float
+        0 (clear) to 1.
+    item : (m,) array of int
+        Indices into Drawing.items, -1 for none.
+    points3d : (p, 3) array of float
+        The same points in the world.
+    kind : (m,) array of int
+        FillKind values.
+
+    Raises
+    ------
+    InputError
+        Where the arrays do not fit together.
+
+    Notes
+    -----
+    A polygon is simple, wound either way; one with holes is cut open to them first. One of two corners is a line, as
+    wide as the pen of its layer, in the mean of their colours. A polygon whose corners have one colour is flat, any
+    other one is convex, and shaded linearly over each triangle of the fan from its first corner.
+
     Source: Glaeser, sections 4.5 and 5.1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot.drawing import Fills
+    >>> triangle = np.array([(10.0, 10.0), (90.0, 10.0), (50.0, 70.0)])
+    >>> red = np.array([(255, 0, 0)], dtype=np.uint8)
+    >>> fills = Fills.flat(triangle, np.array([0, 3]), red)
+    >>> fills
+    <Fills: 1 polygons, 3 corners>
+    >>> vp.Drawing(100, 80, (vp.Layer("faces", vp.Pen(), (fills,)),))
+    <Drawing '': 100x80 mm, marks: faces 1>
     """
 
     points: Floats = field(metadata=EACH_POINT)
@@ -92,7 +135,13 @@ class Fills:
 
     @classmethod
     def empty(cls) -> Fills:
-        """No polygons at all."""
+        """No polygons at all.
+
+        Returns
+        -------
+        Fills
+            Of length 0.
+        """
         none = np.zeros(0, dtype=np.intp)
         colours = np.zeros((0, 3), dtype=np.uint8)
         return cls(np.zeros((0, 2)), np.zeros(1, dtype=np.intp), colours, np.zeros(0), none, np.zeros((0, 3)), none)
@@ -109,8 +158,31 @@ class Fills:
         item: ArrayLike = -1,
         kind: ArrayLike = FillKind.FACE,
     ) -> Fills:
-        """Polygons of one colour each, given as (m,3); opacity, item and kind for each (m,) or for all. Without
-        points3d the world is the page."""
+        """Polygons of one colour each.
+
+        Parameters
+        ----------
+        points : (p, 2) array of float
+            On the page in mm, y upwards.
+        offsets : (m+1,) array of int
+            Polygon k has the corners offsets[k] to offsets[k+1].
+        colours : (m, 3) array of uint8
+            Red, green and blue.
+        points3d : (p, 3) array of float, optional
+            The same points in the world; where None, the world is the page.
+        opacity, item, kind : array_like
+            For each polygon (m,), or one for all.
+
+        Returns
+        -------
+        Fills
+            The polygons in the same order.
+
+        Raises
+        ------
+        InputError
+            For what Fills refuses.
+        """
         count = len(offsets) - 1
         solid = np.column_stack((points, np.zeros(len(points)))) if points3d is None else points3d
         return cls(
@@ -125,15 +197,50 @@ class Fills:
 
     @classmethod
     def whole_page(cls, width_mm: float, height_mm: float, colour: Colours) -> Fills:
-        """A sheet of paper in a colour (3,)."""
+        """A sheet of paper in a colour.
+
+        Parameters
+        ----------
+        width_mm, height_mm : float
+            The sides of the page.
+        colour : (3,) array of uint8
+            Red, green and blue.
+
+        Returns
+        -------
+        Fills
+            One polygon of the kind BACKGROUND.
+        """
         corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]) * (width_mm, height_mm)
         return cls.flat(corners, np.array([0, 4]), colour[None, :], kind=FillKind.BACKGROUND)
 
     @classmethod
     def joined(cls, *parts: Fills) -> Fills:
-        """The polygons of all parts, one part after the other."""
+        """The polygons of all parts, one part after the other.
+
+        Parameters
+        ----------
+        parts : Fills
+            As many as there are, also none.
+
+        Returns
+        -------
+        Fills
+            In the same order.
+        """
         return joined(parts or (cls.empty(),))
 
     def some(self, which: Ints) -> Fills:
-        """The polygons with these numbers, in this order."""
+        """The polygons with these numbers, in this order.
+
+        Parameters
+        ----------
+        which : (k,) array of int
+            Numbers from 0, each one as often as wanted.
+
+        Returns
+        -------
+        Fills
+            k polygons.
+        """
         return some(self, which)

@@ -20,11 +20,37 @@ AREA_MM2 = GRID_MM * GRID_MM
 def visible_fills(fills: Fills, page_from_world: Floats) -> Fills:
     """Polygons without common inner points that make the same picture: each without what is painted over it.
 
+    Parameters
+    ----------
+    fills : Fills
+        Each painted over those before it.
+    page_from_world : (4, 4) array of float
+        As of Drawing: points3d of new corners lie on the planes of their polygons.
+
+    Returns
+    -------
+    Fills
+        Parts of the polygons.
+
+    Notes
+    -----
     Polygons that one can see through take nothing from what lies behind them. A shaded polygon has the mean colour of
-    its corners; lines (two corners) stay as they are, on top. page_from_world (4,4) as in Drawing: points3d of new
-    corners lie on the planes of their polygons.
-    Error: corners move by GRID_MM at most, parts narrower than a few of these are left out.
+    its corners; lines (two corners) stay as they are, on top.
+
+    Error: corners move by a ten-thousandth of a mm at most, parts narrower than a few of these are left out.
+
     Source: Weiler and Atherton, Hidden surface removal using polygon area sorting (1977).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.drawing import Fills, visible_fills
+    >>> below = [(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0)]
+    >>> above = [(20.0, 0.0), (60.0, 0.0), (60.0, 30.0), (20.0, 30.0)]
+    >>> colours = np.array([(255, 0, 0), (0, 0, 255)], dtype=np.uint8)
+    >>> fills = Fills.flat(np.array(below + above), np.array([0, 4, 8]), colours)
+    >>> visible_fills(fills, np.eye(4)).points[:4, 0].max().item()
+    20.0
     """
     import shapely
 

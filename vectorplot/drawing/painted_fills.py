@@ -48,7 +48,41 @@ def interleaved(base: Fills, overlays: Sequence[Overlay]) -> Fills:
 
 
 def placement_of_faces(view: View, faces: ImageFaces, page: Page, fit: bool) -> Placement:
-    """The place on the page of a picture of painted polygons."""
+    """The place on the page of a picture of painted polygons.
+
+    Parameters
+    ----------
+    view : View
+        What is painted.
+    faces : ImageFaces
+        The polygons in the image.
+    page : Page
+        The sheet of paper.
+    fit : bool
+        Whether the picture fills the page but for its margin; otherwise the page height is the camera's picture height.
+
+    Returns
+    -------
+    Placement
+        With what takes the image to mm.
+
+    Notes
+    -----
+    Degenerate: where the faces reach behind the eye, or more than 60 degrees off the principal ray, the picture shows
+    the camera's field of vision. Without faces the origin of the image is in the middle.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import drawing, geometry
+    >>> from vectorplot.scene import look
+    >>> from vectorplot.visibility import image_faces
+    >>> view = look(vp.Scene((vp.Item("slab", geometry.box((4, 2, 1))),)), vp.Camera.view("top"))
+    >>> placement = drawing.placement_of_faces(view, image_faces(view, np.arange(6)), vp.Page(100, 80), fit=True)
+    >>> placement.scale, (placement.page_from_world @ (4, 2, 1, 1))[:2].tolist()
+    (40.0, [90.0, 60.0])
+    """
     used = np.zeros(view.face_count, dtype=np.bool_)
     used[faces.source] = True
     points = view.points[:, view.corners[np.repeat(used, view.face_sizes)]]

@@ -21,10 +21,44 @@ from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 def between_planes(scene: Scene, camera: Camera) -> Scene:
     """The scene with polyhedra cut at the camera's near and far plane, open where they are.
 
-    Patterns stay on the faces that nothing is cut off. Smooth surfaces and curves that lie wholly outside are left out;
-    those that reach through a plane stay whole, and an InputWarning says so.
+    Parameters
+    ----------
+    scene : Scene
+        What is cut.
+    camera : Camera
+        With its distances near and far.
+
+    Returns
+    -------
+    Scene
+        With as many items as before. Patterns stay on the faces that nothing is cut off.
+
+    Raises
+    ------
+    InputError
+        For a surface without a finite point.
+
+    Warns
+    -----
+    InputWarning
+        For smooth surfaces and curves that reach through a plane: they stay whole.
+
+    Notes
+    -----
+    Smooth surfaces and curves that lie wholly outside are left out.
+
     Degenerate: a face in one of the planes stays.
+
     Source: Glaeser, section 2.5 (Hodgman and Sutherland); errata G2-10 to G2-12.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import effects, geometry
+    >>> cube = vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),))
+    >>> camera = vp.Camera((1, 1, 10), (1, 1, 0), up=(0, 1, 0), near=9.0)
+    >>> effects.between_planes(cube, camera).bounds.tolist()
+    [[0.0, 0.0, 0.0], [2.0, 2.0, 1.0]]
     """
     extent = float(np.ptp(scene.bounds, axis=0).max())
     return replace(scene, items=tuple(_between(item, camera, ZERO_OF_EXTENT * extent) for item in scene.items))

@@ -16,9 +16,32 @@ from vectorplot.tolerances.of_extent import FLAT_PICTURE
 
 @dataclass(frozen=True, eq=False)
 class Placement:
-    """A picture's place: the projection that it has on a page, and page_from_image (3,3), from the image to mm, y
-    upwards. whole: all of the scene is on the page; else the picture shows the camera's field of vision, and ends at
-    the margins."""
+    """Where a picture is on the page.
+
+    Parameters
+    ----------
+    projection : Projection
+        That which the picture has: it says what the image is.
+    page : Page
+        The sheet of paper.
+    page_from_image : (3, 3) array of float
+        From homogeneous points (x, y, 1) of the image to mm, y upwards.
+    whole : bool
+        All of the scene is on the page; else the picture shows the camera's field of vision, and ends at the margins.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import scene
+    >>> from vectorplot.geometry import projection_of
+    >>> top = projection_of(vp.Camera.view("top"), bounds=np.array([(-2, -1, 0), (2, 1, 0)]))
+    >>> placement = scene.fitted_picture(top, vp.Page(100, 80), image=np.array([(-1, 1), (-0.5, 0.5)]))
+    >>> placement.scale, placement.on_page(np.array([(1.0,), (0.5,)])).tolist()
+    (40.0, [[90.0, 60.0]])
+    >>> (placement.page_from_world @ (2, 1, 0, 1))[:2].tolist()
+    [90.0, 60.0]
+    """
 
     projection: Projection
     page: Page
@@ -50,16 +73,70 @@ class Placement:
 
 
 def field_of_vision(projection: Projection, page: Page, fit: bool) -> Placement:
-    """The place of the camera's field of vision, the target in the middle: as high as the page, or if it is to fit, as
-    the page inside its margin."""
+    """The place of the camera's field of vision, the target in the middle.
+
+    Parameters
+    ----------
+    projection : Projection
+        That of the picture.
+    page : Page
+        The sheet of paper.
+    fit : bool
+        The camera's picture height becomes that of the page inside its margin; otherwise that of the whole page.
+
+    Returns
+    -------
+    Placement
+        Of a picture that ends at the margins.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene
+    >>> camera = vp.Camera((0, -10, 0), parallel=True, height=4.0)
+    >>> front = geometry.projection_of(camera, bounds=np.array([(-1, -1, -1), (1, 1, 1)]))
+    >>> placement = scene.field_of_vision(front, vp.Page(100, 80), fit=True)
+    >>> placement.scale, placement.whole, placement.on_page(np.zeros((2, 1))).tolist()
+    (15.0, False, [[50.0, 40.0]])
+    """
     height_mm = page.height_mm - 2.0 * page.margin_mm if fit else page.height_mm
     return Placement(projection, page, centred(page, projection.picture_height, height_mm), whole=False)
 
 
 def fitted_picture(projection: Projection, page: Page, image: Floats, border: float = 0.0) -> Placement:
-    """The place of a picture that fills the page with points (2,n) of the image. border: as of fitted.
+    """The place of a picture that fills the page with points of the image.
 
-    Degenerate: without points the origin is in the middle.
+    Parameters
+    ----------
+    projection : Projection
+        That of the picture.
+    page : Page
+        The sheet of paper.
+    image : (2, n) array of float
+        What is inside the margin, in units of the image.
+    border : float
+        What part of what is inside the margin stays free on each side.
+
+    Returns
+    -------
+    Placement
+        Of a picture with all of the scene, in the middle of the page.
+
+    Notes
+    -----
+    Degenerate: without points the origin is in the middle; points in one place go to the middle at the scale 1; those
+    on a line along the page's width or height fill that.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene
+    >>> top = geometry.projection_of(vp.Camera.view("top"), bounds=np.array([(-1, -1, 0), (1, 1, 0)]))
+    >>> square = np.array([(-1.0, 1.0), (-1.0, 1.0)])
+    >>> scene.fitted_picture(top, vp.Page(100, 80), square).on_page(square).tolist()
+    [[20.0, 10.0], [80.0, 70.0]]
     """
     if not image.shape[1]:
         return Placement(projection, page, fitted(page, np.zeros(2), np.zeros(2), border), whole=True)

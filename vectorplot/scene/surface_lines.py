@@ -197,9 +197,30 @@ NO_LINES = SurfaceLines()
 
 
 def even_cosines(count: int) -> tuple[float, ...]:
-    """Cosines of isophotes, evenly spaced between -1 and 1, both left out: for nine of them -0.8, -0.6, ..., 0.8.
+    """Cosines of isophotes, evenly spaced between -1 and 1, both left out.
 
-    Errors: InputError for counts below 1 or above MAX_LINES.
+    Parameters
+    ----------
+    count : int
+        How many, 1 to 10000.
+
+    Returns
+    -------
+    tuple of float
+        Ascending.
+
+    Raises
+    ------
+    InputError
+        For counts below 1 or above 10000.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import scene
+    >>> scene.even_cosines(9)
+    (-0.8, -0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.8)
+    >>> lines = vp.SurfaceLines(isophotes=scene.even_cosines(3))
     """
     if not 1 <= count <= MAX_LINES:
         raise InputError(f"isophotes: {count} of them, expected 1 to {MAX_LINES}")

@@ -20,11 +20,42 @@ from vectorplot.scene.scene import Scene
 class View(Projection):
     """A projection, and the faces of all items in its coordinates.
 
-    points (3,v); corners (c,), offsets (f+1,) as in Mesh, but without the faces that are not present, and with those
-    that are not planar and convex cut into triangles: inner (c,) marks their diagonals; face_item (f,); item_vertices
-    (i+1,): item k has the points item_vertices[k] to item_vertices[k+1], none if it is a smooth surface; smooth
-    surfaces have no faces either; occludes (i,).
+    Parameters
+    ----------
+    eye, target, focus, near, picture_height, tolerance, centre, scale, axes : of Projection
+        As there.
+    points : (3, v) array of float
+        The vertices of all items in the view's coordinates.
+    corners : (c,) array of int
+        As of Mesh, but without the faces that are not present, and with those that are not planar and convex cut into
+        triangles.
+    offsets : (f+1,) array of int
+        Face i has the corners offsets[i] to offsets[i+1].
+    inner : (c,) array of bool
+        Marks the diagonals of faces that are cut: the edges that begin at these corners.
+    face_item : (f,) array of int
+        Of which item each face is.
+    item_vertices : (i+1,) array of int
+        Item k has the points item_vertices[k] to item_vertices[k+1], none if it is a smooth surface.
+    occludes : (i,) array of bool
+        Whether each item hides what is behind it.
+
+    Notes
+    -----
+    Smooth surfaces have no faces.
+
     Source: Glaeser, section 3.1 (the pools).
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene
+    >>> cubes = [vp.Item(name, geometry.box((1, 1, 1))) for name in ("one", "two")]
+    >>> view = scene.look(vp.Scene(tuple(cubes)), vp.Camera((5, 4, 3)))
+    >>> view.points.shape, view.face_count, view.item_vertices.tolist()
+    ((3, 16), 12, [0, 8, 16])
+    >>> bool((view.depth > 0).all())
+    True
     """
 
     points: Floats
@@ -74,8 +105,36 @@ class View(Projection):
 def look(scene: Scene, camera: Camera) -> View:
     """The scene as a camera sees it.
 
-    Errors: InputError where the scene is so small, or the eye so far away, that its coordinates have no digits left.
+    Parameters
+    ----------
+    scene : Scene
+        What is looked at.
+    camera : Camera
+        Where the eye is, and how it looks.
+
+    Returns
+    -------
+    View
+        All faces in the camera's axes, in the unit box.
+
+    Raises
+    ------
+    InputError
+        Where the scene is so small, or the eye so far away, that its coordinates have no digits left; for a surface
+        without a finite point.
+
+    Notes
+    -----
     Degenerate: an empty scene gives a view without points.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene
+    >>> slab = vp.Scene((vp.Item("slab", geometry.box((4, 2, 1))),))
+    >>> view = scene.look(slab, vp.Camera.view("top"))
+    >>> view.scale, view.points.max(axis=1).tolist()
+    (2.0, [1.0, 0.5, 0.25])
     """
     return view_of(scene, projection_of(camera, scene.bounds))
 

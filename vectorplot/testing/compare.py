@@ -17,10 +17,33 @@ Group = tuple[int, bool]
 def assert_drawings_equal(a: Drawing, b: Drawing, tolerance_mm: float = 0.01) -> None:
     """Nothing, where two drawings show the same lines; otherwise an AssertionError that names the worst point.
 
+    Parameters
+    ----------
+    a, b : Drawing
+        On pages of one size.
+    tolerance_mm : float
+        In mm on the page.
+
+    Raises
+    ------
+    AssertionError
+        With the kind of line, the point and its distance from the nearest such line.
+
+    Notes
+    -----
     For each kind of line, visible and hidden apart, every point of a line in one drawing must lie within tolerance_mm
     of such a line in the other. The order, direction and splitting of the strokes, layers and pens do not matter; nor
-    does it matter whether a line is stroked once or twice. The pages must be of one size.
-    Errors: AssertionError. Degenerate: strokes of no length count as points.
+    does it matter whether a line is stroked once or twice.
+
+    Degenerate: strokes of no length count as points.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, testing
+    >>> cube = vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),))
+    >>> by_kind = vp.draw(cube, layers="kind")
+    >>> testing.assert_drawings_equal(by_kind, vp.draw(cube, layers="colour"))
     """
     sizes = [(drawing.width_mm, drawing.height_mm) for drawing in (a, b)]
     assert np.allclose(sizes[0], sizes[1], rtol=0.0, atol=tolerance_mm), (

@@ -31,12 +31,38 @@ class Worst(NamedTuple):
 def hausdorff(a: Curves, b: Curves, *, closed: bool = False, accuracy: float | None = None) -> float:
     """The Hausdorff distance of two curves: how far the points of either can be from the other one.
 
-    a, b: polylines (n, 2 or 3), or several of them, as sets of segments; of a drawing those in the world. closed: both
-    close even where the last point does not repeat the first. Symmetric; direction and splitting do not matter.
-    Error: the true distance is larger by no more than accuracy (default 1e-9 of the extent of both), and not smaller
-    but for rounding.
-    Errors: AssertionError for curves without points or with points that are not finite.
+    Parameters
+    ----------
+    a, b : array_like, list of them, Strokes, Paths or Drawing
+        Polylines (n, 2 or 3), or several of them, as sets of segments; of a drawing those in the world.
+    closed : bool
+        Both close even where the last point does not repeat the first.
+    accuracy : float, optional
+        By how much the result may be too small; 1e-9 of the extent of both where None.
+
+    Returns
+    -------
+    float
+        The same for both orders, directions and any splitting.
+
+    Raises
+    ------
+    AssertionError
+        For curves without points or with points that are not finite.
+    InputError
+        For what is no curve, and for one in the plane and one in space.
+
+    Notes
+    -----
+    Error: the true distance is larger by no more than the accuracy, and not smaller but for rounding.
+
     Degenerate: a single point is a curve too.
+
+    Examples
+    --------
+    >>> from vectorplot.testing import hausdorff
+    >>> hausdorff([(0, 0), (4, 0)], [(0, 0), (2, 1), (4, 0)])
+    1.0
     """
     return worst_of_both(a, b, closed=closed, accuracy=accuracy).distance
 

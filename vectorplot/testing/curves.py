@@ -45,10 +45,34 @@ class Places(NamedTuple):
 def assert_on_surface(points: Curves, surface: AnySurface, tolerance: float) -> None:
     """Nothing, where all points of curves lie within a distance of tolerance from a surface.
 
-    The distance from an implicit surface is taken as |F| / |gradient of F|, right to first order; from a parametrised
-    one it is that of the nearest point found from a grid of parameters.
-    Errors: AssertionError with the worst point, its parameters and its distance; no points at all, points not finite.
+    Parameters
+    ----------
+    points : array_like, list of them, Strokes, Paths or Drawing
+        Polylines (n, 3); of a drawing those in the world.
+    surface : Surface or ImplicitSurface
+        Where they shall lie.
+    tolerance : float
+        In world units.
+
+    Raises
+    ------
+    AssertionError
+        With the worst point, its parameters and its distance; for no points at all and points that are not finite.
+    InputError
+        For a tolerance that is not positive and finite, and for what is no surface or no curve in space.
+
+    Notes
+    -----
+    The distance from an implicit surface is taken as abs(F) / abs(gradient of F), right to first order; from a
+    parametrised one it is that of the nearest point found from a grid of parameters.
+
     Degenerate: where F is 0 the distance is 0, whatever the gradient.
+
+    Examples
+    --------
+    >>> from vectorplot.surfaces import implicit_sphere
+    >>> from vectorplot.testing import assert_on_surface
+    >>> assert_on_surface([(1, 0, 0), (0, 1, 0), (0.6, 0, 0.8)], implicit_sphere(radius=1.0), tolerance=1e-9)
     """
     _check_tolerance(tolerance)
     found = _points_in_space(points)
@@ -59,7 +83,29 @@ def assert_on_surface(points: Curves, surface: AnySurface, tolerance: float) -> 
 def assert_on_both(points: Curves, a: AnySurface, b: AnySurface, tolerance: float) -> None:
     """Nothing, where all points of curves lie within a distance of tolerance from two surfaces: their intersection.
 
-    Errors: AssertionError with the surface, the worst point, its parameters and its distance; see assert_on_surface.
+    Parameters
+    ----------
+    points : array_like, list of them, Strokes, Paths or Drawing
+        Polylines (n, 3); of a drawing those in the world.
+    a, b : Surface or ImplicitSurface
+        Where they shall lie.
+    tolerance : float
+        In world units.
+
+    Raises
+    ------
+    AssertionError
+        With the surface, the worst point, its parameters and its distance; see assert_on_surface.
+    InputError
+        For what assert_on_surface refuses.
+
+    Examples
+    --------
+    >>> from vectorplot.surfaces import implicit_plane, implicit_sphere
+    >>> from vectorplot.testing import assert_on_both
+    >>> equator = [(1, 0, 0), (0.6, 0.8, 0), (0, 1, 0)]
+    >>> plane = implicit_plane((0, 0, 0), (0, 0, 1), box=[(-1, -1, -1), (1, 1, 1)])
+    >>> assert_on_both(equator, implicit_sphere(radius=1.0), plane, tolerance=1e-9)
     """
     _check_tolerance(tolerance)
     found = _points_in_space(points)
@@ -70,12 +116,41 @@ def assert_on_both(points: Curves, a: AnySurface, b: AnySurface, tolerance: floa
 def assert_contour(points: Curves, surface: AnySurface, eye: Camera | ArrayLike, tolerance: float) -> None:
     """Nothing, where all points of curves are points of the contour of a surface: n . (x - eye) = 0.
 
-    eye: its place (3,), or a camera, which may be parallel. tolerance: the angle in radians that the sight ray may make
-    with the tangent plane; and, times the extent of the surface, the distance that points may have from it.
-    Errors: AssertionError with the worst point, its parameters and its angle; points without a normal; see
-    assert_on_surface.
+    Parameters
+    ----------
+    points : array_like, list of them, Strokes, Paths or Drawing
+        Polylines (n, 3); of a drawing those in the world.
+    surface : Surface or ImplicitSurface
+        Whose contour it is.
+    eye : Camera or (3,) array_like of float
+        A camera, which may be parallel, or the place of the eye.
+    tolerance : float
+        The angle in radians that the sight ray may make with the tangent plane; and, times the extent of the surface,
+        the distance that points may have from it.
+
+    Raises
+    ------
+    AssertionError
+        With the worst point, its parameters and its angle; for points without a normal; for what assert_on_surface
+        finds.
+    InputError
+        For a tolerance that is not positive and finite, and for what is no surface or no curve in space.
+
+    Notes
+    -----
     Degenerate: of several sheets that meet in a point, one that fits is enough.
+
     Source: Glaeser, section 8.4, equation 27.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot.surfaces import Sphere
+    >>> from vectorplot.testing import assert_contour
+    >>> t = np.linspace(0.0, 2.0 * np.pi, 25)
+    >>> equator = np.column_stack([np.cos(t), np.sin(t), 0.0 * t])
+    >>> assert_contour(equator, Sphere(radius=1.0), vp.Camera.view("top"), tolerance=1e-9)
     """
 
     def error(rays: Floats, normals: Floats) -> Floats:
@@ -92,13 +167,44 @@ def assert_isophote(
 ) -> None:
     """Nothing, where all points of curves are points of an isophote: normal and direction to the light make an angle.
 
-    light: the direction (3,) to it, or a Light, which may be a point. angle in radians, 0 to pi, with the surface's
-    own normals: x_u cross x_v, or the gradient; on the other side it is pi less that. tolerance: the difference of
-    angles that is allowed, in radians; and, times the extent of the surface, the distance of points from it.
-    Errors: AssertionError with the worst point, its parameters and its angle; points without a normal; see
-    assert_on_surface.
+    Parameters
+    ----------
+    points : array_like, list of them, Strokes, Paths or Drawing
+        Polylines (n, 3); of a drawing those in the world.
+    surface : Surface or ImplicitSurface
+        Whose isophote it is.
+    light : Light or (3,) array_like of float
+        A light, which may be a point, or the direction to it.
+    angle : float
+        In radians, 0 to pi, with the surface's own normals: x_u cross x_v, or the gradient; on the other side it is pi
+        less that.
+    tolerance : float
+        The difference of angles that is allowed, in radians; and, times the extent of the surface, the distance of
+        points from it.
+
+    Raises
+    ------
+    AssertionError
+        With the worst point, its parameters and its angle; for points without a normal; for what assert_on_surface
+        finds.
+    InputError
+        For an angle that is not between 0 and pi, a tolerance that is not positive and finite, and for what is no
+        surface or no curve in space.
+
+    Notes
+    -----
     Degenerate: of several sheets that meet in a point, one that fits is enough.
+
     Source: Glaeser, section 8.4, equation 28.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import Sphere
+    >>> from vectorplot.testing import assert_isophote
+    >>> t = np.linspace(0.0, 2.0 * np.pi, 25)
+    >>> circle = np.column_stack([0.8 * np.cos(t), 0.8 * np.sin(t), 0.6 + 0.0 * t])
+    >>> assert_isophote(circle, Sphere(radius=1.0), (0, 0, 1), np.arccos(0.6), tolerance=1e-9)
     """
     if not 0.0 <= angle <= np.pi:
         raise InputError(f"isophote: an angle of {angle:g} is not between 0 and pi")
@@ -112,9 +218,31 @@ def assert_isophote(
 def assert_same_curve(a: Curves, b: Curves, tolerance: float, *, closed: bool = False) -> None:
     """Nothing, where two curves are within tolerance of each other everywhere, between their points too.
 
-    Direction, start, sampling and splitting do not matter: curves are compared as sets of points. closed: both close
-    even where the last point does not repeat the first.
-    Errors: AssertionError with the worst point, where it is on its curve, and its distance from the other one.
+    Parameters
+    ----------
+    a, b : array_like, list of them, Strokes, Paths or Drawing
+        Polylines (n, 2 or 3); of a drawing those in the world.
+    tolerance : float
+        The Hausdorff distance that is allowed.
+    closed : bool
+        Both close even where the last point does not repeat the first.
+
+    Raises
+    ------
+    AssertionError
+        With the worst point, where it is on its curve, and its distance from the other one.
+    InputError
+        For a tolerance that is not positive and finite, for what is no curve, and for one in the plane and one in
+        space.
+
+    Notes
+    -----
+    Direction, start, sampling and splitting do not matter: curves are compared as sets of points.
+
+    Examples
+    --------
+    >>> from vectorplot.testing import assert_same_curve
+    >>> assert_same_curve([(0, 0), (2, 0)], [[(2, 0), (1, 0)], [(1, 0), (0, 0)]], tolerance=1e-9)
     """
     _check_tolerance(tolerance)
     worst = worst_of_both(a, b, closed=closed, accuracy=ACCURACY_OF_TOLERANCE * tolerance, enough=tolerance)
@@ -122,9 +250,31 @@ def assert_same_curve(a: Curves, b: Curves, tolerance: float, *, closed: bool = 
 
 
 def assert_closed(curve: Curves, tolerance: float | None = None) -> None:
-    """Nothing, where every curve ends where it starts: within tolerance, or 1e-9 of its extent.
+    """Nothing, where every curve ends where it starts.
 
-    Errors: AssertionError with the curve, its two ends and the gap between them; curves of one place only.
+    Parameters
+    ----------
+    curve : array_like, list of them, Strokes, Paths or Drawing
+        Polylines (n, 2 or 3).
+    tolerance : float, optional
+        The gap that is allowed; 1e-9 of the extent of each curve where None.
+
+    Raises
+    ------
+    AssertionError
+        With the curve, its two ends and the gap between them; for curves of one place only, no points at all and points
+        that are not finite.
+    InputError
+        For what is no curve.
+
+    Examples
+    --------
+    >>> from vectorplot.testing import assert_closed
+    >>> assert_closed([(0, 0), (1, 0), (1, 1), (0, 0)])
+    >>> assert_closed([(0, 0), (1, 0), (1, 1)])  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    ...
+    AssertionError: 1 of 1 curves are open: from point 0, (0, 0), to point 2, (1, 1), there is a gap of 1.414, ...
     """
     found = points_of(curve)
     first = np.flatnonzero(found.place == 0)
@@ -141,8 +291,23 @@ def assert_closed(curve: Curves, tolerance: float | None = None) -> None:
 
 
 class BranchCount(NamedTuple):
-    """How many connected pieces curves have: closed ones, without a loose end, and open ones; and at how many nodes
-    more than two ends meet."""
+    """How many connected pieces curves have.
+
+    Parameters
+    ----------
+    closed : int
+        Pieces without a loose end.
+    open : int
+        Pieces with one or more.
+    nodes : int
+        At how many places more than two ends meet.
+
+    Examples
+    --------
+    >>> from vectorplot.testing import branch_count
+    >>> branch_count([[(0, 0), (1, 0)], [(0, 0), (0, 1)], [(0, 0), (-1, 0)]])
+    BranchCount(closed=0, open=1, nodes=1)
+    """
 
     closed: int
     open: int
@@ -150,10 +315,37 @@ class BranchCount(NamedTuple):
 
 
 def branch_count(curves: Curves, tolerance: float | None = None) -> BranchCount:
-    """How many branches there are when polylines are joined whose ends meet, within tolerance or 1e-9 of the extent.
+    """How many branches there are when polylines are joined whose ends meet.
 
-    So the cutting of a curve into strokes does not count. Degenerate: polylines of one place do not count at all;
-    curves that cross between their ends are not joined.
+    Parameters
+    ----------
+    curves : array_like, list of them, Strokes, Paths or Drawing
+        Polylines (n, 2 or 3); of a drawing those in the world. A closed one repeats its first point.
+    tolerance : float, optional
+        How far ends that meet may be apart; 1e-9 of the extent where None.
+
+    Returns
+    -------
+    BranchCount
+        Of closed ones, of open ones, and of nodes: the cutting of a curve into strokes does not count.
+
+    Raises
+    ------
+    InputError
+        For what is no curve.
+    AssertionError
+        For points that are not finite.
+
+    Notes
+    -----
+    Degenerate: polylines of one place do not count at all; curves that cross between their ends are not joined.
+
+    Examples
+    --------
+    >>> from vectorplot.testing import branch_count
+    >>> halves = [[(0, 0), (1, 0), (1, 1)], [(1, 1), (0, 1), (0, 0)]]
+    >>> branch_count(halves)
+    BranchCount(closed=1, open=0, nodes=0)
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components

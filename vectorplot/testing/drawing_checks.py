@@ -31,12 +31,52 @@ def assert_drawing_is_right(
 ) -> int:
     """How many points were compared, where all agree with rays; otherwise an AssertionError that names the worst fault.
 
+    Parameters
+    ----------
+    drawing : Drawing
+        What is checked.
+    scene : Scene
+        What it shows.
+    camera : Camera
+        How it was drawn.
+    samples : int
+        How many random points on the strokes are compared.
+    seed : int
+        Of the random numbers.
+    clearance : float
+        Points nearer to a transition than this part of the extent (see visible_by_rays) are left out.
+    must_show : (n, 3) array_like of float, optional
+        Points in the world (edge_points gives some) that must be within tolerance_mm of a visible stroke if rays find
+        them visible and they lie on the page, margin_mm inside its border.
+    tolerance_mm : float
+        In mm on the page.
+    margin_mm : float
+        In mm on the page.
+
+    Returns
+    -------
+    int
+        Of samples and points to show, those that were not left out.
+
+    Raises
+    ------
+    AssertionError
+        With the number of wrong points and the worst of them, in the world.
+
+    Notes
+    -----
     Random points on the strokes must be hidden by as many items as the drawing says; on strokes of smooth curves these
-    are their vertices, and points of their chords that have been moved to the surface. must_show (n,3): points in the
-    world (edge_points gives some) that must be within tolerance_mm of a visible stroke if rays find them visible and
-    they lie on the page, margin_mm inside its border. Points nearer to a transition than clearance (see
-    visible_by_rays) are left out.
-    Errors: AssertionError.
+    are their vertices, and points of their chords that have been moved to the surface.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, testing
+    >>> cube = vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),))
+    >>> camera = vp.Camera((7, 5, 4))
+    >>> drawing = vp.draw(cube, camera, hidden="dashed")
+    >>> testing.assert_drawing_is_right(drawing, cube, camera, samples=50) > 0
+    True
     """
     found = stroke_points(drawing, scene, camera, samples, seed)
     compared = 0
@@ -101,7 +141,35 @@ def assert_shown(
 
 
 def edge_points(scene: Scene, samples: int, *, seed: int = 0) -> tuple[Floats, Ints]:
-    """Random points (n,3) on the edges of the faces of all items, and (n,) the index of the item each lies on."""
+    """Random points on the edges of the faces of all items.
+
+    Parameters
+    ----------
+    scene : Scene
+        With its polyhedra.
+    samples : int
+        How many, in all.
+    seed : int
+        Of the random numbers.
+
+    Returns
+    -------
+    (n, 3) array of float
+        In the world.
+    (n,) array of int
+        The index of the item each lies on.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, testing
+    >>> cube = vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),))
+    >>> points, item = testing.edge_points(cube, 10)
+    >>> points.shape, item.any().item()
+    ((10, 3), False)
+    >>> bool((((points == 0.0) | (points == 2.0)).sum(axis=1) >= 2).all())
+    True
+    """
     lines, owner = [np.zeros((0, 2, 3))], [np.zeros(0, dtype=np.intp)]
     for index, item in enumerate(scene.items):
         lines.append(item.mesh.vertices[edges_of_faces(item.mesh)])

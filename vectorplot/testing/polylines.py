@@ -21,11 +21,35 @@ Curves = Drawing | Paths | Strokes | ArrayLike | Sequence[ArrayLike]
 
 
 def curves_in_space(drawing: Drawing, *, kind: str | None = None, item: str | None = None) -> list[Floats]:
-    """The strokes of a drawing as polylines (n,3) in the world, visible and hidden ones; closed ones repeat their
-    first point.
+    """The strokes of a drawing, visible and hidden ones, as polylines in the world.
 
-    kind: only those of a LineKind, by its word; item: only those of an item, by its name.
-    Errors: InputError for a kind or an item that does not exist.
+    Parameters
+    ----------
+    drawing : Drawing
+        With its strokes.
+    kind : str, optional
+        Only those of a LineKind, by its word.
+    item : str, optional
+        Only those of an item, by its name.
+
+    Returns
+    -------
+    list of (n, 3) array of float
+        In world units, in drawing order; closed ones repeat their first point.
+
+    Raises
+    ------
+    InputError
+        For a kind or an item that does not exist.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.testing import curves_in_space
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> drawing = vp.draw(vp.Scene((vp.Item("triangle", triangle),)))
+    >>> [border.shape for border in curves_in_space(drawing, kind="boundary")]
+    [(4, 3)]
     """
     wanted_kind = None if kind is None else int(LineKind.from_word(kind))
     if item is not None and item not in drawing.items:

@@ -217,7 +217,20 @@ def hollow_bodies() -> Scene:
 
 
 def hard_shapes() -> dict[str, Scene]:
-    """Small scenes of every family by its name, each made anew."""
+    """Small scenes of every family by its name, each made anew.
+
+    Returns
+    -------
+    dict of str to Scene
+        Touching and cutting boxes, coincident faces, open, twisted and hollow meshes: what hidden lines go wrong on.
+
+    Examples
+    --------
+    >>> from vectorplot import testing
+    >>> shapes = testing.hard_shapes()
+    >>> shapes["cyclic bars"]
+    <Scene '': 3 items, 0 lights>
+    """
     return {
         "touching boxes": touching_boxes(),
         "nine touching cubes": nine_touching_cubes(),

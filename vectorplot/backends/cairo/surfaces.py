@@ -44,7 +44,34 @@ _TITLE_LENGTH = 200  # cairo refuses comments of more than 255 characters
 def ps_bytes(drawing: Drawing) -> bytes:
     """The drawing as a PostScript file of one page, without fonts; language level 2, or 3 if it has shaded triangles.
 
-    Errors: InputError as of page_marks.sheet. Degenerate: the bounding box of an empty drawing is the page.
+    Parameters
+    ----------
+    drawing : Drawing
+        What the file holds.
+
+    Returns
+    -------
+    bytes
+        A whole file, in points of 1/72 inch.
+
+    Raises
+    ------
+    InputError
+        For a point, page or pen width that is not finite, a page without area or too large, a colour other than
+        #rrggbb, an opacity that is not from 0 to 1.
+
+    Notes
+    -----
+    Degenerate: the bounding box of an empty drawing is the page.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import backends
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> drawing = vp.draw(vp.Scene((vp.Item("triangle", triangle),)))
+    >>> backends.ps_bytes(drawing).startswith(b"%!PS-Adobe-3.0")
+    True
     """
     return _postscript(sheet(drawing), eps=False)
 
@@ -52,8 +79,35 @@ def ps_bytes(drawing: Drawing) -> bytes:
 def eps_bytes(drawing: Drawing) -> bytes:
     """The drawing as an encapsulated PostScript file, to be placed in documents; the bounding box is that of the ink.
 
-    Errors: InputError as of page_marks.sheet. Degenerate: the bounding box of an empty drawing is the page.
+    Parameters
+    ----------
+    drawing : Drawing
+        What the file holds.
+
+    Returns
+    -------
+    bytes
+        As of ps_bytes, with the head of an encapsulated file.
+
+    Raises
+    ------
+    InputError
+        For what ps_bytes refuses.
+
+    Notes
+    -----
+    Degenerate: the bounding box of an empty drawing is the page.
+
     Source: Adobe, Encapsulated PostScript File Format Specification 3.0.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import backends
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> drawing = vp.draw(vp.Scene((vp.Item("triangle", triangle),)))
+    >>> backends.eps_bytes(drawing).splitlines()[0]
+    b'%!PS-Adobe-3.0 EPSF-3.0'
     """
     return _postscript(sheet(drawing), eps=True)
 
@@ -61,7 +115,34 @@ def eps_bytes(drawing: Drawing) -> bytes:
 def pdf_bytes(drawing: Drawing) -> bytes:
     """The drawing as a PDF file of one page.
 
-    Errors: InputError as vectorplot.backends.page.page_marks. Degenerate: an empty drawing is an empty page.
+    Parameters
+    ----------
+    drawing : Drawing
+        What the file holds; its title becomes that of the file.
+
+    Returns
+    -------
+    bytes
+        The same for the same drawing: no date is in it.
+
+    Raises
+    ------
+    InputError
+        For what ps_bytes refuses.
+
+    Notes
+    -----
+    Degenerate: an empty drawing is an empty page.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import backends
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> drawing = vp.draw(vp.Scene((vp.Item("triangle", triangle),)))
+    >>> content = backends.pdf_bytes(drawing)
+    >>> content.startswith(b"%PDF-"), content == backends.pdf_bytes(drawing)
+    (True, True)
     """
     import cairo
 
@@ -80,8 +161,36 @@ def pdf_bytes(drawing: Drawing) -> bytes:
 def png_bytes(drawing: Drawing, dpi: float = DPI) -> bytes:
     """The drawing as a PNG picture on white, in sRGB and with its resolution in the file.
 
-    Errors: InputError as of page_marks.sheet, and for a picture too large to make. Degenerate: an empty drawing
-    is a white page; a page smaller than a pixel has one.
+    Parameters
+    ----------
+    drawing : Drawing
+        What the picture shows.
+    dpi : float
+        Pixels an inch.
+
+    Returns
+    -------
+    bytes
+        A picture of the size of the page, with three channels of 8 bits.
+
+    Raises
+    ------
+    InputError
+        For what ps_bytes refuses, a resolution that is not positive and finite, and a picture of more than 32767 pixels
+        along a side or a hundred million in all.
+
+    Notes
+    -----
+    Degenerate: an empty drawing is a white page; a page smaller than a pixel has one.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import backends
+    >>> empty = vp.Drawing(254, 127, ())
+    >>> content = backends.png_bytes(empty, dpi=10)
+    >>> int.from_bytes(content[16:20], "big"), int.from_bytes(content[20:24], "big")
+    (100, 50)
     """
     import cairo
 

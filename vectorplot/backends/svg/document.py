@@ -44,18 +44,69 @@ _WIDEST_ARC = np.pi / 2.0
 def svg_text(drawing: Drawing) -> str:
     """The drawing as the text of an SVG file.
 
+    Parameters
+    ----------
+    drawing : Drawing
+        What the file holds.
+
+    Returns
+    -------
+    str
+        A whole document, that browsers, editors and drivers of plotters read.
+
+    Raises
+    ------
+    InputError
+        For what ps_bytes refuses.
+
+    Notes
+    -----
     Width and height in mm and a viewBox, so that a user unit is 1 mm; three decimals; y downwards. The layers are
     top-level groups labelled ``1 visible``, ``%2 hidden``; lines are polyline and polygon elements, curves are path
     elements with cubic segments, or with elliptic arcs where they are such; filled polygons are path elements, several
-    neighbours of one colour in one, shaded ones have linear gradients. Ids begin with a
-    hash of the content, so that several drawings can share a web page; nothing else changes from run to run.
-    Errors: InputError as vectorplot.backends.page.page_marks. Degenerate: an empty drawing is an empty page.
+    neighbours of one colour in one, shaded ones have linear gradients. Ids begin with a hash of the content, so that
+    several drawings can share a web page; nothing else changes from run to run.
+
+    Degenerate: an empty drawing is an empty page.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import backends
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> drawing = vp.draw(vp.Scene((vp.Item("triangle", triangle),)))
+    >>> text = backends.svg_text(drawing)
+    >>> 'viewBox="0 0 210 297"' in text, text.count("<polygon")
+    (True, 1)
     """
     return svg_bytes(drawing).decode("utf-8")
 
 
 def svg_bytes(drawing: Drawing) -> bytes:
-    """The drawing as the bytes of an SVG file in UTF-8; see svg_text."""
+    """The drawing as the bytes of an SVG file in UTF-8.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        What the file holds.
+
+    Returns
+    -------
+    bytes
+        The text that svg_text gives.
+
+    Raises
+    ------
+    InputError
+        For what ps_bytes refuses.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import backends
+    >>> backends.svg_bytes(vp.Drawing(100, 80, ())).decode() == backends.svg_text(vp.Drawing(100, 80, ()))
+    True
+    """
     page = sheet(drawing)
     bodies = [_body(ink, number, page.height) for number, ink in enumerate(page.inks, start=1)]
     prefix = _content_hash(page, bodies)

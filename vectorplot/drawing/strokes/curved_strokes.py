@@ -31,11 +31,43 @@ within half a tolerance, turn by less unless it is no larger than a few toleranc
 def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | Curves:
     """The strokes with curves for the smooth ones: arcs of ellipses where they are, cubic Bézier paths elsewhere.
 
-    A curve begins and ends where its stroke does and lies within tolerance_mm of the curve that the stroke samples, if
-    the stroke's chords lie within half of that. Order and directions stay.
-    Errors: InputError unless the tolerance is positive. Degenerate: without smooth strokes of three points or more the
-    strokes themselves.
+    Parameters
+    ----------
+    paths : Paths
+        Polylines, those of smooth curves marked as smooth.
+    tolerance_mm : float
+        How far a curve may be off the one that the stroke samples, if the stroke's chords lie within half of that.
+
+    Returns
+    -------
+    Paths or Curves
+        In the same order and directions; each curve begins and ends where its stroke does.
+
+    Raises
+    ------
+    InputError
+        Unless the tolerance is positive and finite.
+
+    Notes
+    -----
+    Degenerate: without smooth strokes of three points or more the strokes themselves.
+
     Source: vectorplot.curves.bezier.fit and vectorplot.curves.bezier.elliptic_arcs.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> import numpy as np
+    >>> from vectorplot.drawing import Paths, curved_strokes
+    >>> t = np.linspace(0.0, np.pi, 60)
+    >>> arch = np.column_stack([50.0 + 30.0 * np.cos(t), 20.0 + 30.0 * np.sin(t)])
+    >>> one, solid = np.zeros(1, dtype=int), np.column_stack([arch, 0.0 * t])
+    >>> paths = Paths(arch, np.array([0, 60]), np.array([False]), one, one, one, solid, np.array([True]))
+    >>> curves = curved_strokes(paths, tolerance_mm=0.05)
+    >>> curves.arcs.centre.round(6).tolist(), np.linalg.norm(curves.arcs.first, axis=1).round(6).tolist()
+    ([[50.0, 20.0]], [30.0])
+    >>> curved_strokes(replace(paths, smooth=np.array([False])), tolerance_mm=0.05) is paths
+    False
     """
     if not 0.0 < tolerance_mm < np.inf:
         raise InputError(f"curves need a positive tolerance in mm, not {tolerance_mm:g}")

@@ -13,12 +13,39 @@ from vectorplot.tolerances.of_lengths import SUM_OF_LENGTHS
 
 
 def split_long(paths: Paths, max_mm: float, page_from_world: Floats | None = None) -> Paths:
-    """The same strokes, those longer than max_mm cut into equal parts that are no longer, one after the other.
+    """The same strokes, those longer than a limit cut into equal parts that are no longer, one after the other.
 
-    page_from_world (4,4) as in Drawing, by default a parallel projection: points3d is divided where the page is. A
-    closed stroke that is cut becomes open ones.
-    Errors: InputError unless max_mm is positive.
+    Parameters
+    ----------
+    paths : Paths
+        On the page, in mm.
+    max_mm : float
+        The longest that a stroke may be.
+    page_from_world : (4, 4) array of float, optional
+        As of Drawing, by default a parallel projection: points3d is divided where the page is.
+
+    Returns
+    -------
+    Paths
+        A closed stroke that is cut becomes open ones.
+
+    Raises
+    ------
+    InputError
+        Unless the limit is positive.
+
+    Notes
+    -----
     Degenerate: strokes without length stay.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.drawing import Paths, split_long
+    >>> points, none = np.array([(0.0, 0.0), (100.0, 0.0)]), np.zeros(1, dtype=int)
+    >>> line = Paths(points, np.array([0, 2]), np.array([False]), none, none, none, np.zeros((2, 3)))
+    >>> split_long(line, max_mm=60.0).points.tolist()
+    [[0.0, 0.0], [50.0, 0.0], [50.0, 0.0], [100.0, 0.0]]
     """
     if not max_mm > 0.0:
         raise InputError(f"the longest stroke must be a positive length in mm, not {max_mm:g}")

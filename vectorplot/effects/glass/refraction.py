@@ -21,10 +21,38 @@ MOST_STEPS = 100
 
 
 def angle_of_refraction(alpha: ArrayLike, c: ArrayLike) -> Floats:
-    """(...) the angle beta, in radians, of which sin(alpha) = c sin(beta); NaN where the ray is totally reflected.
+    """The angle beta between a refracted ray and the normal, of which sin(alpha) = c sin(beta).
 
-    Errors: InputError for a constant that is not positive and finite.
+    Parameters
+    ----------
+    alpha : (...) array_like of float
+        The angle between ray and normal on the side that the ray comes from, in radians.
+    c : (...) array_like of float
+        The constant of Snell's law, about 4/3 for rays into water and 3/4 for those out of it.
+
+    Returns
+    -------
+    (...) array of float
+        In radians; NaN where the ray is totally reflected.
+
+    Raises
+    ------
+    InputError
+        For a constant that is not positive and finite.
+
+    Notes
+    -----
     Source: Glaeser, section 6.6, equation 3.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import effects
+    >>> beta = effects.angle_of_refraction(np.radians([0.0, 30.0, 60.0]), 4 / 3)
+    >>> np.degrees(beta).round(2).tolist()
+    [0.0, 22.02, 40.51]
+    >>> np.isnan(effects.angle_of_refraction(np.radians(60.0), 3 / 4)).item()
+    True
     """
     sine = np.sin(np.asarray(alpha, dtype=np.float64)) / _constant(c)
     beta = np.arcsin(np.clip(sine, -1.0, 1.0))
@@ -32,11 +60,39 @@ def angle_of_refraction(alpha: ArrayLike, c: ArrayLike) -> Floats:
 
 
 def plate_shift(alpha: ArrayLike, thickness: ArrayLike, c: ArrayLike) -> Floats:
-    """(...) how far a plane-parallel plate shifts a ray, measured along the plate: a (tan(alpha) - tan(beta)).
+    """How far a plane-parallel plate shifts a ray, measured along the plate: a (tan(alpha) - tan(beta)).
 
-    The ray leaves the plate in its old direction; across itself it is shifted by cos(alpha) times this. NaN where the
-    ray does not enter. Errors: InputError for a constant that is not positive and finite.
+    Parameters
+    ----------
+    alpha : (...) array_like of float
+        The angle of incidence, in radians.
+    thickness : (...) array_like of float
+        Of the plate, in world units: the a of the equation.
+    c : (...) array_like of float
+        As of angle_of_refraction, for rays into the plate.
+
+    Returns
+    -------
+    (...) array of float
+        In the units of the thickness; NaN where the ray does not enter.
+
+    Raises
+    ------
+    InputError
+        For a constant that is not positive and finite.
+
+    Notes
+    -----
+    The ray leaves the plate in its old direction; across itself it is shifted by cos(alpha) times this.
+
     Source: Glaeser, section 6.6, equation 4, figure 11.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import effects
+    >>> effects.plate_shift(np.radians([0.0, 45.0]), 10.0, 1.5).round(3).tolist()
+    [0.0, 4.655]
     """
     alpha = np.asarray(alpha, dtype=np.float64)
     beta = angle_of_refraction(alpha, c)
@@ -44,12 +100,42 @@ def plate_shift(alpha: ArrayLike, thickness: ArrayLike, c: ArrayLike) -> Floats:
 
 
 def refracted(directions: ArrayLike, normals: ArrayLike, c: ArrayLike) -> tuple[Floats, Bools]:
-    """(..., 3) unit directions of rays behind surfaces with some normals, and (...) which rays are totally reflected:
-    these get the direction in which they go on.
+    """The directions of rays behind surfaces with some normals.
 
-    directions, normals (..., 3) of any length; the normals point to either side; c (...) for rays in these directions.
-    Errors: InputError for vectors without length and constants that are not positive and finite.
+    Parameters
+    ----------
+    directions : (..., 3) array_like of float
+        Of the rays, of any length.
+    normals : (..., 3) array_like of float
+        Of the surfaces, of any length, to either side.
+    c : (...) array_like of float
+        As of angle_of_refraction, for rays in these directions.
+
+    Returns
+    -------
+    (..., 3) array of float
+        Unit vectors.
+    (...) array of bool
+        Which rays are totally reflected: these get the direction in which they go on.
+
+    Raises
+    ------
+    InputError
+        For vectors without length and constants that are not positive and finite.
+
+    Notes
+    -----
     Source: Glaeser, section 6.6, equation 3; section 8.5, equation 30.
+
+    Examples
+    --------
+    >>> from vectorplot import effects
+    >>> into_water, reflected = effects.refracted((1, 0, -1), (0, 0, 1), 4 / 3)
+    >>> into_water.round(3).tolist(), reflected.item()
+    ([0.53, 0.0, -0.848], False)
+    >>> back, reflected = effects.refracted((2, 0, 1), (0, 0, 1), 3 / 4)
+    >>> back.round(3).tolist(), reflected.item()
+    ([0.894, 0.0, -0.447], True)
     """
     d, n, c = normalize(directions), normalize(normals), _constant(c)[..., None]
     height = (d * n).sum(axis=-1, keepdims=True)
@@ -99,21 +185,92 @@ def tangents_of_rays(p1: ArrayLike, p2: ArrayLike, a: ArrayLike, c: ArrayLike) -
 
 
 def inverse_refraction(p1: ArrayLike, p2: ArrayLike, a: ArrayLike, c: ArrayLike) -> Floats:
-    """(...) the angle of incidence alpha, in radians, of the rays of tangents_of_rays.
+    """The angles of incidence at which an eye above a plane surface sees points below it.
 
-    Errors, Degenerate and Source: as there.
+    Parameters
+    ----------
+    p1 : (...) array_like of float
+        How far the eye is from the point, measured along the surface.
+    p2 : (...) array_like of float
+        How high the eye is above the point.
+    a : (...) array_like of float
+        How deep the point is below the surface, so that the eye is p2 - a above it.
+    c : (...) array_like of float
+        As of angle_of_refraction, for rays from the eye into the water.
+
+    Returns
+    -------
+    (...) array of float
+        The angle alpha between ray and normal on the eye's side, in radians.
+
+    Raises
+    ------
+    InputError
+        For numbers that are not finite, a < 0 or p2 <= a, and constants that are not positive and finite.
+
+    Notes
+    -----
+    (p2 - a) tan(alpha) + a tan(beta) = p1 to a few rounding steps.
+
+    Degenerate: an eye right above the point looks straight down; a point in the surface is seen where it is, or, from
+    the denser side, at the angle of total reflection if that is smaller.
+
+    Source: Glaeser, section 6.6, equations 4 and 5; erratum G6-11 (the equation is algebraic).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import effects
+    >>> alpha = effects.inverse_refraction(p1=3.0, p2=4.0, a=2.0, c=4 / 3)
+    >>> round(np.degrees(alpha).item(), 2)
+    42.41
+    >>> beta = effects.angle_of_refraction(alpha, 4 / 3)
+    >>> round((2.0 * np.tan(alpha) + 2.0 * np.tan(beta)).item(), 9)
+    3.0
     """
     return np.asarray(np.arctan(tangents_of_rays(p1, p2, a, c)[0]))
 
 
 def seen_in_surface(eye: ArrayLike, points: ArrayLike, normal: ArrayLike, on_surface: ArrayLike, c: float) -> Floats:
-    """(n, 3) where in a plane surface an eye above it sees points (n, 3) that lie below it.
+    """Where in a plane surface an eye above it sees points that lie below it.
 
-    normal (3,) points to the eye's side; on_surface (3,): a point of the plane; or (n, 3), a plane for each point.
-    c: of rays from the eye into the material.
-    Errors: as of tangents_of_rays.
-    Degenerate: as there; points above the surface by no more than rounding are in it.
+    Parameters
+    ----------
+    eye : (3,) array_like of float
+        Above the surface.
+    points : (n, 3) array_like of float
+        Below it, or in it.
+    normal : (3,) or (n, 3) array_like of float
+        Of the surface, towards the eye, of any length.
+    on_surface : (3,) or (n, 3) array_like of float
+        A point of the plane, or one for each point.
+    c : float
+        As of angle_of_refraction, for rays from the eye into the material.
+
+    Returns
+    -------
+    (n, 3) array of float
+        Points of the surface: the picture of the pool has them where their points are.
+
+    Raises
+    ------
+    InputError
+        For points above the surface, an eye that is not above it, coordinates that are not finite, a normal without
+        length and a constant that is not positive and finite.
+
+    Notes
+    -----
+    Degenerate: points above the surface by no more than rounding are in it; for those in it and right below the eye see
+    inverse_refraction.
+
     Source: Glaeser, section 6.6, figure 12 (the swimming pool).
+
+    Examples
+    --------
+    >>> from vectorplot import effects
+    >>> coins = [(0, 0, -2), (3, 0, -2)]
+    >>> effects.seen_in_surface((0, 0, 2), coins, (0, 0, 1), (0, 0, 0), 4 / 3).round(2).tolist()
+    [[0.0, 0.0, 0.0], [1.83, 0.0, 0.0]]
     """
     n = normalize(normal)
     e, p, origin = (np.asarray(x, dtype=np.float64) for x in (eye, points, on_surface))

@@ -126,11 +126,57 @@ def shadow_crossings(view: View, casters: Casters, receivers: Receivers, caster:
 def shadow_decals(
     view: View, lights: Sequence[Light], *, casters: Bools | None = None, projected: ProjectedFaces | None = None
 ) -> Decals:
-    """The shadows of every grade of all lights on the faces of a view, darker ones above: at any point the highest
-    grade there is the number of lights that the face is turned to and does not get.
+    """The shadows of all lights on the faces of a view, in every grade, darker ones above.
 
-    Arguments, errors and degenerate cases as of cast_shadows; the shadows of one light may overlap.
-    Source: Glaeser, section 6.3, figure 6.
+    Parameters
+    ----------
+    view : View
+        What casts the shadows, and gets them.
+    lights : sequence of Light
+        At most 52.
+    casters : (i,) array of bool, optional
+        The items that cast shadows; those that occlude where None.
+    projected : ProjectedFaces, optional
+        The faces of the view in the image, where they are known.
+
+    Returns
+    -------
+    Decals
+        At any point the highest grade there is the number of lights that the face is turned to and does not get. The
+        shadows of one light may overlap.
+
+    Raises
+    ------
+    InputError
+        For lights out of range, or more than 52 of them, and for shadows that overlap in too many parts.
+
+    Warns
+    -----
+    InputWarning
+        For shadows that overlap in so many parts that pictures become large.
+
+    Notes
+    -----
+    Only faces that can be seen have shadows, on the side that is seen. Where every point of a face is in the shadow of
+    one thing, the others that shadow it from this light are left out.
+
+    Degenerate: faces that the light grazes, and dark sides, have no shadows; what touches a face or lies in its plane
+    casts none on it.
+
+    Source: Glaeser, section 6.3, figures 4 to 6.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import effects, geometry
+    >>> from vectorplot.scene import look
+    >>> floor = vp.Mesh.from_polygons([(0, 0, 0), (9, 0, 0), (9, 9, 0), (0, 9, 0)], [(0, 1, 2, 3)])
+    >>> corners = [(3, 3, 1), (5, 3, 1), (5, 5, 1), (3, 5, 1)]
+    >>> roof = vp.Mesh.from_polygons(corners, [(0, 1, 2, 3)])
+    >>> view = look(vp.Scene((vp.Item("floor", floor), vp.Item("roof", roof))), vp.Camera.view("top"))
+    >>> shadows = effects.shadow_decals(view, [vp.Light((1, 0, 2), parallel=True)])
+    >>> len(shadows), shadows.face.tolist(), shadows.grade.tolist()
+    (1, [0], [1])
     """
     shadows = cast_shadows(view, lights, casters=casters, projected=projected)
     return shadow_decals_of(graded(view, shadows), FillKind.SHADOW)

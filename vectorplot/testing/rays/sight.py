@@ -18,8 +18,26 @@ from vectorplot.testing.rays.surface_rays import surface_hides
 
 
 class Sight(NamedTuple):
-    """hidden_by (n,): how many items hide each point; clearance (n,): how sure that is, see visible_by_rays; on_contour
-    (n,): whether the point is one of the contour of a smooth surface, and judged as such."""
+    """What rays find between points and the eye.
+
+    Parameters
+    ----------
+    hidden_by : (n,) array of int
+        How many items hide each point.
+    clearance : (n,) array of float
+        How sure that is, see visible_by_rays.
+    on_contour : (n,) array of bool
+        Whether the point is one of the contour of a smooth surface, and judged as such.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, testing
+    >>> cube = vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),))
+    >>> sight = testing.visible_by_rays(cube, vp.Camera.view("top"), [(1, 1, 2), (1, 1, 0)])
+    >>> sight.hidden_by.tolist(), sight.on_contour.any().item()
+    ([0, 1], False)
+    """
 
     hidden_by: Ints
     clearance: Floats
@@ -27,18 +45,44 @@ class Sight(NamedTuple):
 
 
 def visible_by_rays(scene: Scene, camera: Camera, points: ArrayLike, *, items: Sequence[int] | None = None) -> Sight:
-    """How many items hide each of the points (n,3) from the camera's eye, by brute force; 0: the point is visible.
+    """How many items hide each of some points from the camera's eye, by brute force.
 
+    Parameters
+    ----------
+    scene : Scene
+        What may hide the points.
+    camera : Camera
+        Where the eye is.
+    points : (n, 3) array_like of float
+        In the world.
+    items : sequence of int, optional
+        The indices of those that may hide; all where None.
+
+    Returns
+    -------
+    Sight
+        How many items hide each point, 0 where it is visible; and how sure that is.
+
+    Notes
+    -----
     An item counts once, however often it is met; a face or sheet that touches the point does not hide it, and neither
-    does one that is seen edge-on. Items that do not occlude and faces that are not present hide nothing; items: the
-    indices of those that may hide (None: all).
+    does one that is seen edge-on. Items that do not occlude and faces that are not present hide nothing.
 
-    clearance is the distance, as a part of the scene's largest side and at most 0.001, from the ray to the nearest
-    edge of a face that the point does not touch, or from the point to a face on its ray that it does not touch; for
-    smooth surfaces contour and borders stand for the edges, less the error of looking, so that 0 means: not known.
-    Compare only where it is larger than the accuracy asked for: nearer, the answer turns on rounding. A point of a
-    contour must lie on it to about a millionth of the extent; another curve that passes a contour changes there, and
-    has no answer.
+    clearance is the distance, as a part of the scene's largest side and at most 0.001, from the ray to the nearest edge
+    of a face that the point does not touch, or from the point to a face on its ray that it does not touch; for smooth
+    surfaces contour and borders stand for the edges, less the error of looking, so that 0 means: not known. Compare
+    only where it is larger than the accuracy asked for: nearer, the answer turns on rounding. A point of a contour must
+    lie on it to about a millionth of the extent; another curve that passes a contour changes there, and has no answer.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, testing
+    >>> slab, plank = geometry.box((4, 4, 1)), geometry.box((1, 4, 4))
+    >>> scene = vp.Scene((vp.Item("slab", slab), vp.Item("plank", plank)))
+    >>> sight = testing.visible_by_rays(scene, vp.Camera.view("top"), [(0.5, 2, 1), (2, 2, 1)])
+    >>> sight.hidden_by.tolist(), bool((sight.clearance > 1e-6).all())
+    ([1, 0], True)
     """
     targets = np.asarray(points, dtype=np.float64).reshape(-1, 3)
     bounds = scene.bounds

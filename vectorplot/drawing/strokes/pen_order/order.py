@@ -19,11 +19,36 @@ from vectorplot.geometry.polylines import with_points
 def pen_ordered(paths: Paths) -> Paths:
     """The same strokes in an order, with directions and (closed ones) first points that make the pen's travel short.
 
+    Parameters
+    ----------
+    paths : Paths
+        Strokes that one pen draws.
+
+    Returns
+    -------
+    Paths
+        Each stroke once, some of them turned round or begun elsewhere.
+
+    Notes
+    -----
     The pen begins anywhere; the end of the tour nearer to the page's corner comes first. The result does not depend on
     the order or the directions of the given strokes, except among strokes with equal ends.
+
     Degenerate: strokes without points come last, as given.
-    Source: Bentley, Fast algorithms for geometric traveling salesman problems, ORSA J. Computing 4 (1992):
-    greedy matching, 2-opt, Or-opt with neighbour lists.
+
+    Source: Bentley, Fast algorithms for geometric traveling salesman problems, ORSA J. Computing 4 (1992): greedy
+    matching, 2-opt, Or-opt with neighbour lists.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.drawing import Paths, pen_ordered, travel_mm
+    >>> points = np.array([(0.0, 0.0), (0.0, 50.0), (20.0, 0.0), (20.0, 50.0), (10.0, 0.0), (10.0, 50.0)])
+    >>> none, open_ = np.zeros(3, dtype=int), np.zeros(3, dtype=bool)
+    >>> lines = Paths(points, np.array([0, 2, 4, 6]), open_, none, none, none, np.zeros((6, 3)))
+    >>> ordered = pen_ordered(lines)
+    >>> round(travel_mm(lines), 1), round(travel_mm(ordered), 1)
+    (104.8, 20.0)
     """
     empty = np.diff(paths.offsets) == 0
     paths = chosen(paths, np.concatenate((np.flatnonzero(~empty), np.flatnonzero(empty))))
@@ -46,7 +71,31 @@ def pen_ordered(paths: Paths) -> Paths:
 
 
 def travel_mm(paths: Paths) -> float:
-    """The way of the pen while it is up, from the end of each stroke to the beginning of the next, in mm."""
+    """The way of the pen while it is up, from the end of each stroke to the beginning of the next, in mm.
+
+    Parameters
+    ----------
+    paths : Paths
+        In the order in which they are drawn.
+
+    Returns
+    -------
+    float
+        In mm; a closed stroke ends where it begins.
+
+    Notes
+    -----
+    Degenerate: 0 for no stroke or one; strokes without points count as none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.drawing import Paths, travel_mm
+    >>> points = np.array([(0.0, 0.0), (50.0, 0.0), (50.0, 10.0), (0.0, 10.0)])
+    >>> none, open_ = np.zeros(2, dtype=int), np.zeros(2, dtype=bool)
+    >>> travel_mm(Paths(points, np.array([0, 2, 4]), open_, none, none, none, np.zeros((4, 3))))
+    10.0
+    """
     drawn = np.diff(paths.offsets) > 0
     first = paths.offsets[:-1][drawn]
     last = np.where(paths.closed[drawn], first, paths.offsets[1:][drawn] - 1)
