@@ -93,8 +93,13 @@ def test_the_examples_run(name):
 
 
 ROOMS = [
+    "backends",
+    "drawing",
+    "effects",
     "exact",
     "io",
+    "scene",
+    "testing",
 ]
 
 
