@@ -8,7 +8,9 @@ import subprocess
 import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support.paths import ROOT
@@ -52,13 +54,13 @@ def place(tmp_path):
 def test_a_signal_amid_curves_of_smooth_surfaces_leaves_one_line(place, monkeypatch, capsys):
     place.write_text(SCENE + BALL, encoding="utf-8")
     arguments, out = command(place, COMMANDS[1])
-    stages = stages_of(arguments, monkeypatch)
+    whole = walked(arguments, monkeypatch)
     capsys.readouterr()
-    for number, stage in enumerate(stages):
+    for number, stage in enumerate(whole.stages):
         if stage in ("curves", "smooth surfaces"):
             command(place, COMMANDS[1])
             with monkeypatch.context() as patch, stoppable():
-                stop_at(number, lambda: os.kill(os.getpid(), signal.SIGTERM), patch)
+                stop_at(number, lambda: os.kill(os.getpid(), signal.SIGTERM), whole, patch)
                 assert run(arguments) == 143
             assert capsys.readouterr().err == "vectorplot: terminated\n"
             assert_untouched(out, place)
@@ -75,26 +77,44 @@ def assert_untouched(out: Path, scene: Path) -> None:
     assert sorted(path.name for path in scene.parent.iterdir()) == ["all.scene", out.name]
 
 
-def stages_of(arguments: list[str], monkeypatch) -> list[str]:
-    names, real = [], Walk.run
+@dataclass(frozen=True)
+class Walked:
+    """The stages of a run in their order; what each gave, and how many had begun when it ended."""
+
+    stages: list[str]
+    results: dict[int, Any]
+    ends: dict[int, int]
+
+
+def walked(arguments: list[str], monkeypatch) -> Walked:
+    found, real = Walked([], {}, {}), Walk.run
 
     def recorded(walk, name, *rest, **more):
-        names.append(name)
-        return real(walk, name, *rest, **more)
+        number = len(found.stages)
+        found.stages.append(name)
+        found.results[number] = real(walk, name, *rest, **more)
+        found.ends[number] = len(found.stages)
+        return found.results[number]
 
     with monkeypatch.context() as patch:
         patch.setattr(Walk, "run", recorded)
         assert run(arguments) == 0
-    return names
+    return found
 
 
-def stop_at(number: int, what, monkeypatch) -> None:
-    """From the stage with this number on, call what; in the middle of the stage's own work where that is the last."""
-    real, seen = Walk.run, []
+def stop_at(number: int, what, before: Walked, monkeypatch) -> None:
+    """From the stage with this number on, call what; in the middle of the stage's own work where that is the last. What
+    the stages before it gave in a whole run need not be found again."""
+    real, begun = Walk.run, [0]
 
     def stopping(self, name, function, *rest, **more):
-        seen.append(name)
-        if len(seen) <= number:
+        here = begun[0]
+        assert before.stages[here] == name
+        begun[0] = here + 1
+        if before.ends[here] <= number:
+            begun[0] = before.ends[here]
+            return before.results[here]
+        if here < number:
             return real(self, name, function, *rest, **more)
 
         def stopped(*args, **kwargs):
@@ -110,15 +130,15 @@ def stop_at(number: int, what, monkeypatch) -> None:
 @pytest.mark.parametrize("words", COMMANDS, ids=" ".join)
 def test_a_signal_at_any_stage_leaves_one_line_and_the_old_file(words, place, monkeypatch, capsys):
     arguments, out = command(place, words)
-    stages = stages_of(arguments, monkeypatch)
-    assert len(stages) > 5 and stages[-1] == "write"
+    whole = walked(arguments, monkeypatch)
+    assert len(whole.stages) > 5 and whole.stages[-1] == "write"
     capsys.readouterr()
-    for number in range(len(stages)):
+    for number in range(len(whole.stages)):
         sent, status, said = SIGNALS[number % len(SIGNALS)]
         command(place, words)
         with monkeypatch.context() as patch, stoppable():
-            stop_at(number, lambda sent=sent: os.kill(os.getpid(), sent), patch)
-            assert run(arguments) == status, stages[number]
+            stop_at(number, lambda sent=sent: os.kill(os.getpid(), sent), whole, patch)
+            assert run(arguments) == status, whole.stages[number]
         assert capsys.readouterr().err == f"vectorplot: {said}\n"
         assert_untouched(out, place)
 
@@ -135,16 +155,16 @@ def test_a_signal_at_any_stage_leaves_one_line_and_the_old_file(words, place, mo
 )
 def test_what_runs_out_at_any_stage_is_said_in_one_line(words, error, line, place, monkeypatch, capsys):
     arguments, out = command(place, words)
-    count = len(stages_of(arguments, monkeypatch))
+    whole = walked(arguments, monkeypatch)
     capsys.readouterr()
 
     def fail():
         raise error
 
-    for number in (0, count // 2, count - 1):
+    for number in (0, len(whole.stages) // 2, len(whole.stages) - 1):
         command(place, words)
         with monkeypatch.context() as patch:
-            stop_at(number, fail, patch)
+            stop_at(number, fail, whole, patch)
             assert run(arguments) == 1
         assert capsys.readouterr().err == f"vectorplot: {line}\n"
         assert_untouched(out, place)
