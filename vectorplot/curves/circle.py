@@ -18,10 +18,38 @@ from vectorplot.geometry.rotations import axis_frame
 class Circle:
     """The circle about an axis of any direction, t the angle; an arc of it where start and end say so.
 
+    Parameters
+    ----------
+    centre : (3,) array_like of float
+        In world units.
+    radius : float
+        Positive, in world units.
+    axis : (3,) array_like of float
+        Of any length; z where nothing is said.
+    start, end : float
+        The angles of the two ends, in radians.
+
+    Raises
+    ------
+    InputError
+        For a radius that is not positive, an axis without length, an empty range of angles, and numbers that are not
+        finite.
+
+    Notes
+    -----
     It starts at the horizontal direction that stands on the axis, and turns counter-clockwise seen from the axis' tip.
     Degenerate: for an upright axis it starts in the direction of x.
-    Errors: InputError for a radius that is not positive, an axis without length.
+
     Source: Glaeser, section 8.1, equations 3 and 4.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.curves import Circle
+    >>> Circle(radius=2, axis=(1, 0, 0)).points(np.array([0.0, np.pi / 2])).round(9).tolist()
+    [[0.0, 2.0, 0.0], [0.0, 0.0, 2.0]]
+    >>> Circle().closed, Circle(end=np.pi).closed
+    (True, False)
     """
 
     centre: ArrayLike = (0.0, 0.0, 0.0)

@@ -8,9 +8,24 @@ from vectorplot.arrays import Floats
 
 
 class Curve(Protocol):
-    """A curve x(t) in space over start <= t <= end.
+    """What every curve x(t) in space can do, start <= t <= end.
 
-    closed: whether x(end) = x(start) with the same tangent, so that the parameter may run on.
+    Notes
+    -----
+    A protocol: whatever has these members is a curve, of this package or of a user. start and end are the first and the
+    last parameter. closed says whether x(end) = x(start) with the same tangent, so that the parameter may run on.
+    points(t) and tangents(t) take parameters of any shape (...) and give points and derivatives by t, (..., 3) both, in
+    world units; NaN where the curve has a hole.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import curves
+    >>> def chord(curve: curves.Curve) -> float:
+    ...     first, last = curve.points(np.array([curve.start, curve.end]))
+    ...     return float(np.linalg.norm(last - first))
+    >>> chord(curves.Line((0, 0, 0), (3, 4, 0)))
+    5.0
     """
 
     @property
@@ -38,5 +53,22 @@ class Curve(Protocol):
 
 
 def is_curve(shape: object) -> TypeGuard[Curve]:
-    """Whether a shape is a curve in space: it has tangents."""
+    """Whether a shape is a curve in space.
+
+    Parameters
+    ----------
+    shape : object
+        Whatever an item may show: a mesh, a surface, a curve.
+
+    Returns
+    -------
+    bool
+        True for what has tangents.
+
+    Examples
+    --------
+    >>> from vectorplot import curves, surfaces
+    >>> curves.is_curve(curves.Circle()), curves.is_curve(surfaces.Sphere())
+    (True, False)
+    """
     return hasattr(shape, "tangents")

@@ -21,15 +21,48 @@ _Jet = tuple[Floats, Floats, Floats]
 
 
 def cylinder_intersection(r: float, s: float, a: float) -> tuple[Curve, ...]:
-    """The branches of the curve common to the cylinders x^2 + y^2 = r^2 and (x - a)^2 + z^2 = s^2, a >= 0.
+    """The branches of the curve common to the cylinders x^2 + y^2 = r^2 and (x - a)^2 + z^2 = s^2.
 
-    s < r - a: two branches, y > 0 and y < 0; s > r + a: two branches, z > 0 and z < 0; between them one, of parameters
-    0 to 4 pi. All are smooth loops.
+    Parameters
+    ----------
+    r, s : float
+        The radii, positive.
+    a : float
+        The distance of the axes, which are perpendicular; 0 or more.
+
+    Returns
+    -------
+    tuple of Curve
+        Smooth loops with exact derivatives. s < r - a: two, y > 0 and y < 0; s > r + a: two, z > 0 and z < 0; between
+        them one, of parameters 0 to 4 pi.
+
+    Raises
+    ------
+    InputError
+        For radii that are not positive, a < 0, and numbers that are not finite.
+
+    Warns
+    -----
+    InputWarning
+        Where the cylinders touch in a point: no branch.
+
+    Notes
+    -----
     Degenerate: s = r - a or s = r + a: one smooth loop that passes its double point twice; both (equal radii, a = 0):
-    two ellipses, Steinmetz's. Cylinders that are too far apart: no branch; that touch in a point: no branch and a
-    warning. Cases count as equal within rounding.
-    Errors: InputError for radii that are not positive, a < 0.
+    two ellipses, Steinmetz's. Cylinders that are too far apart: no branch. Cases count as equal within rounding.
+
     Source: Glaeser, section 8.1, example 4, equations 6 to 8; errata G8-01, G8-02.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import curves
+    >>> [len(curves.cylinder_intersection(2, 1, a)) for a in (0, 2, 4)]
+    [2, 1, 0]
+    >>> upper, lower = curves.cylinder_intersection(2, 1, 0)
+    >>> x, y, z = upper.points(np.linspace(0.0, 2.0 * np.pi, 9)).T
+    >>> bool(np.allclose(x * x + y * y, 4.0) and np.allclose(x * x + z * z, 1.0) and (y > 0).all())
+    True
     """
     branches = cylinder_branches(r, s, a)
     if not branches and a <= (r + s) * (1.0 + 2.0 * ROUNDING):
@@ -38,8 +71,37 @@ def cylinder_intersection(r: float, s: float, a: float) -> tuple[Curve, ...]:
 
 
 def cylinder_branches(r: float, s: float, a: float) -> tuple[Curve, ...]:
-    """The branches that cylinder_intersection gives, without a word where the cylinders touch in a point. Errors: as
-    there."""
+    """The branches that cylinder_intersection gives, without a word where the cylinders touch in a point.
+
+    Parameters
+    ----------
+    r, s : float
+        The radii, positive.
+    a : float
+        The distance of the axes, 0 or more.
+
+    Returns
+    -------
+    tuple of Curve
+        As of cylinder_intersection.
+
+    Raises
+    ------
+    InputError
+        For radii that are not positive, a < 0, and numbers that are not finite.
+
+    Notes
+    -----
+    Degenerate: as of cylinder_intersection.
+
+    Source: Glaeser, section 8.1, example 4, equations 6 to 8; errata G8-01, G8-02.
+
+    Examples
+    --------
+    >>> from vectorplot import curves
+    >>> curves.cylinder_branches(2, 1, 3)
+    ()
+    """
     r, s, a = positive("cylinder radius r", r), positive("cylinder radius s", s), number("distance of the axes a", a)
     if a < 0.0:
         raise InputError(f"distance of the axes a must not be negative, not {a:g}")

@@ -18,10 +18,38 @@ from vectorplot.curves.parameters import number
 class Helix:
     """The path of a point that turns about an axis and rises along it by `rise` for each radian.
 
-    rise > 0: right-handed; 2 pi rise is the height of one turn. At t = 0 the point is where the circle of the same
-    centre, radius and axis starts.
-    Errors: InputError for a radius that is not positive, an axis without length.
+    Parameters
+    ----------
+    radius : float
+        Positive, in world units.
+    rise : float
+        World units a radian: above 0 the helix is right-handed, and 2 pi rise is the height of one turn.
+    centre : (3,) array_like of float
+        Of the circle that the point is on at t = 0.
+    axis : (3,) array_like of float
+        Of any length; z where nothing is said.
+    start, end : float
+        The angles of the two ends, in radians.
+
+    Raises
+    ------
+    InputError
+        For a radius that is not positive, an axis without length, an empty range of angles, and numbers that are not
+        finite.
+
+    Notes
+    -----
+    At t = 0 the point is where the circle of the same centre, radius and axis starts.
+
     Source: Glaeser, section 8.2, equation 12, u constant.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.curves import Helix
+    >>> spring = Helix(radius=2, rise=1 / (2 * np.pi), end=6 * np.pi)
+    >>> spring.points(np.array([spring.start, spring.end])).round(9).tolist() == [[2.0, 0.0, 0.0], [2.0, 0.0, 3.0]]
+    True
     """
 
     radius: float

@@ -17,7 +17,30 @@ from vectorplot.errors import InputError
 class Line:
     """The points p + t q of a straight line, start <= t <= end.
 
-    Errors: InputError for a direction without length. Source: Glaeser, section 8.1, equation 2.
+    Parameters
+    ----------
+    point : (3,) array_like of float
+        Where t is 0.
+    direction : (3,) array_like of float
+        From there to where t is 1.
+    start, end : float
+        The first and the last parameter.
+
+    Raises
+    ------
+    InputError
+        For a direction without length, an empty range, and numbers that are not finite.
+
+    Notes
+    -----
+    Source: Glaeser, section 8.1, equation 2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.curves import Line
+    >>> Line.through((0, 0, 0), (2, 0, 4)).points(np.array([0.0, 0.5, 1.0])).tolist()
+    [[0.0, 0.0, 0.0], [1.0, 0.0, 2.0], [2.0, 0.0, 4.0]]
     """
 
     point: ArrayLike

@@ -15,12 +15,41 @@ from vectorplot.tolerances.of_angles import PARALLEL_SINE
 
 @dataclass(frozen=True)
 class Loxodrome:
-    """The curve on the sphere about the origin that crosses all meridians at the angle alpha; t is the longitude.
+    """The curve on a sphere about the origin that crosses all meridians at the same angle.
 
+    Parameters
+    ----------
+    radius : float
+        Of the sphere, positive, in world units.
+    alpha : float
+        The angle with the meridians, in radians.
+    start, end : float
+        The longitudes of the two ends, in radians: t is the longitude.
+
+    Raises
+    ------
+    InputError
+        For alpha = 0, a meridian, which has no longitude to run along; for a radius that is not positive, and an empty
+        range.
+
+    Notes
+    -----
     With k = t cot(alpha) the point is r (cos t / cosh k, sin t / cosh k, -tanh k), which is the source's formula
-    simplified; it crosses the equator at t = 0 and winds round the poles for ever.
-    Degenerate: alpha = pi/2 is the equator. Errors: InputError for alpha = 0, a meridian, which has no longitude to
-    run along, and a radius that is not positive. Source: Glaeser, section 8.1, equation 5.
+    simplified; it crosses the equator at t = 0 and winds round the poles for ever. Degenerate: alpha = pi/2 is the
+    equator.
+
+    Source: Glaeser, section 8.1, equation 5.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.curves import Loxodrome
+    >>> course = Loxodrome(radius=1, alpha=np.pi / 4)
+    >>> course.points(np.array(0.0)).tolist()
+    [1.0, 0.0, 0.0]
+    >>> east, south = course.tangents(np.array(0.0))[1:].round(9)
+    >>> float(east), float(south)
+    (1.0, -1.0)
     """
 
     radius: float

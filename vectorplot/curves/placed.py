@@ -38,9 +38,29 @@ class Placed:
 
 @dataclass(frozen=True, eq=False)
 class PlacedCurve(Placed):
-    """A curve that is Placed: its points x at x @ matrix + shift.
+    """A curve moved to where it is wanted: its points x at x @ matrix + shift.
 
-    Errors: InputError for a matrix (3,3) that cannot be inverted, a shift that is not three numbers.
+    Parameters
+    ----------
+    curve : Curve
+        What is placed.
+    matrix : (3, 3) array_like of float
+        Turns, mirrors and scales rows from the left, as those of geometry.rotations.
+    shift : (3,) array_like of float
+        What is added, in world units.
+
+    Raises
+    ------
+    InputError
+        For a matrix that cannot be inverted, a shift that is not three numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import curves, geometry
+    >>> wheel = curves.PlacedCurve(curves.Circle(radius=2), geometry.rotation_x(np.pi / 2), (0, 0, 5))
+    >>> wheel.points(np.array([0.0, np.pi / 2])).round(9).tolist()
+    [[2.0, 0.0, 5.0], [0.0, 0.0, 7.0]]
     """
 
     curve: Curve

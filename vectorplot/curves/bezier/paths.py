@@ -23,8 +23,35 @@ _LENGTH_ROUNDS = 30
 class BezierPath:
     """A path of cubic Bézier segments, each beginning where the one before ends; a Curve where d is 3.
 
-    control (k,4,d) with d 2 or 3; closed: whether the end joins the start smoothly or as a corner of a loop; error: how
-    far from the points it was fitted to it lies, at most. The parameter runs from 0 to k, by 1 in each segment.
+    Parameters
+    ----------
+    control : (k, 4, d) array of float
+        The control points of the segments; d is 2 or 3.
+    closed : bool
+        Whether the end joins the start, smoothly or as a corner of a loop.
+    error : float
+        How far from the points it was fitted to it lies, at most.
+
+    Raises
+    ------
+    InputError
+        By part and split for parameters that are not inside, by flattened for a tolerance that is not positive or takes
+        more than MAX_FLAT_POINTS points.
+
+    Notes
+    -----
+    The parameter runs from 0 to k, by 1 in each segment.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import curves
+    >>> path = curves.BezierPath(np.array([[(0, 0), (0, 1), (2, 1), (2, 0)]], dtype=float))
+    >>> path.points(np.array([0.0, 0.5, 1.0])).tolist()
+    [[0.0, 0.0], [1.0, 0.75], [2.0, 0.0]]
+    >>> before, after = path.split(0.5)
+    >>> before.control[-1, -1].tolist(), len(path.flattened(tolerance=0.01))
+    ([1.0, 0.75], 14)
     """
 
     control: Floats
@@ -82,7 +109,30 @@ class BezierPath:
 
 @dataclass(frozen=True, eq=False)
 class BezierPaths:
-    """Many paths: control (k,4,d) of all segments; offsets (m+1,) where each path begins; closed (m,); error (m,)."""
+    """Many paths of cubic Bézier segments.
+
+    Parameters
+    ----------
+    control : (k, 4, d) array of float
+        The control points of the segments of all paths, one after the other.
+    offsets : (m+1,) array of int
+        Path i has the segments offsets[i] to offsets[i+1].
+    closed : (m,) array of bool
+        Which of them end where they start.
+    error : (m,) array of float
+        How far each lies from the points it was fitted to, at most.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import curves
+    >>> points = np.array([(0, 0), (3, 0), (0, 1), (0, 5)], dtype=float)
+    >>> paths = curves.fitted_paths(points, np.array([0, 2, 4]), np.array([False, False]), tolerance=0.1)
+    >>> [paths.path(i).length() for i in range(len(paths))]
+    [3.0, 4.0]
+    >>> paths.flattened(tolerance=0.1)[1].tolist()
+    [0, 2, 4]
+    """
 
     control: Floats = field(metadata=EACH_POINT)
     offsets: Ints
