@@ -94,6 +94,7 @@ def test_the_examples_run(name):
 
 ROOMS = [
     "backends",
+    "curves",
     "drawing",
     "effects",
     "exact",
