@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from vectorplot.features.intersections.contacts import contacts
 from vectorplot.features.intersections.curve_ends import at_border
 from vectorplot.features.intersections.double_curves import DoubleCurves, no_double_curves
@@ -11,9 +13,14 @@ from vectorplot.features.intersections.triangle_pairs import overlapping_within,
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.outline import concat
+from vectorplot.geometry.vectors import cross, norm
 from vectorplot.surfaces.surface import Surface
 
 DEFAULT = Tracing()
+
+LEAST_COSINE = 0.1
+"""Triangles that all face one way within this cosine lie side by side in its plane, and the surface between them too.
+"""
 
 POINTS_A_CURVE = 64
 """There are so many times fewer double curves than points that the budget allows: a surface that all but covers itself
@@ -32,6 +39,8 @@ def self_intersections(surface: Surface, *, tracing: Tracing = DEFAULT) -> Doubl
     """
     sheet = SurfaceSheet(surface, tracing.columns, tracing.rows)
     own = sheet.tessellation
+    if _stands_over_a_plane(sheet):
+        return no_double_curves()
     found = piercings(own, own, overlapping_within(own))
     # Each curve stands there twice, with its two places exchanged.
     if len(concat(found.pairs)) > 2 * max(1, tracing.budget.points // POINTS_A_CURVE):
@@ -40,3 +49,26 @@ def self_intersections(surface: Surface, *, tracing: Tracing = DEFAULT) -> Doubl
     # Borders along which the surface goes on (a Moebius strip's ends) are no contacts.
     seam = at_border(sheet, touching.one) & at_border(sheet, touching.two)
     return double_curves(sheet, joined(sheet, sheet, found, touching.of(~seam), tracing, same=True))
+
+
+def _stands_over_a_plane(sheet: SurfaceSheet) -> bool:
+    """Whether the triangles, of a rectangle without seams, poles and holes, all face one way, and their border, seen
+    from there, does not cross itself: then no two of them are above each other.
+
+    Source: Volino and Magnenat Thalmann, Efficient self-collision detection on smoothly discretized surface animations
+    using geometrical shape regularity (1994).
+    """
+    import shapely
+
+    own, columns, rows = sheet.tessellation, sheet.columns, sheet.rows
+    if len(own.triangles) < 2 * columns * rows or own.border.sum() < 2 * (columns + rows):
+        return False
+    a, b, c = (own.points[own.triangles[:, k]] for k in range(3))
+    normals = cross(b - a, c - a)
+    along = normals.sum(axis=0)
+    if not (normals @ along > LEAST_COSINE * norm(normals) * norm(along)).all():
+        return False
+    at = np.arange((columns + 1) * (rows + 1)).reshape(columns + 1, rows + 1)
+    ring = np.concatenate([at[:-1, 0], at[-1, :-1], at[:0:-1, -1], at[0, ::-1]])
+    level = np.linalg.svd(along[None])[2][1:]
+    return bool(shapely.LineString(own.points[ring] @ level.T).is_simple)

@@ -86,6 +86,11 @@ class Cone(EllipticSections):
         """Angle and height above the apex."""
         return Domain(0.0, 2.0 * np.pi, self.bottom, self.top, closed_u=True)
 
+    @property
+    def embedded(self) -> bool:
+        """Whether it is no double cone, which meets itself in its apex."""
+        return not self.bottom < 0.0 < self.top
+
     def _ellipse(self) -> tuple[float, float]:
         return self.slope, self.slope if self.depth_slope is None else self.depth_slope
 

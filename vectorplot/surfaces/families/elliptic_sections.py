@@ -34,6 +34,11 @@ class EllipticSections(ABC):
         """(p, q), their first and their second derivatives by v."""
 
     @property
+    def embedded(self) -> bool:
+        """Whether it never meets itself: here, because each height has one ellipse at most."""
+        return True
+
+    @property
     def place(self) -> Floats:
         """(3,) the centre."""
         return self._middle()

@@ -38,6 +38,11 @@ class HyperbolicParaboloid:
         return Domain(-self.width, self.width, -self.depth, self.depth)
 
     @property
+    def embedded(self) -> bool:
+        """True: it is a graph."""
+        return True
+
+    @property
     def place(self) -> Floats:
         """(3,) the centre."""
         return np.asarray(self.centre)

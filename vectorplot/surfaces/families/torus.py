@@ -36,6 +36,11 @@ class Torus(EllipticSections):
         """Two angles."""
         return Domain(0.0, 2.0 * np.pi, 0.0, 2.0 * np.pi, closed_u=True, closed_v=True)
 
+    @property
+    def embedded(self) -> bool:
+        """Whether it is a ring, which does not reach its axis."""
+        return self.major > self.minor
+
     def _ellipse(self) -> tuple[float, float]:
         return 1.0, 1.0
 

@@ -17,7 +17,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.surfaces.graphs import is_graph
+from vectorplot.surfaces.embedded import is_embedded
 from vectorplot.surfaces.surface import Domain
 from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
 from vectorplot.visibility.smooth.sheets.meeting_families import FaceCurves, SheetsMeet
@@ -48,14 +48,14 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
     """All meetings of sheets of which one belongs to an item that wants intersections; wants (i,).
 
     A curve belongs to the item, of those that want it, that comes first in the scene. A sheet whose meetings with
-    itself nobody wants may meet itself, unless it is a graph.
+    itself nobody wants may meet itself, unless it is known to be embedded.
     """
     parts, doubts = [], []
     itself = np.zeros(len(sheets), dtype=np.bool_)
     boxes = [_box(sheet.vertices) for sheet in sheets]
     for number, sheet in enumerate(sheets):
         # Where an implicit surface meets itself its gradient vanishes; these lines are not looked for.
-        itself[number] = isinstance(sheet, ParametricSheet) and not is_graph(sheet.surface)
+        itself[number] = isinstance(sheet, ParametricSheet) and not is_embedded(sheet.surface)
         if itself[number] and wants[sheet.item] and isinstance(sheet, ParametricSheet):
             found = self_intersections(sheet.surface, tracing=tracing)
             itself[number] = len(found) > 0 or bool(found.doubts)

@@ -1,0 +1,19 @@
+"""Whether a surface is known to meet itself nowhere."""
+
+from __future__ import annotations
+
+from vectorplot.surfaces.graphs import is_graph
+from vectorplot.surfaces.inversion import InvertedSurface
+from vectorplot.surfaces.placed import PlacedSurface
+from vectorplot.surfaces.trimmed import TrimmedSurface
+
+
+def is_embedded(shape: object) -> bool:
+    """Whether a parametrised surface is known never to meet itself: a graph, one whose family says so (its attribute
+    `embedded`), or such a one that was moved, turned, scaled, inverted or trimmed.
+
+    Of others nothing is known: they may.
+    """
+    if isinstance(shape, PlacedSurface | TrimmedSurface | InvertedSurface):
+        return is_embedded(shape.surface)
+    return bool(getattr(shape, "embedded", False)) or is_graph(shape)
