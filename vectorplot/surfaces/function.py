@@ -28,7 +28,31 @@ def ranges_of(domain: Domain) -> tuple[Range, Range]:
 
 @dataclass(frozen=True, eq=False)
 class FunctionSurface:
-    """The surface of a user's function; made by `surface_of_function`."""
+    """The surface of a user's function, with its derivatives.
+
+    Parameters
+    ----------
+    domain : Domain
+        Where it is defined.
+    function : NumericFunction
+        The points.
+    first : tuple of NumericFunction
+        The derivatives by u and by v, or empty: they are found from the points.
+    second : tuple of NumericFunction
+        The second derivatives by uu, uv and vv, or empty.
+
+    Notes
+    -----
+    Made by `surface_of_function`. Where the function has no value the points are NaN.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> plane = surfaces.surface_of_function(lambda u, v: (u, v, u + v), surfaces.Domain(0, 1, 0, 1))
+    >>> isinstance(plane, surfaces.FunctionSurface), plane.points(np.array(0.5), np.array(1.0)).tolist()
+    (True, [0.5, 1.0, 1.5])
+    """
 
     domain: Domain
     function: NumericFunction
@@ -64,17 +88,55 @@ def surface_of_function(
     partials: Sequence[Callable[..., Any]] = (),
     second_partials: Sequence[Callable[..., Any]] = (),
 ) -> FunctionSurface:
-    """The surface (u, v) -> function(u, v) over a domain.
+    """The surface of the points that a user's function gives.
 
-    function: takes arrays u, v (n,) and returns x, y, z, each (n,) or one number, or an array (n, 3) or (3, n). One
-    that takes single numbers works too, slower, with one InputWarning. partials: two such functions, by u and by v;
-    second_partials: three, by uu, uv, vv. What is not given comes by complex step if the function takes complex
-    numbers, else by differences; see NumericFunction for their accuracy.
-    Errors: InputError, naming the function, when it raises, returns complex numbers or the wrong shape; and for a
-    domain that is closed in a direction in which the function does not come back to where it began.
+    Parameters
+    ----------
+    function : callable
+        Takes arrays u, v (n,) and returns x, y, z, each (n,) or one number, or an array (n, 3) or (3, n). One that
+        takes single numbers works too, slower.
+    domain : Domain
+        Where the function is asked.
+    partials : sequence of callables
+        Two such functions, by u and by v, or none.
+    second_partials : sequence of callables
+        Three such functions, by uu, uv and vv, or none.
+
+    Returns
+    -------
+    FunctionSurface
+        What is not given comes by complex step if the function takes complex numbers, else by differences of fourth
+        order: first derivatives to about 1e-12 of the largest, second ones to about 1e-9.
+
+    Raises
+    ------
+    InputError
+        Naming the function, when it raises, returns complex numbers or the wrong shape; for a domain that is closed in
+        a direction in which the function does not come back to where it began; for one partial, or one or two second
+        ones.
+
+    Warns
+    -----
+    InputWarning
+        Once for a function that takes one number at a time.
+
+    Notes
+    -----
     Degenerate: where the function is not finite the surface has a hole, NaN; a function that runs to infinity is cut
     off (see `limits_of`), and pictures of it say so.
+
     Source: Glaeser, section 8.2, equation 9.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> def moebius(u, v):
+    ...     return (2 + v * np.cos(u / 2)) * np.cos(u), (2 + v * np.cos(u / 2)) * np.sin(u), v * np.sin(u / 2)
+    >>> band = surfaces.surface_of_function(moebius, surfaces.Domain(0.0, 2.0 * np.pi, -0.5, 0.5))
+    >>> by_u, by_v = band.partials(np.array(0.0), np.array(0.5))
+    >>> by_v.tolist()
+    [1.0, 0.0, 0.0]
     """
     if len(partials) not in (0, 2) or len(second_partials) not in (0, 3):
         raise InputError("give both partials and all three second partials, or none")

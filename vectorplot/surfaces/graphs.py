@@ -20,7 +20,29 @@ from vectorplot.tolerances.of_parameters import ROUNDING_OF_DOMAIN
 
 @dataclass(frozen=True, eq=False)
 class Graph:
-    """The points (u, v, f(u, v)), normals upwards; made by `graph`."""
+    """The points (u, v, f(u, v)) above a rectangle or a region, normals upwards.
+
+    Parameters
+    ----------
+    domain : Domain
+        The rectangle, or the one around the region.
+    heights : NumericFunction
+        f; NaN outside the region.
+    slopes : tuple of NumericFunction
+        The derivatives by u and by v, or empty: they are found from the heights.
+
+    Notes
+    -----
+    Made by `graph`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> hill = surfaces.graph(lambda x, y: 4.0 - x * x - y * y, surfaces.Domain(-1, 1, -1, 1))
+    >>> isinstance(hill, surfaces.Graph), hill.points(np.array(1.0), np.array(0.0)).tolist()
+    (True, [1.0, 0.0, 3.0])
+    """
 
     domain: Domain
     heights: NumericFunction
@@ -58,14 +80,50 @@ def graph(
 ) -> Graph:
     """The surface z = function(x, y) above a rectangle or a region of the plane; u is x, v is y.
 
-    domain: a Domain, of which only the rectangle counts: x and y do not come back, whatever the function does, so the
-    graph has a border also where the domain is closed; or a region, such as Disc or PolygonRegion: the surface then has
-    the rectangle around it as its domain, with a hole outside the region, where the function is not asked. For a disc
-    with a smooth border see `graph_over_disc`. slopes: the derivatives by x and by y, else they are found as in
-    `surface_of_function`.
-    Errors: InputError, naming the function, when it raises, returns complex numbers or the wrong shape.
+    Parameters
+    ----------
+    function : callable
+        Takes arrays x, y (n,) and returns (n,) or one number. One that takes single numbers works too, slower.
+    domain : Domain or Region
+        Of a Domain only the rectangle counts: x and y do not come back, whatever the function does, so the graph has a
+        border also where the domain is closed. A region, such as Disc or PolygonRegion: the surface has the rectangle
+        around it as its domain, with a hole outside the region, where the function is not asked.
+    slopes : sequence of callables
+        The derivatives by x and by y, or none: they are found as in `surface_of_function`.
+
+    Returns
+    -------
+    Graph
+        With normals upwards.
+
+    Raises
+    ------
+    InputError
+        Naming the function, when it raises, returns complex numbers or the wrong shape; for a single slope, and a
+        region without a point.
+
+    Warns
+    -----
+    InputWarning
+        Once for a function that takes one number at a time.
+
+    Notes
+    -----
+    For a disc with a smooth border see `graph_over_disc`.
+
     Degenerate: where the function is not finite the graph has a hole, NaN; a function that runs to infinity is cut off
     (see `limits_of`), and pictures of it say so.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> waves = surfaces.graph(lambda x, y: np.sin(x) * np.cos(y), surfaces.Domain(0, 6, 0, 6))
+    >>> waves.partials(np.array(0.0), np.array(0.0))[0].round(9).tolist()
+    [1.0, 0.0, 1.0]
+    >>> tent = surfaces.graph(lambda x, y: x + y, surfaces.PolygonRegion([(0, 0), (1, 0), (0, 1)]))
+    >>> tent.points(np.array([0.25, 0.75]), np.array([0.5, 0.75]))[:, 2].tolist()
+    [0.75, nan]
     """
     if len(slopes) not in (0, 2):
         raise InputError("give both slopes or none")
@@ -81,7 +139,29 @@ def graph(
 
 @dataclass(frozen=True, eq=False)
 class PolarGraph:
-    """The points (x0 + u cos v, y0 + u sin v, f), normals upwards; made by `graph_over_disc`."""
+    """The points (x0 + u cos v, y0 + u sin v, f) above a disc, normals upwards.
+
+    Parameters
+    ----------
+    domain : Domain
+        The distances from the centre, and the angles.
+    centre : (float, float)
+        x0 and y0.
+    plane : Graph
+        f above the square around the disc.
+
+    Notes
+    -----
+    Made by `graph_over_disc`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> dome = surfaces.graph_over_disc(lambda x, y: 4.0 - x * x - y * y, surfaces.Disc(2.0))
+    >>> isinstance(dome, surfaces.PolarGraph), dome.points(np.array(2.0), np.array(0.0)).tolist()
+    (True, [2.0, 0.0, 0.0])
+    """
 
     domain: Domain
     centre: tuple[float, float]
@@ -117,8 +197,43 @@ def graph_over_disc(
 ) -> PolarGraph:
     """The surface z = function(x, y) above a disc; u is the distance from its centre, v the angle.
 
-    Its border is the circle itself; u = 0 is a pole. hole: radius of a concentric hole. slopes: as for `graph`.
-    Errors: as for `graph`; and InputError unless the hole is smaller than the disc.
+    Parameters
+    ----------
+    function : callable
+        As of `graph`.
+    disc : Disc
+        Its border is the circle itself; u = 0 is a pole.
+    hole : float
+        The radius of a concentric hole, less than that of the disc.
+    slopes : sequence of callables
+        As of `graph`: the derivatives by x and by y.
+
+    Returns
+    -------
+    PolarGraph
+        Closed in v.
+
+    Raises
+    ------
+    InputError
+        As of `graph`, and unless the hole is smaller than the disc.
+
+    Warns
+    -----
+    InputWarning
+        Once for a function that takes one number at a time.
+
+    Notes
+    -----
+    Degenerate: as of `graph`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> rings = surfaces.graph_over_disc(lambda x, y: np.cos(np.hypot(x, y)), surfaces.Disc(9.0), hole=1.0)
+    >>> rings.domain.u_start, rings.domain.u_end, rings.domain.closed_v
+    (1.0, 9.0, True)
     """
     if not 0.0 <= hole < disc.radius:
         raise InputError(f"a hole of radius {hole:g} in a disc of radius {disc.radius:g}")

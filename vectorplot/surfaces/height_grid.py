@@ -13,14 +13,39 @@ MOST_POINTS = 1 << 24
 
 
 def grid_of_scattered(points: ArrayLike, columns: int, rows: int) -> Floats:
-    """(columns+1, rows+1, 3) points of a regular grid over the box of scattered points (n,3), their heights z
-    interpolated.
+    """A regular grid of points whose heights are interpolated from scattered points.
 
-    The surface passes through all points and is smooth: cubic pieces over a Delaunay triangulation. NaN outside the
-    convex hull.
-    Errors: InputError for fewer than three points, points not finite, all on one line, wild counts.
-    Degenerate: of points above one another the first counts.
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        In world units, three or more.
+    columns, rows : int
+        Cells of the grid along x and y, over the box of the points.
+
+    Returns
+    -------
+    (columns+1, rows+1, 3) array of float
+        The grid; its heights are NaN outside the convex hull of the points.
+
+    Raises
+    ------
+    InputError
+        For fewer than three points, points that are not finite or lie all on one line, and fewer than one or more than
+        2^24 cells.
+
+    Notes
+    -----
+    The surface passes through all points and is smooth: cubic pieces over a Delaunay triangulation. Degenerate: of
+    points above one another the first counts.
+
     Source: Glaeser, section 9.3; Clough and Tocher (1965), as scipy has it.
+
+    Examples
+    --------
+    >>> from vectorplot import surfaces
+    >>> grid = surfaces.grid_of_scattered([(0, 0, 1), (2, 0, 3), (0, 2, 1), (2, 2, 3), (1, 1, 2)], columns=2, rows=2)
+    >>> grid[..., 2].round(6).tolist()
+    [[1.0, 1.0, 1.0], [2.0, 2.0, 2.0], [3.0, 3.0, 3.0]]
     """
     from scipy.interpolate import CloughTocher2DInterpolator
     from scipy.spatial import QhullError
@@ -45,12 +70,37 @@ def grid_of_scattered(points: ArrayLike, columns: int, rows: int) -> Floats:
 
 
 def densified_grid(grid: ArrayLike, factor: int) -> Floats:
-    """((m-1) f + 1, (n-1) f + 1, 3) a grid of points (m,n,3) with factor f - 1 extra points between neighbours, on
-    Akima's splines along its lines.
+    """A grid with extra points between neighbours, on Akima's splines along its lines.
 
-    The points of the grid stay. Errors: InputError for a grid of another shape, points not finite, wild factors.
+    Parameters
+    ----------
+    grid : (m, n, 3) array_like of float
+        Points, two or more each way.
+    factor : int
+        Each step becomes so many: factor - 1 extra points.
+
+    Returns
+    -------
+    ((m-1) factor + 1, (n-1) factor + 1, 3) array of float
+        The points of the grid stay, to the last bit.
+
+    Raises
+    ------
+    InputError
+        For a grid of another shape, points that are not finite, a factor below 1, and more than 2^24 cells.
+
+    Notes
+    -----
     Degenerate: with two points along a line the spline is straight.
+
     Source: Glaeser, sections 9.1 and 9.3.
+
+    Examples
+    --------
+    >>> from vectorplot import surfaces
+    >>> finer = surfaces.densified_grid([[(0, 0, 0), (0, 2, 0)], [(2, 0, 0), (2, 2, 4)]], 2)
+    >>> finer.shape, finer[1, 1].round(9).tolist()
+    ((3, 3, 3), [1.0, 1.0, 1.0])
     """
     from scipy.interpolate import Akima1DInterpolator
 

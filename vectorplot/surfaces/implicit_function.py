@@ -17,7 +17,31 @@ from vectorplot.surfaces.surface import ImplicitSurface
 
 @dataclass(frozen=True, eq=False)
 class ImplicitFunction:
-    """The zeros of a user's function; made by `implicit_of_function`."""
+    """The zeros of a user's function within a box.
+
+    Parameters
+    ----------
+    box : (2, 3) array of float
+        The smallest and the largest coordinates.
+    function : NumericFunction
+        F.
+    gradient : NumericFunction, optional
+        Its gradient; without it, it is found from F.
+    degree : int, optional
+        That of an algebraic surface, if known.
+
+    Notes
+    -----
+    Made by `implicit_of_function`. Where the function is not finite F is NaN.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> saddle = surfaces.implicit_of_function(lambda x, y, z: x * y - z, [(-1, -1, -1), (1, 1, 1)])
+    >>> isinstance(saddle, surfaces.ImplicitFunction), float(saddle.values(np.array([1.0, 0.5, 0.0])))
+    (True, 0.5)
+    """
 
     box: Floats
     function: NumericFunction
@@ -57,12 +81,45 @@ def implicit_of_function(
     gradient: Callable[..., Any] | None = None,
     degree: int | None = None,
 ) -> ImplicitFunction:
-    """The surface function(x, y, z) = 0 within a box (2,3) of smallest and largest coordinates.
+    """The surface function(x, y, z) = 0 within a box.
 
-    function: takes arrays x, y, z (n,) and returns (n,); one that takes single numbers works too, slower, with one
-    InputWarning. gradient: three numbers likewise; without it, by complex step if the function takes complex numbers,
-    else by differences, see NumericFunction. degree: of an algebraic surface, if known.
-    Errors: InputError, naming the function, when it raises, returns complex numbers or the wrong shape; an empty box.
+    Parameters
+    ----------
+    function : callable
+        Takes arrays x, y, z (n,) and returns (n,). One that takes single numbers works too, slower.
+    box : (2, 3) array_like of float
+        The smallest and the largest coordinates of the part that is looked at, in world units.
+    gradient : callable, optional
+        Three numbers likewise; without it, by complex step if the function takes complex numbers, else by differences.
+    degree : int, optional
+        That of an algebraic surface, if known.
+
+    Returns
+    -------
+    ImplicitFunction
+        An ImplicitSurface that knows its second derivatives too.
+
+    Raises
+    ------
+    InputError
+        Naming the function, when it raises, returns complex numbers or the wrong shape; for an empty box.
+
+    Warns
+    -----
+    InputWarning
+        Once for a function that takes one number at a time.
+
+    Notes
+    -----
+    Derivatives by differences are of fourth order: first ones to about 1e-12 of the largest, second ones to about 1e-9.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> cube = surfaces.implicit_of_function(lambda x, y, z: x**4 + y**4 + z**4 - 1, [(-1.1,) * 3, (1.1,) * 3])
+    >>> cube.gradients(np.array([1.0, 0.0, 0.0])).round(9).tolist()
+    [4.0, 0.0, 0.0]
     """
     limits = checked_box(box)
     ranges = [Range(float(low), float(high)) for low, high in limits.T]

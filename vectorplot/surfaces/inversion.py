@@ -14,11 +14,39 @@ from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
 
 
 def inverted(points: ArrayLike, centre: ArrayLike, radius: float) -> Floats:
-    """The points (..., 3) inverted in a sphere: on the same ray from its centre, the product of distances radius^2.
+    """Points inverted in a sphere: on the same ray from its centre, the product of distances radius^2.
 
-    Applied twice it gives the points back; points of the sphere stay; circles become circles, or lines through
-    infinity. Degenerate: the centre goes to infinity, NaN.
+    Parameters
+    ----------
+    points : (..., 3) array_like of float
+        In world units.
+    centre : (3,) array_like of float
+        Of the sphere.
+    radius : float
+        Of the sphere, positive.
+
+    Returns
+    -------
+    (..., 3) array of float
+        Applied twice it gives the points back; points of the sphere stay; circles become circles, or lines through
+        infinity.
+
+    Raises
+    ------
+    InputError
+        For a radius that is not positive, a centre that is not three finite numbers.
+
+    Notes
+    -----
+    Degenerate: the centre goes to infinity, NaN.
+
     Source: Glaeser, section 8.3, equation 21, with the centre added: erratum G8-07.
+
+    Examples
+    --------
+    >>> from vectorplot import surfaces
+    >>> surfaces.inverted([(1, 0, 0), (2, 0, 0), (0, 4, 0)], centre=(0, 0, 0), radius=2).tolist()
+    [[4.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
     """
     c = vector("inversion: centre", centre)
     q = np.asarray(points, dtype=np.float64) - c
@@ -33,10 +61,36 @@ def _over_square(q: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class InvertedSurface:
-    """A parametrised surface inverted in a sphere. Inversion turns normals over: x_u cross x_v changes its side.
+    """A parametrised surface inverted in a sphere.
 
-    Degenerate: where the surface passes through the centre it has a hole, its image runs to infinity.
-    Errors: InputError for a radius that is not positive.
+    Parameters
+    ----------
+    surface : Surface
+        What is inverted.
+    centre : (3,) array_like of float
+        Of the sphere, in world units.
+    radius : float
+        Of the sphere, positive.
+
+    Raises
+    ------
+    InputError
+        For a radius that is not positive, a centre that is not three finite numbers.
+
+    Notes
+    -----
+    Inversion turns normals over: x_u cross x_v changes its side. Degenerate: where the surface passes through the
+    centre it has a hole, its image runs to infinity.
+
+    Source: as of inverted.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> image = surfaces.InvertedSurface(surfaces.Sphere(2.0), (0, 0, 0), 1.0)
+    >>> image.points(np.array(0.0), np.array(0.0)).tolist()
+    [0.5, 0.0, 0.0]
     """
 
     surface: Surface
@@ -88,9 +142,38 @@ class InvertedSurface:
 
 @dataclass(frozen=True, eq=False)
 class InvertedImplicit:
-    """The zeros of F(inverse of x): an implicit surface inverted in a sphere, within a box (2,3).
+    """An implicit surface inverted in a sphere, the zeros of F(inverse of x), within a box.
 
-    Degenerate: at the centre of the sphere it is NaN. Errors: InputError for a radius not positive, an empty box.
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F.
+    centre : (3,) array_like of float
+        Of the sphere, in world units.
+    radius : float
+        Of the sphere, positive.
+    box : (2, 3) array of float
+        The smallest and the largest coordinates of the part that is looked at.
+
+    Raises
+    ------
+    InputError
+        For a radius that is not positive, an empty box, a centre that is not three finite numbers.
+
+    Notes
+    -----
+    Degenerate: at the centre of the sphere it is NaN.
+
+    Source: as of inverted.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> box = np.array([(-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)])
+    >>> image = surfaces.InvertedImplicit(surfaces.implicit_sphere(2.0), (0, 0, 0), 1.0, box)
+    >>> float(image.values(np.array([0.5, 0.0, 0.0])))
+    0.0
     """
 
     surface: ImplicitSurface

@@ -12,14 +12,37 @@ from vectorplot.tolerances.of_values import SINGULAR_PRODUCT, SUSPECT_PRODUCT
 
 
 def unit_normals(surface: Surface, u: Floats, v: Floats) -> Floats:
-    """(..., 3) unit vectors along x_u cross x_v.
+    """The unit normals of a surface, along x_u cross x_v; at poles their limits.
 
-    Where the cross product vanishes the normal is the limit from the side of the middle of the domain: along the line
-    v = const. at a pole where u does not move the point (top of a sphere), along u = const. where v does not; so that
+    Parameters
+    ----------
+    surface : Surface
+        With its partials and second partials.
+    u, v : (...) array_like of float
+        Parameters; they are broadcast.
+
+    Returns
+    -------
+    (..., 3) array of float
+        Vectors of length 1.
+
+    Notes
+    -----
+    Where the cross product vanishes the normal is the limit from the side of the middle of the domain: along the line v
+    = const. at a pole where u does not move the point (top of a sphere), along u = const. where v does not; so that
     normals near the pole run into it without a spike. An apex has one limit for each line that ends there. Where a
-    surface passes through its axis (spindle torus) the normals of the two sides are opposite, and that side decides.
+    surface passes through its axis (spindle torus) the normals of the two sides are opposite, and that side decides. At
+    a pole the normals are as good as the second partials.
+
     Degenerate: NaN in holes, and where the first derivative of the cross product vanishes too.
-    Error: at a pole as good as the second partials.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> north = surfaces.unit_normals(surfaces.Sphere(2.0), 0.3, np.pi / 2)
+    >>> bool(np.allclose(north, (0.0, 0.0, 1.0)))
+    True
     """
     u, v = np.broadcast_arrays(np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64))
     return _unit(surface, u, v, surface.partials(u, v))

@@ -17,9 +17,29 @@ from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
 
 @dataclass(frozen=True, eq=False)
 class PlacedSurface(Placed):
-    """A parametrised surface that is Placed: its points x at x @ matrix + shift.
+    """A surface moved to where it is wanted: its points x at x @ matrix + shift.
 
-    Errors: InputError for a matrix (3,3) that cannot be inverted, a shift that is not three numbers.
+    Parameters
+    ----------
+    surface : Surface
+        What is placed.
+    matrix : (3, 3) array_like of float
+        Turns, mirrors and scales rows from the left, as those of geometry.rotations.
+    shift : (3,) array_like of float
+        What is added, in world units.
+
+    Raises
+    ------
+    InputError
+        For a matrix that cannot be inverted, a shift that is not three numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> egg = surfaces.PlacedSurface(surfaces.Sphere(), np.diag([1.0, 1.0, 1.5]), (0, 0, 4))
+    >>> bool(np.allclose(egg.points(np.array(0.0), np.array(np.pi / 2)), (0.0, 0.0, 5.5)))
+    True
     """
 
     surface: Surface
@@ -83,9 +103,33 @@ def placed_once(surface: Surface, matrix: ArrayLike, shift: ArrayLike, origin: A
 
 @dataclass(frozen=True, eq=False)
 class PlacedImplicit(Placed):
-    """An implicit surface that is Placed: its points x at x @ matrix + shift; the box is the one around the moved box.
+    """An implicit surface moved to where it is wanted: its points x at x @ matrix + shift.
 
-    Errors: InputError for a matrix (3,3) that cannot be inverted, a shift that is not three numbers.
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        What is placed.
+    matrix : (3, 3) array_like of float
+        Turns, mirrors and scales rows from the left, as those of geometry.rotations.
+    shift : (3,) array_like of float
+        What is added, in world units.
+
+    Raises
+    ------
+    InputError
+        For a matrix that cannot be inverted, a shift that is not three numbers.
+
+    Notes
+    -----
+    The box is the one around the moved box.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> ball = surfaces.PlacedImplicit(surfaces.implicit_sphere(1.0), 2.0 * np.eye(3), (10, 0, 0))
+    >>> ball.values(np.array([(10.0, 0.0, 0.0), (12.0, 0.0, 0.0)])).tolist()
+    [-1.0, 0.0]
     """
 
     surface: ImplicitSurface

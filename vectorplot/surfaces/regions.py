@@ -16,7 +16,23 @@ from vectorplot.tolerances.of_parameters import ROUNDING_OF_DOMAIN
 
 
 class Region(Protocol):
-    """A part of the plane."""
+    """What every part of the plane can do.
+
+    Notes
+    -----
+    A protocol: domain is the rectangle around it, a Domain; contains(x, y) says of points, arrays of one shape (...),
+    whether they are inside or on the border, (...) of bool.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> def share(region: surfaces.Region) -> float:
+    ...     x, y = np.meshgrid(*region.domain.grid(100, 100))
+    ...     return float(region.contains(x, y).mean())
+    >>> round(share(surfaces.Disc()), 1)  # pi / 4
+    0.8
+    """
 
     @property
     def domain(self) -> Domain:
@@ -30,7 +46,30 @@ class Region(Protocol):
 
 @dataclass(frozen=True)
 class Disc:
-    """The points no farther than the radius from the centre. Errors: InputError for a radius that is not positive."""
+    """The points of the plane no farther than the radius from the centre.
+
+    Parameters
+    ----------
+    radius : float
+        Positive, in world units.
+    centre : (float, float)
+        In world units.
+
+    Raises
+    ------
+    InputError
+        For a radius that is not positive, a centre that is not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import Disc
+    >>> disc = Disc(2.0, centre=(1.0, 0.0))
+    >>> disc.contains(np.array([3.0, -2.0]), np.array([0.0, 0.0])).tolist()
+    [True, False]
+    >>> disc.domain.size
+    (4.0, 4.0)
+    """
 
     radius: float = 1.0
     centre: tuple[float, float] = (0.0, 0.0)
@@ -53,9 +92,25 @@ class Disc:
 
 @dataclass(frozen=True, eq=False)
 class PolygonRegion:
-    """The inside of a simple polygon with corners (n, 2), in either sense, convex or not.
+    """The inside of a simple polygon.
 
-    Errors: InputError for fewer than three corners, or coordinates that are not finite.
+    Parameters
+    ----------
+    corners : (n, 2) array_like of float
+        In either sense, convex or not, in world units.
+
+    Raises
+    ------
+    InputError
+        For fewer than three corners, or coordinates that are not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import PolygonRegion
+    >>> corner = PolygonRegion([(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)])
+    >>> corner.contains(np.array([0.5, 3.0, 3.0]), np.array([0.5, 0.5, 3.0])).tolist()
+    [True, True, False]
     """
 
     corners: ArrayLike

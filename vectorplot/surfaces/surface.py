@@ -16,8 +16,27 @@ from vectorplot.geometry.vectors import cross
 class Domain:
     """A rectangle of parameters: u_start <= u <= u_end, v_start <= v <= v_end.
 
-    closed_u, closed_v: the surface closes smoothly in that direction, the two borders are one line and no border of the
-    surface. Errors: InputError unless the ranges are finite and not empty.
+    Parameters
+    ----------
+    u_start, u_end, v_start, v_end : float
+        The ranges, in whatever unit the surface counts its parameters (angles in radians).
+    closed_u, closed_v : bool
+        The surface closes smoothly in that direction: the two borders are one line and no border of the surface.
+
+    Raises
+    ------
+    InputError
+        Unless the ranges are finite and not empty.
+
+    Examples
+    --------
+    >>> from vectorplot.surfaces import Domain
+    >>> domain = Domain(0, 4, -1, 1, closed_u=True)
+    >>> domain.size
+    (4, 2)
+    >>> u, v = domain.grid(4, 2)
+    >>> u.tolist(), v.tolist()
+    ([0.0, 1.0, 2.0, 3.0, 4.0], [-1.0, 0.0, 1.0])
     """
 
     u_start: float
@@ -45,7 +64,24 @@ class Domain:
 
 
 class Surface(Protocol):
-    """A surface x(u, v) over a domain. All functions take arrays u, v of one shape (...) and are vectorised."""
+    """What every parametrised surface x(u, v) can do.
+
+    Notes
+    -----
+    A protocol: whatever has these members is a surface, of this package or of a user. domain says where it is defined;
+    points(u, v) are (..., 3) in world units, NaN where the surface has a hole; partials are the two derivatives by u
+    and by v, second_partials the three by u twice, by u and v, by v twice, (..., 3) each. All functions take arrays u,
+    v of one shape (...) and are vectorised. Front is where x_u cross x_v points.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> def north_pole(surface: surfaces.Surface) -> list[float]:
+    ...     return surface.points(np.array(surface.domain.u_start), np.array(surface.domain.v_end)).round(9).tolist()
+    >>> north_pole(surfaces.Sphere(2.0)) == [0.0, 0.0, 2.0]
+    True
+    """
 
     @property
     def domain(self) -> Domain:
@@ -66,7 +102,24 @@ class Surface(Protocol):
 
 
 class ImplicitSurface(Protocol):
-    """A surface F(x, y, z) = 0 within a box."""
+    """What every surface F(x, y, z) = 0 within a box can do.
+
+    Notes
+    -----
+    A protocol: whatever has these members is an implicit surface, of this package or of a user. box is (2, 3), the
+    smallest and the largest coordinates of the part that is looked at, in world units; values(points) is F (...) at
+    points (..., 3), whose sign tells the sides; gradients(points) are (..., 3).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> def is_inside(surface: surfaces.ImplicitSurface, point: tuple[float, float, float]) -> bool:
+    ...     return bool(surface.values(np.array(point)) < 0.0)
+    >>> ball = surfaces.implicit_sphere(1.0)
+    >>> is_inside(ball, (0.5, 0.5, 0.5)), is_inside(ball, (1.0, 1.0, 1.0))
+    (True, False)
+    """
 
     @property
     def box(self) -> Floats:

@@ -16,10 +16,31 @@ Range = tuple[float, float]
 
 @dataclass(frozen=True, eq=False)
 class TrimmedSurface:
-    """The part of a parametrised surface above smaller ranges of u and v; None: the whole range.
+    """The part of a parametrised surface over smaller ranges of u and v.
 
+    Parameters
+    ----------
+    surface : Surface
+        What is trimmed.
+    u, v : (float, float), optional
+        Start and end of the parameters; the whole range where None.
+
+    Raises
+    ------
+    InputError
+        For empty ranges, and for ranges that leave the domain or are more than one round.
+
+    Notes
+    -----
     Where the surface is closed a range may run over the seam; if it is as long as the whole one the part is closed too.
-    Errors: InputError for empty ranges, and for ranges that leave the domain.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> dome = surfaces.TrimmedSurface(surfaces.Sphere(), v=(0.0, np.pi / 2))
+    >>> dome.domain.v_start, dome.domain.closed_u
+    (0.0, True)
     """
 
     surface: Surface

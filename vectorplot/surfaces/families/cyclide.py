@@ -18,10 +18,40 @@ from vectorplot.tolerances.of_numbers import ROUNDING
 
 
 def dupin_cyclide(major: float, minor: float, centre: ArrayLike, radius: float) -> InvertedSurface:
-    """The inverse of the torus about the z-axis in the sphere of this centre and radius; parameter lines are circles.
+    """Dupin's cyclide: the torus about the z-axis inverted in a sphere.
 
+    Parameters
+    ----------
+    major, minor : float
+        The radii of the torus, positive.
+    centre : (3,) array_like of float
+        Of the sphere, in world units.
+    radius : float
+        Of the sphere, positive.
+
+    Returns
+    -------
+    InvertedSurface
+        Its parameter lines are circles.
+
+    Raises
+    ------
+    InputError
+        For radii that are not positive.
+
+    Notes
+    -----
     Degenerate: a centre on the torus gives a cyclide that runs to infinity, with a hole there.
-    Errors: InputError for radii that are not positive. Source: Glaeser, section 8.3, equation 21; erratum G8-07.
+
+    Source: Glaeser, section 8.3, equation 21; erratum G8-07.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> cyclide = surfaces.dupin_cyclide(3.0, 1.0, centre=(8, 0, 0), radius=4.0)
+    >>> cyclide.points(np.array(0.0), np.array(np.pi)).round(9).tolist() == [4.0, 0.0, 0.0]
+    True
     """
     return InvertedSurface(Torus(major, minor), centre, radius)
 
@@ -30,11 +60,36 @@ def dupin_cyclide(major: float, minor: float, centre: ArrayLike, radius: float) 
 class ImplicitCyclide:
     """The polynomial of Dupin's cyclide: the torus' F at the inverse of x, times |x - centre|^4 / radius^4.
 
-    Of degree 4; 3 if the centre of the sphere lies on the torus, 2 if it is a double point of a spindle torus.
-    F has the sign of the torus' F at the inverse point. bounds: the box (2,3) that is looked at; without it that of
-    the whole cyclide.
-    Errors: InputError for radii that are not positive; for a cyclide that runs to infinity without bounds.
+    Parameters
+    ----------
+    major, minor : float
+        The radii of the torus, positive.
+    centre : (3,) array_like of float
+        Of the sphere of inversion, in world units.
+    radius : float
+        Of the sphere of inversion, positive.
+    bounds : (2, 3) array_like of float, optional
+        The box that is looked at; without it that of the whole cyclide.
+
+    Raises
+    ------
+    InputError
+        For radii that are not positive, and for a cyclide that runs to infinity without bounds.
+
+    Notes
+    -----
+    Of degree 4; 3 if the centre of the sphere lies on the torus, 2 if it is a double point of a spindle torus. F has
+    the sign of the torus' F at the inverse point.
+
     Source: Glaeser, section 8.3, equations 20 and 21; erratum G8-07.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> cyclide = surfaces.ImplicitCyclide(3.0, 1.0, centre=(8, 0, 0), radius=4.0)
+    >>> cyclide.degree, float(cyclide.values(np.array([4.0, 0.0, 0.0])))
+    (4, 0.0)
     """
 
     major: float

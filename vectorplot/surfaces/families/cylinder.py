@@ -16,9 +16,35 @@ from vectorplot.surfaces.surface import Domain
 
 @dataclass(frozen=True, eq=False)
 class Cylinder(EllipticSections):
-    """The cylinder from height bottom to top. u is the angle, v the height. Normals point outwards.
+    """The cylinder about an upright axis, from height bottom to top, without end faces.
 
-    depth: the semi-axis along y, where it is not the radius. Errors: InputError for radii that are not positive.
+    Parameters
+    ----------
+    radius : float
+        The semi-axis along x, positive, in world units.
+    bottom, top : float
+        Heights above the centre.
+    centre : (3,) array_like of float
+        On the axis.
+    depth : float, optional
+        The semi-axis along y, where it is not the radius.
+
+    Raises
+    ------
+    InputError
+        For radii that are not positive, a top that is not above the bottom, a centre that is not three finite numbers.
+
+    Notes
+    -----
+    u is the angle, v the height. Normals point outwards.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import Cylinder
+    >>> can = Cylinder(radius=2.0, top=3.0)
+    >>> can.points(np.array(0.0), np.array(3.0)).tolist(), can.domain.closed_u
+    ([2.0, 0.0, 3.0], True)
     """
 
     radius: float = 1.0
@@ -52,11 +78,35 @@ class Cylinder(EllipticSections):
 
 @dataclass(frozen=True, eq=False)
 class Cone(EllipticSections):
-    """The cone with its apex at the centre: at height v the radius is slope |v|. u is the angle, v from bottom to top.
+    """The cone with its apex at the centre: at height v the radius is slope |v|.
 
-    bottom < 0 < top gives the double cone. The apex is a pole, each ruling with a normal of its own. Normals of the
-    upper half point outwards, those of the lower half inwards.
-    depth_slope: the slope along y, where it is another. Errors: InputError for slopes that are not positive.
+    Parameters
+    ----------
+    slope : float
+        Radius over height, positive.
+    bottom, top : float
+        Heights above the apex; bottom < 0 < top gives the double cone.
+    centre : (3,) array_like of float
+        The apex, in world units.
+    depth_slope : float, optional
+        The slope along y, where it is another.
+
+    Raises
+    ------
+    InputError
+        For slopes that are not positive, a top that is not above the bottom, a centre that is not three finite numbers.
+
+    Notes
+    -----
+    u is the angle, v the height, from bottom to top. The apex is a pole, each ruling with a normal of its own. Normals
+    of the upper half point outwards, those of the lower half inwards.
+
+    Examples
+    --------
+    >>> from vectorplot.surfaces import Cone
+    >>> hat = Cone.standing(radius=1.0, height=4.0)
+    >>> hat.slope, hat.bottom, hat.centre.tolist()
+    (0.25, -4.0, [0.0, 0.0, 4.0])
     """
 
     slope: float = 1.0

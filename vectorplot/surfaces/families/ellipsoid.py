@@ -16,9 +16,30 @@ from vectorplot.surfaces.surface import Domain
 
 @dataclass(frozen=True, eq=False)
 class Ellipsoid(EllipticSections):
-    """The ellipsoid with semi-axes (3,) along x, y, z. u is the longitude, v the (reduced) latitude, -pi/2 to pi/2.
+    """The ellipsoid with its axes along x, y and z.
 
-    Both ends of v are poles. Normals point outwards. Errors: InputError for semi-axes that are not positive.
+    Parameters
+    ----------
+    semi_axes : (3,) array_like of float
+        Along x, y, z, positive, in world units.
+    centre : (3,) array_like of float
+        In world units.
+
+    Raises
+    ------
+    InputError
+        For semi-axes that are not positive, a centre that is not three finite numbers.
+
+    Notes
+    -----
+    u is the longitude, v the (reduced) latitude, -pi/2 to pi/2. Both ends of v are poles. Normals point outwards.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import Ellipsoid
+    >>> Ellipsoid((3, 2, 1)).points(np.array(0.0), np.array(0.0)).tolist()
+    [3.0, 0.0, 0.0]
     """
 
     semi_axes: ArrayLike = (1.0, 1.0, 1.0)
@@ -51,9 +72,31 @@ class Ellipsoid(EllipticSections):
 
 @dataclass(frozen=True, eq=False)
 class Sphere(EllipticSections):
-    """The sphere. u is the longitude, v the latitude, -pi/2 to pi/2; both ends of v are poles. Normals point outwards.
+    """The sphere about a centre.
 
-    Errors: InputError for a radius that is not positive.
+    Parameters
+    ----------
+    radius : float
+        Positive, in world units.
+    centre : (3,) array_like of float
+        In world units.
+
+    Raises
+    ------
+    InputError
+        For a radius that is not positive, a centre that is not three finite numbers.
+
+    Notes
+    -----
+    u is the longitude, v the latitude, -pi/2 to pi/2; both ends of v are poles. Normals point outwards.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.surfaces import Sphere
+    >>> drawing = vp.draw(vp.Scene((vp.Item("ball", Sphere(2.0)),)), vp.Camera((9, 0, 0)), page=vp.Page(80, 80))
+    >>> "contour" in [layer.name for layer in drawing.layers]
+    True
     """
 
     radius: float = 1.0

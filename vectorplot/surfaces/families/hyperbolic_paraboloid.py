@@ -14,11 +14,35 @@ from vectorplot.surfaces.surface import Domain
 
 @dataclass(frozen=True, eq=False)
 class HyperbolicParaboloid:
-    """The saddle z = x^2/a^2 - y^2/b^2 above the rectangle |x| <= width, |y| <= depth: (u, v, z), normals upwards.
+    """The saddle z = x^2/a^2 - y^2/b^2 above the rectangle |x| <= width, |y| <= depth.
 
-    It is the translation surface of its two parabolas u = const. and v = const.; u/a + v/b = const. and
-    u/a - v/b = const. are its straight lines. Errors: InputError for numbers that are not positive.
+    Parameters
+    ----------
+    a, b : float
+        Positive.
+    width, depth : float
+        Half the sides of the rectangle, positive, in world units.
+    centre : (3,) array_like of float
+        The saddle point, in world units.
+
+    Raises
+    ------
+    InputError
+        For numbers that are not positive, a centre that is not three finite numbers.
+
+    Notes
+    -----
+    u is x, v is y; normals point upwards. It is the translation surface of its two parabolas u = const. and v = const.;
+    u/a + v/b = const. and u/a - v/b = const. are its straight lines.
+
     Source: Glaeser, section 8.2, figure 3.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import HyperbolicParaboloid
+    >>> HyperbolicParaboloid(a=1.0, b=2.0).points(np.array(1.0), np.array(1.0)).tolist()
+    [1.0, 1.0, 0.75]
     """
 
     a: float = 1.0

@@ -23,10 +23,34 @@ def _semi_axes(name: str, value: ArrayLike) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Hyperboloid(EllipticSections):
-    """The hyperboloid of one sheet x^2/a^2 + y^2/b^2 - z^2/c^2 = 1 from height bottom to top; the waist is at 0.
+    """The hyperboloid of one sheet x^2/a^2 + y^2/b^2 - z^2/c^2 = 1, from height bottom to top.
 
+    Parameters
+    ----------
+    semi_axes : (3,) array_like of float
+        a, b and c, positive, in world units.
+    bottom, top : float
+        Heights above the centre; the waist is at 0.
+    centre : (3,) array_like of float
+        In world units.
+
+    Raises
+    ------
+    InputError
+        For semi-axes that are not positive, a top that is not above the bottom, a centre that is not three finite
+        numbers.
+
+    Notes
+    -----
     (a p cos u, b p sin u, c sinh v) with p = cosh v. Normals point outwards.
-    Errors: InputError for semi-axes (3,) that are not positive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import Hyperboloid
+    >>> tower = Hyperboloid((2, 2, 3), bottom=-4, top=4)
+    >>> tower.points(np.array(0.0), np.array(0.0)).tolist()
+    [2.0, 0.0, 0.0]
     """
 
     semi_axes: ArrayLike = (1.0, 1.0, 1.0)
@@ -62,10 +86,33 @@ class Hyperboloid(EllipticSections):
 
 @dataclass(frozen=True, eq=False)
 class HyperboloidSheet(EllipticSections):
-    """The upper sheet of x^2/a^2 + y^2/b^2 - z^2/c^2 = -1, from its top point z = c up to the height top.
+    """The upper sheet of x^2/a^2 + y^2/b^2 - z^2/c^2 = -1, from its lowest point z = c up to the height top.
 
+    Parameters
+    ----------
+    semi_axes : (3,) array_like of float
+        a, b and c, positive, in world units.
+    top : float
+        A height above the centre, more than c.
+    centre : (3,) array_like of float
+        In world units.
+
+    Raises
+    ------
+    InputError
+        For semi-axes that are not positive, a top not above c, a centre that is not three finite numbers.
+
+    Notes
+    -----
     (a p cos u, b p sin u, c cosh v) with p = sinh v; v = 0 is a pole. Normals point out of the bowl, downwards.
-    Errors: InputError for semi-axes (3,) that are not positive, top <= c.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import HyperboloidSheet
+    >>> bowl = HyperboloidSheet((1, 1, 2), top=5)
+    >>> bowl.points(np.array(0.0), np.array(0.0)).tolist()
+    [0.0, 0.0, 2.0]
     """
 
     semi_axes: ArrayLike = (1.0, 1.0, 1.0)
@@ -99,9 +146,33 @@ class HyperboloidSheet(EllipticSections):
 
 @dataclass(frozen=True, eq=False)
 class Paraboloid(EllipticSections):
-    """The elliptic paraboloid z = x^2/a^2 + y^2/b^2 up to the height top: (a v cos u, b v sin u, v^2).
+    """The elliptic paraboloid z = x^2/a^2 + y^2/b^2 up to the height top.
 
-    v = 0 is a pole. Normals point outwards (down). Errors: InputError for a, b or top not positive.
+    Parameters
+    ----------
+    a, b : float
+        Positive.
+    top : float
+        A height above the vertex, positive, in world units.
+    centre : (3,) array_like of float
+        The vertex, in world units.
+
+    Raises
+    ------
+    InputError
+        For a, b or top not positive, a centre that is not three finite numbers.
+
+    Notes
+    -----
+    (a v cos u, b v sin u, v^2); v = 0 is a pole. Normals point outwards (down).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import Paraboloid
+    >>> dish = Paraboloid(top=4.0)
+    >>> dish.domain.v_end, dish.points(np.array(0.0), np.array(2.0)).tolist()
+    (2.0, [2.0, 0.0, 4.0])
     """
 
     a: float = 1.0

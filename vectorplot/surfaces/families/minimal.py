@@ -39,7 +39,31 @@ class IsotropicCurve(Protocol):
 
 @dataclass(frozen=True)
 class MinimalSurface:
-    """The real part of exp(i bending) P(u + iv). u and v run in perpendicular directions, equally fast."""
+    """The real part of exp(i bending) P(u + iv), P an isotropic curve in complex space.
+
+    Parameters
+    ----------
+    curve : IsotropicCurve
+        P, whose tangents have the length zero: P'.P' = 0.
+    bending : float
+        In radians.
+    domain : Domain
+        The ranges of u and v.
+
+    Notes
+    -----
+    u and v run in perpendicular directions, equally fast. Bending leaves the first fundamental form and the normals as
+    they are, and the mean curvature zero. Made by `helicoid_to_catenoid` and `minimal_spiral_surface`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> surface = surfaces.helicoid_to_catenoid(bending=1.0)
+    >>> by_u, by_v = surface.partials(np.array(0.5), np.array(2.0))
+    >>> isinstance(surface, surfaces.MinimalSurface), bool(abs(by_u @ by_v) < 1e-12)
+    (True, True)
+    """
 
     curve: IsotropicCurve
     bending: float
@@ -116,13 +140,40 @@ class SpiralCurve:
 def helicoid_to_catenoid(
     bending: float, *, width: float = 1.5, start: float = 0.0, end: float = 2.0 * np.pi
 ) -> MinimalSurface:
-    """The minimal surface between helicoid (bending 0) and catenoid (bending pi/2), -width <= u <= width.
+    """The minimal surface between helicoid (bending 0) and catenoid (bending pi/2).
 
-    v from start to end is the angle about the z-axis. The catenoid, of waist 1, closes after whole turns; the others
-    do not. Errors: InputError for an empty range. Source: Glaeser, section 8.2, figure 8; GLAE88/2.
+    Parameters
+    ----------
+    bending : float
+        In radians.
+    width : float
+        -width <= u <= width.
+    start, end : float
+        The range of v, the angle about the z-axis, in radians.
+
+    Returns
+    -------
+    MinimalSurface
+        The catenoid, of waist 1, closes after whole turns; the others do not.
+
+    Raises
+    ------
+    InputError
+        For an empty range, and numbers that are not finite.
+
+    Notes
+    -----
+    Source: Glaeser, section 8.2, figure 8; GLAE88/2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> [surfaces.helicoid_to_catenoid(bending).domain.closed_v for bending in (0.0, np.pi / 2)]
+    [False, True]
     """
     number("bending", bending)
-    closed = abs(np.cos(bending)) < RIGHT_ANGLE_COSINE and is_whole_turns(end - start)
+    closed = bool(abs(np.cos(bending)) < RIGHT_ANGLE_COSINE) and is_whole_turns(end - start)
     return MinimalSurface(HelicoidCurve(), bending, Domain(-width, width, start, end, closed_v=closed))
 
 
@@ -131,9 +182,39 @@ def minimal_spiral_surface(
 ) -> MinimalSurface:
     """A surface that is minimal and spiral: x(u, v + a) is x(u, v) turned about the z-axis by a, times exp(growth a).
 
-    All bendings are spiral with the same growth and have the same first fundamental form. -width <= u <= width, v from
-    start to end. Errors: InputError for growth 0: then take helicoid and catenoid.
+    Parameters
+    ----------
+    growth : float
+        Not 0.
+    bending : float
+        In radians.
+    width : float
+        -width <= u <= width.
+    start, end : float
+        The range of v, in radians.
+
+    Returns
+    -------
+    MinimalSurface
+        All bendings are spiral with the same growth and have the same first fundamental form.
+
+    Raises
+    ------
+    InputError
+        For growth 0: then take helicoid and catenoid; for an empty range, and numbers that are not finite.
+
+    Notes
+    -----
     Source: Glaeser, section 8.2, figure 8; Wunderlich, Minimalspiralflaechen, 1954.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> shell = surfaces.minimal_spiral_surface(growth=0.2)
+    >>> first, later = shell.points(np.array([0.5, 0.5]), np.array([0.0, 2.0 * np.pi]))
+    >>> bool(np.allclose(later, np.exp(0.2 * 2.0 * np.pi) * first))
+    True
     """
     if number("minimal spiral surface: growth", growth) == 0.0:
         raise InputError("minimal spiral surface: growth must not be 0: take helicoid_to_catenoid")

@@ -18,7 +18,26 @@ from vectorplot.curves.second_derivatives import second_derivatives
 
 
 class Motion(Protocol):
-    """Affine maps of space that depend on v. points (..., 3); weight 1 for points, 0 for directions; v (...)."""
+    """What every motion of space can do that carries a generating line along a surface.
+
+    Notes
+    -----
+    A protocol: affine maps of space that depend on the time v. moved(points, weight, v) is where points (..., 3) are at
+    v (...), velocities its first and accelerations its second derivatives by v, (..., 3) each; weight is 1 for points,
+    0 for directions, which a translation leaves alone: so one formula serves a curve and its derivatives.
+    repeats(start, end) says whether all points are back, and go on as before, after v ran from start to end.
+
+    Source: Glaeser, section 8.2, equations 10 to 14.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> def after(motion: surfaces.Motion, v: float) -> list[float]:
+    ...     return motion.moved(np.array([1.0, 0.0, 0.0]), 1.0, np.array(v)).round(9).tolist()
+    >>> after(surfaces.Screw(rise=1.0), np.pi / 2) == [0.0, 1.0, 1.570796327]
+    True
+    """
 
     def moved(self, points: Floats, weight: float, v: Floats) -> Floats:
         """(..., 3) where they are at v."""
@@ -51,7 +70,27 @@ def _quarter(p: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Translation:
-    """Moving along a curve."""
+    """Moving along a curve.
+
+    Parameters
+    ----------
+    path : Curve
+        Its parameter is v.
+
+    Notes
+    -----
+    It repeats where the path is a loop.
+
+    Source: Glaeser, section 8.2, equation 10.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import curves, surfaces
+    >>> shift = surfaces.Translation(curves.Line((0, 0, 0), (0, 0, 1)))
+    >>> shift.moved(np.array([1.0, 2.0, 3.0]), 1.0, np.array(4.0)).tolist()
+    [1.0, 2.0, 7.0]
+    """
 
     path: Curve
 
@@ -74,7 +113,26 @@ class Translation:
 
 @dataclass(frozen=True)
 class Screw:
-    """Turning about the z-axis by v and rising along it by rise v; without a rise, a rotation."""
+    """Turning about the z-axis by v and rising along it by rise v; without a rise, a rotation.
+
+    Parameters
+    ----------
+    rise : float
+        World units a radian.
+
+    Notes
+    -----
+    It repeats after whole turns where there is no rise.
+
+    Source: Glaeser, section 8.2, equations 11 and 12.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import Screw
+    >>> Screw(rise=2.0).repeats(0.0, 2.0 * np.pi), Screw().repeats(0.0, 2.0 * np.pi)
+    (False, True)
+    """
 
     rise: float = 0.0
 
@@ -103,8 +161,27 @@ class Screw:
 class Rotoid:
     """Turning by ratio v about an axis b, which itself turns by v about the z-axis.
 
-    At v = 0 the axis b is x = distance, z = 0, parallel to y; it is perpendicular to the z-axis and skew.
+    Parameters
+    ----------
+    ratio : float
+        Turns about b for each turn of b.
+    distance : float
+        Of b from the z-axis, in world units.
+
+    Notes
+    -----
+    At v = 0 the axis b is x = distance, z = 0, parallel to y; it is perpendicular to the z-axis and skew. It repeats
+    where both turns are whole ones.
+
     Source: Glaeser, section 8.2, equation 13, in the general form of erratum G8-06.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import Rotoid
+    >>> half_turns = Rotoid(ratio=0.5, distance=3.0)
+    >>> half_turns.repeats(0.0, 2.0 * np.pi), half_turns.repeats(0.0, 4.0 * np.pi)
+    (False, True)
     """
 
     ratio: float
@@ -145,7 +222,27 @@ class Rotoid:
 
 @dataclass(frozen=True)
 class SpiralMotion:
-    """Turning about the z-axis by v and growing from the origin by exp(growth v): a similarity."""
+    """Turning about the z-axis by v and growing from the origin by exp(growth v): a similarity.
+
+    Parameters
+    ----------
+    growth : float
+        A whole turn enlarges by exp(2 pi growth).
+
+    Notes
+    -----
+    It repeats after whole turns where nothing grows.
+
+    Source: Glaeser, section 8.2, equation 14.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import SpiralMotion
+    >>> doubling = SpiralMotion(growth=np.log(2.0) / (2.0 * np.pi))
+    >>> bool(np.allclose(doubling.moved(np.array([1.0, 0.0, 3.0]), 1.0, np.array(2.0 * np.pi)), (2.0, 0.0, 6.0)))
+    True
+    """
 
     growth: float
 

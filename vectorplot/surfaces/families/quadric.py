@@ -16,12 +16,35 @@ from vectorplot.geometry.vectors import normalize
 
 @dataclass(frozen=True, eq=False)
 class Quadric:
-    """F = c0 x^2 + c1 y^2 + c2 z^2 + c3 xy + c4 yz + c5 zx + c6 x + c7 y + c8 z + c9 within a box (2,3).
+    """F = c0 x^2 + c1 y^2 + c2 z^2 + c3 xy + c4 yz + c5 zx + c6 x + c7 y + c8 z + c9 within a box.
 
-    x, y, z are counted from the origin (3,), so that a quadric far away keeps its digits; the box is in world
-    coordinates.
-    Errors: InputError for coefficients that are not ten finite numbers, or all zero but the last; a box that is empty.
+    Parameters
+    ----------
+    coefficients : (10,) array_like of float
+        c0 to c9.
+    box : (2, 3) array of float
+        The smallest and the largest coordinates, in world units.
+    origin : (3,) array_like of float
+        From where x, y, z are counted, so that a quadric far away keeps its digits; the box is in world coordinates.
+
+    Raises
+    ------
+    InputError
+        For coefficients that are not ten finite numbers, or all zero but the last; for a box that is empty.
+
+    Notes
+    -----
+    Its degree is 2, or 1 for a plane.
+
     Source: Glaeser, section 8.3, equations 16 and 17.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import Quadric
+    >>> saddle = Quadric([1, -1, 0, 0, 0, 0, 0, 0, -1, 0], [(-1, -1, -1), (1, 1, 1)])  # x^2 - y^2 - z
+    >>> saddle.degree, float(saddle.values(np.array([1.0, 0.5, 0.0])))
+    (2, 0.75)
     """
 
     coefficients: ArrayLike
@@ -73,18 +96,66 @@ def checked_box(box: ArrayLike) -> Floats:
 
 
 def implicit_plane(point: ArrayLike, normal: ArrayLike, box: ArrayLike) -> Quadric:
-    """The plane through a point; F is the distance, positive on the normal's side.
+    """The plane through a point, within a box.
 
-    Errors: InputError for a normal without length.
+    Parameters
+    ----------
+    point : (3,) array_like of float
+        In world units.
+    normal : (3,) array_like of float
+        Of any length.
+    box : (2, 3) array_like of float
+        The smallest and the largest coordinates.
+
+    Returns
+    -------
+    Quadric
+        F is the distance, positive on the normal's side.
+
+    Raises
+    ------
+    InputError
+        For a normal without length, a point that is not three finite numbers, an empty box.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> floor = surfaces.implicit_plane((0, 0, 1), (0, 0, 5), box=[(-9, -9, -9), (9, 9, 9)])
+    >>> float(floor.values(np.array([3.0, 4.0, 3.0])))
+    2.0
     """
     n = normalize(vector("plane: normal", normal))
     return Quadric([*[0.0] * 6, *n, 0.0], checked_box(box), point)
 
 
 def implicit_ellipsoid(semi_axes: ArrayLike, centre: ArrayLike = (0.0, 0.0, 0.0)) -> Quadric:
-    """The ellipsoid x^2/a^2 + y^2/b^2 + z^2/c^2 = 1 about a centre, F negative inside.
+    """The ellipsoid x^2/a^2 + y^2/b^2 + z^2/c^2 = 1 about a centre.
 
-    Errors: InputError for semi-axes that are not positive.
+    Parameters
+    ----------
+    semi_axes : (3,) array_like of float
+        a, b and c, positive, in world units.
+    centre : (3,) array_like of float
+        In world units.
+
+    Returns
+    -------
+    Quadric
+        F is negative inside; the box has a tenth of the semi-axes around.
+
+    Raises
+    ------
+    InputError
+        For semi-axes that are not positive, a centre that is not three finite numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> egg = surfaces.implicit_ellipsoid((1, 1, 2), centre=(0, 0, 2))
+    >>> egg.values(np.array([(0.0, 0.0, 2.0), (0.0, 0.0, 4.0)])).tolist()
+    [-1.0, 0.0]
     """
     axes, middle = vector("ellipsoid: semi-axes", semi_axes), vector("ellipsoid: centre", centre)
     if not (axes > 0.0).all():
@@ -93,15 +164,69 @@ def implicit_ellipsoid(semi_axes: ArrayLike, centre: ArrayLike = (0.0, 0.0, 0.0)
 
 
 def implicit_sphere(radius: float, centre: ArrayLike = (0.0, 0.0, 0.0)) -> Quadric:
-    """The sphere |x - centre|^2 = radius^2, F negative inside. Errors: InputError for a radius that is not positive."""
+    """The sphere |x - centre|^2 = radius^2.
+
+    Parameters
+    ----------
+    radius : float
+        Positive, in world units.
+    centre : (3,) array_like of float
+        In world units.
+
+    Returns
+    -------
+    Quadric
+        F is negative inside; the box has a tenth of the radius around.
+
+    Raises
+    ------
+    InputError
+        For a radius that is not positive, a centre that is not three finite numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> ball = surfaces.implicit_sphere(2.0, centre=(5, 0, 0))
+    >>> ball.gradients(np.array([7.0, 0.0, 0.0])).tolist()
+    [4.0, 0.0, 0.0]
+    """
     r, middle = positive("sphere: radius", radius), vector("sphere: centre", centre)
     return Quadric([1.0, 1.0, 1.0, *[0.0] * 6, -r * r], np.stack([middle - 1.1 * r, middle + 1.1 * r]), middle)
 
 
 def implicit_cylinder(radius: float, point: ArrayLike, axis: ArrayLike, box: ArrayLike) -> Quadric:
-    """The cylinder of this radius about the line through a point along an axis, F negative inside.
+    """The cylinder about the line through a point along an axis, within a box.
 
-    Errors: InputError for a radius that is not positive, an axis without length.
+    Parameters
+    ----------
+    radius : float
+        Positive, in world units.
+    point : (3,) array_like of float
+        On the axis.
+    axis : (3,) array_like of float
+        Of any length.
+    box : (2, 3) array_like of float
+        The smallest and the largest coordinates.
+
+    Returns
+    -------
+    Quadric
+        F is negative inside.
+
+    Raises
+    ------
+    InputError
+        For a radius that is not positive, an axis without length, a point that is not three finite numbers, an empty
+        box.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> pipe = surfaces.implicit_cylinder(1.0, (0, 0, 0), (0, 0, 1), box=[(-2, -2, -2), (2, 2, 2)])
+    >>> pipe.values(np.array([(0.0, 0.0, 1.5), (0.0, 2.0, 0.0)])).tolist()
+    [-1.0, 3.0]
     """
     g = normalize(vector("cylinder: axis", axis))
     across = np.eye(3) - np.outer(g, g)
@@ -111,9 +236,37 @@ def implicit_cylinder(radius: float, point: ArrayLike, axis: ArrayLike, box: Arr
 
 
 def implicit_cone(half_angle: float, apex: ArrayLike, axis: ArrayLike, box: ArrayLike) -> Quadric:
-    """The double cone whose rulings enclose the half angle with the axis, F negative inside.
+    """The double cone whose rulings enclose the half angle with the axis, within a box.
 
-    Errors: InputError for an angle that is not between 0 and pi/2, an axis without length.
+    Parameters
+    ----------
+    half_angle : float
+        In radians, between 0 and pi/2.
+    apex : (3,) array_like of float
+        In world units.
+    axis : (3,) array_like of float
+        Of any length.
+    box : (2, 3) array_like of float
+        The smallest and the largest coordinates.
+
+    Returns
+    -------
+    Quadric
+        F is negative inside.
+
+    Raises
+    ------
+    InputError
+        For an angle that is not between 0 and pi/2, an axis without length, an apex that is not three finite numbers,
+        an empty box.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> cone = surfaces.implicit_cone(np.pi / 4, (0, 0, 0), (0, 0, 1), box=[(-2, -2, -2), (2, 2, 2)])
+    >>> cone.values(np.array([(0.0, 0.0, 1.0), (1.0, 0.0, 1.0), (1.0, 0.0, 0.0)])).round(9).tolist() == [-0.5, 0.0, 0.5]
+    True
     """
     if not 0.0 < half_angle < 0.5 * np.pi:
         raise InputError(f"cone: a half angle of {half_angle:g} is not between 0 and pi/2")

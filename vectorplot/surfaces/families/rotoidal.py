@@ -15,9 +15,39 @@ def rotoidal_surface(
 ) -> Swept:
     """The surface of a curve turned by ratio v about the axis b, while b turns by v about the z-axis.
 
-    b is at first the line x = distance, z = 0, parallel to y. The surface closes in v where both turns are whole ones:
-    a ratio p/q closes after v = 2 pi q. Far away from b the motion is helical.
+    Parameters
+    ----------
+    generator : Curve
+        At v = 0.
+    ratio : float
+        Turns about b for each turn of b.
+    distance : float
+        Of b from the z-axis, in world units.
+    start, end : float
+        The range of v, in radians.
+
+    Returns
+    -------
+    Swept
+        Closed in v where both turns are whole ones: a ratio p/q closes after v = 2 pi q.
+
+    Raises
+    ------
+    InputError
+        For numbers that are not finite, an empty range.
+
+    Notes
+    -----
+    b is at first the line x = distance, z = 0, parallel to y. Far away from b the motion is helical.
+
     Source: Glaeser, section 8.2, equation 13, in the general form of erratum G8-06.
+
+    Examples
+    --------
+    >>> from vectorplot import curves, surfaces
+    >>> moebius = surfaces.rotoidal_surface(curves.Line((2, 0, 0), (2, 0, 0)), ratio=0.5, distance=3.0)
+    >>> moebius.domain.closed_v
+    False
     """
     motion = Rotoid(number("rotoidal surface: ratio", ratio), number("rotoidal surface: distance", distance))
     return Swept(generator, motion, start, end)

@@ -19,8 +19,34 @@ from vectorplot.surfaces.surface import Domain
 class Swept:
     """The points x(u, v) of a generating curve g(u) after a motion for the time v.
 
+    Parameters
+    ----------
+    generator : Curve
+        g; a line sweeps a ruled surface, a circle a tubular one.
+    motion : Motion
+        What carries it.
+    start, end : float
+        The range of v.
+
+    Raises
+    ------
+    InputError
+        For an empty range of v.
+
+    Notes
+    -----
     The domain closes in u where the curve is a loop, in v where the motion repeats. Derivatives are exact where the
-    curve's are. Errors: InputError for an empty range of v. Source: Glaeser, section 8.2.
+    curve's are.
+
+    Source: Glaeser, section 8.2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import curves, surfaces
+    >>> pipe = surfaces.Swept(curves.Circle(), surfaces.Translation(curves.Line((0, 0, 0), (0, 0, 1))), 0.0, 5.0)
+    >>> pipe.points(np.array(0.0), np.array(5.0)).tolist()
+    [1.0, 0.0, 5.0]
     """
 
     generator: Curve

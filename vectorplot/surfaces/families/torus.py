@@ -16,11 +16,35 @@ from vectorplot.surfaces.surface import Domain
 
 @dataclass(frozen=True, eq=False)
 class Torus(EllipticSections):
-    """((a - b cos v) cos u, (a - b cos v) sin u, b sin v): axis z, a the major and b the minor radius.
+    """((a - b cos v) cos u, (a - b cos v) sin u, b sin v) about a centre: a torus with an upright axis.
 
-    v = 0 is the inner equator, v = pi the outer one; the normals point into the tube. Closed both ways.
-    Degenerate: a < b, the spindle torus, meets its axis and itself there.
-    Errors: InputError for radii that are not positive. Source: Glaeser, section 8.3, equation 18; erratum G8-15.
+    Parameters
+    ----------
+    major : float
+        a, the radius of the middle circle, positive, in world units.
+    minor : float
+        b, that of the tube, positive.
+    centre : (3,) array_like of float
+        In world units.
+
+    Raises
+    ------
+    InputError
+        For radii that are not positive, a centre that is not three finite numbers.
+
+    Notes
+    -----
+    v = 0 is the inner equator, v = pi the outer one; the normals point into the tube. Closed both ways. Degenerate: a <
+    b, the spindle torus, meets its axis and itself there.
+
+    Source: Glaeser, section 8.3, equation 18; erratum G8-15.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import Torus
+    >>> Torus(3.0, 1.0).points(np.array([0.0, 0.0]), np.array([0.0, np.pi])).round(9)[:, 0].tolist()
+    [2.0, 4.0]
     """
 
     major: float = 3.0
@@ -56,7 +80,32 @@ class Torus(EllipticSections):
 class ImplicitTorus:
     """F = (x^2 + y^2 + z^2 + a^2 - b^2)^2 - 4 a^2 (x^2 + y^2), negative inside the tube.
 
-    Errors: InputError for radii that are not positive. Source: Glaeser, section 8.3, equation 20.
+    Parameters
+    ----------
+    major : float
+        a, the radius of the middle circle, positive, in world units.
+    minor : float
+        b, that of the tube, positive.
+    centre : (3,) array_like of float
+        From where x, y, z are counted.
+
+    Raises
+    ------
+    InputError
+        For radii that are not positive, a centre that is not three finite numbers.
+
+    Notes
+    -----
+    Of degree 4. The box has a tenth of the tube around.
+
+    Source: Glaeser, section 8.3, equation 20.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import ImplicitTorus
+    >>> ImplicitTorus(3.0, 1.0).values(np.array([(3.0, 0.0, 0.0), (4.0, 0.0, 0.0), (0.0, 0.0, 0.0)])).tolist()
+    [-35.0, 0.0, 64.0]
     """
 
     major: float = 3.0
@@ -97,9 +146,34 @@ class ImplicitTorus:
 class ImplicitTorusByDistance:
     """F = (a - sqrt(x^2 + y^2))^2 + z^2 - b^2: squared distance from the middle circle, less b^2; not algebraic.
 
-    Degenerate: on the axis F has a ridge and the gradient no horizontal part; of a spindle torus (a < b) the lobe
-    about the axis is no zero of it.
-    Errors: InputError for radii that are not positive. Source: Glaeser, section 8.3, equation 19.
+    Parameters
+    ----------
+    major : float
+        a, the radius of the middle circle, positive, in world units.
+    minor : float
+        b, that of the tube, positive.
+    centre : (3,) array_like of float
+        From where x, y, z are counted.
+
+    Raises
+    ------
+    InputError
+        For radii that are not positive, a centre that is not three finite numbers.
+
+    Notes
+    -----
+    Degenerate: on the axis F has a ridge and the gradient no horizontal part; of a spindle torus (a < b) the lobe about
+    the axis is no zero of it.
+
+    Source: Glaeser, section 8.3, equation 19.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import ImplicitTorusByDistance
+    >>> torus = ImplicitTorusByDistance(3.0, 1.0)
+    >>> torus.values(np.array([(3.0, 0.0, 0.0), (4.0, 0.0, 0.0), (0.0, 0.0, 0.0)])).tolist()
+    [-1.0, 0.0, 8.0]
     """
 
     major: float = 3.0
