@@ -100,6 +100,7 @@ ROOMS = [
     "exact",
     "io",
     "scene",
+    "shading",
     "surfaces",
     "testing",
 ]

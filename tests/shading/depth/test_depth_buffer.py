@@ -172,6 +172,19 @@ def test_nothing_at_all_and_what_is_refused():
         buffer_of(none, [], camera, 32000, 32000)
 
 
+@pytest.mark.parametrize("bits", range(16, 63))
+def test_a_code_has_room_for_the_numbers_of_the_triangles_or_is_refused(bits):
+    camera = Camera((0, 0, 10), up=(0, 1, 0))
+    points = [(x, y, z) for z in (0, 1) for x, y in ((-9, -9), (9, -9), (0, 9))]
+    code = DepthCode.fine(-1.0, 1.0, bits)
+    if bits >= 60:
+        with pytest.raises(InputError, match="no room for the numbers of 2 triangles"):
+            buffer_of(points, [(0, 1, 2), (3, 4, 5)], camera, depth_code=code)
+    else:
+        found = buffer_of(points, [(0, 1, 2), (3, 4, 5)], camera, depth_code=code)
+        assert found.triangle[ROWS // 2, COLUMNS // 2] == 1
+
+
 def test_the_default_camera_sees_all_of_a_mesh():
     points, corners = sample(2)
     camera = default_camera(Scene((Item("all", Mesh.from_triangles(points, corners)),)))

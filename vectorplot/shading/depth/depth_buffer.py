@@ -27,8 +27,34 @@ FINEST_BITS = 48
 class DepthBuffer:
     """What is in front in every pixel, and how far.
 
-    code (rows, columns) int64: codes of the depths, 0 where there is nothing; triangle (rows, columns) int32: number in
-    triangles, -1 where there is nothing; top: the row of the whole picture that is row 0 here.
+    Parameters
+    ----------
+    code : (rows, columns) array of int64
+        Codes of the depths, 0 where there is nothing.
+    triangle : (rows, columns) array of int32
+        Number in triangles, -1 where there is nothing.
+    depth_code : DepthCode
+        What the codes mean.
+    triangles : ScreenTriangles
+        What the picture is of.
+    top : int
+        The row of the whole picture that is row 0 here.
+
+    Notes
+    -----
+    Source: Glaeser, section 7.3.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.shading import ScreenTriangles, depth_buffer
+    >>> points = np.array([(-1, -1, 0), (9, -1, 0), (-1, 9, 0), (-1, -1, 1), (3, -1, 1), (-1, 3, 1)], dtype=float)
+    >>> near_and_far = ScreenTriangles(points, np.array([(0, 1, 2), (3, 4, 5)]), np.arange(2))
+    >>> buffer = depth_buffer(near_and_far, columns=4, rows=2)
+    >>> buffer.triangle.tolist()
+    [[1, 1, 0, 0], [1, 0, 0, 0]]
+    >>> buffer.depth.round(6).tolist()
+    [[1.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]]
     """
 
     code: NDArray[np.int64]
@@ -50,7 +76,30 @@ class DepthBuffer:
 
 
 def depth_range(triangles: ScreenTriangles) -> tuple[float, float]:
-    """The smallest and the largest depth of the corners; (0, 0) without triangles."""
+    """The smallest and the largest depth of the corners.
+
+    Parameters
+    ----------
+    triangles : ScreenTriangles
+        With their depths after T2.
+
+    Returns
+    -------
+    (float, float)
+        Points that are no corners do not count.
+
+    Notes
+    -----
+    Degenerate: (0, 0) without triangles.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.shading import ScreenTriangles, depth_range
+    >>> points = np.array([(0, 0, 0.25), (9, 0, 0.5), (0, 9, 0.75)])
+    >>> depth_range(ScreenTriangles(points, np.array([(0, 1, 2)]), np.array([0])))
+    (0.25, 0.75)
+    """
     depth = triangles.points[_used(triangles), 2]
     return (float(depth.min()), float(depth.max())) if len(depth) else (0.0, 0.0)
 
@@ -64,11 +113,45 @@ def _used(triangles: ScreenTriangles) -> Bools:
 def depth_buffer(
     triangles: ScreenTriangles, columns: int, rows: int, *, depth_code: DepthCode | None = None
 ) -> DepthBuffer:
-    """The depth buffer of a picture. depth_code: None for the finest there is room for.
+    """The depth buffer of a picture.
 
-    Errors: InputError for a raster too large, for depths outside the code's range, for too many triangles.
-    Degenerate: no triangles leave it empty; triangles without area cover nothing.
+    Parameters
+    ----------
+    triangles : ScreenTriangles
+        What the picture is of.
+    columns, rows : int
+        Its size in pixels.
+    depth_code : DepthCode, optional
+        How depths become whole numbers; the finest there is room for where None.
+
+    Returns
+    -------
+    DepthBuffer
+        The triangle in front in every pixel, and its depth.
+
+    Raises
+    ------
+    InputError
+        For a raster too large, for depths outside the code's range, and for a code too fine for so many triangles.
+
+    Notes
+    -----
+    Triangles with a common edge leave no gap and share no pixel. Degenerate: no triangles leave it empty; triangles
+    without area cover nothing.
+
     Source: Glaeser, section 7.3.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import shading
+    >>> camera = vp.Camera((0, 0, 5), up=(0, 1, 0), parallel=True, height=8.0)
+    >>> system = shading.raster_system(camera, 8, 8)
+    >>> corners = [(-4, -4, 0), (4, -4, 0), (4, 4, 0)]
+    >>> half = shading.screen_triangles(system.homogeneous(corners), [(0, 1, 2)])
+    >>> buffer = shading.depth_buffer(half, 8, 8)
+    >>> (buffer.triangle >= 0).sum(axis=1).tolist()
+    [0, 1, 2, 3, 4, 5, 6, 7]
     """
     return strip(triangles, columns, rows, 0, rows, depth_code=depth_code)
 
@@ -134,6 +217,12 @@ def _finest_code(triangles: ScreenTriangles) -> DepthCode:
 
 
 def _task(triangles: ScreenTriangles, depth_code: DepthCode, columns: int, top: int, bottom: int) -> Task:
+    bits, first = len(triangles).bit_length(), depth_code.first
+    last = first + depth_code.steps
+    if not last < 2.0 ** (KEY_BITS - bits):
+        raise InputError(
+            f"depths in {depth_code.steps:g} steps leave no room for the numbers of {len(triangles)} triangles"
+        )
     used = _used(triangles)
     depths = np.zeros(len(used))
     depths[used] = depth_code.scaled(triangles.points[used, 2])
@@ -147,8 +236,6 @@ def _task(triangles: ScreenTriangles, depth_code: DepthCode, columns: int, top: 
         slopes = np.stack(
             [depth_code.of_any(start + top * by_row), *(depth_code.rate * by for by in (by_column, by_row))]
         )
-    bits, first = len(triangles).bit_length(), depth_code.first
-    last = first + depth_code.steps
     return Task(grid, beside, depths, triangles.corners, bits, columns, bottom - top, sheet, slopes, first, last)
 
 

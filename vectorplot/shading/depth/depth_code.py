@@ -15,7 +15,32 @@ from vectorplot.errors import InputError
 class DepthCode:
     """Depths as whole numbers: first + steps * (depth - minimum) / (maximum - minimum), cut off.
 
-    Errors: InputError for an empty range. Degenerate: where all depths are the same, so are the codes.
+    Parameters
+    ----------
+    minimum, maximum : float
+        The depths that there are.
+    first : float
+        The code of the smallest depth; 0 is left for pixels without one.
+    steps : float
+        How many steps there are from the smallest to the largest.
+
+    Raises
+    ------
+    InputError
+        For an empty range.
+
+    Notes
+    -----
+    Degenerate: where all depths are the same, so are the codes.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import DepthCode
+    >>> code = DepthCode.ushort(0.0, 1.0)
+    >>> code.code([0.0, 0.5, 1.0]).tolist()
+    [1000, 33000, 65000]
+    >>> code.depth([33000]).tolist(), code.step
+    ([0.5], 1.5625e-05)
     """
 
     minimum: float

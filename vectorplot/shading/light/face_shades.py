@@ -73,7 +73,30 @@ class Shades:
 
 
 def view_lights(view: View, lights: Sequence[Light]) -> tuple[Light, ...]:
-    """The lights in the view's coordinates; where there are none, one from the eye's upper left."""
+    """The lights in the view's coordinates; where there are none, one from the eye's upper left.
+
+    Parameters
+    ----------
+    view : View
+        Whose coordinates they are.
+    lights : sequence of Light
+        In the world.
+
+    Returns
+    -------
+    tuple of Light
+        At least one; all else of them is as it was.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, shading
+    >>> from vectorplot.scene import look
+    >>> view = look(vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),)), vp.Camera.view("front"))
+    >>> (sun,) = shading.view_lights(view, [vp.Light((0, 0, 1), parallel=True)])
+    >>> sun.position
+    (0.0, 1.0, 0.0)
+    """
     if not lights:
         return (HEADLIGHT,)
     return tuple(replace(light, position=_in_view(view, light)) for light in lights)
@@ -102,9 +125,42 @@ def view_eye(view: View) -> tuple[float, float, float, float]:
 def face_shades(view: View, items: Sequence[Item], lights: Sequence[Light]) -> Shades:
     """The shades of all faces of a view, at their barycentres, on the sides that the eye sees.
 
-    items: of the view's scene; lights: in its coordinates, as of view_lights.
+    Parameters
+    ----------
+    view : View
+        With f faces.
+    items : sequence of Item
+        Of the view's scene.
+    lights : sequence of Light
+        In the view's coordinates, as of view_lights.
+
+    Returns
+    -------
+    Shades
+        What each light gives to each face, and all of them together.
+
+    Raises
+    ------
+    InputError
+        For an intensity that is negative or not finite, and a position that is not finite.
+
+    Notes
+    -----
     Degenerate: faces without area have no normal; to them all lights come in flat.
+
     Source: Glaeser, section 4.5; errata G4-06 to G4-08.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, shading
+    >>> from vectorplot.scene import look
+    >>> cube = vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),))
+    >>> view = look(cube, vp.Camera((6, 5, 4)))
+    >>> lights = shading.view_lights(view, [vp.Light((0, 0, 1), parallel=True)])
+    >>> shades = shading.face_shades(view, cube.items, lights)
+    >>> shades.total.shape, shades.total.argmax().item()
+    ((6,), 5)
     """
     return decal_shades(view, items, lights, face_middles(view), np.arange(view.face_count))
 
@@ -185,7 +241,31 @@ def limited_depths(view: View, depths: Floats) -> tuple[float, float]:
 
 
 def face_middles(view: View) -> Floats:
-    """(3,f) the barycentres of the corners of every face."""
+    """The barycentres of the corners of every face.
+
+    Parameters
+    ----------
+    view : View
+        With f faces.
+
+    Returns
+    -------
+    (3, f) array of float
+        In the view's coordinates.
+
+    Notes
+    -----
+    Degenerate: no columns for a view without faces.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, shading
+    >>> from vectorplot.scene import look
+    >>> view = look(vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),)), vp.Camera.view("top"))
+    >>> shading.face_middles(view).T[-1].tolist()
+    [0.0, 0.0, 1.0]
+    """
     if not view.face_count:
         return np.zeros((3, 0))
     if view.is_triangular:
@@ -219,7 +299,40 @@ def shows_inside(view: View) -> Bools:
 
 
 def face_colours(view: View, items: Sequence[Item], shade: Floats, count: int = PALETTE_SIZE) -> Colours:
-    """(f,3) the colours of all faces of a view at shades (f,) or (3,f) from 0 to 1, of palettes of so many shades."""
+    """The colours of all faces of a view at some shades.
+
+    Parameters
+    ----------
+    view : View
+        With f faces.
+    items : sequence of Item
+        Of the view's scene, with their palettes.
+    shade : (f,) or (3, f) array of float
+        0 to 1; of red, green and blue in coloured light.
+    count : int
+        How many shades a palette has.
+
+    Returns
+    -------
+    (f, 3) array of uint8
+        Red, green and blue.
+
+    Raises
+    ------
+    InputError
+        For an unknown palette, or a wrong count.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, shading
+    >>> from vectorplot.scene import look
+    >>> cube = vp.Scene((vp.Item("cube", geometry.box((2, 2, 2)), "gray"),))
+    >>> view = look(cube, vp.Camera((6, 5, 4)))
+    >>> shading.face_colours(view, cube.items, np.array([0, 0, 0, 0, 0, 1.0]))[4:].tolist()
+    [[0, 0, 0], [255, 255, 255]]
+    """
     return item_colours(items, view.face_item, shade, count)
 
 

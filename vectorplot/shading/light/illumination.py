@@ -37,11 +37,36 @@ SHADOW_SHARE = 0.5
 class Finish:
     """What a material makes of light: diffuse * cos^exponent(alpha) + highlight * weight(alpha) * cos^sharpness(beta).
 
-    alpha: between normal and light; beta: between reflected ray and eye. weight: a constant, or measured pairs of an
-    angle in radians and a value, joined by a cubic spline. highlight 0: no highlight at all.
-    Errors: InputError for factors that are negative or not finite, an exponent that is not positive, fewer than two
-    measured pairs or angles that do not rise.
+    Parameters
+    ----------
+    exponent : float
+        Of the cosine of the angle alpha between normal and light, positive.
+    diffuse : float
+        How much a matt surface sends back, not negative.
+    highlight : float
+        0: no highlight at all.
+    sharpness : float
+        Of the cosine of the angle beta between reflected ray and eye, positive.
+    weight : float or tuple of (float, float)
+        A constant, or measured pairs of an angle in radians and a value, joined by a cubic spline.
+
+    Raises
+    ------
+    InputError
+        For factors that are negative or not finite, an exponent that is not positive, fewer than two measured pairs or
+        angles that do not rise.
+
+    Notes
+    -----
     Source: Glaeser, sections 4.5 (equation 2), 8.5 (equations 31 and 32).
+
+    Examples
+    --------
+    >>> from vectorplot.shading import FINISHES, Finish
+    >>> FINISHES["mat"]
+    Finish(exponent=0.5, diffuse=1.0, highlight=0.0, sharpness=1.0, weight=0.1)
+    >>> Finish.polished(256.0, diffuse=0.5) == FINISHES["shiny"]
+    True
     """
 
     exponent: float = 1.0
@@ -62,8 +87,31 @@ class Finish:
 
     @classmethod
     def polished(cls, sharpness: float, diffuse: float = 0.4, exponent: float = 1.0) -> Finish:
-        """A reflecting material: sharpness 2 to 1024, diffuse 0.2 to 0.5; the highlight is the logarithm of the
-        sharpness to the base 2. Source: Glaeser, section 8.5, equation 32."""
+        """A reflecting material.
+
+        Parameters
+        ----------
+        sharpness : float
+            Of the highlight, 2 to 1024.
+        diffuse : float
+            0.2 to 0.5.
+        exponent : float
+            As of Finish.
+
+        Returns
+        -------
+        Finish
+            Its highlight is the logarithm of the sharpness to the base 2.
+
+        Raises
+        ------
+        InputError
+            For a sharpness of 1 or less, and for what Finish refuses.
+
+        Notes
+        -----
+        Source: Glaeser, section 8.5, equation 32.
+        """
         if not sharpness > 1.0:
             raise InputError(f"material: a sharpness of {sharpness:g} is no highlight")
         return cls(exponent, diffuse, float(np.log2(sharpness)), sharpness)
@@ -93,8 +141,30 @@ FINISHES: dict[str, Finish] = {
 
 
 def lambert(cosine: ArrayLike, exponent: float = 1.0) -> Floats:
-    """(...) cos^exponent of the angle between normal and light; on the dark side, where the cosine is negative, 0.3 of
-    what it would be from the front. Source: Glaeser, section 4.5, equation 2; erratum G4-08."""
+    """The cosine of the angle between normal and light to some power; on the dark side 0.3 of what it is on the front.
+
+    Parameters
+    ----------
+    cosine : (...) array_like of float
+        Negative on the dark side.
+    exponent : float
+        1 for Lambert's law.
+
+    Returns
+    -------
+    (...) array of float
+        0 to 1.
+
+    Notes
+    -----
+    Source: Glaeser, section 4.5, equation 2; erratum G4-08.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import lambert
+    >>> lambert([1.0, 0.5, 0.0, -0.5]).tolist()
+    [1.0, 0.5, 0.0, 0.15]
+    """
     c = np.clip(np.asarray(cosine, dtype=np.float64), -1.0, 1.0)
     size = np.abs(c) if exponent == 1.0 else np.abs(c) ** exponent
     return np.asarray(np.where(c > 0.0, size, DARK_SIDE * size))
@@ -113,19 +183,64 @@ def facing(normals: ArrayLike, to_eye: ArrayLike) -> Floats:
 
 
 def reflected(normals: ArrayLike, to_light: ArrayLike) -> Floats:
-    """(..., 3) the directions of reflected rays: 2 (n.l) n - l for unit vectors.
+    """The directions of reflected rays: 2 (n.l) n - l for unit vectors.
 
+    Parameters
+    ----------
+    normals : (..., 3) array_like of float
+        Unit vectors n.
+    to_light : (..., 3) array_like of float
+        Unit vectors l, to the light.
+
+    Returns
+    -------
+    (..., 3) array of float
+        Unit vectors, away from the surface.
+
+    Notes
+    -----
     Source: Glaeser, section 8.5, equation 30.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import reflected
+    >>> reflected((0, 0, 1), (0.6, 0, 0.8)).tolist()
+    [-0.6, 0.0, 0.8]
     """
     n, light = np.asarray(normals, dtype=np.float64), np.asarray(to_light, dtype=np.float64)
     return np.asarray(2.0 * (n * light).sum(axis=-1, keepdims=True) * n - light)
 
 
 def brightness(cos_alpha: ArrayLike, cos_beta: ArrayLike, finish: Finish) -> Floats:
-    """(...) what a surface sends to the eye of one light of intensity 1: 1 and more is as bright as can be.
+    """What a surface sends to the eye of one light of intensity 1.
 
+    Parameters
+    ----------
+    cos_alpha : (...) array_like of float
+        Of the angle between normal and light.
+    cos_beta : (...) array_like of float
+        Of the angle between reflected ray and eye.
+    finish : Finish
+        What the material makes of light.
+
+    Returns
+    -------
+    (...) array of float
+        1 and more is as bright as can be.
+
+    Notes
+    -----
     Highlights are only where the light falls on the outer side and the reflected ray runs towards the eye.
+
     Source: Glaeser, section 8.5, equation 31; erratum G8-16.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import FINISHES, brightness
+    >>> brightness([1.0, 0.5], [1.0, 0.5], FINISHES["shiny"]).round(6).tolist()
+    [1.3, 0.25]
+    >>> brightness([1.0, 0.5], [1.0, 0.5], FINISHES["normal"]).tolist()
+    [1.0, 0.5]
     """
     alpha = np.clip(np.asarray(cos_alpha, dtype=np.float64), -1.0, 1.0)
     beta = np.clip(np.asarray(cos_beta, dtype=np.float64), -1.0, 1.0)
@@ -187,11 +302,36 @@ def light_shares(
 
 
 def distance_factor(light_distance: float, depth: ArrayLike, nearest: float) -> Floats:
-    """(...) how much less light arrives at depths in a light's system than at the nearest one: the square of the ratio
-    of distances, at most 1.
+    """How much less light arrives at depths in a light's system than at the nearest one.
 
-    Errors: InputError where a depth or the nearest one is not below the light.
+    Parameters
+    ----------
+    light_distance : float
+        From the light to the origin of its system.
+    depth : (...) array_like of float
+        Larger = closer to the light.
+    nearest : float
+        The largest depth that there is.
+
+    Returns
+    -------
+    (...) array of float
+        The square of the ratio of distances, at most 1.
+
+    Raises
+    ------
+    InputError
+        Where a depth or the nearest one is not below the light.
+
+    Notes
+    -----
     Source: Glaeser, section 4.5, equation 4.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import distance_factor
+    >>> distance_factor(10.0, [5.0, 0.0], nearest=5.0).tolist()
+    [1.0, 0.25]
     """
     z = np.asarray(depth, dtype=np.float64)
     if not (nearest < light_distance and (z <= nearest).all()):
@@ -200,10 +340,33 @@ def distance_factor(light_distance: float, depth: ArrayLike, nearest: float) -> 
 
 
 def depth_cue(depth: ArrayLike, minimum: float, total: float) -> Floats:
-    """(...) what ambient light adds to shades: from 0 at the smallest depth of the screen to 0.2 at the largest.
+    """What ambient light adds to shades: from 0 at the smallest depth of the screen to 0.2 at the largest.
 
-    total: the depth of the scene. Degenerate: a scene without depth gets all of it.
+    Parameters
+    ----------
+    depth : (...) array_like of float
+        Larger = closer to the eye.
+    minimum : float
+        The smallest depth.
+    total : float
+        The depth of the scene.
+
+    Returns
+    -------
+    (...) array of float
+        0 to 0.2.
+
+    Notes
+    -----
+    Degenerate: a scene without depth gets all of it.
+
     Source: Glaeser, section 4.5, equation 5, figure 6.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import depth_cue
+    >>> depth_cue([0.0, 5.0, 10.0], minimum=0.0, total=10.0).round(6).tolist()
+    [0.0, 0.1, 0.2]
     """
     z = np.asarray(depth, dtype=np.float64)
     share = (z - minimum) / total if total > 0.0 else np.ones(z.shape)
@@ -211,9 +374,36 @@ def depth_cue(depth: ArrayLike, minimum: float, total: float) -> Floats:
 
 
 def shades(shares: ArrayLike, intensity: ArrayLike, cue: ArrayLike = 0.0) -> Floats:
-    """(n,) shades 0 to 1 from the shares (l, n) of lights with intensities (l,): their sum takes four fifths of the
-    palette, cut off there; then comes the cue. With intensities (l, 3), of coloured light, (3, n) shades. Source:
-    Glaeser, section 4.5, equations 3, 5 and 7; erratum G4-08."""
+    """How bright points are in the light of all lights together.
+
+    Parameters
+    ----------
+    shares : (l, n) array_like of float
+        What each light gives to each point, as of brightness.
+    intensity : (l,) or (l, 3) array_like of float
+        Of the lights; of their red, green and blue in coloured light.
+    cue : (n,) array_like of float or float
+        What ambient light adds, as of depth_cue.
+
+    Returns
+    -------
+    (n,) or (3, n) array of float
+        0 to 1; of red, green and blue in coloured light.
+
+    Notes
+    -----
+    The sum of the shares takes four fifths of the palette, and is cut off there; then comes the cue.
+
+    Source: Glaeser, section 4.5, equations 3, 5 and 7; erratum G4-08.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import shades
+    >>> shades([[0.5, 1.0], [0.2, 0.3]], [1.0, 0.5]).round(6).tolist()
+    [0.48, 0.8]
+    >>> shades([[0.5, 1.0]], [1.0], cue=[0.2, 0.1]).round(6).tolist()
+    [0.6, 0.9]
+    """
     total = np.asarray(intensity, dtype=np.float64).T @ np.asarray(shares, dtype=np.float64)
     return np.asarray(np.clip(DIRECT_SHARE * np.minimum(total, 1.0) + np.asarray(cue), 0.0, 1.0))
 

@@ -59,13 +59,41 @@ def ramp(lower: ArrayLike, upper: ArrayLike, count: int = PALETTE_SIZE) -> Float
 
 
 def spectrum(lower: ArrayLike, upper: ArrayLike, count: int = PALETTE_SIZE, levels: int = 256) -> Ints:
-    """(count, 3) the shades of a ramp for a device with some levels of red, green and blue each: integers from 0 to
-    levels - 1, no two neighbours equal.
+    """The shades of a ramp for a device with some levels of red, green and blue each, no two neighbours equal.
 
+    Parameters
+    ----------
+    lower, upper : (3,) array_like of float
+        The darkest and the brightest colour, 0 to 1.
+    count : int
+        How many shades, 2 to 256.
+    levels : int
+        How many levels each component has, 2 or more.
+
+    Returns
+    -------
+    (count, 3) array of int
+        0 to levels - 1.
+
+    Raises
+    ------
+    InputError
+        For fewer than two levels or shades, limits outside 0 to 1.
+
+    Notes
+    -----
     Of a shade that equals the one before it one component is raised, the one that grows most; where all are at the top
     the last one is lowered.
-    Errors: InputError for fewer than two levels or shades, limits outside 0 to 1.
+
     Source: Glaeser, section 4.3; errata G4-01, G4-02.
+
+    Examples
+    --------
+    >>> from vectorplot import shading
+    >>> shading.spectrum((0, 0, 0), (1, 1, 1), count=4, levels=4).tolist()
+    [[0, 0, 0], [1, 1, 1], [2, 2, 2], [3, 3, 3]]
+    >>> shading.spectrum((0, 0, 0), (0.2, 0.2, 1), count=4, levels=3).tolist()
+    [[0, 0, 0], [0, 0, 1], [0, 0, 2], [1, 0, 2]]
     """
     limits = np.array((lower, upper), dtype=np.float64)
     if levels < 2 or limits.shape != (2, 3) or not ((limits >= 0.0) & (limits <= 1.0)).all():
@@ -96,11 +124,37 @@ def dark_half(shades: Colours) -> Colours:
 
 
 def palette(name: str, count: int = PALETTE_SIZE) -> Colours:
-    """(count, 3) the shades of a palette by its name, from dark to bright.
+    """The shades of a palette by its name, from dark to bright.
 
-    A parent, or its half as light... or dark...; white, black, red and #rrggbb run from a fifth of that colour to it.
+    Parameters
+    ----------
+    name : str
+        A parent (gray, green, yellow, blue, pink, cyan, magenta, orange), or its half as light... or dark...; white,
+        black, red and #rrggbb run from a fifth of that colour to it.
+    count : int
+        How many shades, 2 to 256.
 
-    Errors: InputError for an unknown name and a wrong count.
+    Returns
+    -------
+    (count, 3) array of uint8
+        Red, green and blue.
+
+    Raises
+    ------
+    InputError
+        For an unknown name and a wrong count.
+
+    Notes
+    -----
+    Source: Glaeser, section 4.3; erratum G4-01.
+
+    Examples
+    --------
+    >>> from vectorplot import shading
+    >>> shading.palette("gray", 4).tolist()
+    [[0, 0, 0], [85, 85, 85], [170, 170, 170], [255, 255, 255]]
+    >>> shading.palette("red", 2).tolist()
+    [[51, 0, 0], [255, 0, 0]]
     """
     if name in PLAIN or _HEX.fullmatch(name):
         full = np.array(PLAIN[name]) if name in PLAIN else _of_hex(name)
@@ -144,10 +198,35 @@ def mixed(shades: ArrayLike, light: ArrayLike, kept: int) -> Floats:
 
 
 def shaded_colours(names: Sequence[str], which: Ints, shade: ArrayLike, count: int = PALETTE_SIZE) -> Colours:
-    """(n, 3) colours: number which[k] of the palettes with these names, at shade[k] from 0 to 1.
+    """Colours of some palettes, at shades from 0 to 1.
 
-    Shades (3, n) are of red, green and blue, as coloured light makes them: a component each of a shade of its own.
-    Errors: as of palette.
+    Parameters
+    ----------
+    names : sequence of str
+        Palettes.
+    which : (n,) array of int
+        Which of the palettes.
+    shade : (n,) or (3, n) array_like of float
+        0 to 1; of red, green and blue, as coloured light makes them: a component each of a shade of its own.
+    count : int
+        How many shades a palette has.
+
+    Returns
+    -------
+    (n, 3) array of uint8
+        Red, green and blue.
+
+    Raises
+    ------
+    InputError
+        For an unknown palette, or a wrong count.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import shading
+    >>> shading.shaded_colours(["gray", "red"], np.array([0, 0, 1]), [0.0, 1.0, 1.0]).tolist()
+    [[0, 0, 0], [255, 255, 255], [255, 0, 0]]
     """
     numbers = shade_numbers(shade, count).astype(np.intp)
     table = np.concatenate([np.zeros((0, 3), np.uint8), *(palette(name, count) for name in names)])
@@ -185,11 +264,43 @@ class ColourMap:
 
 
 def colour_map(names: Sequence[str], colours: int = COLOUR_MAP, offset: int = 0) -> ColourMap:
-    """The colour map for a picture with these palettes: the fewer there are, the more shades each has; all eight have
-    32 in a map of 256.
+    """The colour map for a picture with some palettes: the fewer there are, the more shades each has.
 
-    Errors: InputError where there is no room for two shades each. Degenerate: without palettes all parents are in it.
+    Parameters
+    ----------
+    names : sequence of str
+        Palettes, or halves of them, which lie in their parents.
+    colours : int
+        Entries of the map.
+    offset : int
+        So many entries at its beginning belong to others.
+
+    Returns
+    -------
+    ColourMap
+        Its entries (colours, 3), and which belong to a shade of a palette.
+
+    Raises
+    ------
+    InputError
+        For what is no palette, and where there is no room for two shades each.
+
+    Notes
+    -----
+    All eight palettes have 32 shades each in a map of 256.
+
+    Degenerate: without palettes all parents are in it.
+
     Source: Glaeser, section 4.3; erratum G4-02.
+
+    Examples
+    --------
+    >>> from vectorplot import shading
+    >>> colours = shading.colour_map(["gray", "lightblue"])
+    >>> colours.parents, colours.size
+    (('gray', 'blue'), 128)
+    >>> colours.entry("lightblue", [0.0, 1.0]).tolist()
+    [192, 255]
     """
     used = {parent_and_half(name)[0] for name in names}
     parents = tuple(name for name in PALETTE_LIMITS if name in used or not used)

@@ -33,9 +33,26 @@ LARGEST_RASTER_PIXELS = 1 << 27
 class ScreenTriangles:
     """Triangles in pixels, all of them in front of the near plane and inside the guard band.
 
-    points (p, 3): column, row and depth after T2 (z / (d - z), in a parallel projection z); corners (t, 3) into points;
-    source (t,): the triangle each is a part of; sheet (t,): the plane that it shares with others, -1 for none (None:
-    none shares any); slopes (3, k): the depth of each such plane at column 0 and row 0, and how it grows with these.
+    Parameters
+    ----------
+    points : (p, 3) array of float
+        Column, row and depth after T2: z / (d - z), in a parallel projection z.
+    corners : (t, 3) array of int
+        Into points.
+    source : (t,) array of int
+        The triangle each is a part of.
+    sheet : (t,) array of int, optional
+        The plane that it shares with others, -1 for none; None: none shares any.
+    slopes : (3, k) array of float, optional
+        The depth of each such plane at column 0 and row 0, and how it grows with these.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.shading import ScreenTriangles
+    >>> points = np.array([(0.0, 0.0, 0.5), (9.0, 0.0, 0.5), (0.0, 9.0, 0.5)])
+    >>> len(ScreenTriangles(points, corners=np.array([(0, 1, 2)]), source=np.array([0])))
+    1
     """
 
     points: Floats
@@ -57,7 +74,29 @@ class HalfSpace:
 
 
 def raster_size(columns: int, rows: int) -> tuple[int, int]:
-    """The size, if there can be such a raster. Errors: InputError."""
+    """The size in pixels, if there can be such a raster.
+
+    Parameters
+    ----------
+    columns, rows : int
+        1 to 32767 each, and no more than 2^27 pixels together.
+
+    Returns
+    -------
+    (int, int)
+        Columns and rows.
+
+    Raises
+    ------
+    InputError
+        For other sizes.
+
+    Examples
+    --------
+    >>> from vectorplot import shading
+    >>> shading.raster_size(640, 480)
+    (640, 480)
+    """
     if not (1 <= columns <= LARGEST_SIDE_PIXELS and 1 <= rows <= LARGEST_SIDE_PIXELS):
         raise InputError(f"a raster of {columns} x {rows} pixels: sides must be 1 to {LARGEST_SIDE_PIXELS}")
     if columns * rows > LARGEST_RASTER_PIXELS:
@@ -68,7 +107,35 @@ def raster_size(columns: int, rows: int) -> tuple[int, int]:
 def raster_system(camera: Camera, columns: int, rows: int) -> CoordinateSystem:
     """The camera's system in pixels with centres at integers and row 0 on top; the field of vision fills the height.
 
-    Errors: InputError for a raster too large or without pixels. Source: Glaeser, section 2.3; decision D-1.
+    Parameters
+    ----------
+    camera : Camera
+        Whose picture it is.
+    columns, rows : int
+        Its size in pixels.
+
+    Returns
+    -------
+    CoordinateSystem
+        From the world to column, row and depth.
+
+    Raises
+    ------
+    InputError
+        For a raster too large or without pixels.
+
+    Notes
+    -----
+    Source: Glaeser, section 2.3; decision D-1.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import shading
+    >>> camera = vp.Camera((0, 0, 5), up=(0, 1, 0), parallel=True, height=10.0)
+    >>> system = shading.raster_system(camera, 10, 10)
+    >>> system.from_world([(0, 0, 0), (4.5, 4.5, 1)]).round(9).tolist()
+    [[4.5, 4.5, 0.0], [9.0, 0.0, 1.0]]
     """
     raster_size(columns, rows)
     system = CoordinateSystem.of_screen(camera, PixelWindow(columns, rows, -1.0))
@@ -117,13 +184,47 @@ def front_facing(points: ArrayLike, corners: Ints, eye: ArrayLike) -> Bools:
 def screen_triangles(
     points: ArrayLike, corners: ArrayLike, *, near: float = NEAR_OF_DISTANCE, sides: Sequence[HalfSpace] = ()
 ) -> ScreenTriangles:
-    """The triangles (t, 3) of homogeneous points (n, 4), as CoordinateSystem.homogeneous gives them, cut to what is
-    in front of the near plane, and dropped or cut where they leave the guard band.
+    """Triangles in pixels, cut to what is in front of the near plane.
 
-    A cut edge gets its new corner by the same arithmetic in all triangles that have it, so that no gap opens.
-    near: the smallest weight, 1 in the image plane and 0 at the eye; sides: what is outside of them is cut off first.
-    Errors: InputError for coordinates that are not finite, for corners out of range, for near <= 0.
+    Parameters
+    ----------
+    points : (n, 4) array_like of float
+        Homogeneous points, as CoordinateSystem.homogeneous gives them.
+    corners : (t, 3) array_like of int
+        Into points.
+    near : float
+        The smallest weight, 1 in the image plane and 0 at the eye.
+    sides : sequence of HalfSpace
+        What is outside of them is cut off first.
+
+    Returns
+    -------
+    ScreenTriangles
+        Their source says which of the triangles they are parts of.
+
+    Raises
+    ------
+    InputError
+        For coordinates that are not finite, corners out of range, and a near plane that is not positive and finite.
+
+    Notes
+    -----
+    Triangles are dropped or cut where they leave the guard band. A cut edge gets its new corner by the same arithmetic
+    in all triangles that have it, so that no gap opens.
+
     Source: Glaeser, section 2.5 (Hodgman and Sutherland); erratum G2-09.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import shading
+    >>> system = shading.raster_system(vp.Camera((0, 0, 10), up=(0, 1, 0)), 60, 40)
+    >>> corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 1, 20)]
+    >>> triangles = shading.screen_triangles(system.homogeneous(corners), [(0, 1, 2), (0, 1, 3)])
+    >>> triangles.source.tolist()
+    [0, 1, 1]
+    >>> triangles.points[0].round(6).tolist()
+    [29.5, 19.5, 0.0]
     """
     p, corners = _checked(points, corners)
     if not 0.0 < near < np.inf:

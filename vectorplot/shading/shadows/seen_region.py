@@ -23,8 +23,31 @@ FOCUS = 0.3
 
 @dataclass(frozen=True, eq=False)
 class SeenRegion:
-    """A part of the world. points (k, 3): its corners, none where nothing is in the frustum; near, far, focus
-    (3,): the centres of its planes; focus_points (l, 3): corners of the part before the focus plane."""
+    """A part of the world that a picture shows.
+
+    Parameters
+    ----------
+    points : (k, 3) array of float
+        Its corners, none where nothing is in the frustum.
+    near, far, focus : (3,) array of float
+        The centres of its planes.
+    focus_points : (l, 3) array of float
+        Corners of the part before the focus plane.
+
+    Notes
+    -----
+    Source: Martin and Tan, recipe, and Ressler, Notes on implementation of trapezoidal shadow maps, section 2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import shading
+    >>> system = shading.raster_system(vp.Camera((0, 0, 10), up=(0, 1, 0)), 60, 40)
+    >>> behind = np.array([(0.0, 0.0, 20.0), (1.0, 0.0, 20.0), (0.0, 1.0, 20.0)])
+    >>> len(shading.region_in_picture(system, 60, 40, behind, np.array([(0, 1, 2)])).points)
+    0
+    """
 
     points: Floats
     near: Floats
@@ -52,11 +75,49 @@ def seen_region(
 
 
 def region_in_picture(system: CoordinateSystem, columns: int, rows: int, points: Floats, corners: Ints) -> SeenRegion:
-    """What a picture of so many pixels can show of triangles (t, 3) of points (n, 3): they are cut with the frustum.
+    """What a picture of so many pixels can show of some triangles: they are cut with the frustum.
 
-    The near and the far plane touch what is left; the focus is that of focus_of_depths.
+    Parameters
+    ----------
+    system : CoordinateSystem
+        A camera's, in pixels.
+    columns, rows : int
+        The size of the picture.
+    points : (n, 3) array of float
+        In the world.
+    corners : (t, 3) array of int
+        Into points.
+
+    Returns
+    -------
+    SeenRegion
+        The near and the far plane touch what is left.
+
+    Raises
+    ------
+    InputError
+        For coordinates that are not finite, and corners out of range.
+
+    Notes
+    -----
+    The focus is where the picture of a scene lit from the side is as sharp near the eye as far away.
+
     Error: nearer than the near plane of the system nothing is seen.
+
     Degenerate: no points where nothing is in the frustum.
+
+    Source: Wimmer, Scherzer and Purgathofer, Light space perspective shadow maps, section 4 (the focus).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import shading
+    >>> system = shading.raster_system(vp.Camera((0, 0, 10), up=(0, 1, 0)), 60, 40)
+    >>> points = np.array([(-1.0, -1.0, 0.0), (1.0, -1.0, 0.0), (0.0, 1.0, 2.0)])
+    >>> region = shading.region_in_picture(system, 60, 40, points, np.array([(0, 1, 2)]))
+    >>> region.near.round(6).tolist(), region.far.round(6).tolist()
+    ([0.0, 0.0, 2.0], [0.0, 0.0, 0.0])
     """
     sides = [
         HalfSpace((1.0, 0.0, 0.0, 0.5)),

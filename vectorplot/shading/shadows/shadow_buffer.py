@@ -51,7 +51,27 @@ SIDES = np.concatenate([np.eye(3), -np.eye(3)])
 
 @dataclass(frozen=True, eq=False)
 class ShadowBuffer:
-    """The maps of one light: a single one, or six around a lamp within the scene."""
+    """The maps of one light: a single one, or six around a lamp within the scene.
+
+    Parameters
+    ----------
+    maps : tuple of ShadowMap
+        None where there is nothing that casts shadows.
+
+    Notes
+    -----
+    Source: Glaeser, section 8.6.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import shading
+    >>> roof, corners = [(-1, -1, 2), (1, -1, 2), (1, 1, 2), (-1, 1, 2)], np.array([(0, 1, 2), (0, 2, 3)])
+    >>> buffer = shading.shadow_buffer(vp.Light((0, 0, 1), parallel=True), roof, corners, size=64)
+    >>> buffer.blocks(points=[(0, 0, 0), (3, 3, 0)], normals=[(0, 0, 1), (0, 0, 1)]).tolist()
+    [True, False]
+    """
 
     maps: tuple[ShadowMap, ...]
 
@@ -77,18 +97,63 @@ def shadow_buffer(
     casting: Literal["all", "away"] = "all",
     wanted_focus: float | None = None,
 ) -> ShadowBuffer:
-    """The shadow buffer of a light for triangles (t, 3) of world points (n, 3).
+    """The shadow buffer of a light for triangles in the world.
 
-    size: the map has as many texels as a square of this side, and is as wide against its height as what it shows; or
-    size: columns, and rows; bits: 8, 16 or 32 for a depth; frame: the map shows the
-    whole scene, the box about what is seen, or the trapezoid around it, of which most is what is near the eye; region:
-    what the camera sees, for the latter two. casting: all faces, or, where all bodies are closed, only those that turn
-    away from the light: then depths need no margin. wanted_focus: a trapezoidal map grows until what is in focus gets
-    such a part of as many texels as size says, to four times the size at most. A lamp within the scene has six maps of
-    half the size, whole ones.
-    Errors: InputError for impossible sizes, bits and frames, for a tapered map without a region.
-    Degenerate: where nothing is seen, and where the eye's line of sight runs behind the lamp, the map is standard.
+    Parameters
+    ----------
+    light : Light
+        A lamp, or parallel rays.
+    points : (n, 3) array_like of float
+        In the world.
+    corners : (t, 3) array of int
+        Into points.
+    size : int
+        The map has as many texels as a square of this side, and is as wide against its height as what it shows; with
+        rows, the number of columns.
+    rows : int, optional
+        The number of rows.
+    bits : int
+        Of a depth: 8, 16 or 32.
+    frame : {"standard", "box", "trapezoid"}
+        The map shows the whole scene, the box about what is seen, or the trapezoid around it, of which most is what is
+        near the eye.
+    region : SeenRegion, optional
+        What the camera sees, for box and trapezoid.
+    casting : {"all", "away"}
+        All faces, or, where all bodies are closed, only those that turn away from the light: then depths need no
+        margin.
+    wanted_focus : float, optional
+        A trapezoidal map grows until what is in focus gets such a part of as many texels as size says, to four times
+        the size at most.
+
+    Returns
+    -------
+    ShadowBuffer
+        With one map; for a lamp within the scene six maps of half the size, whole ones.
+
+    Raises
+    ------
+    InputError
+        For impossible sizes, bits, frames and casting, for a tapered map without a region.
+
+    Notes
+    -----
+    Degenerate: where nothing is seen, and where the eye's line of sight runs behind the lamp, the map is standard;
+    without points there is no map.
+
     Source: Glaeser, section 8.6; Martin and Tan, recipe.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import shading
+    >>> square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    >>> points = [(x, y, 2) for x, y in square] + [(4 * x, 4 * y, 0) for x, y in square]
+    >>> corners = np.array([(0, 1, 2), (0, 2, 3), (4, 5, 6), (4, 6, 7)])
+    >>> buffer = shading.shadow_buffer(vp.Light((0, 0, 1), parallel=True), points, corners, size=64)
+    >>> len(buffer.maps), buffer.maps[0].code.shape
+    (1, (64, 64))
     """
     if casting not in ("all", "away"):
         raise InputError(f"casting {casting!r}: expected all or away")

@@ -47,9 +47,32 @@ POINTS_AT_ONCE = 1 << 17
 class ShadowMap:
     """The depths that a lamp sees.
 
-    system: the lamp's; texel_from_light (3, 3): (x, y, 1) of its image plane to column, row and weight; code (rows,
-    columns) uint8, uint16 or uint32: 0 where the lamp sees nothing; depth_code: what the codes mean; biased:
-    whether depths are compared with a margin, against faces that shade themselves.
+    Parameters
+    ----------
+    system : CoordinateSystem
+        The lamp's.
+    texel_from_light : (3, 3) array of float
+        From (x, y, 1) of its image plane to column, row and weight.
+    code : (rows, columns) array of uint8, uint16 or uint32
+        0 where the lamp sees nothing.
+    depth_code : DepthCode
+        What the codes mean.
+    biased : bool
+        Whether depths are compared with a margin, against faces that shade themselves.
+
+    Notes
+    -----
+    Source: Glaeser, section 8.6; Martin and Tan, recipe, polygon offset.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import shading
+    >>> roof, corners = [(-1, -1, 2), (1, -1, 2), (1, 1, 2), (-1, 1, 2)], np.array([(0, 1, 2), (0, 2, 3)])
+    >>> (found,) = shading.shadow_buffer(vp.Light((0, 0, 1), parallel=True), roof, corners, size=8, bits=16).maps
+    >>> (found.code > 0).sum(axis=1).tolist()
+    [0, 6, 6, 6, 6, 6, 6, 0]
     """
 
     system: CoordinateSystem
@@ -266,7 +289,35 @@ def slopes(system: CoordinateSystem, points: Floats, normals: Floats) -> tuple[F
 
 
 def texels_per_unit(found: ShadowMap, points: ArrayLike) -> Floats:
-    """(n,) texels on a unit of area of the lamp's image plane, where world points (n, 3) have their images."""
+    """How many texels there are on a unit of area of the lamp's image plane.
+
+    Parameters
+    ----------
+    found : ShadowMap
+        The map.
+    points : (n, 3) array_like of float
+        In the world.
+
+    Returns
+    -------
+    (n,) array of float
+        Where the points have their images.
+
+    Raises
+    ------
+    InputError
+        For points on or behind the neutral plane of the lamp.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import shading
+    >>> roof, corners = [(-1, -1, 2), (1, -1, 2), (1, 1, 2), (-1, 1, 2)], np.array([(0, 1, 2), (0, 2, 3)])
+    >>> (found,) = shading.shadow_buffer(vp.Light((0, 0, 1), parallel=True), roof, corners, size=8).maps
+    >>> shading.texels_per_unit(found, [(0, 0, 0)]).round(6).tolist()
+    [9.0]
+    """
     p = light_plane(found.system, points)
     m = found.texel_from_light
     weight = p @ m[2, :2] + m[2, 2]

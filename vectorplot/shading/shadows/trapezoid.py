@@ -115,9 +115,39 @@ def side_directions(points: ArrayLike, axis: Axis, eta: float) -> tuple[Floats, 
 
 
 def trapezoid(points: ArrayLike, axis: Axis, eta: float) -> Floats:
-    """(4, 2) the corners: top left, top right, base right, base left, counter-clockwise.
+    """The trapezoid around points in the lamp's image plane whose sides meet so far before its top line.
 
-    Errors: InputError for an eta that is not positive and finite. Source: Ressler, equations 11 to 14.
+    Parameters
+    ----------
+    points : (n, 2) array_like of float
+        Images of what the eye sees.
+    axis : Axis
+        The line of sight, with the top and the base line.
+    eta : float
+        How far before the top line the sides meet, along the axis.
+
+    Returns
+    -------
+    (4, 2) array of float
+        The corners: top left, top right, base right, base left, counter-clockwise.
+
+    Raises
+    ------
+    InputError
+        For an eta that is not positive and finite.
+
+    Notes
+    -----
+    Source: Ressler, equations 11 to 14.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import trapezoid
+    >>> from vectorplot.shading.shadows.trapezoid import line_of_sight
+    >>> frustum = [(-1, 0), (1, 0), (3, 4), (-3, 4)]
+    >>> axis = line_of_sight(frustum, near=(0, 0), far=(0, 4))
+    >>> trapezoid(frustum, axis, eta=2.0).round(6).tolist()
+    [[-1.0, 0.0], [1.0, 0.0], [3.0, 4.0], [-3.0, 4.0]]
     """
     if not 0.0 < eta < np.inf:
         raise InputError(f"the sides of a trapezoid cannot meet {eta:g} before its top line")
@@ -148,8 +178,46 @@ def rectangle(points: ArrayLike, axis: Axis) -> Floats:
 
 
 def bounding_trapezoid(points: ArrayLike, axis: Axis, focus: float, line: float = FOCUS_LINE) -> Floats:
-    """(4, 2) the trapezoid for a focus so far behind the top line; where its sides all but run parallel (duelling
-    frusta), the rectangle. Source: Ressler, section 3."""
+    """The trapezoid around points in the lamp's image plane of which most of the map shows what is near the eye.
+
+    Parameters
+    ----------
+    points : (n, 2) array_like of float
+        Images of what the eye sees.
+    axis : Axis
+        The line of sight, with the top and the base line.
+    focus : float
+        How far behind the top line the focus lies.
+    line : float
+        The part of the map, from the top line on, that shows what is nearer than the focus.
+
+    Returns
+    -------
+    (4, 2) array of float
+        The corners: top left, top right, base right, base left, counter-clockwise.
+
+    Raises
+    ------
+    InputError
+        Unless the focus is positive and the line lies within the map.
+
+    Notes
+    -----
+    Degenerate: where its sides all but run parallel (duelling frusta), the rectangle.
+
+    Source: Ressler, section 3.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import bounding_trapezoid
+    >>> from vectorplot.shading.shadows.trapezoid import line_of_sight
+    >>> frustum = [(-1, 0), (1, 0), (3, 4), (-3, 4)]
+    >>> axis = line_of_sight(frustum, near=(0, 0), far=(0, 4))
+    >>> bounding_trapezoid(frustum, axis, focus=16 / 7).round(6).tolist()
+    [[-1.0, 0.0], [1.0, 0.0], [3.0, 4.0], [-3.0, 4.0]]
+    >>> bounding_trapezoid(frustum, axis, focus=3.2).round(6).tolist()
+    [[-3.0, 0.0], [3.0, 0.0], [3.0, 4.0], [-3.0, 4.0]]
+    """
     eta = eta_of_focus(axis.length, focus, line)
     return rectangle(points, axis) if eta > LARGEST_ETA * axis.length else trapezoid(points, axis, eta)
 
@@ -244,10 +312,40 @@ def searched_line(points: ArrayLike, axis: Axis, focus: float, focus_points: Arr
 
 
 def adapted_size(size: int, share: float, wanted: float, largest: int) -> int:
-    """The side of a map whose focus region gets as many texels as a part ``wanted`` of a map of side ``size`` has,
-    where its own part is only ``share``; never smaller than size nor larger than largest, and without jumps.
+    """The side of a map that is larger where what is in focus has too small a part of it.
 
+    Parameters
+    ----------
+    size : int
+        The side of the map in texels, 1 or more.
+    share : float
+        The part of the map that is in focus, not negative.
+    wanted : float
+        The part of a map of side ``size`` whose texels it should get, more than 0, up to 1.
+    largest : int
+        The largest side.
+
+    Returns
+    -------
+    int
+        Never smaller than size nor larger than largest, and without jumps.
+
+    Raises
+    ------
+    InputError
+        For numbers out of range.
+
+    Notes
+    -----
     Source: Martin and Tan, recipe, tips (texture size that follows the focus area).
+
+    Examples
+    --------
+    >>> from vectorplot import shading
+    >>> shading.adapted_size(1000, share=0.2, wanted=0.8, largest=4000)
+    2000
+    >>> shading.adapted_size(1000, share=0.9, wanted=0.8, largest=4000)
+    1000
     """
     if not (0.0 <= share and 0.0 < wanted <= 1.0 and 1 <= size <= largest):
         raise InputError(f"a map of {size} texels for a share of {share:g} of {wanted:g} is out of range")

@@ -32,12 +32,39 @@ class SquareMap:
 
 
 def square_map(corners: ArrayLike) -> SquareMap:
-    """The map of a trapezoid whose first and second corner are the ends of its top line.
+    """The map of a trapezoid whose first and second corner are the ends of its top line onto the square from -1 to 1.
 
+    Parameters
+    ----------
+    corners : (4, 2) array_like of float
+        Counter-clockwise, as bounding_trapezoid gives them.
+
+    Returns
+    -------
+    SquareMap
+        Its matrix (3, 3) brings the corners to (-1, -1), (1, -1), (1, 1) and (-1, 1).
+
+    Raises
+    ------
+    InputError
+        For corners that are not finite, or without area.
+
+    Notes
+    -----
     A trapezoid whose base is the shorter one is turned by half a turn before and after.
-    Errors: InputError for corners that are not finite, or without area. Degenerate: for parallel sides the affine map
-    of the rectangle between first and third corner. Source: Ressler, sections 4 and 5, equations 20 to 42; errata N-03,
-    N-05, N-06.
+
+    Degenerate: for parallel sides the affine map of the rectangle between first and third corner.
+
+    Source: Ressler, sections 4 and 5, equations 20 to 42; errata N-03, N-05, N-06.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.shading import square_map
+    >>> corners = np.array([(-1, 0), (1, 0), (3, 4), (-3, 4)])
+    >>> images = np.column_stack([corners, np.ones(4)]) @ square_map(corners).matrix.T
+    >>> (images[:, :2] / images[:, 2:]).round(6).tolist()
+    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
     """
     p = _checked(corners)
     if _length(p[1] - p[0]) > _length(p[3] - p[2]):
@@ -114,7 +141,36 @@ def recipe_factors(corners: ArrayLike) -> tuple[Floats, ...]:
 
 
 def recipe_matrix(corners: ArrayLike) -> Floats:
-    """(4, 4) the product of recipe_factors."""
+    """The map of a trapezoid onto the square from -1 to 1 as the product of eight simple matrices.
+
+    Parameters
+    ----------
+    corners : (4, 2) array_like of float
+        First the ends of its base, then those of its top line.
+
+    Returns
+    -------
+    (4, 4) array of float
+        Brings the corners to (-1, -1), (1, -1), (1, 1) and (-1, 1) in x and y; z is what z / w is.
+
+    Raises
+    ------
+    InputError
+        For corners that are not finite, or without area, and for parallel sides.
+
+    Notes
+    -----
+    Source: Martin and Tan, recipe, steps 1 to 8; errata R-01, R-02, R-03.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.shading import recipe_matrix
+    >>> corners = np.array([(-3, 0), (3, 0), (1, 4), (-1, 4)])
+    >>> images = np.column_stack([corners, np.zeros(4), np.ones(4)]) @ recipe_matrix(corners).T
+    >>> (images[:, :2] / images[:, 3:]).round(6).tolist()
+    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+    """
     total = np.eye(4)
     for factor in recipe_factors(corners):
         total = factor @ total
