@@ -48,13 +48,13 @@ class DepthBuffer:
     --------
     >>> import numpy as np
     >>> from vectorplot.shading import ScreenTriangles, depth_buffer
-    >>> points = np.array([(-1, -1, 0), (9, -1, 0), (-1, 9, 0), (-1, -1, 1), (3, -1, 1), (-1, 3, 1)], dtype=float)
+    >>> points = np.array([(-1.0, -1, 1), (9, -1, 1), (-1, 9, 1), (-1, -1, 2), (3, -1, 2), (-1, 3, 2)])
     >>> near_and_far = ScreenTriangles(points, np.array([(0, 1, 2), (3, 4, 5)]), np.arange(2))
     >>> buffer = depth_buffer(near_and_far, columns=4, rows=2)
     >>> buffer.triangle.tolist()
     [[1, 1, 0, 0], [1, 0, 0, 0]]
     >>> buffer.depth.round(6).tolist()
-    [[1.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]]
+    [[2.0, 2.0, 1.0, 1.0], [2.0, 1.0, 1.0, 1.0]]
     """
 
     code: NDArray[np.int64]
@@ -151,7 +151,7 @@ def depth_buffer(
     >>> half = shading.screen_triangles(system.homogeneous(corners), [(0, 1, 2)])
     >>> buffer = shading.depth_buffer(half, 8, 8)
     >>> (buffer.triangle >= 0).sum(axis=1).tolist()
-    [0, 1, 2, 3, 4, 5, 6, 7]
+    [1, 2, 3, 4, 5, 6, 7, 8]
     """
     return strip(triangles, columns, rows, 0, rows, depth_code=depth_code)
 

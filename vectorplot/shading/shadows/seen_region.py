@@ -114,10 +114,10 @@ def region_in_picture(system: CoordinateSystem, columns: int, rows: int, points:
     >>> import vectorplot as vp
     >>> from vectorplot import shading
     >>> system = shading.raster_system(vp.Camera((0, 0, 10), up=(0, 1, 0)), 60, 40)
-    >>> points = np.array([(-1.0, -1.0, 0.0), (1.0, -1.0, 0.0), (0.0, 1.0, 2.0)])
+    >>> points = np.array([(-1.0, -1.0, 1.0), (1.0, -1.0, 1.0), (0.0, 1.0, 3.0)])
     >>> region = shading.region_in_picture(system, 60, 40, points, np.array([(0, 1, 2)]))
     >>> region.near.round(6).tolist(), region.far.round(6).tolist()
-    ([0.0, 0.0, 2.0], [0.0, 0.0, 0.0])
+    ([0.0, 0.0, 3.0], [0.0, 0.0, 1.0])
     """
     sides = [
         HalfSpace((1.0, 0.0, 0.0, 0.5)),
