@@ -15,7 +15,7 @@ from .intersections.implicit_mesh_section import implicit_mesh_section
 from .intersections.mesh_section import mesh_section
 from .intersections.self_intersection import self_intersections
 from .intersections.surface_intersection import surface_intersection
-from .meshes.edges import mesh_edges
+from .meshes.edges import Faces, mesh_edges
 from .meshes.mesh_intersections import face_intersections
 from .meshes.mesh_lines import (
     mesh_contour_across_faces,
@@ -27,6 +27,7 @@ from .meshes.mesh_lines import (
     mesh_point_light_isophote_edges,
     mesh_point_light_isophotes,
 )
+from .parametric.conditions import CentralContour, ParallelContour
 from .parametric.contour import contour, parallel_contour
 from .parametric.curve_tracing import Tracing
 from .parametric.cusps import contour_cusps, contour_with_cusps
@@ -39,7 +40,10 @@ from .zeros.grid_triangulation import average_normals, mesh_of_grid, triangulate
 from .zeros.zero_manifold import ZeroManifold, zero_manifold_of_f_uv
 
 __all__ = [
+    "CentralContour",
+    "Faces",
     "ImplicitTracing",
+    "ParallelContour",
     "Tracing",
     "ZeroManifold",
     "average_normals",

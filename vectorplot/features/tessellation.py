@@ -72,12 +72,41 @@ def edges_of(triangles: Ints, count: int) -> tuple[Ints, Ints, Ints]:
 
 
 def surface_tessellation(surface: Surface, columns: int, rows: int) -> Tessellation:
-    """The triangles of an uneven grid of columns times rows cells; places are (u, v).
+    """A surface as the triangles of an uneven grid of columns times rows cells.
 
-    Seams and poles are closed: their triangles share points. Rails are 0 for a border u = const., 1 for v = const.
-    Errors: InputError for fewer than three columns or rows, or too many.
-    Degenerate: triangles without area and those with a corner in a hole are left out.
+    Parameters
+    ----------
+    surface : Surface
+        What is cut up.
+    columns, rows : int
+        Cells along u and along v, three or more.
+
+    Returns
+    -------
+    Tessellation
+        Triangles with the places (u, v) on the true surface that their corners have. Rails are 0 for a border u =
+        const., 1 for v = const.
+
+    Raises
+    ------
+    InputError
+        For fewer than three columns or rows, or more than 2^20 cells.
+
+    Notes
+    -----
+    Grid points are moved a little, the same way every time: symmetric surfaces then meet in no corner, along no edge.
+    Seams and poles are closed: their triangles share points. Degenerate: triangles without area and those with a corner
+    in a hole are left out.
+
     Source: Glaeser, section 8.4 (polygonised surfaces).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> torus = features.surface_tessellation(surfaces.Torus(), columns=6, rows=5)
+    >>> torus.triangles.shape, torus.places.shape, bool(torus.border.any())
+    ((60, 3), (60, 3, 2), False)
     """
     _check(columns, rows)
     domain = surface.domain

@@ -51,11 +51,40 @@ DEFAULT = ImplicitTracing()
 def implicit_contour(surface: ImplicitSurface, eye: ArrayLike, *, tracing: ImplicitTracing = DEFAULT) -> ImplicitCurves:
     """The points x of an implicit surface with N.(x - eye) = 0, N the unit gradient of F.
 
-    eye (3,). Seen from where F > 0 the side that is turned away from the eye is on the left.
-    Errors: InputError for an eye that is not three finite numbers.
-    Degenerate: a flat surface whose plane contains the eye has no contour, and a doubt says so. Contours run into
-    singular points of the surface (the apex of a cone). What lies behind the eye is traced too.
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F and its box.
+    eye : (3,) array_like of float
+        In world coordinates.
+    tracing : ImplicitTracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    ImplicitCurves
+        Polylines on the surface. Seen from where F > 0 the side that is turned away from the eye is on the left.
+
+    Raises
+    ------
+    InputError
+        For an eye that is not three finite numbers, and what `polygonized` refuses.
+
+    Notes
+    -----
+    What lies behind the eye is traced too. Degenerate: a flat surface whose plane contains the eye has no contour, and
+    a doubt says so. Contours run into singular points of the surface (the apex of a cone).
+
     Source: Glaeser, section 8.4, equations 25 to 27.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> tracing = features.ImplicitTracing(cells=12)
+    >>> curves = features.implicit_contour(surfaces.implicit_sphere(1.0), (4, 0, 0), tracing=tracing)
+    >>> curves.closed.tolist(), bool(np.allclose(curves.points[:, 0], 0.25))  # a circle in front of the centre
+    ([True], True)
     """
     place = vector("contour: eye", eye)
     condition = ImplicitCentralContour(surface, place)
@@ -67,8 +96,39 @@ def implicit_parallel_contour(
 ) -> ImplicitCurves:
     """The points of an implicit surface with N.d = 0, N the unit gradient of F: seen along d it turns away there.
 
-    direction (3,), of any length, towards the eye. Seen from where F > 0 the side with N.d > 0 is on the left.
-    Errors: InputError for a direction without length. Degenerate: as for `implicit_contour`.
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F and its box.
+    direction : (3,) array_like of float
+        d, of any length, towards the eye.
+    tracing : ImplicitTracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    ImplicitCurves
+        Polylines on the surface. Seen from where F > 0 the side with N.d > 0 is on the left.
+
+    Raises
+    ------
+    InputError
+        For a direction without length, and what `polygonized` refuses.
+
+    Notes
+    -----
+    Degenerate: as for `implicit_contour`.
+
+    Source: Glaeser, section 8.4, equation 27 for an eye at infinity.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> tracing = features.ImplicitTracing(cells=12)
+    >>> curves = features.implicit_parallel_contour(surfaces.implicit_sphere(1.0), (0, 0, 1), tracing=tracing)
+    >>> curves.closed.tolist(), bool(np.allclose(curves.points[:, 2], 0.0))
+    ([True], True)
     """
     return curves_in_space(surface, ImplicitParallelContour(surface, direction), size=1.0, tracing=tracing)
 
@@ -85,13 +145,43 @@ def implicit_contour_in_view(
 def implicit_isophotes(
     surface: ImplicitSurface, light: ArrayLike, cosines: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
 ) -> ImplicitCurves:
-    """The curves N.l = c in parallel light, for each c of cosines (k,): N the unit gradient of F, l the light.
+    """The curves N.l = c of an implicit surface in parallel light, N the unit gradient of F, l the light.
 
-    light (3,), of any length, points towards the light. The curves have c as level; seen from where F > 0 the brighter
-    side is on the left.
-    Errors: InputError for a light without length, cosines not within -1 and 1.
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F and its box.
+    light : (3,) array_like of float
+        l, of any length, towards the light.
+    cosines : (k,) array_like of float
+        c, -1 to 1; or one of them.
+    tracing : ImplicitTracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    ImplicitCurves
+        Polylines with c as level; seen from where F > 0 the brighter side is on the left.
+
+    Raises
+    ------
+    InputError
+        For a light without length, cosines not within -1 and 1, and what `polygonized` refuses.
+
+    Notes
+    -----
     Degenerate: a flat part at just that angle gives no lines, and a doubt; c = 1 gives isolated points.
+
     Source: Glaeser, section 8.4, equation 28.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> tracing = features.ImplicitTracing(cells=12)
+    >>> curves = features.implicit_isophotes(surfaces.implicit_sphere(1.0), (0, 0, 1), [0.0, 0.5], tracing=tracing)
+    >>> curves.levels.tolist(), bool(np.allclose(curves[1][:, 2], 0.5))
+    ([0.0, 0.5], True)
     """
     return _family(surface, lambda c: (ImplicitIsophote(surface, light, c), 1.0), _cosines(cosines), tracing)
 
@@ -99,9 +189,43 @@ def implicit_isophotes(
 def implicit_point_light_isophotes(
     surface: ImplicitSurface, light: ArrayLike, cosines: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
 ) -> ImplicitCurves:
-    """The curves N.l = c in the light of a point (3,), for each c of cosines (k,): l from the surface to the light.
+    """The curves N.l = c of an implicit surface in the light of a point, l from the surface to the light.
 
-    Otherwise as `implicit_isophotes`.
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F and its box.
+    light : (3,) array_like of float
+        Where the light stands, in world coordinates.
+    cosines : (k,) array_like of float
+        c, -1 to 1; or one of them.
+    tracing : ImplicitTracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    ImplicitCurves
+        As of `implicit_isophotes`.
+
+    Raises
+    ------
+    InputError
+        For a light that is not three finite numbers, cosines not within -1 and 1, and what `polygonized` refuses.
+
+    Notes
+    -----
+    Degenerate: as for `implicit_isophotes`.
+
+    Source: Glaeser, section 8.4, equation 28.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> tracing = features.ImplicitTracing(cells=12)
+    >>> ball = surfaces.implicit_sphere(1.0)
+    >>> curves = features.implicit_point_light_isophotes(ball, (0, 0, 4), 0.5, tracing=tracing)
+    >>> curves.closed.tolist(), curves.levels.tolist()
+    ([True], [0.5])
     """
     return _family(surface, lambda c: (ImplicitPointIsophote(surface, light, c), 1.0), _cosines(cosines), tracing)
 
@@ -109,11 +233,41 @@ def implicit_point_light_isophotes(
 def implicit_intersection(
     surface: ImplicitSurface, other: ImplicitSurface, *, tracing: ImplicitTracing = DEFAULT
 ) -> ImplicitCurves:
-    """The curves in which two implicit surfaces meet, within the box of the first; F of the other is positive on the
-    left, seen from where F of the first is.
+    """The curves in which two implicit surfaces meet, within the box of the first.
 
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        On which they are traced.
+    other : ImplicitSurface
+        Its F is taken wherever the first surface is, inside its box and outside.
+    tracing : ImplicitTracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    ImplicitCurves
+        F of the other is positive on the left, seen from where F of the first is.
+
+    Raises
+    ------
+    InputError
+        For what `polygonized` refuses.
+
+    Notes
+    -----
     Degenerate: surfaces that touch in a point give an isolated one; that coincide in an area, a doubt.
+
     Source: Glaeser, section 8.4, equation 29.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> one, two = surfaces.implicit_sphere(1.0), surfaces.implicit_sphere(1.0, centre=(1, 0, 0))
+    >>> curves = features.implicit_intersection(one, two, tracing=features.ImplicitTracing(cells=12))
+    >>> len(curves), bool(np.allclose(curves.points[:, 0], 0.5))
+    (1, True)
     """
     own, _ = mesh_of(surface, tracing)
     mesh, tracing = own.mesh, replace(tracing, mesh=own)
@@ -128,11 +282,44 @@ def implicit_intersection(
 def implicit_plane_sections(
     surface: ImplicitSurface, normal: ArrayLike, offsets: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
 ) -> ImplicitCurves:
-    """The sections of an implicit surface with the parallel planes n.x = d, for each d of offsets (k,), n the unit
-    normal (3,). The curves have d as level; seen from where F > 0, the side the normal points to is on the left.
+    """The sections of an implicit surface with the parallel planes n.x = d, n the unit normal.
 
-    Errors: InputError for a normal without length, offsets that are not finite.
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F and its box.
+    normal : (3,) array_like of float
+        Of any length.
+    offsets : (k,) array_like of float
+        d, in world units; or one of them.
+    tracing : ImplicitTracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    ImplicitCurves
+        Polylines with d as level; seen from where F > 0, the side the normal points to is on the left.
+
+    Raises
+    ------
+    InputError
+        For a normal without length, offsets that are not finite, and what `polygonized` refuses.
+
+    Notes
+    -----
     Degenerate: as for `implicit_intersection`.
+
+    Source: Glaeser, section 8.4, equation 29.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> tracing = features.ImplicitTracing(cells=12)
+    >>> ball = surfaces.implicit_sphere(1.0)
+    >>> curves = features.implicit_plane_sections(ball, (1, 0, 0), [-0.5, 0.5], tracing=tracing)
+    >>> curves.levels.tolist(), bool(np.allclose(curves[0][:, 0], -0.5))
+    ([-0.5, 0.5], True)
     """
     levels = np.atleast_1d(np.asarray(offsets, dtype=np.float64))
     if levels.ndim != 1 or not np.isfinite(levels).all():
@@ -145,7 +332,41 @@ def implicit_plane_sections(
 def implicit_level_lines(
     surface: ImplicitSurface, heights: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
 ) -> ImplicitCurves:
-    """The curves of an implicit surface at each of the heights (k,): `implicit_plane_sections` with z up."""
+    """The curves of an implicit surface at given heights: `implicit_plane_sections` with z up.
+
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F and its box.
+    heights : (k,) array_like of float
+        In world units; or one of them.
+    tracing : ImplicitTracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    ImplicitCurves
+        Polylines with the height as level.
+
+    Raises
+    ------
+    InputError
+        For heights that are not finite, and what `polygonized` refuses.
+
+    Notes
+    -----
+    Degenerate: as for `implicit_intersection`.
+
+    Source: as of `implicit_plane_sections`.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> tracing = features.ImplicitTracing(cells=12)
+    >>> curves = features.implicit_level_lines(surfaces.implicit_sphere(1.0), [0.0, 0.5, 2.0], tracing=tracing)
+    >>> curves.levels.tolist()
+    [0.0, 0.5]
+    """
     return implicit_plane_sections(surface, (0.0, 0.0, 1.0), heights, tracing=tracing)
 
 
@@ -177,11 +398,41 @@ def implicit_borders(surface: ImplicitSurface, *, tracing: ImplicitTracing = DEF
 
 
 def implicit_contour_cusps(surface: ImplicitSurface, eye: ArrayLike, curves: ImplicitCurves) -> tuple[Floats, Ints]:
-    """The points (k,3) of a contour where its image has a cusp: the line of sight is an asymptotic direction there; and
-    for each the position (k,) in curves.points of the point before it.
+    """The points of a contour of an implicit surface where its image has a cusp.
 
-    eye (3,); curves: the contour for it. Refined to 1e-12 of the extent.
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F.
+    eye : (3,) array_like of float
+        In world coordinates.
+    curves : ImplicitCurves
+        The contour for it, as of `implicit_contour`.
+
+    Returns
+    -------
+    points : (k, 3) array of float
+        The cusps: the line of sight is an asymptotic direction there. Refined to 1e-12 of the extent.
+    after : (k,) array of int
+        For each the position in curves.points of the point before it.
+
+    Raises
+    ------
+    InputError
+        For an eye that is not three finite numbers.
+
+    Notes
+    -----
     Degenerate: where the line of sight is asymptotic all along the contour (on cones and cylinders), there is no cusp.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> torus, eye = surfaces.ImplicitTorus(3.0, 1.0), (12, 0, 4)
+    >>> contour = features.implicit_contour(torus, eye, tracing=features.ImplicitTracing(cells=16))
+    >>> cusps, after = features.implicit_contour_cusps(torus, eye, contour)
+    >>> cusps.shape, after.shape
+    ((4, 3), (4,))
     """
     place = vector("contour: eye", eye)
     far = _farthest(surface, place)
@@ -191,7 +442,41 @@ def implicit_contour_cusps(surface: ImplicitSurface, eye: ArrayLike, curves: Imp
 def implicit_parallel_contour_cusps(
     surface: ImplicitSurface, direction: ArrayLike, curves: ImplicitCurves
 ) -> tuple[Floats, Ints]:
-    """As `implicit_contour_cusps`, for an eye at infinity in a direction (3,)."""
+    """The points of a contour of an implicit surface where its image has a cusp, for an eye at infinity.
+
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F.
+    direction : (3,) array_like of float
+        Of any length, towards the eye.
+    curves : ImplicitCurves
+        The contour for it, as of `implicit_parallel_contour`.
+
+    Returns
+    -------
+    points : (k, 3) array of float
+        The cusps, as of `implicit_contour_cusps`.
+    after : (k,) array of int
+        For each the position in curves.points of the point before it.
+
+    Raises
+    ------
+    InputError
+        For a direction without length.
+
+    Notes
+    -----
+    Degenerate: as for `implicit_contour_cusps`.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> ball = surfaces.implicit_sphere(1.0)
+    >>> contour = features.implicit_parallel_contour(ball, (0, 0, 1), tracing=features.ImplicitTracing(cells=12))
+    >>> len(features.implicit_parallel_contour_cusps(ball, (0, 0, 1), contour)[0])  # the outline of a ball is smooth
+    0
+    """
     d = normalize(vector("contour: direction", direction))
     return _cusps(surface, ImplicitParallelContour(surface, d), 1.0, lambda x: np.broadcast_to(d, x.shape), curves)
 

@@ -42,12 +42,32 @@ THINNED = 0.3
 class ImplicitTracing:
     """How curves on an implicit surface are traced.
 
-    cells: along the longest side of the box, of the lattice on which the surface is polygonised. mesh: the surface
-    polygonised already (see `implicit_mesh`), for several families of curves. resolution: the part of the box down to
-    which triangles are cut where the curve is not clear; closed curves smaller than that may be missed.
-    tolerance: points are put in until chords stay within this distance of the true curve; None: a thousandth of the
-    extent of the surface. picture: takes points (k,3) to where the tolerance is measured, (k,2) or (k,3), for example
-    millimetres on a page; without it in space. budget: how much work it may be.
+    Parameters
+    ----------
+    cells : int
+        Along the longest side of the box, of the lattice on which the surface is polygonised.
+    mesh : ImplicitMesh, optional
+        The surface polygonised already (see `implicit_mesh`), for several families of curves.
+    resolution : float
+        The part of the box down to which triangles are cut where the curve is not clear; closed curves smaller than
+        that may be missed.
+    tolerance : float, optional
+        Points are put in until chords stay within this distance of the true curve; a thousandth of the extent of the
+        surface where None.
+    picture : callable, optional
+        Takes points (k, 3) to where the tolerance is measured, (k, 2) or (k, 3), for example millimetres on a page;
+        without it in space.
+    budget : Budget
+        How much work it may be.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> ball = surfaces.implicit_sphere(1.0)
+    >>> rough = features.implicit_contour(ball, (4, 0, 0), tracing=features.ImplicitTracing(cells=12, tolerance=0.1))
+    >>> fine = features.implicit_contour(ball, (4, 0, 0), tracing=features.ImplicitTracing(cells=12, tolerance=1e-4))
+    >>> len(rough.points) < len(fine.points)
+    True
     """
 
     cells: int = 48

@@ -69,15 +69,41 @@ class _Lattice:
 
 
 def polygonized(surface: ImplicitSurface, cells: int = 64) -> Mesh:
-    """The surface F = 0 within its box as triangles, counter-clockwise seen from where F > 0.
+    """An implicit surface within its box as triangles, counter-clockwise seen from where F > 0.
 
-    cells: of the cubic lattice along the longest side of the box. Vertices lie on the edges of its cells, on the
-    surface to 1e-13 of the extent or what rounding leaves; where it leaves the box, on the sides of the box exactly.
-    Parts of the surface smaller than a cell, and sheets closer than that, may be missed or joined.
-    Errors: InputError for fewer than two cells, more than MOST_CELLS in all, values of the wrong shape.
-    Degenerate: F of one sign gives a mesh without faces. Cells at a corner of which F is not finite are holes. A change
-    of sign at a pole or a jump of F is no surface. Triangles may be very thin.
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F and its box.
+    cells : int
+        Of the cubic lattice along the longest side of the box.
+
+    Returns
+    -------
+    Mesh
+        Vertices lie on the edges of the lattice's cells, on the surface to 1e-13 of the extent or what rounding leaves;
+        where it leaves the box, on the sides of the box exactly.
+
+    Raises
+    ------
+    InputError
+        For fewer than two cells, more than MOST_CELLS (2^24) in all, values of the wrong shape.
+
+    Notes
+    -----
+    Parts of the surface smaller than a cell, and sheets closer than that, may be missed or joined. Degenerate: F of one
+    sign gives a mesh without faces. Cells at a corner of which F is not finite are holes. A change of sign at a pole or
+    a jump of F is no surface. Triangles may be very thin.
+
     Source: Lorensen and Cline (1987); Lewiner and others (2003) for the cells that could be joined in two ways.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> mesh = features.polygonized(surfaces.implicit_sphere(1.0), cells=8)
+    >>> mesh.is_triangular, bool(np.allclose(np.linalg.norm(mesh.vertices, axis=1), 1.0))
+    (True, True)
     """
     lattice = _lattice(surface, cells)
     w = lattice.values(surface)

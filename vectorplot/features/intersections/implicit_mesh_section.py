@@ -131,11 +131,41 @@ def implicit_mesh_section(
 ) -> ImplicitMeshSection:
     """The curves in which an implicit surface meets the faces of a mesh, within its box.
 
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F and its box.
+    mesh : Mesh
+        Faces that are not present are left out.
+    tracing : ImplicitTracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    ImplicitMeshSection
+        The curves on the surface, and normals (n, 3): the unit normal of the face of the mesh in which the segment from
+        every point to the next runs.
+
+    Raises
+    ------
+    InputError
+        For what `polygonized` refuses.
+
+    Notes
+    -----
     In a face a curve is the section of the surface with the plane of the face; it goes on over edges, and every edge it
-    crosses has a point of it. Faces that are not present are left out.
-    Errors: as for `polygonized`.
-    Degenerate: a face that only touches the surface gives an isolated point; one that lies in it a doubt.
+    crosses has a point of it. Degenerate: a face that only touches the surface gives an isolated point; one that lies
+    in it a doubt.
+
     Source: Glaeser, section 8.4 (face-face sections).
+
+    Examples
+    --------
+    >>> from vectorplot import features, geometry, surfaces
+    >>> ball, cube = surfaces.implicit_sphere(1.2, centre=(1, 1, 1)), geometry.box((2, 2, 2))
+    >>> section = features.implicit_mesh_section(ball, cube, tracing=features.ImplicitTracing(cells=12))
+    >>> len(section), bool(section.curves.closed.all())  # a circle in each face
+    (6, True)
     """
     polygonised, doubts = mesh_of(surface, tracing)
     own = polygonised.mesh

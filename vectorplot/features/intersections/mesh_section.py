@@ -42,15 +42,44 @@ class MeshSection:
 def mesh_section(surface: Surface, mesh: Mesh, *, tracing: Tracing = DEFAULT) -> MeshSection:
     """The curves in which a surface meets the faces of a mesh.
 
+    Parameters
+    ----------
+    surface : Surface
+        On which they are traced.
+    mesh : Mesh
+        Faces that are not present are left out.
+    tracing : Tracing
+        columns and rows of the grid that the surface is polygonised by; tolerance (a thousandth of the smaller extent
+        where None) and picture.
+
+    Returns
+    -------
+    MeshSection
+        The curves on the surface; faces (n,) and normals (n, 3): the face of the mesh in which the segment from every
+        point to the next runs, and its unit normal there.
+
+    Raises
+    ------
+    InputError
+        For a grid that is too coarse.
+
+    Notes
+    -----
     In a face a curve is the section of the surface with the plane of the face; it goes on over edges, and every edge it
-    crosses has a point of it, on the edge and on the surface. Faces that are not present are left out. tracing: columns
-    and rows of the grid that the surface is polygonised by; tolerance (None: a thousandth of the smaller extent) and
-    picture.
-    Errors: InputError for a grid that is too coarse.
-    Degenerate: a face that only touches the surface gives an isolated point; one that lies in it a doubt. Where more
-    than two faces meet in an edge curves are joined in pairs. Where the triangles cross edges otherwise than the
-    surface (it passes a corner, or grazes an edge) the grid is refined, up to 2^17 cells; the rest is a doubt.
+    crosses has a point of it, on the edge and on the surface. Degenerate: a face that only touches the surface gives an
+    isolated point; one that lies in it a doubt. Where more than two faces meet in an edge curves are joined in pairs.
+    Where the triangles cross edges otherwise than the surface (it passes a corner, or grazes an edge) the grid is
+    refined, up to 2^17 cells; the rest is a doubt.
+
     Source: Glaeser, section 8.4 (face-face sections).
+
+    Examples
+    --------
+    >>> from vectorplot import features, geometry, surfaces
+    >>> ball, cube = surfaces.Sphere(1.2, centre=(1, 1, 1)), geometry.box((2, 2, 2))
+    >>> section = features.mesh_section(ball, cube, tracing=features.Tracing(columns=15, rows=15))
+    >>> len(section), sorted({int(face) for face in section.faces})  # a circle in each face
+    (6, [0, 1, 2, 3, 4, 5])
     """
     two = MeshSheet(mesh)
     for columns, rows in finer_grids(tracing.columns, tracing.rows):

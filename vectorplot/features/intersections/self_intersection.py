@@ -30,12 +30,39 @@ has thousands of them, a few chords each; beside an isolated double point there 
 def self_intersections(surface: Surface, *, tracing: Tracing = DEFAULT) -> DoubleCurves:
     """The curves in which a surface meets itself: its double curves.
 
-    tracing as in `surface_intersection`. Seams and poles are no double curves.
-    Errors: InputError for a grid that is too coarse.
+    Parameters
+    ----------
+    surface : Surface
+        Seams and poles are no double curves.
+    tracing : Tracing
+        As of `surface_intersection`.
+
+    Returns
+    -------
+    DoubleCurves
+        Polylines, each point known by its two places on the surface, and in space.
+
+    Raises
+    ------
+    InputError
+        For a grid that is too coarse.
+
+    Notes
+    -----
     Degenerate: of more curves than the budget allows there is none, with a doubt. A double curve ends exactly in a
     pinch point, or in a swallowtail; where the surface passes through a point in all directions (the axis of a spindle
     torus, the apex of a double cone) that point is isolated. Loops that are smaller than three cells are not found.
+
     Source: Glaeser, section 8.4 (self-intersections by face-face sections of the polygonised surface).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> loop = surfaces.surface_of_function(lambda u, v: (u**2, u**3 - u, v), surfaces.Domain(-1.5, 1.5, 0, 1))
+    >>> curves = features.self_intersections(loop, tracing=features.Tracing(columns=20, rows=5))
+    >>> len(curves), bool(np.allclose(curves.points[:, :2], (1.0, 0.0)))
+    (1, True)
     """
     sheet = SurfaceSheet(surface, tracing.columns, tracing.rows)
     own = sheet.tessellation

@@ -38,15 +38,42 @@ MOST_ALONE = 16
 def surface_intersection(one: Surface, two: Surface, *, tracing: Tracing = DEFAULT) -> DoubleCurves:
     """The curves in which two surfaces meet.
 
-    tracing: columns and rows of the grids that both are polygonised by; tolerance (None: a thousandth of the smaller
-    extent) and picture. Closed curves smaller than a cell are found by the place inside them where the tangent planes
-    are parallel: to any size, but one of them for each pair of triangles. Where triangles cannot tell curves from one
-    another the grids are refined (up to 2^17 cells); what is left then is a doubt.
-    Errors: InputError for a grid that is too coarse.
-    Degenerate: where surfaces touch in a point it is isolated, or a node if curves cross there; where they touch along
-    a line its points are touching, with a doubt; where they coincide in an area there is a doubt and no curve. Curves
-    end at the last whole cell before a hole.
+    Parameters
+    ----------
+    one, two : Surface
+        The surfaces.
+    tracing : Tracing
+        columns and rows of the grids that both are polygonised by; tolerance (a thousandth of the smaller extent where
+        None) and picture.
+
+    Returns
+    -------
+    DoubleCurves
+        Polylines, each point known by its parameters on both surfaces, and in space.
+
+    Raises
+    ------
+    InputError
+        For a grid that is too coarse.
+
+    Notes
+    -----
+    Closed curves smaller than a cell are found by the place inside them where the tangent planes are parallel: to any
+    size, but one of them for each pair of triangles. Where triangles cannot tell curves from one another the grids are
+    refined (up to 2^17 cells); what is left then is a doubt. Degenerate: where surfaces touch in a point it is
+    isolated, or a node if curves cross there; where they touch along a line its points are touching, with a doubt;
+    where they coincide in an area there is a doubt and no curve. Curves end at the last whole cell before a hole.
+
     Source: Glaeser, section 8.4 (face-face sections); Patrikalakis and Maekawa, Shape interrogation, chapter 5.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> ball, pipe = surfaces.Sphere(1.0), surfaces.Cylinder(radius=0.6, bottom=-2, top=2)
+    >>> curves = features.surface_intersection(ball, pipe, tracing=features.Tracing(columns=15, rows=15))
+    >>> len(curves), bool(np.allclose(np.abs(curves.points[:, 2]), 0.8))
+    (2, True)
     """
     for columns, rows in finer_grids(tracing.columns, tracing.rows):
         first, second = (SurfaceSheet(s, columns, rows) for s in (one, two))

@@ -37,8 +37,31 @@ class Edges:
 
 @dataclass(frozen=True, eq=False)
 class Faces:
-    """What edges are told from: points (3,v); corners and inner (c,) and offsets (f+1,) of the faces; facing (f,)
-    1, -1 or 0 as a face shows its outside, its inside or its edge."""
+    """What the edges of a mesh are told from.
+
+    Parameters
+    ----------
+    points : (3, v) array of float
+        Coordinates of the vertices: of a picture, in the axes of the camera.
+    corners : (c,) array of int
+        Vertex indices of all faces one after the other.
+    offsets : (f+1,) array of int
+        Face i has the corners offsets[i] to offsets[i+1].
+    inner : (c,) array of bool
+        Marks the diagonals of polygons that were cut: the edges that begin at these corners.
+    facing : (f,) array of int8
+        1, -1 or 0 as a face shows its outside, its inside or its edge.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, geometry
+    >>> cube = geometry.box((1, 1, 1))
+    >>> facing = np.sign(cube.face_normals @ (3, 2, 1)).astype(np.int8)  # as seen from far away in this direction
+    >>> faces = features.Faces(cube.vertices.T, cube.corners, cube.offsets, np.zeros(24, dtype=bool), facing)
+    >>> faces.after(np.arange(4)).tolist()  # the corners that follow those of the first face
+    [1, 2, 3, 0]
+    """
 
     points: Floats
     corners: Ints
@@ -52,14 +75,43 @@ class Faces:
 
 
 def mesh_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: float) -> Edges:
-    """The edges of the mesh that are of one of the kinds, each edge once, ordered by its vertices.
+    """The edges of a mesh that are contours, boundaries, creases or edges, each edge once.
 
-    An edge is a contour where all its faces lie on one side of it in the image, a boundary with one face only, a
-    crease where two faces turn by more than crease_angle_deg or more of them meet, but for layers of one sheet. It gets
-    the first of the kinds asked for that it is. Neighbours wound in opposite senses are compared as if one were turned
-    over.
-    Degenerate: diagonals of cut polygons count as contours only; edges between two faces seen edge-on are no contours.
+    Parameters
+    ----------
+    faces : Faces
+        The faces, and which side each shows.
+    kinds : collection of LineKind
+        What is asked for; an edge gets the first of them that it is.
+    crease_angle_deg : float
+        A crease turns by more than that, in degrees.
+
+    Returns
+    -------
+    Edges
+        Ordered by their vertices: start and end (e,), kind (e,), face (e,) one of the faces there, front (e,), and side
+        (e,), on which side of start -> end all faces there lie in the image.
+
+    Notes
+    -----
+    An edge is a contour where all its faces lie on one side of it in the image, a boundary with one face only, a crease
+    where two faces turn by more than crease_angle_deg or more of them meet, but for layers of one sheet. Neighbours
+    wound in opposite senses are compared as if one were turned over. Degenerate: diagonals of cut polygons count as
+    contours only; edges between two faces seen edge-on are no contours.
+
     Source: Glaeser, sections 3.3, 6.1 and 9.3; erratum G3-09.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import features, geometry
+    >>> cube = geometry.box((1, 1, 1))
+    >>> facing = np.sign(cube.face_normals @ (3, 2, 1)).astype(np.int8)
+    >>> faces = features.Faces(cube.vertices.T, cube.corners, cube.offsets, np.zeros(24, dtype=bool), facing)
+    >>> edges = features.mesh_edges(faces, {vp.LineKind.CONTOUR, vp.LineKind.CREASE}, crease_angle_deg=25.0)
+    >>> len(edges.kind), int((edges.kind == vp.LineKind.CONTOUR).sum())
+    (12, 6)
     """
     half = _candidates(faces, kinds, crease_angle_deg)
     if not len(half):

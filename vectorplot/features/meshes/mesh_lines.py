@@ -28,14 +28,41 @@ from vectorplot.tolerances.of_numbers import ROUNDING_OF_TERMS
 
 
 def mesh_plane_sections(mesh: Mesh, normal: ArrayLike, offsets: ArrayLike) -> MeshCurves:
-    """The sections of a mesh with the parallel planes n.x = d, for each d of offsets (k,), n the unit normal (3,).
+    """The sections of a mesh with the parallel planes n.x = d, n the unit normal.
 
-    Face by face: every point lies on an edge (or the fold of a polygon that is not plane) and in the plane. The
-    curves have d as level; they close where the mesh does.
-    Errors: InputError for a normal without length, offsets that are not finite.
+    Parameters
+    ----------
+    mesh : Mesh
+        Whose faces are cut.
+    normal : (3,) array_like of float
+        Of any length.
+    offsets : (k,) array_like of float
+        d, in world units; or one of them.
+
+    Returns
+    -------
+    MeshCurves
+        Polylines with d as level; they close where the mesh does. Every point lies on an edge (or the fold of a polygon
+        that is not plane) and in the plane.
+
+    Raises
+    ------
+    InputError
+        For a normal without length, offsets that are not finite.
+
+    Notes
+    -----
     Degenerate: a vertex in the plane counts as above it. A face in the plane gives its outline where the mesh goes on
     below.
+
     Source: Glaeser, section 9.3, example 3, figure 7.
+
+    Examples
+    --------
+    >>> from vectorplot import features, geometry
+    >>> curves = features.mesh_plane_sections(geometry.box((2, 2, 2)), (1, 0, 0), [0.5, 1.5])
+    >>> curves.levels.tolist(), curves.closed.tolist(), set(curves[0][:, 0].tolist())
+    ([0.5, 1.5], [True, True], {0.5})
     """
     n = normalize(vector("plane sections: normal", normal))
     levels = _finite("plane sections: offsets", offsets)
@@ -50,41 +77,198 @@ def mesh_plane_sections(mesh: Mesh, normal: ArrayLike, offsets: ArrayLike) -> Me
 
 
 def mesh_level_lines(mesh: Mesh, heights: ArrayLike) -> MeshCurves:
-    """The sections of a mesh at each of the heights (k,): `mesh_plane_sections` with z up."""
+    """The sections of a mesh at given heights: `mesh_plane_sections` with z up.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Whose faces are cut.
+    heights : (k,) array_like of float
+        In world units; or one of them.
+
+    Returns
+    -------
+    MeshCurves
+        Polylines with the height as level.
+
+    Raises
+    ------
+    InputError
+        For heights that are not finite.
+
+    Notes
+    -----
+    Degenerate: as for `mesh_plane_sections`.
+
+    Source: Glaeser, section 9.3, example 3, figure 7.
+
+    Examples
+    --------
+    >>> from vectorplot import features, geometry
+    >>> curves = features.mesh_level_lines(geometry.box((2, 2, 2)), [1.0, 5.0])
+    >>> len(curves), set(curves.points[:, 2].tolist())
+    (1, {1.0})
+    """
     return mesh_plane_sections(mesh, (0.0, 0.0, 1.0), heights)
 
 
 def mesh_isophotes(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurves:
-    """The curves across the faces of a mesh on which N.l = c in parallel light (3,), for each c of cosines (k,).
+    """The curves across the faces of a mesh on which N.l = c in parallel light.
 
+    Parameters
+    ----------
+    mesh : Mesh
+        Best one of a smooth surface.
+    light : (3,) array_like of float
+        l, of any length, towards the light.
+    cosines : (k,) array_like of float
+        c, -1 to 1; or one of them.
+
+    Returns
+    -------
+    MeshCurves
+        Polylines with c as level.
+
+    Raises
+    ------
+    InputError
+        For a light without length, cosines not within -1 and 1.
+
+    Notes
+    -----
     N.l is taken from average normals at the vertices and linear in every triangle: on a mesh of a smooth surface the
-    curves come near the true isophotes; across creases they mean little. The curves have c as level.
-    Errors: InputError for a light without length, cosines not within -1 and 1.
+    curves come near the true isophotes; across creases they mean little.
+
     Source: Glaeser, section 9.3, example 2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> u, v = np.meshgrid(*surfaces.Sphere().domain.grid(36, 18), indexing="ij")
+    >>> ball = features.mesh_of_grid(surfaces.Sphere().points(u, v), closed_u=True)
+    >>> curves = features.mesh_isophotes(ball, (0, 0, 1), [0.5])
+    >>> len(curves), bool(np.allclose(curves.points[:, 2], 0.5, atol=0.02))
+    (1, True)
     """
     towards = normalize(vector("isophotes: light", light))
     return _across_faces(mesh, lambda points, normals: np.asarray(normals @ towards), _cosines(cosines))
 
 
 def mesh_point_light_isophotes(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurves:
-    """As `mesh_isophotes`, in the light of a point (3,)."""
+    """The curves across the faces of a mesh on which N.l = c in the light of a point.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Best one of a smooth surface.
+    light : (3,) array_like of float
+        Where the light stands, in world coordinates.
+    cosines : (k,) array_like of float
+        c, -1 to 1; or one of them.
+
+    Returns
+    -------
+    MeshCurves
+        As of `mesh_isophotes`; l goes from the mesh to the light.
+
+    Raises
+    ------
+    InputError
+        For a light that is not three finite numbers, cosines not within -1 and 1.
+
+    Notes
+    -----
+    Source: Glaeser, section 9.3, example 2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> u, v = np.meshgrid(*surfaces.Sphere().domain.grid(36, 18), indexing="ij")
+    >>> ball = features.mesh_of_grid(surfaces.Sphere().points(u, v), closed_u=True)
+    >>> curves = features.mesh_point_light_isophotes(ball, (0, 0, 4), [0.0])
+    >>> len(curves), bool(curves.points[:, 2].min() > 0.2)  # the terminator stands before the middle
+    (1, True)
+    """
     lamp = vector("isophotes: light", light)
     return _across_faces(mesh, lambda points, normals: _towards(points, lamp, normals), _cosines(cosines))
 
 
 def mesh_isophote_edges(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurves:
-    """The edges of a mesh between lighter and darker faces: N.l of the face on the left is at least c, on the right
-    below; in parallel light (3,), for each c of cosines (k,).
+    """The edges of a mesh between lighter and darker faces, in parallel light.
 
-    Errors: as for `mesh_isophotes`. Degenerate: edges that do not have two faces are none.
+    Parameters
+    ----------
+    mesh : Mesh
+        Whose faces are compared.
+    light : (3,) array_like of float
+        l, of any length, towards the light.
+    cosines : (k,) array_like of float
+        c, -1 to 1; or one of them.
+
+    Returns
+    -------
+    MeshCurves
+        Polylines with c as level: N.l of the face on the left is at least c, on the right below.
+
+    Raises
+    ------
+    InputError
+        For a light without length, cosines not within -1 and 1.
+
+    Notes
+    -----
+    Degenerate: edges that do not have two faces are none.
+
     Source: Glaeser, section 9.3, example 2.
+
+    Examples
+    --------
+    >>> from vectorplot import features, geometry
+    >>> curves = features.mesh_isophote_edges(geometry.box((2, 2, 2)), (0, 0, 1), [0.5])
+    >>> curves.closed.tolist(), set(curves[0][:, 2].tolist())  # round the top
+    ([True], {2.0})
     """
     towards = normalize(vector("isophotes: light", light))
     return _along_edges(mesh, np.asarray(mesh.face_normals @ towards), _cosines(cosines))
 
 
 def mesh_point_light_isophote_edges(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurves:
-    """As `mesh_isophote_edges`, in the light of a point (3,), seen from the middles of the faces."""
+    """The edges of a mesh between lighter and darker faces, in the light of a point.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Whose faces are compared.
+    light : (3,) array_like of float
+        Where the light stands, seen from the middles of the faces.
+    cosines : (k,) array_like of float
+        c, -1 to 1; or one of them.
+
+    Returns
+    -------
+    MeshCurves
+        As of `mesh_isophote_edges`.
+
+    Raises
+    ------
+    InputError
+        For a light that is not three finite numbers, cosines not within -1 and 1.
+
+    Notes
+    -----
+    Degenerate: as for `mesh_isophote_edges`.
+
+    Source: Glaeser, section 9.3, example 2.
+
+    Examples
+    --------
+    >>> from vectorplot import features, geometry
+    >>> curves = features.mesh_point_light_isophote_edges(geometry.box((2, 2, 2)), (1, 1, 9), [0.5])
+    >>> set(curves[0][:, 2].tolist())
+    {2.0}
+    """
     lamp = vector("isophotes: light", light)
     return _along_edges(mesh, _towards(face_barycentres(mesh), lamp, mesh.face_normals), _cosines(cosines))
 
@@ -92,16 +276,78 @@ def mesh_point_light_isophote_edges(mesh: Mesh, light: ArrayLike, cosines: Array
 def mesh_contour_across_faces(mesh: Mesh, eye: ArrayLike) -> MeshCurves:
     """The curves across the faces of a mesh on which N.(eye - x) = 0, N from average normals at the vertices.
 
-    eye (3,). On a mesh of a smooth surface a smooth line near the true contour, where the contour along edges goes to
-    and fro; but visibility on the mesh itself changes along edges.
-    Errors: InputError for an eye that is not three finite numbers. Source: Glaeser, section 9.3, example 1.
+    Parameters
+    ----------
+    mesh : Mesh
+        Best one of a smooth surface.
+    eye : (3,) array_like of float
+        In world coordinates.
+
+    Returns
+    -------
+    MeshCurves
+        Polylines of level 0.
+
+    Raises
+    ------
+    InputError
+        For an eye that is not three finite numbers.
+
+    Notes
+    -----
+    On a mesh of a smooth surface a smooth line near the true contour, where the contour along edges goes to and fro;
+    but visibility on the mesh itself changes along edges.
+
+    Source: Glaeser, section 9.3, example 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> u, v = np.meshgrid(*surfaces.Sphere().domain.grid(36, 18), indexing="ij")
+    >>> ball = features.mesh_of_grid(surfaces.Sphere().points(u, v), closed_u=True)
+    >>> curves = features.mesh_contour_across_faces(ball, (4, 0, 0))
+    >>> len(curves), bool(np.allclose(curves.points[:, 0], 0.25, atol=0.02))
+    (1, True)
     """
     place = vector("contour: eye", eye)
     return _across_faces(mesh, lambda points, normals: _towards(points, place, normals), np.zeros(1))
 
 
 def mesh_parallel_contour_across_faces(mesh: Mesh, direction: ArrayLike) -> MeshCurves:
-    """As `mesh_contour_across_faces`, for an eye at infinity in a direction (3,)."""
+    """The curves across the faces of a mesh on which N.d = 0, for an eye at infinity.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Best one of a smooth surface.
+    direction : (3,) array_like of float
+        d, of any length, towards the eye.
+
+    Returns
+    -------
+    MeshCurves
+        As of `mesh_contour_across_faces`.
+
+    Raises
+    ------
+    InputError
+        For a direction without length.
+
+    Notes
+    -----
+    Source: Glaeser, section 9.3, example 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> u, v = np.meshgrid(*surfaces.Sphere().domain.grid(36, 18), indexing="ij")
+    >>> ball = features.mesh_of_grid(surfaces.Sphere().points(u, v), closed_u=True)
+    >>> curves = features.mesh_parallel_contour_across_faces(ball, (1, 2, 3))
+    >>> len(curves), bool(np.allclose(curves.points @ (1, 2, 3), 0.0, atol=0.1))
+    (1, True)
+    """
     d = normalize(vector("contour: direction", direction))
     return _across_faces(mesh, lambda points, normals: np.asarray(normals @ d), np.zeros(1))
 

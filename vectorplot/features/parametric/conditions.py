@@ -36,11 +36,34 @@ class Condition(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class CentralContour:
-    """f = N.(x - eye): the surface turns away from the eye (3,). Positive where the unit normal N points away from it.
+    """The condition f = N.(x - eye) = 0 of a contour: the surface turns away from the eye.
 
-    The slopes are N_u.(x - eye), N_v.(x - eye), since N is at right angles to the partials.
-    Errors: InputError for an eye that is not three finite numbers.
+    Parameters
+    ----------
+    surface : Surface
+        With points x and unit normals N.
+    eye : (3,) array_like of float
+        In world coordinates.
+
+    Raises
+    ------
+    InputError
+        For an eye that is not three finite numbers.
+
+    Notes
+    -----
+    f is positive where N points away from the eye. Its slopes are N_u.(x - eye), N_v.(x - eye), since N is at right
+    angles to the partials.
+
     Source: Glaeser, section 8.4, equations 25 to 27.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> condition = features.CentralContour(surfaces.Sphere(), eye=(4, 0, 0))
+    >>> condition.values(np.array([0.0, np.pi]), np.array([0.0, 0.0])).round(9).tolist()  # of the near and the far side
+    [-3.0, 5.0]
     """
 
     surface: Surface
@@ -66,11 +89,33 @@ class CentralContour:
 
 @dataclass(frozen=True, eq=False)
 class ParallelContour:
-    """f = N.d: the surface turns away from an eye at infinity in the direction d (3,), of any length, kept as a unit
-    vector. Positive where the unit normal N points towards the eye.
+    """The condition f = N.d = 0 of a contour for an eye at infinity: seen along d the surface turns away.
 
-    Errors: InputError for a direction without length.
+    Parameters
+    ----------
+    surface : Surface
+        With unit normals N.
+    direction : (3,) array_like of float
+        d, of any length, towards the eye; kept as a unit vector.
+
+    Raises
+    ------
+    InputError
+        For a direction without length.
+
+    Notes
+    -----
+    f is positive where N points towards the eye.
+
     Source: Glaeser, section 8.4, equation 27 for an eye at infinity.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> condition = features.ParallelContour(surfaces.Sphere(), direction=(5, 0, 0))
+    >>> condition.values(np.array([0.0, np.pi]), np.array([0.0, 0.0])).round(9).tolist()  # of the near and the far side
+    [1.0, -1.0]
     """
 
     surface: Surface

@@ -19,11 +19,40 @@ DEFAULT = Tracing()
 def contour(surface: Surface, eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The points x of a surface with n.(x - eye) = 0, n the unit normal: seen from the eye, it turns away there.
 
-    eye (3,). Along a curve the side whose normal points away from the eye is on the left, in u and v.
-    Errors: InputError for an eye that is not three finite numbers.
-    Degenerate: a flat surface whose plane contains the eye has no contour, and a doubt says so. At a singular line
-    (the apex of a double cone) the normal jumps: that is no contour. What lies behind the eye is traced too.
+    Parameters
+    ----------
+    surface : Surface
+        With points, partials and second partials.
+    eye : (3,) array_like of float
+        In world coordinates.
+    tracing : Tracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines, each point known by its parameters and in space. The side whose normal points away from the eye is on
+        the left, in u and v.
+
+    Raises
+    ------
+    InputError
+        For an eye that is not three finite numbers, a grid that is too coarse.
+
+    Notes
+    -----
+    What lies behind the eye is traced too. Degenerate: a flat surface whose plane contains the eye has no contour, and
+    a doubt says so. At a singular line (the apex of a double cone) the normal jumps: that is no contour.
+
     Source: Glaeser, section 8.4, equations 25 to 27, figures 13 and 14.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> curves = features.contour(surfaces.Sphere(), (4, 0, 0))
+    >>> curves.closed.tolist(), bool(np.allclose(curves.points[:, 0], 0.25))  # a circle in front of the centre
+    ([True], True)
     """
     centre = vector("contour: eye", eye)
     points = samples(surface)[2]
@@ -38,11 +67,39 @@ def contour(surface: Surface, eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> 
 def parallel_contour(surface: Surface, direction: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The points of a surface with n.d = 0, n the unit normal: seen along the direction d, it turns away there.
 
-    direction (3,), of any length, towards the eye. Along a curve the side whose normal points towards the eye is on the
-    left, in u and v.
-    Errors: InputError for a direction without length.
+    Parameters
+    ----------
+    surface : Surface
+        With points, partials and second partials.
+    direction : (3,) array_like of float
+        d, of any length, towards the eye.
+    tracing : Tracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines, each point known by its parameters and in space. The side whose normal points towards the eye is on
+        the left, in u and v.
+
+    Raises
+    ------
+    InputError
+        For a direction without length, a grid that is too coarse.
+
+    Notes
+    -----
     Degenerate: a surface all seen edge-on (a cylinder along its axis) has no contour, and a doubt says so.
+
     Source: Glaeser, section 8.4, equation 27 for an eye at infinity.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> curves = features.parallel_contour(surfaces.Cylinder(), (1, 0, 0))
+    >>> curves.closed.tolist(), bool(np.allclose(np.abs(curves.points[:, 1]), 1.0))  # two rulings
+    ([False, False], True)
     """
     condition = ParallelContour(surface, direction)
     return curves_where_zero(surface, condition, size=1.0, rounding=ROUNDING_OF_TERMS, tracing=tracing)

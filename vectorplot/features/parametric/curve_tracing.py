@@ -28,10 +28,29 @@ TURN = 0.0137
 class Tracing:
     """How curves on a surface are traced.
 
-    columns, rows: cells of the grid. resolution: the part of the domain down to which cells are subdivided.
-    tolerance: points are put in until chords stay within this distance of the true curve; None: a thousandth of the
-    extent of the surface. picture: takes points (k,3) to where the tolerance is measured, (k,2) or (k,3), for example
-    millimetres on a page; without it in space. budget: how much work it may be.
+    Parameters
+    ----------
+    columns, rows : int
+        Cells of the grid along u and along v.
+    resolution : float
+        The part of the domain down to which cells are subdivided.
+    tolerance : float, optional
+        Points are put in until chords stay within this distance of the true curve; a thousandth of the extent of the
+        surface where None.
+    picture : callable, optional
+        Takes points (k, 3) to where the tolerance is measured, (k, 2) or (k, 3), for example millimetres on a page;
+        without it in space.
+    budget : Budget
+        How much work it may be.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> ball = surfaces.Sphere()
+    >>> rough = features.contour(ball, (4, 0, 0), tracing=features.Tracing(tolerance=0.1))
+    >>> fine = features.contour(ball, (4, 0, 0), tracing=features.Tracing(tolerance=1e-4))
+    >>> len(rough.points) < len(fine.points)
+    True
     """
 
     columns: int = 47

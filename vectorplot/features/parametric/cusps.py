@@ -62,13 +62,36 @@ def sight_curvatures(contour: Contour, u: Floats, v: Floats) -> Floats:
 
 
 def contour_cusps(contour: Contour, curves: SurfaceCurves) -> Cusps:
-    """The cusps of a contour that was traced as curves: where its image turns back, since the line of sight touches it.
+    """The cusps of a contour: where its image turns back, since the line of sight touches it.
 
+    Parameters
+    ----------
+    contour : CentralContour or ParallelContour
+        The condition that the curves satisfy.
+    curves : SurfaceCurves
+        The contour, as of `contour` or `parallel_contour`.
+
+    Returns
+    -------
+    Cusps
+        u, v (k,): parameters, running on with those of the curves; after (k,): positions of the points of the curves
+        that come before them; in the order along the curves.
+
+    Notes
+    -----
     Each is a common zero of the contour's condition and of `sight_curvatures`, by Newton's method from a change of sign
-    along the curves, to rounding. Two cusps between neighbouring points of a curve are found where the curvatures
-    of the points around lead there.
-    Degenerate: where the sight is an asymptotic direction all along a contour (a ruling seen along itself) none is
-    given; nor is one that lies in a pole.
+    along the curves, to rounding. Two cusps between neighbouring points of a curve are found where the curvatures of
+    the points around lead there. Degenerate: where the sight is an asymptotic direction all along a contour (a ruling
+    seen along itself) none is given; nor is one that lies in a pole.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> torus, eye = surfaces.Torus(3.0, 1.0), (12, 0, 4)
+    >>> curves = features.contour(torus, eye)
+    >>> cusps = features.contour_cusps(features.CentralContour(torus, eye), curves)
+    >>> len(curves), len(cusps.u)  # the outer outline, and the inner one with its four cusps
+    (2, 4)
     """
     domain = contour.surface.domain
     pieces = _changing(contour, curves)
@@ -83,7 +106,34 @@ def contour_cusps(contour: Contour, curves: SurfaceCurves) -> Cusps:
 
 
 def contour_with_cusps(contour: Contour, curves: SurfaceCurves) -> tuple[SurfaceCurves, Ints]:
-    """The curves of a contour with its cusps among their points, and (k,) the positions of the cusps."""
+    """The curves of a contour with its cusps among their points.
+
+    Parameters
+    ----------
+    contour : CentralContour or ParallelContour
+        The condition that the curves satisfy.
+    curves : SurfaceCurves
+        The contour, as of `contour` or `parallel_contour`.
+
+    Returns
+    -------
+    curves : SurfaceCurves
+        With the cusps put in.
+    at : (k,) array of int
+        The positions of the cusps in curves.points.
+
+    Notes
+    -----
+    Degenerate: as for `contour_cusps`.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> torus, eye = surfaces.Torus(3.0, 1.0), (12, 0, 4)
+    >>> curves, at = features.contour_with_cusps(features.CentralContour(torus, eye), features.contour(torus, eye))
+    >>> curves.points[at].shape
+    (4, 3)
+    """
     cusps = contour_cusps(contour, curves)
     points = contour.surface.points(*wrapped(contour.surface.domain, cusps.u, cusps.v))
     return with_points(curves, cusps.after, cusps.u, cusps.v, points)

@@ -19,14 +19,44 @@ DEFAULT = Tracing()
 
 
 def isophotes(surface: Surface, light: ArrayLike, cosines: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
-    """The curves n.l = c in parallel light, for each c of cosines (k,): n the unit normal x_u cross x_v, l the light.
+    """The curves n.l = c of a surface in parallel light, n the unit normal x_u cross x_v, l the light.
 
-    light (3,), of any length, points towards the light. The curves have c as level; the brighter side is on the left,
-    in u and v. Of a surface whose normals point inwards (see Torus) take -c for what is lit from outside.
-    Errors: InputError for a light without length, cosines not within -1 and 1.
+    Parameters
+    ----------
+    surface : Surface
+        With points, partials and second partials.
+    light : (3,) array_like of float
+        l, of any length, towards the light.
+    cosines : (k,) array_like of float
+        c, -1 to 1; or one of them. Of a surface whose normals point inwards (see Torus) take -c for what is lit from
+        outside.
+    tracing : Tracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines with c as level; the brighter side is on the left, in u and v.
+
+    Raises
+    ------
+    InputError
+        For a light without length, cosines not within -1 and 1, a grid that is too coarse.
+
+    Notes
+    -----
     Degenerate: a flat part at just that angle gives no lines, and a doubt; c = 1 gives the isolated points that face
     the light.
+
     Source: Glaeser, section 8.4, equation 28, figure 15.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> curves = features.isophotes(surfaces.Sphere(), (0, 0, 1), [0.0, 0.5])
+    >>> curves.levels.tolist(), bool(np.allclose(curves[1][:, 2], 0.5))
+    ([0.0, 0.5], True)
     """
     return _isophotes(surface, [Isophote(surface, light, c) for c in _levels(cosines)], ROUNDING_OF_TERMS, tracing)
 
@@ -34,10 +64,42 @@ def isophotes(surface: Surface, light: ArrayLike, cosines: ArrayLike, *, tracing
 def point_light_isophotes(
     surface: Surface, light: ArrayLike, cosines: ArrayLike, *, tracing: Tracing = DEFAULT
 ) -> SurfaceCurves:
-    """The curves n.l = c in the light of a point, for each c of cosines (k,): l from the surface to the light.
+    """The curves n.l = c of a surface in the light of a point, l from the surface to the light.
 
-    light (3,): where it stands. Otherwise as `isophotes`.
+    Parameters
+    ----------
+    surface : Surface
+        With points, partials and second partials.
+    light : (3,) array_like of float
+        Where the light stands, in world coordinates.
+    cosines : (k,) array_like of float
+        c, -1 to 1; or one of them.
+    tracing : Tracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    SurfaceCurves
+        As of `isophotes`.
+
+    Raises
+    ------
+    InputError
+        For a light that is not three finite numbers, cosines not within -1 and 1, a grid that is too coarse.
+
+    Notes
+    -----
     Degenerate: a light on the surface: the curves end there.
+
+    Source: Glaeser, section 8.4, equation 28, figure 15.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> curves = features.point_light_isophotes(surfaces.Sphere(), (0, 0, 4), 0.0)  # the border of the lit part
+    >>> len(curves), bool(np.allclose(curves.points[:, 2], 0.25))
+    (1, True)
     """
     lamp, levels = vector("isophotes: light", light), _levels(cosines)
     points = samples(surface)[2]

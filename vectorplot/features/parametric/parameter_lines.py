@@ -27,9 +27,38 @@ LINES_A_BUDGET = 16
 def parameter_lines(surface: Surface, columns: int, rows: int, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The lines u = const. that divide the domain into columns, and v = const. into rows, evenly; without borders.
 
-    Of tracing, tolerance and picture count. A closed direction has as many lines as parts, an open one one less; for 0
-    columns or rows there are none.
-    Errors: InputError for less than that. Degenerate: as for `u_lines`. Source: Glaeser, section 8.2.
+    Parameters
+    ----------
+    surface : Surface
+        On which they run.
+    columns, rows : int
+        Parts of the ranges of u and v; for 0 there are no lines. A closed direction has as many lines as parts, an open
+        one one less.
+    tracing : Tracing
+        Its tolerance, picture and budget count.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines with the constant parameter as level; first those of u.
+
+    Raises
+    ------
+    InputError
+        For fewer than 0 columns or rows.
+
+    Notes
+    -----
+    Degenerate: as for `u_lines`.
+
+    Source: Glaeser, section 8.2.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> curves = features.parameter_lines(surfaces.Cylinder(bottom=0, top=3), columns=8, rows=3)
+    >>> len(curves), curves.levels[8:].tolist(), curves.closed[8:].tolist()
+    (10, [1.0, 2.0], [True, True])
     """
     if columns < 0 or rows < 0:
         raise InputError(f"parameter lines: {columns} columns and {rows} rows: expected 0 or more")
@@ -44,17 +73,75 @@ def parameter_lines(surface: Surface, columns: int, rows: int, *, tracing: Traci
 
 
 def u_lines(surface: Surface, values: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
-    """The lines u = const. of a surface, for each of the values (k,), which are their levels; v rises along them.
+    """The lines u = const. of a surface.
 
+    Parameters
+    ----------
+    surface : Surface
+        On which they run.
+    values : (k,) array_like of float
+        Of u; or one of them.
+    tracing : Tracing
+        Its tolerance, picture and budget count.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines with u as level; v rises along them.
+
+    Raises
+    ------
+    InputError
+        For values that are not finite.
+
+    Notes
+    -----
     Degenerate: lines that are a single point (poles) are left out; holes of the surface interrupt lines.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> curves = features.u_lines(surfaces.Sphere(), 0.0)  # a meridian
+    >>> curves.closed.tolist(), bool(np.allclose(curves.points[:, 1], 0.0))
+    ([False], True)
     """
     return _lines(surface, 0, np.atleast_1d(np.asarray(values, dtype=np.float64)), tracing)
 
 
 def v_lines(surface: Surface, values: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
-    """The lines v = const. of a surface, for each of the values (k,), which are their levels; u rises along them.
+    """The lines v = const. of a surface.
 
+    Parameters
+    ----------
+    surface : Surface
+        On which they run.
+    values : (k,) array_like of float
+        Of v; or one of them.
+    tracing : Tracing
+        Its tolerance, picture and budget count.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines with v as level; u rises along them.
+
+    Raises
+    ------
+    InputError
+        For values that are not finite.
+
+    Notes
+    -----
     Degenerate: as for `u_lines`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> curves = features.v_lines(surfaces.Sphere(), [0.0, np.pi / 2])  # the equator; at the pole there is no line
+    >>> curves.levels.tolist(), curves.closed.tolist()
+    ([0.0], [True])
     """
     return _lines(surface, 1, np.atleast_1d(np.asarray(values, dtype=np.float64)), tracing)
 
@@ -62,7 +149,27 @@ def v_lines(surface: Surface, values: ArrayLike, *, tracing: Tracing = DEFAULT) 
 def borders(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The lines at the ends of the domain that are borders of the surface: not where it closes, not poles.
 
+    Parameters
+    ----------
+    surface : Surface
+        On which they run.
+    tracing : Tracing
+        Its tolerance, picture and budget count.
+
+    Returns
+    -------
+    SurfaceCurves
+        As of `u_lines` and `v_lines`.
+
+    Notes
+    -----
     Degenerate: the borders of holes inside the domain are not among them.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> len(features.borders(surfaces.Cylinder())), len(features.borders(surfaces.Paraboloid()))
+    (2, 1)
     """
     domain, single = surface.domain, {(pole.axis, pole.place) for pole in poles(surface)}
     u = [] if domain.closed_u else [t for t in (domain.u_start, domain.u_end) if (0, t) not in single]

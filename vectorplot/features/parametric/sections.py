@@ -18,12 +18,47 @@ DEFAULT = Tracing()
 
 
 def section_by_implicit(surface: Surface, other: ImplicitSurface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
-    """The curves of a surface on which F of an implicit surface is zero; F > 0 on the left, in u and v.
+    """The curves of a surface on which F of an implicit surface is zero.
 
-    F is taken wherever the surface is, inside the box of the implicit surface and outside.
-    Degenerate: surfaces that touch in a point give an isolated point and an InputWarning; along a line, touching; that
-    coincide in an area, a doubt.
+    Parameters
+    ----------
+    surface : Surface
+        On which they are traced.
+    other : ImplicitSurface
+        F is taken wherever the surface is, inside the box of the implicit surface and outside.
+    tracing : Tracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines with F > 0 on the left, in u and v.
+
+    Raises
+    ------
+    InputError
+        For a grid that is too coarse.
+
+    Warns
+    -----
+    InputWarning
+        Where the surfaces touch in a point.
+
+    Notes
+    -----
+    Degenerate: surfaces that touch in a point give an isolated point; along a line, touching; that coincide in an area,
+    a doubt.
+
     Source: Glaeser, section 8.4, equation 29, figure 16.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> pipe, ball = surfaces.Cylinder(radius=0.6, bottom=-2, top=2), surfaces.implicit_sphere(1.0)
+    >>> curves = features.section_by_implicit(pipe, ball)
+    >>> len(curves), bool(np.allclose(np.abs(curves.points[:, 2]), 0.8))
+    (2, True)
     """
     points = samples(surface)[2]
     if not len(points):
@@ -45,11 +80,47 @@ def section_by_implicit(surface: Surface, other: ImplicitSurface, *, tracing: Tr
 def plane_sections(
     surface: Surface, normal: ArrayLike, offsets: ArrayLike, *, tracing: Tracing = DEFAULT
 ) -> SurfaceCurves:
-    """The sections of a surface with the parallel planes n.x = d, for each d of offsets (k,), n the unit normal.
+    """The sections of a surface with the parallel planes n.x = d, n the unit normal.
 
-    normal (3,), of any length. The curves have d as level; the side the normal points to is on the left, in u and v.
-    Errors: InputError for a normal without length, offsets that are not finite.
-    Degenerate: as for `intersection`.
+    Parameters
+    ----------
+    surface : Surface
+        On which they are traced.
+    normal : (3,) array_like of float
+        Of any length.
+    offsets : (k,) array_like of float
+        d, in world units; or one of them.
+    tracing : Tracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines with d as level; the side the normal points to is on the left, in u and v.
+
+    Raises
+    ------
+    InputError
+        For a normal without length, offsets that are not finite numbers in a row, a grid that is too coarse.
+
+    Warns
+    -----
+    InputWarning
+        Where a plane touches the surface in a point.
+
+    Notes
+    -----
+    Degenerate: as for `section_by_implicit`.
+
+    Source: Glaeser, section 8.4, equation 29.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> curves = features.plane_sections(surfaces.Sphere(), (1, 0, 0), [-0.5, 0.5])
+    >>> curves.levels.tolist(), bool(np.allclose(curves[0][:, 0], -0.5))
+    ([-0.5, 0.5], True)
     """
     levels = np.atleast_1d(np.asarray(offsets, dtype=np.float64))
     if levels.ndim != 1:
@@ -73,7 +144,46 @@ def plane_sections(
 
 
 def level_lines(surface: Surface, heights: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
-    """The curves of a surface at each of the heights (k,), with the height as level: `plane_sections` with z up."""
+    """The curves of a surface at given heights: `plane_sections` with z up.
+
+    Parameters
+    ----------
+    surface : Surface
+        On which they are traced.
+    heights : (k,) array_like of float
+        In world units; or one of them.
+    tracing : Tracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines with the height as level.
+
+    Raises
+    ------
+    InputError
+        For heights that are not finite numbers in a row, a grid that is too coarse.
+
+    Warns
+    -----
+    InputWarning
+        Where a plane touches the surface in a point.
+
+    Notes
+    -----
+    Degenerate: as for `section_by_implicit`.
+
+    Source: Glaeser, section 8.4, equation 29.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> hill = surfaces.graph(lambda x, y: 4.0 - x**2 - y**2, surfaces.Domain(-1, 1, -1, 1))
+    >>> curves = features.level_lines(hill, [3.5, 5.0])
+    >>> curves.levels.tolist(), curves.closed.tolist()
+    ([3.5], [True])
+    """
     return plane_sections(surface, (0.0, 0.0, 1.0), heights, tracing=tracing)
 
 

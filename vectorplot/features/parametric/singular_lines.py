@@ -27,14 +27,42 @@ INSIDE = 0.271
 def singular_lines(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The lines of a surface on which x_u x x_v vanishes: cuspidal edges, with their cusps and swallowtails as points.
 
+    Parameters
+    ----------
+    surface : Surface
+        With points, partials and second partials.
+    tracing : Tracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines; single singular points in space are isolated.
+
+    Raises
+    ------
+    InputError
+        For a grid that is too coarse.
+
+    Notes
+    -----
     Across such a line the normal jumps to its opposite, so its product with normals that are carried on continuously
-    changes sign. On the left, in u and v, it has the sign it has in the first cell of the domain.
-    Errors: InputError for a grid that is too coarse.
-    Degenerate: lines that are a single point in space (an apex, where a spindle torus meets its axis) are isolated
-    points; single singular points such as pinch points are not found here: double curves end in them. A surface with
-    one side only is cut open first. Poles at the border of the domain are none.
+    changes sign. On the left, in u and v, it has the sign it has in the first cell of the domain. Degenerate: lines
+    that are a single point in space (an apex, where a spindle torus meets its axis) are isolated points; single
+    singular points such as pinch points are not found here: double curves end in them. A surface with one side only is
+    cut open first. Poles at the border of the domain are none.
+
     Source: Glaeser, section 8.4; Arnold, Gusein-Zade and Varchenko, Singularities of differentiable maps (1985), on
     fronts.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> blade = surfaces.surface_of_function(lambda u, v: (u**2, u**3, v), surfaces.Domain(-1, 1, 0, 1))
+    >>> curves = features.singular_lines(blade, tracing=features.Tracing(columns=15, rows=5))
+    >>> len(curves), bool(np.allclose(curves.points[:, :2], 0.0))
+    (1, True)
     """
     if not len(samples(surface)[2]):
         return no_curves()

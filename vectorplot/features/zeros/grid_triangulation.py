@@ -13,13 +13,36 @@ from vectorplot.tolerances.of_values import SYMMETRIC_DEVIATION
 
 
 def average_normals(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = False) -> Floats:
-    """(m,n,3) unit normals of a surface at the points of a grid (m,n,3), on the side of x_u x x_v.
+    """Unit normals of a surface at the points of a grid, on the side of x_u x x_v.
 
-    Each is the mean of the unit normals of the up to four triangles that a point spans with its grid neighbours.
-    closed_u: the last row of points repeats the first, and the surface goes on smoothly; closed_v likewise.
-    Errors: InputError unless the grid is (m,n,3) with at least two points each way.
+    Parameters
+    ----------
+    grid : (m, n, 3) array_like of float
+        Points, two or more each way.
+    closed_u, closed_v : bool
+        The last row of points repeats the first, and the surface goes on smoothly; closed_v: the last column.
+
+    Returns
+    -------
+    (m, n, 3) array of float
+        Each is the mean of the unit normals of the up to four triangles that a point spans with its grid neighbours.
+
+    Raises
+    ------
+    InputError
+        Unless the grid is (m, n, 3) with at least two points each way.
+
+    Notes
+    -----
     Degenerate: triangles without area (poles, repeated points, NaN) are left out; without any the normal is zero.
+
     Source: Glaeser, section 8.4, figure 12; erratum G8-12.
+
+    Examples
+    --------
+    >>> from vectorplot import features
+    >>> features.average_normals([[(0, 0, 0), (0, 1, 0)], [(1, 0, 0), (1, 1, 0)]])[0, 0].tolist()
+    [0.0, 0.0, 1.0]
     """
     p = _checked(grid)
     after_u, before_u = _neighbours(p, 0, closed_u)
@@ -53,12 +76,40 @@ def _unit(vectors: Floats) -> Floats:
 
 
 def triangulate_surface(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = False) -> tuple[Ints, Floats]:
-    """The triangles (2 (m-1) (n-1), 3) that suit a grid of points (m,n,3) best, and its average normals (m,n,3).
+    """The triangles that suit a grid of points best, and its average normals.
 
-    Triangles index the points row by row, i n + j, and turn as u to v does. Each cell is cut along that diagonal whose
-    two triangles deviate least, in the sum of angles, from the average normals at their corners.
-    Degenerate: a cell whose diagonals are equally good is cut from (i, j) to (i+1, j+1).
+    Parameters
+    ----------
+    grid : (m, n, 3) array_like of float
+        Points, two or more each way.
+    closed_u, closed_v : bool
+        As of `average_normals`.
+
+    Returns
+    -------
+    triangles : (2 (m-1) (n-1), 3) array of int
+        They index the points row by row, i n + j, and turn as u to v does.
+    normals : (m, n, 3) array of float
+        As of `average_normals`.
+
+    Raises
+    ------
+    InputError
+        Unless the grid is (m, n, 3) with at least two points each way.
+
+    Notes
+    -----
+    Each cell is cut along that diagonal whose two triangles deviate least, in the sum of angles, from the average
+    normals at their corners. Degenerate: a cell whose diagonals are equally good is cut from (i, j) to (i+1, j+1).
+
     Source: Glaeser, section 8.4; errata G8-12, G8-13.
+
+    Examples
+    --------
+    >>> from vectorplot import features
+    >>> triangles, normals = features.triangulate_surface([[(0, 0, 0), (0, 1, 0)], [(1, 0, 0), (1, 1, 0)]])
+    >>> triangles.tolist()
+    [[0, 2, 3], [3, 1, 0]]
     """
     p = _checked(grid)
     m, n = p.shape[:2]
@@ -104,10 +155,40 @@ def _checked(grid: ArrayLike) -> Floats:
 
 
 def mesh_of_grid(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = False) -> Mesh:
-    """The triangulation of triangulate_surface as a mesh: faces are counter-clockwise seen from the side of x_u x x_v.
+    """The triangulation of a grid of points as a mesh.
 
-    Triangles with a corner that is not finite are left out, as those without extent are at poles; seams are closed.
+    Parameters
+    ----------
+    grid : (m, n, 3) array_like of float
+        Points, two or more each way.
+    closed_u, closed_v : bool
+        As of `average_normals`: seams are closed.
+
+    Returns
+    -------
+    Mesh
+        The triangles of `triangulate_surface`, counter-clockwise seen from the side of x_u x x_v.
+
+    Raises
+    ------
+    InputError
+        Unless the grid is (m, n, 3) with at least two points each way.
+
+    Notes
+    -----
+    Triangles with a corner that is not finite are left out, as those without extent are at poles, whose points stay
+    apart.
+
     Source: Glaeser, section 9.3.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features
+    >>> x, y = np.meshgrid(np.arange(4.0), np.arange(3.0), indexing="ij")
+    >>> hills = features.mesh_of_grid(np.stack([x, y, np.sin(x) * np.cos(y)], axis=2))
+    >>> len(hills.vertices), hills.face_count
+    (12, 12)
     """
     p = _checked(grid)
     triangles, _ = triangulate_surface(p, closed_u=closed_u, closed_v=closed_v)

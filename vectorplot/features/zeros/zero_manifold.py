@@ -59,16 +59,46 @@ PLACES = 40
 
 @dataclass(frozen=True, eq=False)
 class ZeroManifold:
-    """The curve f(u, v) = 0.
+    """The curve f(u, v) = 0 over a domain, with all its branches.
 
-    points (p,2) parameters u, v; offsets (b+1,): branch i has the points offsets[i] to offsets[i+1]; closed (b,): the
-    last point joins the first, which is not repeated. f is positive on the left of a branch (from node to node of it).
-    Along a branch parameters run on over seams, beyond the domain: turns (b,2) are the periods that a closed branch
-    has run through when it is back at its start.
-    nodes (n,2): where branches meet; a branch goes straight on through each. isolated (i,2): single points where f is
-    zero but does not change its sign. touching (t,2): places of a line along which f is zero without changing sign,
-    or between two branches nearer to each other than the resolution.
-    doubts: a sentence for each thing that could not be decided. grid (columns+1, rows+1, 3): u, v and f.
+    Parameters
+    ----------
+    domain : Domain
+        Where f is defined.
+    points : (p, 2) array of float
+        Parameters u, v. Along a branch they run on over seams, beyond the domain.
+    offsets : (b+1,) array of int
+        Branch i has the points offsets[i] to offsets[i+1].
+    closed : (b,) array of bool
+        The last point of the branch joins the first, which is not repeated.
+    turns : (b, 2) array of int
+        The periods that a closed branch has run through when it is back at its start.
+    nodes : (n, 2) array of float
+        Where branches meet; a branch goes straight on through each.
+    isolated : (i, 2) array of float
+        Single points where f is zero but does not change its sign.
+    touching : (t, 2) array of float
+        Places of a line along which f is zero without changing sign, or between two branches nearer to each other than
+        the resolution.
+    doubts : tuple of str
+        A sentence for each thing that could not be decided.
+    grid : (columns+1, rows+1, 3) array of float
+        u, v and f.
+
+    Notes
+    -----
+    f is positive on the left of a branch (from node to node of it).
+
+    Source: Glaeser, section 8.4, figures 11 and 12; errata G8-08 to G8-14.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> square = surfaces.Domain(-2, 2, -2, 2)
+    >>> cross = features.zero_manifold_of_f_uv(lambda u, v: u * v, square, columns=7, rows=7)
+    >>> len(cross), cross.closed.tolist(), len(cross.nodes)
+    (2, [False, False], 1)
     """
 
     domain: Domain
@@ -112,19 +142,57 @@ def zero_manifold_of_f_uv(
 ) -> ZeroManifold:
     """The curve f(u, v) = 0 over a domain, all its branches, each point refined on f to 1e-12 of the scale of f.
 
-    f takes arrays u, v (k,) and returns (k,) values; in closed directions it is periodic. The scale of f is what
-    nineteen in twenty values on the grid of columns x rows cells do not exceed. Where the values and slopes in a cell
-    leave open more than a single arc, the cell is subdivided down to resolution, a part of the domain: a closed branch
-    that is larger is found if the grid feels it, that is if slopes of the size met at the corners of a cell could
-    reach zero inside it.
-    positions(u, v) -> (k, 2 or 3) and tolerance: points are put in until chords stay within tolerance of the curve,
-    measured between positions (millimetres on a page, for example); without positions in u and v themselves. Where
-    positions jump from one point to the next the curve is interrupted. budget: how much work it may be.
-    Errors: InputError for fewer than two columns or rows, three in a closed direction.
+    Parameters
+    ----------
+    f : callable
+        Takes arrays u, v (k,) and returns (k,) values; in closed directions it is periodic.
+    domain : Domain
+        Where f is defined.
+    columns, rows : int
+        Cells of the grid on which it is looked at first.
+    gradient : callable, optional
+        Takes arrays u, v (k,) and returns the two derivatives (k,) by u and by v; by differences where None.
+    resolution : float
+        The part of the domain down to which cells are subdivided where values and slopes leave open more than a single
+        arc.
+    positions : callable, optional
+        Takes arrays u, v (k,) to where the tolerance is measured, (k, 2) or (k, 3), for example millimetres on a page;
+        without it in u and v themselves. Where positions jump from one point to the next the curve is interrupted.
+    tolerance : float, optional
+        Points are put in until chords stay within this distance of the curve; none where None.
+    budget : Budget
+        How much work it may be.
+
+    Returns
+    -------
+    ZeroManifold
+        Branches, nodes, isolated points, and doubts.
+
+    Raises
+    ------
+    InputError
+        For fewer than two columns or rows, three in a closed direction, and a resolution that is not positive.
+
+    Notes
+    -----
+    The scale of f is what nineteen in twenty values on the grid do not exceed. A closed branch that is larger than the
+    resolution is found if the grid feels it, that is if slopes of the size met at the corners of a cell could reach
+    zero inside it.
+
     Degenerate: f of one sign gives no branch; a change of sign through a pole or a jump is none either; where f is not
     finite there is a hole, and branches end at its border; zeros at grid points count as positive, which gives one
     polyline for a curve along grid lines; a border all along which f is zero is a pole of the surface, not a curve.
+
     Source: Glaeser, section 8.4, figures 11 and 12; errata G8-08 to G8-14.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> square = surfaces.Domain(-2, 2, -2, 2)
+    >>> circle = features.zero_manifold_of_f_uv(lambda u, v: u**2 + v**2 - 1, square, columns=8, rows=8, tolerance=0.01)
+    >>> circle.closed.tolist(), bool(np.allclose(np.linalg.norm(circle.points, axis=1), 1.0))
+    ([True], True)
     """
     _check(domain, columns, rows, resolution)
     field, w = grid_values(scalar_field(f, domain, gradient), columns, rows)
