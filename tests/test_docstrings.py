@@ -98,6 +98,7 @@ ROOMS = [
     "drawing",
     "effects",
     "exact",
+    "features",
     "io",
     "scene",
     "shading",
