@@ -15,6 +15,7 @@ from vectorplot.drawing.strokes.join import joined
 from vectorplot.drawing.strokes.long_strokes import split_long
 from vectorplot.drawing.strokes.paths import chosen, concatenated
 from vectorplot.drawing.strokes.pen_order.order import pen_ordered
+from vectorplot.drawing.strokes.rows import going_on, in_rows, without_dots
 from vectorplot.drawing.strokes.simplify import without_collinear_points
 from vectorplot.tolerances.of_the_page import COINCIDENT_MM, COLLINEAR_MM
 from vectorplot.words import LineKind
@@ -53,7 +54,8 @@ def long_strokes(paths: Paths) -> Paths:
         return paths
     known = paths.curve != NO_CURVE
     if known.any():
-        curves = chosen(paths, known)
+        curves = without_dots(chosen(paths, known), COINCIDENT_MM)
+        curves = in_rows(curves, going_on(curves, _group(curves), COINCIDENT_MM))
         own = np.unique(np.stack([_group(curves), curves.curve]), axis=1, return_inverse=True)[1]
         paths = concatenated((joined(curves, own.ravel(), COINCIDENT_MM), chosen(paths, ~known)))
     return without_collinear_points(joined(paths, _group(paths), COINCIDENT_MM), COLLINEAR_MM)
@@ -61,7 +63,7 @@ def long_strokes(paths: Paths) -> Paths:
 
 def _group(paths: Paths) -> Ints:
     """(m,) equal for strokes of the same item, kind and count."""
-    return (paths.item * len(LineKind) + paths.kind) * (int(paths.hidden_by.max()) + 1) + paths.hidden_by
+    return (paths.item * len(LineKind) + paths.kind) * (int(paths.hidden_by.max(initial=0)) + 1) + paths.hidden_by
 
 
 def _pen_strokes(paths: Paths, hidden: str, world: Floats) -> Paths:

@@ -11,12 +11,10 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.chains import NO_END, Chains, chains
 from vectorplot.drawing.strokes.neighbours import clusters
 from vectorplot.drawing.strokes.paths import chosen, directed, world_per_mm
+from vectorplot.drawing.strokes.rows import SAME_PLACE, going_on, in_rows
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import with_points
 from vectorplot.geometry.repair.weld import close_points
-
-SAME_PLACE = 100.0
-"""Ends further apart in the world than so many tolerances on the page lie one behind the other."""
 
 _TURN = 1 << 30
 """Directions are whole numbers of this part of a full turn: sums and comparisons of angles are exact."""
@@ -46,8 +44,18 @@ def joined(paths: Paths, group: Ints, tolerance_mm: float) -> Paths:
 
 def linked_ends(paths: Paths, group: Ints, tolerance_mm: float) -> Ints:
     """(2m,) the end that each end of open strokes, start (even) or end (odd), is joined to by joined, or NO_END."""
-    every = np.arange(len(paths))
-    return _linked(paths, every, _nodes_of(paths, every, group, tolerance_mm), tolerance_mm)
+    going = going_on(paths, group, tolerance_mm)
+    head = np.flatnonzero(~going)
+    rows = in_rows(paths, going)
+    every = np.arange(len(rows))
+    mate = _linked(rows, every, _nodes_of(rows, every, group[head], tolerance_mm), tolerance_mm)
+    # The ends of the rows are the first ends of their first strokes and the last ends of their last ones.
+    end = np.stack((2 * head, 2 * np.append(head[1:], len(paths)) - 1), axis=1).ravel()
+    result = np.full(2 * len(paths), NO_END, dtype=np.intp)
+    result[end] = np.where(mate == NO_END, NO_END, end[mate])
+    inner = np.flatnonzero(going)
+    result[2 * inner], result[2 * inner - 1] = 2 * inner - 1, 2 * inner
+    return result
 
 
 def _ends_of(paths: Paths, open_: Ints) -> Ints:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
@@ -9,7 +11,10 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.chains import NO_END, chains
 from vectorplot.drawing.strokes.join import linked_ends
 from vectorplot.drawing.strokes.paths import chosen
+from vectorplot.geometry import ragged
 from vectorplot.tolerances.of_the_page import TOUCHING_AT_MM
+from vectorplot.visibility.polyhedra import grid as grids
+from vectorplot.visibility.polyhedra.grid import Entries, Floats32, Grid
 
 HEIGHT_SHARE = 0.05
 """Between two points a curve is known but for less than this part of its height above the chord."""
@@ -42,15 +47,14 @@ def without_smooth_duplicates(paths: Paths, rank: Ints, tolerance_mm: float) -> 
     chords = chosen(paths, smooth)
     group = np.unique(rank[smooth], return_inverse=True)[1].astype(np.intp)
     ends = chords.points.reshape(-1, 2, 2)
-    length = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
     mate = linked_ends(chords, group, tolerance_mm)
-    slopes = _slopes(ends, mate)
-    covered = _covered(ends, slopes, group, tolerance_mm)
+    arcs = _arcs(ends, _slopes(ends, mate), group, tolerance_mm)
+    covered = _covered(arcs, tolerance_mm)
     if not covered.any():
         return paths
-    room = tolerance_mm + HEIGHT_SHARE * float((length * np.abs(slopes).max(axis=1)).max()) / 4.0
+    room = tolerance_mm + HEIGHT_SHARE * float(arcs.height.max())
     touching = TOUCHING_MM * (room / TOUCHING_AT_MM) ** 0.25
-    covered = _in_rows(covered, mate, length, touching)
+    covered = _in_rows(covered, mate, arcs.length, touching)
     if not covered.any():
         return paths
     kept = np.ones(len(paths), dtype=np.bool_)
@@ -79,52 +83,98 @@ def _slopes(ends: Floats, mate: Ints) -> Floats:
     return np.nan_to_num(slopes, nan=0.0)
 
 
-def _covered(ends: Floats, slopes: Floats, rank: Ints, tolerance: float) -> Bools:
-    """(m,) which chords (m,2,2) lie on arcs over chords of smaller rank."""
-    along = ends[:, 1] - ends[:, 0]
-    length = np.hypot(*along.T)
-    normal = np.column_stack((-along[:, 1], along[:, 0])) / length[:, None]
-    height = length * np.abs(slopes).max(axis=1) / 4.0
-    middle = ends.mean(axis=1) + (length * (slopes[:, 0] - slopes[:, 1]) / 8.0)[:, None] * normal
+@dataclass(frozen=True, eq=False)
+class _Arcs:
+    """Cubic arcs over the chords from x0, y0 (m,) along x, y (m,), of some lengths (m,), with slopes (m,2) against them
+    at their ends, and (m,) ranks; height (m,): how far the arcs may be off the chords; box: what a point near enough to
+    matter is in, around the corner of them all."""
+
+    x0: Floats
+    y0: Floats
+    x: Floats
+    y: Floats
+    length: Floats
+    slopes: Floats
+    rank: Ints
+    height: Floats
+    corner: tuple[float, float]
+    box: Floats32
+    grid: Grid
+    entries: Entries
+
+    def near(self, x: Floats, y: Floats) -> tuple[Ints, Ints]:
+        """All (point, arc) of points (k,) and the arcs whose boxes they are in."""
+        px, py = (c - low for c, low in zip((x, y), self.corner, strict=True))
+        column, row = self.grid.column_of(px), self.grid.row_of(py)
+        px, py = px.astype(np.float32), py.astype(np.float32)
+        found = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
+        for level in self.entries.levels():
+            begin, count = self.entries.of(self.grid.numbers(column >> level, row >> level, level))
+            point, arc = ragged.owner(count), self.entries.thing[ragged.ranges(begin, count)]
+            left, right, bottom, top = self.box[:, arc]
+            px_there, py_there = px[point], py[point]
+            inside = (left <= px_there) & (px_there <= right) & (bottom <= py_there) & (py_there <= top)
+            found.append((point[inside], arc[inside]))
+        point, arc = (np.concatenate(column) for column in zip(*found, strict=True))
+        return point, arc
+
+
+def _arcs(ends: Floats, slopes: Floats, rank: Ints, tolerance: float) -> _Arcs:
+    """The arcs over chords (m,2,2)."""
+    x0, y0, x1, y1 = np.ascontiguousarray(ends.reshape(-1, 4).T)
+    length = np.hypot(x1 - x0, y1 - y0)
+    height = length * np.maximum(np.abs(slopes[:, 0]), np.abs(slopes[:, 1])) / 4.0
+    # Each arc looks no farther than its own height: one long chord would else call for all pairs.
+    reach = tolerance + (1.0 + HEIGHT_SHARE) * height + HEIGHT_SHARE * float(height.max())
+    sides = [(np.minimum(a, b) - reach, np.maximum(a, b) + reach) for a, b in ((x0, x1), (y0, y1))]
+    corner = float(sides[0][0].min()), float(sides[1][0].min())
+    size = [float(high.max()) - low for (_, high), low in zip(sides, corner, strict=True)]
+    # Single precision may not lose a point at the border of a box.
+    slack = 2.0 * float(np.spacing(np.float32(max(size))))
+    box = np.stack(
+        [side for (a, b), low in zip(sides, corner, strict=True) for side in (a - low - slack, b - low + slack)]
+    ).astype(np.float32)
+    typical = float(np.median(np.maximum(box[1] - box[0], box[3] - box[2])))
+    grid = Grid.over((0.0, size[0], 0.0, size[1]), typical)
+    level = grids.entry_level(grid, box)
+    arc, column, row = grids.touched(grid, box, level)
+    entries = grids.entries(grid, arc, column, row, level[arc])
+    return _Arcs(x0, y0, x1 - x0, y1 - y0, length, slopes, rank, height, corner, box, grid, entries)
+
+
+def _covered(arcs: _Arcs, tolerance: float) -> Bools:
+    """(m,) which chords lie on arcs over chords of smaller rank."""
     # The ends are points of the curve; the middle is known but for a little. Few middles lie on other curves, while
     # many ends do.
-    some = np.flatnonzero(rank > rank.min())
-    for points, room in (
-        (middle, tolerance + HEIGHT_SHARE * height),
-        (ends[:, 0], np.full(len(ends), tolerance)),
-        (ends[:, 1], np.full(len(ends), tolerance)),
+    some = np.flatnonzero(arcs.rank > arcs.rank.min())
+    rise = (arcs.slopes[:, 0] - arcs.slopes[:, 1]) / 8.0
+    for part, off, room in (
+        (0.5, rise, tolerance + HEIGHT_SHARE * arcs.height),
+        (0.0, np.zeros_like(rise), np.full(len(rise), tolerance)),
+        (1.0, np.zeros_like(rise), np.full(len(rise), tolerance)),
     ):
-        some = some[_on_arcs(points[some], room[some], rank[some], ends, slopes, rank, tolerance)]
-    covered = np.zeros(len(ends), dtype=np.bool_)
+        x = arcs.x0[some] + part * arcs.x[some] - off[some] * arcs.y[some]
+        y = arcs.y0[some] + part * arcs.y[some] + off[some] * arcs.x[some]
+        some = some[_on_arcs(x, y, room[some], arcs.rank[some], arcs, tolerance)]
+    covered = np.zeros(len(rise), dtype=np.bool_)
     covered[some] = True
     return covered
 
 
-def _on_arcs(
-    points: Floats, room: Floats, rank: Ints, ends: Floats, slopes: Floats, arc_rank: Ints, tolerance: float
-) -> Bools:
-    """(k,) which points (k,2) lie within room (k,) on arcs over chords (m,2,2) of smaller rank."""
-    import shapely
-
-    on_some = np.zeros(len(points), dtype=np.bool_)
-    if not len(points):
-        return on_some
-    along = ends[:, 1] - ends[:, 0]
-    length = np.hypot(*along.T)
-    unit = along / length[:, None]
-    height = length * np.abs(slopes).max(axis=1) / 4.0
-    # Each arc looks no farther than its own height: one long chord would else call for all pairs.
-    tree = shapely.STRtree(shapely.points(points))
-    reach = tolerance + (1.0 + HEIGHT_SHARE) * height + HEIGHT_SHARE * float(height.max())
-    arc, point = tree.query(shapely.linestrings(ends), predicate="dwithin", distance=reach)
-    better = arc_rank[arc] < rank[point]
+def _on_arcs(x: Floats, y: Floats, room: Floats, rank: Ints, arcs: _Arcs, tolerance: float) -> Bools:
+    """(k,) which points lie within room (k,) on arcs of smaller rank (k,)."""
+    on_some = np.zeros(len(x), dtype=np.bool_)
+    point, arc = arcs.near(x, y)
+    better = arcs.rank[arc] < rank[point]
     point, arc = point[better], arc[better]
-    arm = points[point] - ends[arc, 0]
-    s = (arm * unit[arc]).sum(axis=1) / length[arc]
-    rise = length[arc] * (slopes[arc, 0] * s * (1.0 - s) ** 2 - slopes[arc, 1] * s * s * (1.0 - s))
-    off = np.abs(unit[arc, 0] * arm[:, 1] - unit[arc, 1] * arm[:, 0] - rise)
-    slack = tolerance / length[arc]
-    on = (s >= -slack) & (s <= 1.0 + slack) & (off <= room[point] + HEIGHT_SHARE * height[arc])
+    length, ux, uy = arcs.length[arc], arcs.x[arc], arcs.y[arc]
+    arm_x, arm_y = x[point] - arcs.x0[arc], y[point] - arcs.y0[arc]
+    s = (arm_x * ux + arm_y * uy) / (length * length)
+    first, last = arcs.slopes[arc].T
+    rise = length * (first * s * (1.0 - s) ** 2 - last * s * s * (1.0 - s))
+    off = np.abs((ux * arm_y - uy * arm_x) / length - rise)
+    slack = tolerance / length
+    on = (s >= -slack) & (s <= 1.0 + slack) & (off <= room[point] + HEIGHT_SHARE * arcs.height[arc])
     on_some[point[on]] = True
     return on_some
 
