@@ -23,11 +23,41 @@ STEPS = 2.0
 
 
 def points_visible(buffer: DepthBuffer, points: ArrayLike) -> Bools:
-    """(n,) which points (column, row, depth after T2) nothing in the buffer hides.
+    """Which points nothing in a depth buffer hides.
 
+    Parameters
+    ----------
+    buffer : DepthBuffer
+        Of all that may hide them.
+    points : (n, 3) array_like of float
+        Column, row and depth after T2.
+
+    Returns
+    -------
+    (n,) array of bool
+        Points outside the raster are not visible.
+
+    Raises
+    ------
+    InputError
+        For points that are not finite.
+
+    Notes
+    -----
     A point is compared with the plane of the triangle in its pixel, at its own place; the tolerance is what snapping
-    moves that plane, and a step of the code. Points outside the raster are not visible.
+    moves that plane, and a step of the code.
+
     Source: Glaeser, section 7.3.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.shading import ScreenTriangles, depth_buffer
+    >>> from vectorplot.textbook import points_visible
+    >>> corners = np.array([(-1.0, -1.0, 0.5), (9.0, -1.0, 0.5), (-1.0, 9.0, 0.5)])
+    >>> buffer = depth_buffer(ScreenTriangles(corners, np.array([(0, 1, 2)]), np.array([0])), 8, 8)
+    >>> points_visible(buffer, [(1, 1, 0.4), (1, 1, 0.6), (7, 7, 0.4), (9, 1, 0.6)]).tolist()
+    [False, True, True, False]
     """
     p = np.asarray(points, dtype=np.float64).reshape(-1, 3)
     if not np.isfinite(p).all():
@@ -65,10 +95,45 @@ def _plane_depth(corners: Floats, at: Floats) -> tuple[Floats, Floats]:
 
 
 def visible_line_pixels(buffer: DepthBuffer, start: ArrayLike, end: ArrayLike) -> tuple[Ints, Ints, Ints]:
-    """Columns, rows and lines (p,) of the pixels of lines (n, 3), column, row and depth after T2, that are not hidden.
+    """The pixels of lines that are not hidden.
 
-    Depths run linearly between the ends, as T2 keeps lines straight. Clip the lines at the near plane first.
+    Parameters
+    ----------
+    buffer : DepthBuffer
+        Of all that may hide them.
+    start, end : (n, 3) array_like of float
+        Column, row and depth after T2. Clip the lines at the near plane first.
+
+    Returns
+    -------
+    (p,) array of int
+        Columns.
+    (p,) array of int
+        Rows.
+    (p,) array of int
+        Lines.
+
+    Raises
+    ------
+    InputError
+        For points that are not finite, or too far away.
+
+    Notes
+    -----
+    Depths run linearly between the ends, as T2 keeps lines straight.
+
     Source: Glaeser, section 7.3 (hidden lines on the screen); erratum G7-07.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.shading import ScreenTriangles, depth_buffer
+    >>> from vectorplot.textbook import visible_line_pixels
+    >>> corners = np.array([(-1.0, -1.0, 0.5), (5.0, -1.0, 0.5), (-1.0, 5.0, 0.5)])
+    >>> buffer = depth_buffer(ScreenTriangles(corners, np.array([(0, 1, 2)]), np.array([0])), 8, 2)
+    >>> columns, rows, lines = visible_line_pixels(buffer, [(0, 0, 0.2)], [(7, 0, 0.2)])
+    >>> columns.tolist(), rows.tolist()
+    ([4, 5, 6, 7], [0, 0, 0, 0])
     """
     p, q = (np.asarray(x, dtype=np.float64).reshape(-1, 3) for x in (start, end))
     rows, columns = buffer.code.shape
@@ -86,10 +151,31 @@ def visible_line_pixels(buffer: DepthBuffer, start: ArrayLike, end: ArrayLike) -
 
 
 def depth_planes(polygons: Polygons) -> Floats:
-    """(n, 3) the planes a, b, c of polygons (column, row, depth): depth = a column + b row + c.
+    """The planes a, b, c of polygons in the image: depth = a column + b row + c.
 
-    They go through the first three corners that do not lie on a line. NaN for polygons all of whose corners do, seen
-    from the eye: those cover no pixel. Source: Glaeser, section 7.3; erratum G7-05.
+    Parameters
+    ----------
+    polygons : Polygons
+        Columns of their points: column, row and depth; n polygons.
+
+    Returns
+    -------
+    (n, 3) array of float
+        NaN for polygons all of whose corners lie on a line, seen from the eye: those cover no pixel.
+
+    Notes
+    -----
+    They go through the first three corners that do not lie on a line.
+
+    Source: Glaeser, section 7.3; erratum G7-05.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.geometry import Polygons
+    >>> from vectorplot.textbook import depth_planes
+    >>> depth_planes(Polygons.of(np.array([(0.0, 0.0, 5.0), (4.0, 0.0, 9.0), (0.0, 4.0, 13.0)]))).tolist()
+    [[1.0, 2.0, 5.0]]
     """
     points, offsets = polygons.points, polygons.offsets
     planes = np.full((len(polygons), 3), np.nan)

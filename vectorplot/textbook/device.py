@@ -21,10 +21,38 @@ from vectorplot.textbook.framebuffer import Framebuffer
 class Device:
     """A device with two pages of colour numbers.
 
-    window: None while it is closed; colour: the number that is drawn with; position: where the next line starts, area:
-    the corners of the polygon that is being described, in pixels; keys: characters typed and not yet asked for; bells:
-    how often it has beeped.
-    Errors: InputError for drawing while the window is closed, for drawing on before a first move.
+    Parameters
+    ----------
+    window : Framebuffer, optional
+        None while it is closed.
+    colour : int
+        The number that is drawn with, 0 to 255.
+    position : (2,) array of float, optional
+        Where the next line starts, in pixels.
+    area : tuple of (2,) array of float
+        The corners of the polygon that is being described, in pixels.
+    keys : str
+        Characters typed and not yet asked for.
+    bells : int
+        How often it has beeped.
+
+    Raises
+    ------
+    InputError
+        For drawing while the window is closed, for drawing on before a first move.
+
+    Notes
+    -----
+    Each of its functions gives the device after that.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import Device
+    >>> device = Device().opened(8, 4).with_colour(7).moved((0, 0)).drawn((3, 0))
+    >>> [device.pixel(column, 0) for column in range(5)]
+    [7, 7, 7, 7, 0]
+    >>> device.swapped().frame.picture()[0, 0].tolist()
+    [7, 7, 7]
     """
 
     window: Framebuffer | None = None

@@ -15,8 +15,27 @@ from vectorplot.visibility.painter.image_faces import ImageFaces, image_points
 
 @dataclass(frozen=True, eq=False)
 class Erased:
-    """A sequence of fills in the colour of the paper and of edges: after the polygon k of the painted faces is filled,
-    the edges first[k] to first[k+1] are drawn. start, end (3,e) in the image, as of ImageFaces; first (n+1,)."""
+    """A sequence of fills in the colour of the paper and of edges, which leaves the lines that one sees.
+
+    Parameters
+    ----------
+    start, end : (3, e) array of float
+        The edges in the image, as of ImageFaces.
+    first : (n+1,) array of int
+        After the polygon k of the painted faces is filled, the edges first[k] to first[k+1] are drawn.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.geometry import box
+    >>> from vectorplot.scene import look
+    >>> from vectorplot.textbook import erasing_edges
+    >>> from vectorplot.visibility import painters_order
+    >>> view = look(vp.Scene((vp.Item("cube", box((1, 1, 1))),)), vp.Camera((5, 4, 3)))
+    >>> erased = erasing_edges(view, painters_order(view).faces)
+    >>> len(erased), erased.first.tolist()
+    (12, [0, 4, 8, 12])
+    """
 
     start: Floats
     end: Floats
@@ -29,10 +48,37 @@ class Erased:
 def erasing_edges(view: View, painted: ImageFaces, drawn: Bools | None = None) -> Erased:
     """The edges to be drawn after each face has been erased, in the painter's order.
 
-    painted: the polygons, back to front. drawn (c,): which sides of the faces of the view, from each corner to the
-    next, are drawn at all (None: all but the diagonals of cut faces). Sides along which the painter cut a face are no
-    edges.
+    Parameters
+    ----------
+    view : View
+        What is drawn.
+    painted : ImageFaces
+        The polygons, back to front.
+    drawn : (c,) array of bool, optional
+        Which sides of the faces of the view, from each corner to the next, are drawn at all; all but the diagonals of
+        cut faces where None.
+
+    Returns
+    -------
+    Erased
+        Sides along which the painter cut a face are no edges.
+
+    Notes
+    -----
     Source: Glaeser, section 7.1, figure 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot.geometry import box
+    >>> from vectorplot.scene import look
+    >>> from vectorplot.textbook import erasing_edges
+    >>> from vectorplot.visibility import painters_order
+    >>> view = look(vp.Scene((vp.Item("cube", box((1, 1, 1))),)), vp.Camera((5, 4, 3)))
+    >>> faces = painters_order(view).faces
+    >>> len(faces), len(erasing_edges(view, faces)), len(erasing_edges(view, faces, np.zeros(24, dtype=bool)))
+    (3, 12, 0)
     """
     drawn = ~view.inner if drawn is None else drawn
     edge = np.flatnonzero(drawn)
@@ -83,8 +129,33 @@ def _on(points: Floats, start: Floats, end: Floats, tolerance: float) -> Bools:
 
 
 def interleaved(painted: ImageFaces, erased: Erased) -> list[tuple[Floats, Floats, Floats]]:
-    """The sequence for a format that is written one mark after the other: the corners (3,k) of a polygon, then the
-    starts and the ends (3,e) of the edges to be drawn on it."""
+    """The sequence for a format that is written one mark after the other.
+
+    Parameters
+    ----------
+    painted : ImageFaces
+        The polygons, back to front.
+    erased : Erased
+        As of erasing_edges.
+
+    Returns
+    -------
+    list of ((3, k) array, (3, e) array, (3, e) array)
+        The corners of a polygon, then the starts and the ends of the edges to be drawn on it.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.geometry import box
+    >>> from vectorplot.scene import look
+    >>> from vectorplot.textbook import erasing_edges, interleaved
+    >>> from vectorplot.visibility import painters_order
+    >>> view = look(vp.Scene((vp.Item("cube", box((1, 1, 1))),)), vp.Camera((5, 4, 3)))
+    >>> faces = painters_order(view).faces
+    >>> marks = interleaved(faces, erasing_edges(view, faces))
+    >>> [(corners.shape[1], starts.shape[1]) for corners, starts, ends in marks]
+    [(4, 4), (4, 4), (4, 4)]
+    """
     result = []
     for number in range(len(painted)):
         position, _ = ragged.take(painted.offsets, np.array([number]))

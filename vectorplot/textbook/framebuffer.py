@@ -28,10 +28,27 @@ GRAYS = np.repeat(np.arange(256, dtype=np.uint8)[:, None], 3, axis=1)
 
 @dataclass(frozen=True, eq=False)
 class Framebuffer:
-    """Two pages of pixels.
+    """Two pages of pixels, one that is seen and one that is drawn on.
 
-    pages (2, rows, columns, k) uint8: k = 1 for numbers in colours (256, 3), k = 3 for red, green and blue (colours is
-    None then); shown: the page that is seen, the other one is drawn on.
+    Parameters
+    ----------
+    pages : (2, rows, columns, k) array of uint8
+        k = 1 for numbers of colours, k = 3 for red, green and blue.
+    colours : (256, 3) array of uint8, optional
+        What the numbers mean; None where pages are red, green and blue.
+    shown : int
+        The page that is seen; the other one is drawn on.
+
+    Notes
+    -----
+    Source: Glaeser, section 4.6.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import Framebuffer, swapped_buffers, with_pixels
+    >>> frame = with_pixels(Framebuffer.of_rgb(4, 2), [(1, 0)], (255, 0, 0))
+    >>> frame.picture()[0, 1].tolist(), swapped_buffers(frame).picture()[0, 1].tolist()
+    ([0, 0, 0], [255, 0, 0])
     """
 
     pages: Bytes
@@ -40,13 +57,45 @@ class Framebuffer:
 
     @classmethod
     def of_numbers(cls, columns: int, rows: int) -> Framebuffer:
-        """Pages of colour numbers, all 0. Errors: InputError for a raster too large or without pixels."""
+        """Pages of colour numbers, all 0.
+
+        Parameters
+        ----------
+        columns, rows : int
+            The size in pixels.
+
+        Returns
+        -------
+        Framebuffer
+            Its colours are 256 grays.
+
+        Raises
+        ------
+        InputError
+            For a raster too large or without pixels.
+        """
         columns, rows = raster_size(columns, rows)
         return cls(np.zeros((2, rows, columns, 1), dtype=np.uint8), GRAYS)
 
     @classmethod
     def of_rgb(cls, columns: int, rows: int) -> Framebuffer:
-        """Pages of red, green and blue, all black. Errors: InputError for a raster too large or without pixels."""
+        """Pages of red, green and blue, all black.
+
+        Parameters
+        ----------
+        columns, rows : int
+            The size in pixels.
+
+        Returns
+        -------
+        Framebuffer
+            Without a colour table.
+
+        Raises
+        ------
+        InputError
+            For a raster too large or without pixels.
+        """
         columns, rows = raster_size(columns, rows)
         return cls(np.zeros((2, rows, columns, 3), dtype=np.uint8), None)
 
@@ -79,7 +128,30 @@ class Framebuffer:
 def with_colour(frame: Framebuffer, number: int, red: int, green: int, blue: int) -> Framebuffer:
     """The framebuffer with another colour in its table, which all pixels of that number take at once.
 
-    Errors: InputError for numbers and components outside 0 to 255, and without a colour table.
+    Parameters
+    ----------
+    frame : Framebuffer
+        As it is.
+    number : int
+        0 to 255.
+    red, green, blue : int
+        0 to 255.
+
+    Returns
+    -------
+    Framebuffer
+        With the same pages.
+
+    Raises
+    ------
+    InputError
+        For numbers and components outside 0 to 255, and without a colour table.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import Framebuffer, with_colour
+    >>> with_colour(Framebuffer.of_numbers(4, 2), 0, 255, 0, 0).picture()[0, 0].tolist()
+    [255, 0, 0]
     """
     if frame.colours is None or not 0 <= number <= 255 or not all(0 <= c <= 255 for c in (red, green, blue)):
         raise InputError(f"colour {number}: {red}, {green}, {blue} does not fit into the colour table")
@@ -89,19 +161,86 @@ def with_colour(frame: Framebuffer, number: int, red: int, green: int, blue: int
 
 
 def swapped_buffers(frame: Framebuffer) -> Framebuffer:
-    """The framebuffer with the drawn page shown, and the other one to be drawn on."""
+    """The framebuffer with the drawn page shown, and the other one to be drawn on.
+
+    Parameters
+    ----------
+    frame : Framebuffer
+        As it is.
+
+    Returns
+    -------
+    Framebuffer
+        With the same pages.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import Framebuffer, cleared, swapped_buffers
+    >>> frame = cleared(Framebuffer.of_numbers(4, 2), 9)
+    >>> frame.picture().max().item(), swapped_buffers(frame).picture().min().item()
+    (0, 9)
+    """
     return replace(frame, shown=frame.drawn)
 
 
 def cleared(frame: Framebuffer, colour: Colour) -> Framebuffer:
-    """The framebuffer with the drawn page in one colour."""
+    """The framebuffer with the drawn page in one colour.
+
+    Parameters
+    ----------
+    frame : Framebuffer
+        As it is.
+    colour : int or (int, int, int)
+        A number, or red, green and blue, as the pages hold them; 0 to 255.
+
+    Returns
+    -------
+    Framebuffer
+        The page that is shown is as it was.
+
+    Raises
+    ------
+    InputError
+        For what is no colour of the pages.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import Framebuffer, cleared, pixel_colours
+    >>> pixel_colours(cleared(Framebuffer.of_rgb(4, 2), (0, 0, 255)), [(3, 1)]).tolist()
+    [[0, 0, 255]]
+    """
     pages = frame.pages.copy()
     pages[frame.drawn] = _bytes(frame, colour)
     return replace(frame, pages=pages)
 
 
 def pixel_colours(frame: Framebuffer, points: ArrayLike) -> Bytes:
-    """(n, k) what stands on the drawn page at points (n, 2), column and row. Errors: InputError outside the raster."""
+    """What stands on the drawn page at some points.
+
+    Parameters
+    ----------
+    frame : Framebuffer
+        What is asked.
+    points : (n, 2) array_like of float
+        Column and row; the nearest pixel counts.
+
+    Returns
+    -------
+    (n, k) array of uint8
+        Numbers, or red, green and blue.
+
+    Raises
+    ------
+    InputError
+        For points outside the raster, or not finite.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import Framebuffer, pixel_colours, with_pixels
+    >>> frame = with_pixels(Framebuffer.of_numbers(4, 2), [(0, 0), (3, 1)], [5, 6])
+    >>> pixel_colours(frame, [(0, 0), (2.7, 1.2)]).tolist()
+    [[5], [6]]
+    """
     column, row = whole_pixels(points).T
     if not ((column >= 0) & (column < frame.columns) & (row >= 0) & (row < frame.rows)).all():
         raise InputError(f"a pixel lies outside the raster of {frame.columns} x {frame.rows}")
@@ -109,7 +248,34 @@ def pixel_colours(frame: Framebuffer, points: ArrayLike) -> Bytes:
 
 
 def with_pixels(frame: Framebuffer, points: ArrayLike, colours: ArrayLike) -> Framebuffer:
-    """The framebuffer with pixels at points (n, 2) in one colour or in n; those outside the raster are left out."""
+    """The framebuffer with pixels at points in one colour or in n.
+
+    Parameters
+    ----------
+    frame : Framebuffer
+        As it is.
+    points : (n, 2) array_like of float
+        Column and row; those outside the raster are left out.
+    colours : (k,) or (n, k) array_like of int
+        As the pages hold them; a number alone where k = 1.
+
+    Returns
+    -------
+    Framebuffer
+        With a new drawn page.
+
+    Raises
+    ------
+    InputError
+        For what is no colour of the pages, for points that are not finite or too far away.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import Framebuffer, with_pixels
+    >>> frame = with_pixels(Framebuffer.of_numbers(4, 2), [(0, 0), (3, 1), (9, 9)], 7)
+    >>> frame.pages[frame.drawn, ..., 0].tolist()
+    [[7, 0, 0, 0], [0, 0, 0, 7]]
+    """
     column, row = whole_pixels(points).T
     inside = np.flatnonzero((column >= 0) & (column < frame.columns) & (row >= 0) & (row < frame.rows))
     pages = frame.pages.copy()
@@ -119,7 +285,41 @@ def with_pixels(frame: Framebuffer, points: ArrayLike, colours: ArrayLike) -> Fr
 
 
 def with_lines(frame: Framebuffer, start: ArrayLike, end: ArrayLike, colours: ArrayLike) -> Framebuffer:
-    """The framebuffer with lines (n, 2 or more) in one colour or in n; later lines lie over earlier ones."""
+    """The framebuffer with lines in one colour or in n; later lines lie over earlier ones.
+
+    Parameters
+    ----------
+    frame : Framebuffer
+        As it is.
+    start, end : (n, 2 or more) array_like of float
+        Column and row; lines are cut off at the raster.
+    colours : (k,) or (n, k) array_like of int
+        As the pages hold them; a number alone where k = 1.
+
+    Returns
+    -------
+    Framebuffer
+        With a new drawn page.
+
+    Raises
+    ------
+    InputError
+        For what is no colour of the pages, for points that are not finite or too far away, and for other numbers of
+        ends than of starts.
+
+    Notes
+    -----
+    Degenerate: a line without length is one pixel.
+
+    Source: Glaeser, section 4.6 (Bresenham); erratum G4-09.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import Framebuffer, with_lines
+    >>> frame = with_lines(Framebuffer.of_numbers(6, 3), [(0, 0)], [(5, 2)], 1)
+    >>> frame.pages[frame.drawn, ..., 0].tolist()
+    [[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 0, 0], [0, 0, 0, 0, 1, 1]]
+    """
     values = _many(frame, colours, len(np.atleast_2d(np.asarray(start))))
     pages = frame.pages.copy()
     for part in line_pixels(start, end, frame.columns, frame.rows):
@@ -130,7 +330,37 @@ def with_lines(frame: Framebuffer, start: ArrayLike, end: ArrayLike, colours: Ar
 def with_rubber_bands(frame: Framebuffer, start: ArrayLike, end: ArrayLike, colour: Colour) -> Framebuffer:
     """The framebuffer with lines drawn by exclusive or: drawn again they vanish, and what was there is back.
 
+    Parameters
+    ----------
+    frame : Framebuffer
+        As it is.
+    start, end : (n, 2 or more) array_like of float
+        Column and row.
+    colour : int or (int, int, int)
+        As the pages hold it.
+
+    Returns
+    -------
+    Framebuffer
+        With a new drawn page.
+
+    Raises
+    ------
+    InputError
+        For what with_lines refuses.
+
+    Notes
+    -----
     Source: Glaeser, section 4.6.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import Framebuffer, cleared, with_rubber_bands
+    >>> before = cleared(Framebuffer.of_numbers(6, 3), 12)
+    >>> band = with_rubber_bands(before, [(0, 0)], [(5, 2)], 255)
+    >>> after = with_rubber_bands(band, [(0, 0)], [(5, 2)], 255)
+    >>> bool((band.pages == before.pages).all()), bool((after.pages == before.pages).all())
+    (False, True)
     """
     value = _bytes(frame, colour)
     pages = frame.pages.copy()
@@ -145,8 +375,40 @@ def with_rubber_bands(frame: Framebuffer, start: ArrayLike, end: ArrayLike, colo
 def with_polygons(frame: Framebuffer, polygons: Polygons, colours: ArrayLike) -> Framebuffer:
     """The framebuffer with filled polygons in one colour or in n; later polygons lie over earlier ones.
 
+    Parameters
+    ----------
+    frame : Framebuffer
+        As it is.
+    polygons : Polygons
+        Column and row of their corners.
+    colours : (k,) or (n, k) array_like of int
+        As the pages hold them; a number alone where k = 1.
+
+    Returns
+    -------
+    Framebuffer
+        With a new drawn page.
+
+    Raises
+    ------
+    InputError
+        For what is no colour of the pages, and for corners that are not finite or too far away.
+
+    Notes
+    -----
     Polygons with a common edge leave no gap and share no pixel; one that lies in a single pixel is drawn as that pixel.
-    Errors: InputError as polygon_pixels. Source: Glaeser, section 4.6, figure 7.
+
+    Source: Glaeser, section 4.6, figure 7.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.geometry import Polygons
+    >>> from vectorplot.textbook import Framebuffer, with_polygons
+    >>> square = Polygons.of(np.array([(0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (0.0, 2.0)]))
+    >>> frame = with_polygons(Framebuffer.of_numbers(5, 3), square, 9)
+    >>> frame.pages[frame.drawn, ..., 0].tolist()
+    [[9, 9, 9, 0, 0], [9, 9, 9, 0, 0], [0, 0, 0, 0, 0]]
     """
     values = _many(frame, colours, len(polygons))
     return _painted(frame, polygons, lambda found: values[found.polygon])
@@ -155,9 +417,38 @@ def with_polygons(frame: Framebuffer, polygons: Polygons, colours: ArrayLike) ->
 def with_smooth_polygons(frame: Framebuffer, polygons: Polygons) -> Framebuffer:
     """The framebuffer with polygons filled in shades that run linearly between their corners.
 
-    polygons: x, y, and as further columns the colour number, or red, green and blue; shades beyond 0 to 255
-    are cut off.
+    Parameters
+    ----------
+    frame : Framebuffer
+        As it is.
+    polygons : Polygons
+        Column, row, and as further columns the colour number, or red, green and blue; shades beyond 0 to 255 are cut
+        off.
+
+    Returns
+    -------
+    Framebuffer
+        With a new drawn page.
+
+    Raises
+    ------
+    InputError
+        For corners with another number of shades than the pages have, and for those that are not finite or too far
+        away.
+
+    Notes
+    -----
     Source: Glaeser, section 4.6 (Gouraud shading); erratum G4-12.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.geometry import Polygons
+    >>> from vectorplot.textbook import Framebuffer, with_smooth_polygons
+    >>> square = Polygons.of(np.array([(0.0, 0.0, 0.0), (4.0, 0.0, 200.0), (4.0, 2.0, 200.0), (0.0, 2.0, 0.0)]))
+    >>> frame = with_smooth_polygons(Framebuffer.of_numbers(5, 3), square)
+    >>> frame.pages[frame.drawn, 0, :, 0].tolist()
+    [0, 50, 100, 150, 0]
     """
     if polygons.points.shape[1] - 2 != frame.pages.shape[3]:
         raise InputError(f"the corners need {frame.pages.shape[3]} shades, not {polygons.points.shape[1] - 2}")

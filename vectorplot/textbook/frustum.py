@@ -22,9 +22,35 @@ _FACES = ([0, 2, 3, 1], [4, 5, 7, 6], [0, 4, 6, 2], [1, 3, 7, 5], [2, 6, 7, 3], 
 class Frustum:
     """What a system shows of the world: the frustum between the far and the near plane, inside the clipping window.
 
+    Parameters
+    ----------
+    system : CoordinateSystem
+        Of the eye.
+    box : Box
+        The clipping window, and the depths after T2 of the far and the near plane.
+
+    Raises
+    ------
+    InputError
+        For depths that are not in front of the neutral plane.
+
+    Notes
+    -----
     In a parallel projection it is a box, and the depths of the clipping box are those of the system.
-    Errors: InputError for depths that are not in front of the neutral plane.
+
     Source: Glaeser, sections 2.2 and 2.5, figures 3, 4 and 11.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.geometry import Box, CoordinateSystem, Window
+    >>> from vectorplot.textbook import Frustum
+    >>> system = CoordinateSystem.of_image(vp.Camera((0, 0, 10), up=(0, 1, 0)))
+    >>> frustum = Frustum(system, Box(Window(-1, 1, -1, 1), -0.5, 1.0))
+    >>> frustum.depths, frustum.mesh.face_count
+    ((-10.0, 5.0), 6)
+    >>> frustum.contains([(0, 0, 0), (1.5, 0, 0), (1.5, 0, -9)]).tolist()
+    [True, False, True]
     """
 
     system: CoordinateSystem

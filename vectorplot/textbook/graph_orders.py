@@ -10,11 +10,29 @@ from vectorplot.visibility.painter.slices import eye_coordinate, slice_order
 
 
 def graph_triangles(rows: int, columns: int) -> Ints:
-    """The triangles (2 rows columns, 3) over a grid of rows x columns patches, whose corner (i, j) is the vertex
-    i (columns + 1) + j: patch k = i columns + j has the triangles 2 k, on the right of the diagonal from its corner
-    (i, j) to (i + 1, j + 1), and 2 k + 1, on its left; counter-clockwise where x grows with i and y with j.
+    """The triangles over a grid of rows x columns patches.
 
+    Parameters
+    ----------
+    rows, columns : int
+        How many patches there are each way.
+
+    Returns
+    -------
+    (2 rows columns, 3) array of int
+        Corner (i, j) is the vertex i (columns + 1) + j. Patch k = i columns + j has the triangles 2 k, on the right of
+        the diagonal from its corner (i, j) to (i + 1, j + 1), and 2 k + 1, on its left; counter-clockwise where x grows
+        with i and y with j.
+
+    Notes
+    -----
     Source: Glaeser, section 5.4.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import graph_triangles
+    >>> graph_triangles(1, 2).tolist()
+    [[0, 3, 4], [0, 4, 1], [1, 4, 5], [1, 5, 2]]
     """
     corner = np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)
     triangles = np.empty((rows, columns, 2, 3), dtype=np.intp)
@@ -26,13 +44,41 @@ def graph_triangles(rows: int, columns: int) -> Ints:
 
 
 def graph_order(x: ArrayLike, y: ArrayLike, eye: ArrayLike) -> Ints:
-    """The triangles of graph_triangles over the grid lines x (m+1,) and y (n+1,), back to front: (2 m n,).
+    """The triangles of graph_triangles over some grid lines, back to front.
 
-    eye (3,), or (x, y, z, 0) for a direction towards it, in the coordinates of the grid; its height does not matter.
+    Parameters
+    ----------
+    x : (m+1,) array_like of float
+        Ascending.
+    y : (n+1,) array_like of float
+        Ascending.
+    eye : (3,) or (4,) array_like of float
+        In the coordinates of the grid, or (x, y, z, 0) for a direction towards it; its height does not matter.
+
+    Returns
+    -------
+    (2 m n,) array of int
+        Numbers of triangles.
+
+    Raises
+    ------
+    InputError
+        Where the lines do not ascend, or the eye is not finite.
+
+    Notes
+    -----
     On each axis the slices on one side of the eye come first, towards it, then those on the other side, and last the
     eye's own; of a patch the triangle beyond the vertical plane through the diagonal goes before the other one.
-    Errors: InputError where the lines do not ascend, or the eye is not finite.
+
     Source: Glaeser, section 5.4, figure 7.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import graph_order
+    >>> graph_order([0, 1], [0, 1, 2], eye=(0.5, 9, 3)).tolist()
+    [0, 1, 2, 3]
+    >>> graph_order([0, 1], [0, 1, 2], eye=(0.5, -9, 3)).tolist()
+    [3, 2, 1, 0]
     """
     lines = [np.asarray(line, dtype=np.float64) for line in (x, y)]
     place = np.asarray(eye, dtype=np.float64)

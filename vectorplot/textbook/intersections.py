@@ -18,11 +18,28 @@ from vectorplot.tolerances.of_numbers import INFINITE, ROUNDING
 
 @dataclass(frozen=True, eq=False)
 class LineCut:
-    """Where lines are cut. point (..., k); parameter (...): how many directions from the line's first point; parallel
-    (...).
+    """Where lines are cut.
 
+    Parameters
+    ----------
+    point : (..., k) array of float
+        In the plane or in space.
+    parameter : (...) array of float
+        How many directions from the line's first point.
+    parallel : (...) array of bool
+        Whether the line is parallel to what should cut it.
+
+    Notes
+    -----
     Degenerate: a line that lies in what should cut it is cut at its first point, parameter 0; one that never meets it
     is cut infinitely far out. Both are flagged parallel.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import line_and_line
+    >>> cut = line_and_line((0, 0), (1, 0), (3, 1), (1, 0))
+    >>> cut.parallel.item(), cut.parameter.item()
+    (True, inf)
     """
 
     point: Floats
@@ -31,9 +48,33 @@ class LineCut:
 
 
 def line_and_plane(start: ArrayLike, direction: ArrayLike, plane: Plane) -> LineCut:
-    """The points where lines start + t * direction (..., 3) pierce planes.
+    """The points where lines start + t * direction pierce planes.
+
+    Parameters
+    ----------
+    start, direction : (..., 3) array_like of float
+        A point and a direction of each line.
+    plane : Plane
+        One for all lines, or one for each.
+
+    Returns
+    -------
+    LineCut
+        The points, and their parameters t.
+
+    Notes
+    -----
+    Degenerate: for lines that are parallel to the plane see LineCut.
 
     Source: Glaeser, section 1.3, equation 16; erratum G1-03.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import Plane, line_and_plane
+    >>> plane = Plane.through((0, 0, 2), (1, 0, 2), (0, 1, 2))
+    >>> cut = line_and_plane((1, 1, 0), (0, 0, 1), plane)
+    >>> cut.point.tolist(), cut.parameter.item()
+    ([1.0, 1.0, 2.0], 2.0)
     """
     a, d = np.asarray(start, dtype=np.float64), np.asarray(direction, dtype=np.float64)
     arm = plane.point - a
@@ -45,11 +86,35 @@ def line_and_plane(start: ArrayLike, direction: ArrayLike, plane: Plane) -> Line
 
 
 def line_and_line(a: ArrayLike, d: ArrayLike, b: ArrayLike, e: ArrayLike) -> LineCut:
-    """The points where lines a + t * d meet the coplanar lines b + s * e, in the plane or in space (..., 2 or 3).
+    """The points where lines a + t * d meet the coplanar lines b + s * e, in the plane or in space.
 
-    In space the equation is read along d x e, so lines in any plane will do, upright ones too. Of two skew lines
-    it is the point of the first that is nearest to the second.
+    Parameters
+    ----------
+    a, d : (..., 2 or 3) array_like of float
+        A point and a direction of each line that is cut.
+    b, e : (..., 2 or 3) array_like of float
+        A point and a direction of the other line.
+
+    Returns
+    -------
+    LineCut
+        The points, and their parameters t.
+
+    Notes
+    -----
+    In space the equation is read along d x e, so lines in any plane will do, upright ones too. Of two skew lines it is
+    the point of the first that is nearest to the second.
+
+    Degenerate: for parallel lines see LineCut.
+
     Source: Glaeser, section 1.3, equations 17 to 20; erratum G1-01.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import line_and_line
+    >>> cut = line_and_line((0, 0), (1, 1), (4, 0), (0, 1))
+    >>> cut.point.tolist(), cut.parameter.item(), cut.parallel.item()
+    ([4.0, 4.0], 4.0, False)
     """
     a, d, b, e = (np.asarray(x, dtype=np.float64) for x in (a, d, b, e))
     arm = b - a
@@ -77,12 +142,38 @@ def _cut(a: Floats, d: Floats, above: Floats, below: Floats, parallel: Bools, wi
 
 
 def segments(p1: ArrayLike, q1: ArrayLike, p2: ArrayLike, q2: ArrayLike) -> tuple[Floats, Floats, Bools]:
-    """The parameters t1 on P1 Q1 and t2 on P2 Q2 of the points where the lines of two segments meet, and whether they
-    do.
+    """The parameters of the points where the lines of two segments meet, and whether they do.
 
-    Points (..., 2 or 3). The segments themselves cross where both parameters lie in [0, 1]. Where the lines are
-    parallel, or identical, the flag is False and both parameters are infinite.
+    Parameters
+    ----------
+    p1, q1 : (..., 2 or 3) array_like of float
+        The ends of the first segment.
+    p2, q2 : (..., 2 or 3) array_like of float
+        The ends of the second segment.
+
+    Returns
+    -------
+    (...) array of float
+        The parameter on the first segment, 0 at p1 and 1 at q1.
+    (...) array of float
+        That on the second.
+    (...) array of bool
+        Whether there is one such point.
+
+    Notes
+    -----
+    The segments themselves cross where both parameters lie in [0, 1].
+
+    Degenerate: where the lines are parallel, or identical, the flag is False and both parameters are infinite.
+
     Source: Glaeser, section 1.3 (segments).
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import segments
+    >>> t1, t2, meet = segments((0, 0), (4, 4), (0, 2), (2, 0))
+    >>> t1.item(), t2.item(), meet.item()
+    (0.25, 0.5, True)
     """
     p1, q1, p2, q2 = (np.asarray(x, dtype=np.float64) for x in (p1, q1, p2, q2))
     first = line_and_line(p1, q1 - p1, p2, q2 - p2)
@@ -93,15 +184,42 @@ def segments(p1: ArrayLike, q1: ArrayLike, p2: ArrayLike, q2: ArrayLike) -> tupl
 
 
 def polygons_common_segment(first: ArrayLike, second: ArrayLike) -> tuple[Floats, Bools]:
-    """The segments in which planar convex polygons in space pierce each other: ends (..., 2, 3), and whether there is
-    one.
+    """The segments in which planar convex polygons in space pierce each other, and whether there is one.
 
-    first (..., n, 3), second (..., m, 3): corners in either sense, leading axes are broadcast, so many pairs go at
-    once.
-    Degenerate: none for parallel or coplanar polygons, and for polygons that touch in a single point; an edge of
-    one that lies in the other counts. Ends where there is none are undefined numbers, but finite.
-    Errors: InputError for polygons of fewer than three corners.
+    Parameters
+    ----------
+    first : (..., n, 3) array_like of float
+        Corners in either sense.
+    second : (..., m, 3) array_like of float
+        The same; leading axes are broadcast, so many pairs go at once.
+
+    Returns
+    -------
+    (..., 2, 3) array of float
+        Both ends; where there is no segment undefined numbers, but finite.
+    (...) array of bool
+        Whether there is one.
+
+    Raises
+    ------
+    InputError
+        For polygons of fewer than three corners.
+
+    Notes
+    -----
+    Degenerate: none for parallel or coplanar polygons, and for polygons that touch in a single point; an edge of one
+    that lies in the other counts.
+
     Source: Glaeser, section 1.3, equations 21 and 22; errata G1-01, G1-02, G1-03.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import polygons_common_segment
+    >>> floor = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0)]
+    >>> sail = [(1, 1, -1), (1, 1, 1), (1, 3, 0)]
+    >>> ends, exists = polygons_common_segment(floor, sail)
+    >>> ends.tolist(), exists.item()
+    ([[1.0, 2.0, 0.0], [1.0, 1.0, 0.0]], True)
     """
     p, q = np.asarray(first, dtype=np.float64), np.asarray(second, dtype=np.float64)
     if p.shape[-2] < 3 or q.shape[-2] < 3:

@@ -18,7 +18,16 @@ from vectorplot.geometry.vectors import cross
 
 
 class Position(Enum):
-    """How one convex outline lies on another."""
+    """How one convex outline lies on another.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import Position
+    >>> Position.CROSSING.value
+    'the borders cross'
+    >>> len(Position)
+    4
+    """
 
     DISJOINT = "no common inner points"
     CROSSING = "the borders cross"
@@ -28,8 +37,24 @@ class Position(Enum):
 
 @dataclass(frozen=True)
 class RelativePosition:
-    """The position of two outlines, and the depths of the first and of the second at one common point of the image,
-    where they differ most of all points looked at; NaN where there is none."""
+    """The position of two outlines, and which of them is nearer.
+
+    Parameters
+    ----------
+    position : Position
+        How the first lies on the second.
+    first_depth, second_depth : float
+        The depths of the first and of the second at one common point of the image, where they differ most of all points
+        looked at; NaN where there is none.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import relative_position
+    >>> low = [(0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1)]
+    >>> far_off = [(5, 0, 3), (6, 0, 3), (6, 1, 3)]
+    >>> relative_position(low, far_off)
+    RelativePosition(position=<Position.DISJOINT: 'no common inner points'>, first_depth=nan, second_depth=nan)
+    """
 
     position: Position
     first_depth: float
@@ -37,14 +62,43 @@ class RelativePosition:
 
 
 def in_convex_polygon(points: ArrayLike, polygon: ArrayLike) -> tuple[Bools, Floats]:
-    """Which points (p, 2 or more columns) lie inside a convex polygon (n, 3), x, y and depth, wound either way, or on
-    its border; and (p,) the polygon's depth there.
+    """Which points lie inside a convex polygon or on its border, and the polygon's depth there.
 
+    Parameters
+    ----------
+    points : (p, 2 or more) array_like of float
+        x and y; further columns do not matter.
+    polygon : (n, 3) array_like of float
+        Corners of x, y and depth, wound either way.
+
+    Returns
+    -------
+    (p,) array of bool
+        Which points lie inside, or on the border.
+    (p,) array of float
+        The polygon's depth there, NaN outside.
+
+    Raises
+    ------
+    InputError
+        For fewer than three corners, or numbers that are not finite.
+
+    Notes
+    -----
     The chord from the first corner through a point leaves the polygon at a side; what lies on the chord is inside, and
-    the depth on it is linear. Outside the depth is NaN.
-    Errors: InputError for fewer than three corners, or numbers that are not finite.
+    the depth on it is linear.
+
     Degenerate: a polygon without area contains nothing.
+
     Source: Glaeser, section 6.2, equations 1 and 2, figure 2; errata G6-05, G6-06.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import in_convex_polygon
+    >>> ramp = [(0, 0, 0), (4, 0, 4), (4, 4, 4), (0, 4, 0)]
+    >>> inside, depth = in_convex_polygon([(1, 2), (5, 2)], ramp)
+    >>> inside.tolist(), depth.tolist()
+    ([True, False], [1.0, nan])
     """
     corner, p = _checked(polygon), np.atleast_2d(np.asarray(points, dtype=np.float64))[:, :2]
     arm, out = corner[1:, :2] - corner[0, :2], p - corner[0, :2]
@@ -67,13 +121,42 @@ def in_convex_polygon(points: ArrayLike, polygon: ArrayLike) -> tuple[Bools, Flo
 
 
 def relative_position(first: ArrayLike, second: ArrayLike) -> RelativePosition:
-    """How two convex outlines (n,3) and (m,3), x, y and depth, wound either way, lie on each other.
+    """How two convex outlines lie on each other.
 
+    Parameters
+    ----------
+    first : (n, 3) array_like of float
+        Corners of x, y and depth, wound either way.
+    second : (m, 3) array_like of float
+        The same.
+
+    Returns
+    -------
+    RelativePosition
+        With the depths of both where they differ most.
+
+    Raises
+    ------
+    InputError
+        For fewer than three corners, or numbers that are not finite.
+
+    Notes
+    -----
     The depths are compared where the borders cross and at corners of one inside the other; of these points that one
     counts where they differ most, so that a difference that rounding could make is told by another.
+
     Degenerate: outlines that only touch are disjoint; of two in the same place the first lies inside the second.
-    Errors: InputError for fewer than three corners, or numbers that are not finite.
+
     Source: Glaeser, section 6.2; errata G5-02, G6-05, G6-06.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import relative_position
+    >>> large = [(0, 0, 1), (4, 0, 1), (4, 4, 1), (0, 4, 1)]
+    >>> small = [(1, 1, 3), (2, 1, 3), (2, 2, 3)]
+    >>> found = relative_position(large, small)
+    >>> found.position.name, found.first_depth, found.second_depth
+    ('SECOND_IN_FIRST', 1.0, 3.0)
     """
     one, two = _checked(first), _checked(second)
     if _kept_apart(one, two) or _kept_apart(two, one):

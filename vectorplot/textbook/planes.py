@@ -16,11 +16,34 @@ from vectorplot.tolerances.of_numbers import ROUNDING
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """Planes n.x = c. normal (..., 3), of any length; point (..., 3): a point of each plane.
+    """Planes n.x = c.
 
+    Parameters
+    ----------
+    normal : (..., 3) array of float
+        Of any length but zero.
+    point : (..., 3) array of float
+        A point of each plane.
+
+    Raises
+    ------
+    InputError
+        For a normal without length.
+
+    Notes
+    -----
     The point is kept, and distances are measured from it, because n.x - c loses its digits far from the origin.
-    Errors: InputError for a normal without length.
+
     Source: Glaeser, section 1.1, equations 8 to 10.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import Plane
+    >>> plane = Plane.through((0, 0, 2), (1, 0, 2), (0, 1, 2))
+    >>> plane.normal.tolist(), plane.constant.item()
+    ([0.0, 0.0, 1.0], 2.0)
+    >>> plane.distance([(5, 5, 5), (0, 0, 0)]).tolist(), plane.side([(5, 5, 5), (0, 0, 0)]).tolist()
+    ([3.0, -2.0], [1, -1])
     """
 
     normal: Floats
@@ -34,9 +57,22 @@ class Plane:
 
     @classmethod
     def through(cls, p: ArrayLike, q: ArrayLike, r: ArrayLike) -> Plane:
-        """The planes through three points (..., 3) each; P, Q, R run counter-clockwise seen from the normal's tip.
+        """The planes through three points each.
 
-        Errors: InputError for three points on a line.
+        Parameters
+        ----------
+        p, q, r : (..., 3) array_like of float
+            They run counter-clockwise seen from the normal's tip.
+
+        Returns
+        -------
+        Plane
+            As many as there are triples of points.
+
+        Raises
+        ------
+        InputError
+            For three points on a line.
         """
         p, q, r = (np.asarray(x, dtype=np.float64) for x in (p, q, r))
         u, v = q - p, r - p
@@ -49,7 +85,25 @@ class Plane:
 
     @classmethod
     def of_equation(cls, normal: ArrayLike, constant: ArrayLike) -> Plane:
-        """The planes n.x = c for normals (..., 3) and constants (...)."""
+        """The planes n.x = c.
+
+        Parameters
+        ----------
+        normal : (..., 3) array_like of float
+            Of any length but zero.
+        constant : (...) array_like of float
+            The c of each plane.
+
+        Returns
+        -------
+        Plane
+            With the point that is nearest to the origin.
+
+        Raises
+        ------
+        InputError
+            For a normal without length.
+        """
         n = np.asarray(normal, dtype=np.float64)
         squared = dot(n, n)
         if not np.all(squared > 0.0):

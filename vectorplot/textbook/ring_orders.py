@@ -13,10 +13,32 @@ from vectorplot.visibility.painter.slices import eye_coordinate, slice_order
 
 
 def sliced_meridian(meridian: ArrayLike) -> Floats:
-    """The meridian (k,2), radius and height, with more points where it passes the height of one of its points: every
-    side then lies between two neighbouring heights.
+    """The meridian with more points where it passes the height of one of its points.
 
+    Parameters
+    ----------
+    meridian : (k, 2) array_like of float
+        Radius, not negative, and height.
+
+    Returns
+    -------
+    (n, 2) array of float
+        Every side lies between two neighbouring heights.
+
+    Raises
+    ------
+    InputError
+        For fewer than two points, negative radii, and numbers that are not finite.
+
+    Notes
+    -----
     Source: Glaeser, section 5.2, figure 3.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import sliced_meridian
+    >>> sliced_meridian([(0, 2), (2, 0), (1, 1)]).tolist()
+    [[0.0, 2.0], [1.0, 1.0], [2.0, 0.0], [1.0, 1.0]]
     """
     line = _checked(meridian)
     level = np.unique(line[:, 1])
@@ -33,16 +55,40 @@ def sliced_meridian(meridian: ArrayLike) -> Floats:
 
 
 def ring_order(meridian: ArrayLike, order: int, eye: ArrayLike) -> Ints:
-    """The faces of a surface of revolution about the z-axis, back to front: ((k-1) order,).
+    """The faces of a surface of revolution about the z-axis, back to front.
 
-    meridian (k,2), radius and height, sliced as by sliced_meridian and not crossing itself; face i order + j is swept
-    by the side from point i to i+1 between the azimuths j and j+1 times 2 pi / order. eye (3,), or (x, y, z, 0) for a
-    direction towards it, in coordinates in which z is the axis.
+    Parameters
+    ----------
+    meridian : (k, 2) array_like of float
+        Radius and height, sliced as by sliced_meridian and not crossing itself.
+    order : int
+        How many faces go round.
+    eye : (3,) or (4,) array_like of float
+        In coordinates in which z is the axis, or (x, y, z, 0) for a direction towards it.
+
+    Returns
+    -------
+    ((k-1) order,) array of int
+        Face i order + j is swept by the side from point i to i+1 between the azimuths j and j+1 times 2 pi / order.
+
+    Raises
+    ------
+    InputError
+        Where a side of the meridian passes the height of a point, and for what sliced_meridian refuses.
+
+    Notes
+    -----
     Slices are drawn in the order of slice_order; within a slice first what the rays leave its rings through, outer
     rings before inner ones, then what they enter them through, inner rings before outer ones. Right wherever the eye
     is: above, below, inside.
-    Errors: InputError where a side of the meridian passes the height of a point.
+
     Source: Glaeser, section 5.2, figure 3; erratum G5-09.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import ring_order
+    >>> ring_order([(1, 0), (1, 1)], order=4, eye=(9, 1, 0.5)).tolist()
+    [1, 2, 0, 3]
     """
     line = _checked(meridian)
     place = np.asarray(eye, dtype=np.float64)

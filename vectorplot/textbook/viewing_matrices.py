@@ -20,15 +20,51 @@ from vectorplot.tolerances.of_angles import PARALLEL_SINE
 
 
 def homogeneous(points: ArrayLike) -> Floats:
-    """Homogeneous coordinates (..., k+1) of points (..., k), last component 1."""
+    """Homogeneous coordinates of points, last component 1.
+
+    Parameters
+    ----------
+    points : (..., k) array_like of float
+        In the plane or in space.
+
+    Returns
+    -------
+    (..., k+1) array of float
+        With one more column.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import homogeneous
+    >>> homogeneous([(3, 4)]).tolist()
+    [[3.0, 4.0, 1.0]]
+    """
     p = np.asarray(points, dtype=np.float64)
     return np.concatenate([p, np.ones((*p.shape[:-1], 1))], axis=-1)
 
 
 def dehomogenized(points: ArrayLike) -> Floats:
-    """The points (..., k) of homogeneous coordinates (..., k+1), which may carry any common factor.
+    """The points of homogeneous coordinates, which may carry any common factor.
 
-    Errors: InputError for points at infinity (last component 0).
+    Parameters
+    ----------
+    points : (..., k+1) array_like of float
+        Homogeneous.
+
+    Returns
+    -------
+    (..., k) array of float
+        Divided by the last component.
+
+    Raises
+    ------
+    InputError
+        For points at infinity (last component 0).
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import dehomogenized
+    >>> dehomogenized([(6, 8, 2)]).tolist()
+    [[3.0, 4.0]]
     """
     p = np.asarray(points, dtype=np.float64)
     if np.any(p[..., -1] == 0.0):
@@ -37,15 +73,58 @@ def dehomogenized(points: ArrayLike) -> Floats:
 
 
 def transformed(matrix: ArrayLike, points: ArrayLike) -> Floats:
-    """The points (..., k) under a homogeneous matrix (k+1, k+1), after division by the last component."""
+    """Points under a homogeneous matrix, after division by the last component.
+
+    Parameters
+    ----------
+    matrix : (k+1, k+1) array_like of float
+        Acts on homogeneous columns.
+    points : (..., k) array_like of float
+        In the plane or in space.
+
+    Returns
+    -------
+    (..., k) array of float
+        Their images.
+
+    Raises
+    ------
+    InputError
+        For images at infinity.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import transformed, viewport
+    >>> transformed(viewport(100, 80), [(-1, -1, 0), (1, 1, 0)]).tolist()
+    [[-0.5, -0.5, 0.0], [99.5, 79.5, 0.0]]
+    """
     return dehomogenized(homogeneous(points) @ np.asarray(matrix, dtype=np.float64).T)
 
 
 def window_transform(source: ArrayLike, target: ArrayLike) -> Floats:
-    """The matrix (k+1, k+1) that carries one box to another, translate, scale, translate: k = 2 windows, k = 3 boxes.
+    """The matrix that carries one box to another, translate, scale, translate: windows in the plane, boxes in space.
 
-    source, target (2, k): two opposite corners each, in the same order; a target may run backwards, which mirrors.
-    Errors: InputError for a source box without extent.
+    Parameters
+    ----------
+    source, target : (2, k) array_like of float
+        Two opposite corners each, in the same order; a target may run backwards, which mirrors.
+
+    Returns
+    -------
+    (k+1, k+1) array of float
+        Acts on homogeneous columns.
+
+    Raises
+    ------
+    InputError
+        For a source box without extent.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import transformed, window_transform
+    >>> matrix = window_transform([(0, 0), (2, 2)], [(0, 100), (100, 0)])
+    >>> transformed(matrix, [(0, 0), (1, 2)]).tolist()
+    [[0.0, 100.0], [50.0, 0.0]]
     """
     s, t = np.asarray(source, dtype=np.float64), np.asarray(target, dtype=np.float64)
     if np.any(s[0] == s[1]):
@@ -58,8 +137,29 @@ def window_transform(source: ArrayLike, target: ArrayLike) -> Floats:
 
 
 def viewport(columns: int, rows: int) -> Floats:
-    """The matrix (4, 4) from the square [-1, 1]^2 to an image of so many pixels, whose centres are the integers: the
-    image is [-1/2, columns - 1/2] x [-1/2, rows - 1/2]. Depth is kept. Row 0 is at y = -1."""
+    """The matrix from the square [-1, 1]^2 to an image of so many pixels, whose centres are the integers.
+
+    Parameters
+    ----------
+    columns, rows : int
+        The size in pixels.
+
+    Returns
+    -------
+    (4, 4) array of float
+        The image is [-1/2, columns - 1/2] x [-1/2, rows - 1/2]. Depth is kept. Row 0 is at y = -1.
+
+    Raises
+    ------
+    InputError
+        For an image without pixels.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import transformed, viewport
+    >>> transformed(viewport(4, 2), [(0, 0, 0.5)]).tolist()
+    [[1.5, 0.5, 0.5]]
+    """
     if columns < 1 or rows < 1:
         raise InputError(f"an image of {columns} x {rows} pixels shows nothing")
     matrix = np.eye(4)
@@ -70,9 +170,32 @@ def viewport(columns: int, rows: int) -> Floats:
 
 @dataclass(frozen=True)
 class ViewVolume:
-    """What is seen, in camera coordinates: left < right and bottom < top in the plane z = near, and 0 > near > far.
+    """What is seen, in camera coordinates.
 
-    Errors: InputError for a volume that is empty or reaches the eye. Source: lecture, M_orth, P and M_per.
+    Parameters
+    ----------
+    left, right : float
+        Limits of x in the plane z = near, left < right.
+    bottom, top : float
+        Limits of y there, bottom < top.
+    near, far : float
+        Limits of z, 0 > near > far.
+
+    Raises
+    ------
+    InputError
+        For a volume that is empty or reaches the eye.
+
+    Notes
+    -----
+    Source: lecture, M_orth, P and M_per.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import ViewVolume, transformed
+    >>> volume = ViewVolume(-1, 1, -1, 1, near=-1, far=-9)
+    >>> transformed(volume.orthographic_perspective, [(1, 1, -1), (9, -9, -9)]).tolist()
+    [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0]]
     """
 
     left: float
@@ -88,7 +211,27 @@ class ViewVolume:
 
     @classmethod
     def of_field(cls, fov_deg: float, aspect: float, near: float, far: float) -> ViewVolume:
-        """The symmetric volume with a field of vision over its height and an aspect = width / height."""
+        """The symmetric volume with a field of vision over its height.
+
+        Parameters
+        ----------
+        fov_deg : float
+            In degrees.
+        aspect : float
+            Width / height.
+        near, far : float
+            As of ViewVolume.
+
+        Returns
+        -------
+        ViewVolume
+            With the eye's ray in its middle.
+
+        Raises
+        ------
+        InputError
+            For what ViewVolume refuses.
+        """
         half = -near * float(np.tan(np.radians(fov_deg) / 2.0))
         return cls(-half * aspect, half * aspect, -half, half, near, far)
 
@@ -114,10 +257,32 @@ class ViewVolume:
 
 
 def basis_of(vector: ArrayLike, other: ArrayLike | None = None) -> Floats:
-    """An orthonormal right-handed frame (3, 3) of rows u, v, w with w along the vector.
+    """An orthonormal right-handed frame of rows u, v, w with w along a vector.
 
-    other: any vector that is not collinear; u is normal to both. Without it, the axis that encloses the largest angle.
-    Errors: InputError for vectors without length, or collinear ones.
+    Parameters
+    ----------
+    vector : (3,) array_like of float
+        Of any length but zero.
+    other : (3,) array_like of float, optional
+        Any vector that is not collinear; u is normal to both. Where None, the axis that encloses the largest angle.
+
+    Returns
+    -------
+    (3, 3) array of float
+        Its rows are unit vectors.
+
+    Raises
+    ------
+    InputError
+        For vectors without length, or collinear ones.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.textbook import basis_of
+    >>> frame = basis_of((1, 2, 2))
+    >>> np.allclose(frame @ frame.T, np.eye(3)), np.allclose(frame[2], (1 / 3, 2 / 3, 2 / 3))
+    (True, True)
     """
     w = normalize(vector)
     t = np.eye(3)[np.argmin(np.abs(w))] if other is None else normalize(other)
@@ -129,15 +294,60 @@ def basis_of(vector: ArrayLike, other: ArrayLike | None = None) -> Floats:
 
 
 def basis_of_gaze(gaze: ArrayLike, up: ArrayLike) -> Floats:
-    """The frame (3, 3) of rows u right, v up, w against the gaze."""
+    """The frame of rows u right, v up, w against the gaze.
+
+    Parameters
+    ----------
+    gaze : (3,) array_like of float
+        The direction one looks in.
+    up : (3,) array_like of float
+        What is upwards in the picture, not along the gaze.
+
+    Returns
+    -------
+    (3, 3) array of float
+        Its rows are unit vectors.
+
+    Raises
+    ------
+    InputError
+        For vectors without length, or collinear ones.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.textbook import basis_of_gaze
+    >>> np.allclose(basis_of_gaze(gaze=(0, 5, 0), up=(0, 0, 1)), [(1, 0, 0), (0, 0, 1), (0, -1, 0)])
+    True
+    """
     return basis_of(-np.asarray(gaze, dtype=np.float64), up)
 
 
 def world_from_frame(origin: ArrayLike, basis: ArrayLike) -> Floats:
-    """The matrix (k+1, k+1) from coordinates in a frame to the world's: its columns are the basis vectors and the
-    origin.
+    """The matrix from coordinates in a frame to the world's: its columns are the basis vectors and the origin.
 
-    basis (k, k): rows u, v (and w). Source: lecture; erratum V-01.
+    Parameters
+    ----------
+    origin : (k,) array_like of float
+        Of the frame, in the world.
+    basis : (k, k) array_like of float
+        Rows u, v (and w).
+
+    Returns
+    -------
+    (k+1, k+1) array of float
+        Acts on homogeneous columns.
+
+    Notes
+    -----
+    Source: lecture; erratum V-01.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import transformed, world_from_frame
+    >>> matrix = world_from_frame((5, 0), [(0, 1), (-1, 0)])
+    >>> transformed(matrix, (2, 0)).tolist()
+    [5.0, 2.0]
     """
     e, rows = np.asarray(origin, dtype=np.float64), np.asarray(basis, dtype=np.float64)
     matrix = np.eye(len(e) + 1)
@@ -146,8 +356,31 @@ def world_from_frame(origin: ArrayLike, basis: ArrayLike) -> Floats:
 
 
 def frame_from_world(origin: ArrayLike, basis: ArrayLike) -> Floats:
-    """The matrix (k+1, k+1) from the world's coordinates to those in an orthonormal frame. Source: lecture; erratum
-    V-02."""
+    """The matrix from the world's coordinates to those in an orthonormal frame.
+
+    Parameters
+    ----------
+    origin : (k,) array_like of float
+        Of the frame, in the world.
+    basis : (k, k) array_like of float
+        Rows u, v (and w).
+
+    Returns
+    -------
+    (k+1, k+1) array of float
+        Acts on homogeneous columns.
+
+    Notes
+    -----
+    Source: lecture; erratum V-02.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import frame_from_world, transformed
+    >>> matrix = frame_from_world((5, 0), [(0, 1), (-1, 0)])
+    >>> transformed(matrix, (5, 2)).tolist()
+    [2.0, 0.0]
+    """
     e, rows = np.asarray(origin, dtype=np.float64), np.asarray(basis, dtype=np.float64)
     matrix = np.eye(len(e) + 1)
     matrix[:-1, :-1], matrix[:-1, -1] = rows, -rows @ e
@@ -155,23 +388,114 @@ def frame_from_world(origin: ArrayLike, basis: ArrayLike) -> Floats:
 
 
 def camera_matrix(eye: ArrayLike, gaze: ArrayLike, up: ArrayLike) -> Floats:
-    """M_cam (4, 4) from the world to camera coordinates: the eye goes to the origin, the gaze to -z."""
+    """M_cam, from the world to camera coordinates: the eye goes to the origin, the gaze to -z.
+
+    Parameters
+    ----------
+    eye : (3,) array_like of float
+        In the world.
+    gaze, up : (3,) array_like of float
+        As of basis_of_gaze.
+
+    Returns
+    -------
+    (4, 4) array of float
+        Acts on homogeneous columns.
+
+    Raises
+    ------
+    InputError
+        For vectors without length, or collinear ones.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.textbook import camera_matrix, transformed
+    >>> camera = camera_matrix(eye=(0, -5, 0), gaze=(0, 1, 0), up=(0, 0, 1))
+    >>> np.allclose(transformed(camera, [(0, 0, 0), (1, 0, 2)]), [(0, 0, -5), (1, 2, -5)])
+    True
+    """
     return frame_from_world(eye, basis_of_gaze(gaze, up))
 
 
 def pixel_matrix(camera: ArrayLike, volume: ViewVolume, columns: int, rows: int) -> Floats:
-    """M (4, 4) = viewport, orthographic, perspective and camera matrix in one: from the world to pixels and depth."""
+    """Viewport, orthographic, perspective and camera matrix in one: from the world to pixels and depth.
+
+    Parameters
+    ----------
+    camera : (4, 4) array_like of float
+        As of camera_matrix.
+    volume : ViewVolume
+        What is seen.
+    columns, rows : int
+        The size of the image in pixels.
+
+    Returns
+    -------
+    (4, 4) array of float
+        Acts on homogeneous columns.
+
+    Raises
+    ------
+    InputError
+        For an image without pixels.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import ViewVolume, camera_matrix, pixel_matrix, transformed
+    >>> camera = camera_matrix(eye=(0, 0, 5), gaze=(0, 0, -1), up=(0, 1, 0))
+    >>> matrix = pixel_matrix(camera, ViewVolume(-1, 1, -1, 1, -1, -9), 100, 80)
+    >>> transformed(matrix, [(0, 0, 4), (1, 1, 4)])[:, :2].round(6).tolist()
+    [[49.5, 39.5], [99.5, 79.5]]
+    """
     return np.asarray(viewport(columns, rows) @ volume.orthographic_perspective @ np.asarray(camera, dtype=np.float64))
 
 
 def segments_to_pixels(
     starts: ArrayLike, ends: ArrayLike, camera: ArrayLike, volume: ViewVolume, columns: int, rows: int
 ) -> tuple[Floats, Floats, Bools]:
-    """The images of segments: starts and ends (n, 3) in pixels and depth, and (n,) which segments have an image.
+    """The images of segments, and which segments have one.
 
+    Parameters
+    ----------
+    starts, ends : (n, 3) array_like of float
+        In the world.
+    camera : (4, 4) array_like of float
+        As of camera_matrix.
+    volume : ViewVolume
+        What is seen.
+    columns, rows : int
+        The size of the image in pixels.
+
+    Returns
+    -------
+    (n, 3) array of float
+        The images of the starts, in pixels and depth; zeros where there is none.
+    (n, 3) array of float
+        Those of the ends.
+    (n,) array of bool
+        Which segments have an image.
+
+    Raises
+    ------
+    InputError
+        For an image without pixels.
+
+    Notes
+    -----
     Segments are cut at the near plane before the division, so one that reaches behind the eye shows its part in front.
-    Nothing else is cut. Ends of a segment without an image are zeros.
+    Nothing else is cut.
+
     Source: lecture, final algorithm; erratum V-04.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import ViewVolume, camera_matrix, segments_to_pixels
+    >>> camera = camera_matrix(eye=(0, 0, 5), gaze=(0, 0, -1), up=(0, 1, 0))
+    >>> volume = ViewVolume(-1, 1, -1, 1, -1, -9)
+    >>> starts, ends, seen = segments_to_pixels([(0, 0, 0), (0, 0, 6)], [(1, 0, 6), (0, 0, 9)], camera, volume, 100, 80)
+    >>> seen.tolist(), ends[0, 2].round(6).item()
+    ([True, False], 1.0)
     """
     camera = np.asarray(camera, dtype=np.float64)
     p, q = (homogeneous(x) @ camera.T for x in (starts, ends))
