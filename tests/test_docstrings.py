@@ -104,6 +104,7 @@ ROOMS = [
     "shading",
     "surfaces",
     "testing",
+    "textbook",
 ]
 
 
