@@ -28,7 +28,24 @@ Drawn = TypeVar("Drawn")
 
 @dataclass(frozen=True)
 class Window:
-    """A rectangle of the image: the clipping region. Errors: InputError where it is empty."""
+    """A rectangle of the image: the clipping region.
+
+    Parameters
+    ----------
+    min_x, max_x, min_y, max_y : float
+        Its sides, min_x < max_x and min_y < max_y.
+
+    Raises
+    ------
+    InputError
+        Where it is empty.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.Window.of_size(640, 480)
+    Window(min_x=0.0, max_x=640, min_y=0.0, max_y=480)
+    """
 
     min_x: float
     max_x: float
@@ -59,7 +76,32 @@ class Window:
 class Box:
     """A clipping window with depths after T2: far and near plane.
 
-    The initial values are z = -4 d and z = 0.8 d for an eye at the distance d. Errors: InputError where it is empty.
+    Parameters
+    ----------
+    window : Window
+        Its sides in the image.
+    min_z : float
+        The far plane.
+    max_z : float
+        The near plane.
+
+    Raises
+    ------
+    InputError
+        Where it is empty.
+
+    Notes
+    -----
+    The initial values are z = -4 d and z = 0.8 d for an eye at the distance d.
+
+    Source: Glaeser, section 2.5.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> box = geometry.Box(geometry.Window(-1, 1, -1, 1))
+    >>> box.min_z, box.max_z, box.planes.shape
+    (-0.8, 4.0, (6, 4))
     """
 
     window: Window
@@ -87,9 +129,32 @@ class Box:
 
 
 def region_codes(points: ArrayLike, region: Window | Box) -> Codes:
-    """(...) sums of region codes of points (..., 2 or more), 0 inside; in a Box also in front of it or behind it.
+    """Sums of region codes of points: on which sides of a window or box they are outside.
 
+    Parameters
+    ----------
+    points : (..., 2 or more) array_like of float
+        x and y; for a box also the depth after T2.
+    region : Window or Box
+        The clipping region.
+
+    Returns
+    -------
+    (...) array of uint8
+        0 inside; 1 left, 2 right, 4 above, 8 below, of a box also 16 in front of it and 32 behind it.
+
+    Notes
+    -----
     A point is in front of a box also where z* < -1: it lies behind the eye.
+
+    Source: Cohen and Sutherland; Glaeser, section 2.5.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> window = geometry.Window(0, 10, 0, 10)
+    >>> geometry.region_codes([(5, 5), (-1, 5), (12, 12)], window).tolist()
+    [0, 1, 6]
     """
     p = np.asarray(points, dtype=np.float64)
     codes = np.zeros(p.shape[:-1], dtype=np.uint8)
@@ -105,9 +170,24 @@ def region_codes(points: ArrayLike, region: Window | Box) -> Codes:
 
 @dataclass(frozen=True, eq=False)
 class ClippedLines:
-    """Segments after clipping: start and end (n, k); exists (n,): something is left; clipped (n,): something is gone.
+    """Segments after clipping.
 
-    Segments of which nothing is left keep rows with no meaning.
+    Parameters
+    ----------
+    start, end : (n, k) array of float
+        Rows of segments of which nothing is left have no meaning.
+    exists : (n,) array of bool
+        Something is left.
+    clipped : (n,) array of bool
+        Something is gone.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> window = geometry.Window(0, 10, 0, 10)
+    >>> lines = geometry.clip_lines_2d([(5, 5), (20, 0)], [(6, 6), (20, 9)], window)
+    >>> lines.exists.tolist(), lines.clipped.tolist()
+    ([True, False], [False, True])
     """
 
     start: Floats
@@ -117,10 +197,30 @@ class ClippedLines:
 
 
 def clip_lines_2d(start: ArrayLike, end: ArrayLike, window: Window) -> ClippedLines:
-    """The parts of segments (n, 2 or more columns) inside a window; further columns, such as depth, go along linearly.
+    """The parts of segments inside a window.
 
-    New ends lie on the window's sides to the last digit, and segments that are wholly inside keep every digit.
+    Parameters
+    ----------
+    start, end : (n, 2 or more) array_like of float
+        Further columns, such as depth, go along linearly.
+    window : Window
+        The clipping region.
+
+    Returns
+    -------
+    ClippedLines
+        New ends lie on the window's sides to the last digit, and segments that are wholly inside keep every digit.
+
+    Notes
+    -----
     Source: Glaeser, section 2.5 (Cohen and Sutherland); errata G2-07, G2-10.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> lines = geometry.clip_lines_2d([(-5, 5)], [(15, 5)], geometry.Window(0, 10, 0, 10))
+    >>> lines.start.tolist(), lines.end.tolist()
+    ([[0.0, 5.0]], [[10.0, 5.0]])
     """
     p, q = (np.array(x, dtype=np.float64) for x in (start, end))
     clipped = (region_codes(p, window) | region_codes(q, window)) != 0
@@ -138,10 +238,33 @@ def clip_lines_2d(start: ArrayLike, end: ArrayLike, window: Window) -> ClippedLi
 
 
 def clip_lines_3d(start: ArrayLike, end: ArrayLike, box: Box) -> ClippedLines:
-    """The parts of segments inside a box, given in homogeneous coordinates (n, 4), wherever the eye is; ends (n, 3)
-    after T2.
+    """The parts of segments inside a box, wherever the eye is.
 
+    Parameters
+    ----------
+    start, end : (n, 4) array_like of float
+        Homogeneous, as CoordinateSystem.homogeneous gives them.
+    box : Box
+        The clipping region.
+
+    Returns
+    -------
+    ClippedLines
+        Ends (n, 3) after T2.
+
+    Notes
+    -----
     Source: Glaeser, section 2.5; errata G2-08 to G2-10.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> system = geometry.CoordinateSystem.of_image(vp.Camera((0, 0, 10), up=(0, 1, 0)))
+    >>> start, end = system.homogeneous([(0, 0, 0)]), system.homogeneous([(0, 0, 20)])
+    >>> lines = geometry.clip_lines_3d(start, end, geometry.Box(geometry.Window(-1, 1, -1, 1)))
+    >>> lines.start.tolist(), lines.end.round(9).tolist()
+    ([[0.0, 0.0, 0.0]], [[0.0, 0.0, 4.0]])
     """
     p, q = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
     low, high, exists, clipped = _inside_part(p @ box.planes.T, q @ box.planes.T)
@@ -170,8 +293,22 @@ def _divided(points: Floats, exists: Bools) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Polygons:
-    """Polygons one after the other: points (c, k), offsets (n+1,): polygon i has the points offsets[i] to
-    offsets[i+1]."""
+    """Polygons one after the other.
+
+    Parameters
+    ----------
+    points : (c, k) array of float
+        The corners of all polygons.
+    offsets : (n+1,) array of int
+        Polygon i has the points offsets[i] to offsets[i+1].
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> polygons = geometry.Polygons.of([(0, 0), (1, 0), (0, 1)], [(2, 0), (3, 0), (3, 1), (2, 1)])
+    >>> len(polygons), polygons.offsets.tolist(), polygons[1][0].tolist()
+    (2, [0, 3, 7], [2.0, 0.0])
+    """
 
     points: Floats = field(metadata=EACH_POINT)
     offsets: Ints
@@ -190,12 +327,35 @@ class Polygons:
 
 
 def cut_polygons(polygons: Polygons, distance: Floats) -> tuple[Polygons, Bools]:
-    """The parts of polygons where a distance (c,), given at their corners and linear in between, is not negative.
+    """The parts of polygons where a distance, given at their corners and linear in between, is not negative.
 
-    Returns also (c',) which corners are new; those have all columns interpolated linearly. A polygon of which fewer
-    than three corners are left is left empty; the number of polygons does not change. A polygon that is not convex
-    may keep coincident edges along the cut, which enclose no area.
+    Parameters
+    ----------
+    polygons : Polygons
+        With c corners.
+    distance : (c,) array of float
+        Of every corner.
+
+    Returns
+    -------
+    Polygons
+        As many as before; one of which fewer than three corners are left is left empty.
+    (c',) array of bool
+        Which corners are new; those have all columns interpolated linearly.
+
+    Notes
+    -----
+    Degenerate: a polygon that is not convex may keep coincident edges along the cut, which enclose no area.
+
     Source: Glaeser, section 2.5 (Hodgman and Sutherland); errata G2-10 to G2-12.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> square = geometry.Polygons.of([(0, 0), (4, 0), (4, 4), (0, 4)])
+    >>> right, is_new = geometry.cut_polygons(square, square.points[:, 0] - 1.0)
+    >>> right[0].tolist(), is_new.tolist()
+    ([[1.0, 0.0], [4.0, 0.0], [4.0, 4.0], [1.0, 4.0]], [True, False, False, True])
     """
     count = len(polygons.points)
     following = ragged.following(polygons.offsets)
@@ -215,9 +375,30 @@ def cut_polygons(polygons: Polygons, distance: Floats) -> tuple[Polygons, Bools]
 
 
 def clip_polygons_2d(polygons: Polygons, window: Window) -> Polygons:
-    """The parts of polygons (2 or more columns) inside a window; further columns, such as depth, are interpolated.
+    """The parts of polygons inside a window.
 
-    New corners lie on the window's sides to the last digit. Source: Glaeser, section 2.5 (Hodgman and Sutherland).
+    Parameters
+    ----------
+    polygons : Polygons
+        2 or more columns; further ones, such as depth, are interpolated.
+    window : Window
+        The clipping region.
+
+    Returns
+    -------
+    Polygons
+        As many as before, some of them empty. New corners lie on the window's sides to the last digit.
+
+    Notes
+    -----
+    Source: Glaeser, section 2.5 (Hodgman and Sutherland).
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> square = geometry.Polygons.of([(-4, -4), (4, -4), (4, 4), (-4, 4)])
+    >>> sorted(geometry.clip_polygons_2d(square, geometry.Window(0, 9, 0, 9))[0].tolist())
+    [[0.0, 0.0], [0.0, 4.0], [4.0, 0.0], [4.0, 4.0]]
     """
     for _, axis, limit, sign in window.sides:
         polygons, is_new = cut_polygons(polygons, sign * (polygons.points[:, axis] - limit))
@@ -226,10 +407,35 @@ def clip_polygons_2d(polygons: Polygons, window: Window) -> Polygons:
 
 
 def clip_polygons_3d(polygons: Polygons, box: Box) -> Polygons:
-    """The parts of polygons, given in homogeneous coordinates (4 columns), inside a box; corners (3 columns) after T2.
+    """The parts of polygons inside a box, wherever the eye is.
 
-    Far and near come first, so that few corners are left for the sides. Source: Glaeser, section 2.5; errata G2-09,
-    G2-12.
+    Parameters
+    ----------
+    polygons : Polygons
+        Homogeneous (4 columns), as CoordinateSystem.homogeneous gives them.
+    box : Box
+        The clipping region.
+
+    Returns
+    -------
+    Polygons
+        As many as before, some of them empty; corners (3 columns) after T2.
+
+    Notes
+    -----
+    Far and near come first, so that few corners are left for the sides.
+
+    Source: Glaeser, section 2.5; errata G2-09, G2-12.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> system = geometry.CoordinateSystem.of_image(vp.Camera((0, 0, 10), up=(0, 1, 0)))
+    >>> floor = geometry.Polygons.of(system.homogeneous([(-1, -1, 0), (1, -1, 0), (1, -1, 20), (-1, -1, 20)]))
+    >>> clipped = geometry.clip_polygons_3d(floor, geometry.Box(geometry.Window(-2, 2, -2, 2), max_z=1.0))
+    >>> clipped[0].max(axis=0).round(9).tolist()
+    [2.0, -1.0, 1.0]
     """
     for plane in box.planes:
         polygons, _ = cut_polygons(polygons, polygons.points @ plane)
@@ -245,7 +451,31 @@ def clip_and_draw(
 ) -> Drawn:
     """What draw makes of the segments that clip leaves: any way of clipping goes with any way of drawing.
 
+    Parameters
+    ----------
+    start, end : (n, 2 or more) array_like of float
+        The segments.
+    clip : callable
+        clip(start, end) gives ClippedLines.
+    draw : callable
+        draw(start, end) is called with the parts that exist.
+
+    Returns
+    -------
+    Any
+        What draw returns.
+
+    Notes
+    -----
     Segments that are not clipped are drawn as they are. Source: Glaeser, section 2.5.
+
+    Examples
+    --------
+    >>> from functools import partial
+    >>> from vectorplot import geometry
+    >>> clip = partial(geometry.clip_lines_2d, window=geometry.Window(0, 10, 0, 10))
+    >>> geometry.clip_and_draw([(-5, 5), (20, 0)], [(15, 5), (20, 9)], clip, lambda start, end: (end - start).tolist())
+    [[10.0, 0.0]]
     """
     lines = clip(start, end)
     return draw(lines.start[lines.exists], lines.end[lines.exists])

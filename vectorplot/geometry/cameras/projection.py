@@ -22,11 +22,36 @@ from vectorplot.tolerances.of_numbers import INFINITE
 
 
 def project(points: ArrayLike, distance: float) -> Floats:
-    """T1: the points (..., 3) of a system with their images for x and y, and their depth z.
+    """T1: the points of a system with their images for x and y, and their depth z.
 
-    Not linear: straight edges bend. Good for an infinite distance too (then nothing changes).
-    Errors: InputError for points on or behind the neutral plane z = d: clip them first.
+    Parameters
+    ----------
+    points : (..., 3) array_like of float
+        With the eye on the z-axis.
+    distance : float
+        Of the eye from the image plane z = 0, may be infinite (then nothing changes).
+
+    Returns
+    -------
+    (..., 3) array of float
+        Image x and y, and depth.
+
+    Raises
+    ------
+    InputError
+        For points on or behind the neutral plane z = d: clip them first.
+
+    Notes
+    -----
+    Not linear: straight edges bend.
+
     Source: Glaeser, sections 2.1, equations 6 to 8, and 2.3, equations 15 and 16.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.project([(1, 2, 0), (1, 2, 5)], distance=10.0).tolist()
+    [[1.0, 2.0, 0.0], [2.0, 4.0, 5.0]]
     """
     p = np.asarray(points, dtype=np.float64)
     images = p.copy()
@@ -35,7 +60,31 @@ def project(points: ArrayLike, distance: float) -> Floats:
 
 
 def unproject(images: ArrayLike, distance: float) -> Floats:
-    """The inverse of T1: points (..., 3) from their images and depths."""
+    """The inverse of T1: points from their images and depths.
+
+    Parameters
+    ----------
+    images : (..., 3) array_like of float
+        Image x and y, and depth.
+    distance : float
+        As of project.
+
+    Returns
+    -------
+    (..., 3) array of float
+        In the system.
+
+    Raises
+    ------
+    InputError
+        For depths on or behind the neutral plane.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.unproject([(2, 4, 5)], distance=10.0).tolist()
+    [[1.0, 2.0, 5.0]]
+    """
     p = np.asarray(images, dtype=np.float64)
     points = p.copy()
     points[..., :2] /= _scale(p, distance)
@@ -43,12 +92,41 @@ def unproject(images: ArrayLike, distance: float) -> Floats:
 
 
 def collineate(points: ArrayLike, distance: float, factor: float | None = None) -> Floats:
-    """T2: the points (..., 3) with their images for x and y and the depth z* = k lambda z, lambda = d / (d - z).
+    """T2: the points with their images for x and y and the depth z* = k lambda z, lambda = d / (d - z).
 
-    Linear: planes go to planes, and z* keeps the order of z. factor: k, without it 1 / d, so that z* = z / (d - z). The
-    image plane stays fixed for every k; the centre of the collineation is (0, 0, d (1 - k)) (erratum G2-04).
+    Parameters
+    ----------
+    points : (..., 3) array_like of float
+        With the eye on the z-axis.
+    distance : float
+        Of the eye from the image plane: the d of the equation.
+    factor : float, optional
+        The k of the equation; 1 / d where None, so that z* = z / (d - z).
+
+    Returns
+    -------
+    (..., 3) array of float
+        Image x and y, and z*.
+
+    Raises
+    ------
+    InputError
+        For points on or behind the neutral plane, and for the factor 0.
+
+    Notes
+    -----
+    Linear: planes go to planes, and z* keeps the order of z. The image plane stays fixed for every k; the centre of the
+    collineation is (0, 0, d (1 - k)) (erratum G2-04).
+
     Degenerate: at an infinite distance lambda is 1, and k must be given, or is 1.
-    Errors: InputError for points on or behind the neutral plane. Source: Glaeser, section 2.3, equations 17 to 21.
+
+    Source: Glaeser, section 2.3, equations 17 to 21.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.collineate([(1, 2, 0), (1, 2, 5)], distance=10.0).tolist()
+    [[1.0, 2.0, 0.0], [2.0, 4.0, 1.0]]
     """
     p = np.asarray(points, dtype=np.float64)
     scale = np.ones(3) * _scale(p, distance)
@@ -57,7 +135,35 @@ def collineate(points: ArrayLike, distance: float, factor: float | None = None) 
 
 
 def uncollineate(images: ArrayLike, distance: float, factor: float | None = None) -> Floats:
-    """The inverse of T2: points (..., 3) from their images and depths z*. Source: Glaeser, section 2.3, equation 22."""
+    """The inverse of T2: points from their images and depths z*.
+
+    Parameters
+    ----------
+    images : (..., 3) array_like of float
+        Image x and y, and z*.
+    distance, factor : float
+        As of collineate.
+
+    Returns
+    -------
+    (..., 3) array of float
+        In the system.
+
+    Raises
+    ------
+    InputError
+        For the factor 0.
+
+    Notes
+    -----
+    Source: Glaeser, section 2.3, equation 22.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.uncollineate([(2, 4, 1)], distance=10.0).tolist()
+    [[1.0, 2.0, 5.0]]
+    """
     p = np.asarray(images, dtype=np.float64)
     # z* = k d z / (d - z), hence 1 / lambda = k d / (k d + z*).
     k = _factor(distance, factor)
@@ -91,8 +197,26 @@ def _scale(points: Floats, distance: float) -> Floats:
 
 @dataclass(frozen=True)
 class PixelWindow:
-    """A window of width x height pixels. pixel_ratio: what a unit upwards is in pixels against one to the right;
-    about -1 where rows count downwards."""
+    """A window of width x height pixels.
+
+    Parameters
+    ----------
+    width, height : float
+        In pixels.
+    pixel_ratio : float
+        What a unit upwards is in pixels against one to the right; about -1 where rows count downwards.
+
+    Raises
+    ------
+    InputError
+        For sides that are not positive and finite, and a ratio that is zero or not finite.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.PixelWindow(640, 480).normalized([(320, 240), (640, 480)]).tolist()
+    [[0.5, 0.5], [1.0, 1.0]]
+    """
 
     width: float
     height: float
@@ -103,9 +227,20 @@ class PixelWindow:
             raise InputError(f"a window of {self.width:g} x {self.height:g} pixels shows nothing")
 
     def normalized(self, pixels: ArrayLike) -> Floats:
-        """Normalised device coordinates (..., 2): 0 to 1 from left to right and from the bottom to the top of the
-        picture.
+        """Normalised device coordinates of pixels.
 
+        Parameters
+        ----------
+        pixels : (..., 2 or more) array_like of float
+            Further columns do not matter.
+
+        Returns
+        -------
+        (..., 2) array of float
+            0 to 1 from left to right and from the bottom to the top of the picture.
+
+        Notes
+        -----
         Source: Glaeser, section 2.3, equation 13, with the correction of erratum G2-02.
         """
         p = np.asarray(pixels, dtype=np.float64)[..., :2]
@@ -117,10 +252,40 @@ class PixelWindow:
 class CoordinateSystem:
     """Coordinates of space as the world, a screen or a lamp has them: image x and y, and depth z.
 
-    target (3,): the origin; rotation (3, 3): carries world directions, as rows, into the system; distance: of the
-    centre of projection, infinite for a parallel one; scale (2,), middle (2,): pixel = middle + scale * image; near:
-    how far the near plane is from the centre, as a part of that distance.
+    Parameters
+    ----------
+    target : (3,) array of float
+        The origin, in the world.
+    rotation : (3, 3) array of float
+        Carries world directions, as rows, into the system.
+    distance : float
+        Of the centre of projection from the target, infinite for a parallel one.
+    scale, middle : (float, float)
+        pixel = middle + scale * image.
+    near : float
+        How far the near plane is from the centre, as a part of that distance.
+
+    Raises
+    ------
+    InputError
+        From its functions: for impossible enlargements, lamps in the target, the centre of a parallel projection, and
+        points without an image.
+
+    Notes
+    -----
     The world itself is the parallel projection along z: world().
+
+    Source: Glaeser, sections 2.1 to 2.4.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> system = geometry.CoordinateSystem.of_image(vp.Camera((0, 0, 10), up=(0, 1, 0)))
+    >>> system.from_world([(1, 2, 0), (1, 2, 5)]).tolist()
+    [[1.0, 2.0, 0.0], [2.0, 4.0, 5.0]]
+    >>> system.to_world([(2, 4, 5)]).tolist()
+    [[1.0, 2.0, 5.0]]
     """
 
     target: Floats
@@ -144,7 +309,27 @@ class CoordinateSystem:
     def of_screen(cls, camera: Camera, window: PixelWindow, enlarge: float = 1.0) -> CoordinateSystem:
         """A camera's system, in which images are measured in pixels: the field of vision fills the window's height.
 
-        enlarge: a zoom about the middle that leaves the field of vision, and so the perspective, as it is.
+        Parameters
+        ----------
+        camera : Camera
+            The eye.
+        window : PixelWindow
+            The screen.
+        enlarge : float
+            A zoom about the middle that leaves the field of vision, and so the perspective, as it is.
+
+        Returns
+        -------
+        CoordinateSystem
+            With the target in the middle of the window.
+
+        Raises
+        ------
+        InputError
+            For an enlargement that is not positive and finite.
+
+        Notes
+        -----
         Source: Glaeser, sections 2.3, equations 11 to 14, and 2.4; errata G2-02, G2-03, G2-06.
         """
         if not 0.0 < enlarge < np.inf:
@@ -157,8 +342,29 @@ class CoordinateSystem:
 
     @classmethod
     def of_light(cls, position: ArrayLike, target: ArrayLike = (0.0, 0.0, 0.0)) -> CoordinateSystem:
-        """The system of a lamp at a position (3,): a camera without twist, whose images are shadows in the plane
-        through the target. Errors: InputError for a lamp in the target. Source: Glaeser, section 2.4."""
+        """The system of a lamp: a camera without twist, whose images are shadows in the plane through the target.
+
+        Parameters
+        ----------
+        position : (3,) array_like of float
+            Of the lamp, in the world.
+        target : (3,) array_like of float
+            What it shines at.
+
+        Returns
+        -------
+        CoordinateSystem
+            A central projection.
+
+        Raises
+        ------
+        InputError
+            For a lamp in the target.
+
+        Notes
+        -----
+        Source: Glaeser, section 2.4.
+        """
         ray = np.asarray(position, dtype=np.float64) - np.asarray(target, dtype=np.float64)
         return cls(np.asarray(target, dtype=np.float64), look_rotation(ray), float(length(ray)))
 
@@ -220,14 +426,65 @@ class CoordinateSystem:
 
 
 def changed_coordinates(points: ArrayLike, source: CoordinateSystem, target: CoordinateSystem) -> Floats:
-    """Points (..., 3) of one system in another, such as from the screen to a lamp. Source: Glaeser, section 2.4."""
+    """Points of one system in another, such as from the screen to a lamp.
+
+    Parameters
+    ----------
+    points : (..., 3) array_like of float
+        In the first system.
+    source, target : CoordinateSystem
+        From which and into which they are brought.
+
+    Returns
+    -------
+    (..., 3) array of float
+        In the second system.
+
+    Raises
+    ------
+    InputError
+        For points that lie on or behind a neutral plane.
+
+    Notes
+    -----
+    Source: Glaeser, section 2.4.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> eye = geometry.CoordinateSystem.of_image(vp.Camera((0, 0, 10), up=(0, 1, 0)))
+    >>> geometry.changed_coordinates([(2, 4, 5)], eye, geometry.CoordinateSystem.world()).tolist()
+    [[1.0, 2.0, 5.0]]
+    """
     return target.from_world(source.to_world(points))
 
 
 def with_target_as_origin(target: ArrayLike, *pools: ArrayLike) -> tuple[Floats, ...]:
-    """The pools of points (..., 3), centres of projection among them, moved so that the target is the origin.
+    """Pools of points, centres of projection among them, moved so that the target is the origin.
 
+    Parameters
+    ----------
+    target : (3,) array_like of float
+        In the world.
+    pools : (..., 3) array_like of float
+        As many as there are.
+
+    Returns
+    -------
+    tuple of (..., 3) array of float
+        As many.
+
+    Notes
+    -----
     Source: Glaeser, section 2.4.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> vertices, eye = geometry.with_target_as_origin((1, 1, 0), [(1, 1, 1), (2, 1, 0)], (1, -9, 0))
+    >>> vertices.tolist(), eye.tolist()
+    ([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]], [0.0, -10.0, 0.0])
     """
     centre = np.asarray(target, dtype=np.float64)
     return tuple(np.asarray(np.asarray(pool, dtype=np.float64) - centre) for pool in pools)

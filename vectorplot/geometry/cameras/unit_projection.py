@@ -22,14 +22,45 @@ FARTHEST_OFF_AXIS_DEG = 60.0
 
 @dataclass(frozen=True, eq=False)
 class Projection:
-    """How a camera sees a scene: axes x right, y up, z towards the eye; origin in the middle of the scene, the largest
-    coordinate about 1.
+    """How a camera sees a scene: axes x right, y up, z towards the eye, the scene in the unit box.
 
-    eye (3,) the eye, or for a parallel projection None: then every ray runs along +z; target (3,); focus: depth of the
-    image plane, which is put into the middle of the scene; near: the smallest depth that is drawn; picture_height: of
-    the camera's picture in the image plane; tolerance: what counts as distance zero.
-    world_from_view: point = centre + scale * (p @ axes).
+    Parameters
+    ----------
+    eye : (3,) array of float, optional
+        For a parallel projection None: then every ray runs along +z.
+    target : (3,) array of float
+        Where the camera looks.
+    focus : float
+        Depth of the image plane, which is put into the middle of the scene.
+    near : float
+        The smallest depth that is drawn.
+    picture_height : float
+        Of the camera's picture in the image plane.
+    tolerance : float
+        What counts as distance zero.
+    centre : (3,) array of float
+        The middle of the scene, in the world: the origin of the projection's coordinates.
+    scale : float
+        Half the largest side of the scene, in world units: the largest coordinate is about 1.
+    axes : (3, 3) array of float
+        Unit rows right, up and back, in the world.
+
+    Notes
+    -----
+    World from view: point = centre + scale * (p @ axes).
+
     Source: Glaeser, sections 2.1 and 2.4.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> bounds = np.array([(-2.0, -2.0, -2.0), (2.0, 2.0, 2.0)])
+    >>> top = geometry.projection_of(vp.Camera.view("top"), bounds)
+    >>> points = top.points_of(np.array([(2.0, 1.0, 2.0)]))
+    >>> points.T.tolist(), top.image_of(points).T.tolist(), top.world_of(points).tolist()
+    ([[1.0, 0.5, 1.0]], [[1.0, 0.5]], [[2.0, 1.0, 2.0]])
     """
 
     eye: Floats | None
@@ -96,10 +127,38 @@ class Projection:
 
 
 def projection_of(camera: Camera, bounds: Floats) -> Projection:
-    """A camera's projection of what is inside bounds (2,3), normalised so that no later decision depends on its size or
-    place.
+    """A camera's projection of a box, normalised so that no later decision depends on its size or place.
 
-    Errors: InputError where this is so small, or the eye so far away, that its coordinates have no digits left.
+    Parameters
+    ----------
+    camera : Camera
+        Where the eye is, and how it looks.
+    bounds : (2, 3) array of float
+        Smallest and largest coordinates of the scene.
+
+    Returns
+    -------
+    Projection
+        With its origin in the middle of the box.
+
+    Raises
+    ------
+    InputError
+        Where this is so small, or the eye so far away, that its coordinates have no digits left.
+
+    Notes
+    -----
+    Degenerate: a box without extent takes the camera's distance, or height, for its size.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> bounds = np.array([(0.0, 0.0, 0.0), (8.0, 4.0, 2.0)])
+    >>> projection = geometry.projection_of(vp.Camera((4, 2, 21), (4, 2, 1), up=(0, 1, 0)), bounds)
+    >>> projection.centre.tolist(), projection.scale, projection.eye.tolist(), projection.distance
+    ([4.0, 2.0, 1.0], 4.0, [0.0, 0.0, 5.0], 5.0)
     """
     low, high = bounds
     # What is out of range by overflow is told below.

@@ -13,14 +13,43 @@ def clipped_by_convex(
 ) -> tuple[Floats, Ints, Ints]:
     """The parts of polygons inside convex polygons, pair by pair: polygon i is clipped by convex polygon i.
 
-    points (2 or more, c) of polygons offsets (n+1,): rows beyond x and y, such as heights, are interpolated;
-    clip_points (2 or more, d), of which x and y count, clip_offsets (n+1,): convex, wound either way. Corners
-    within the tolerance of a side's line count as on it and stay where they are.
-    Returns the points and offsets of the parts, and the pair each belongs to, ascending; pairs without a part are
-    missing. Polygons wholly inside keep every digit.
+    Parameters
+    ----------
+    points : (2 or more, c) array of float
+        Columns are corners; rows beyond x and y, such as heights, are interpolated.
+    offsets : (n+1,) array of int
+        Polygon i has the corners offsets[i] to offsets[i+1].
+    clip_points : (2 or more, d) array of float
+        Of the convex polygons, wound either way; x and y count.
+    clip_offsets : (n+1,) array of int
+        Of the convex polygons.
+    tolerance : float
+        Corners within the tolerance of a side's line count as on it and stay where they are.
+
+    Returns
+    -------
+    (2 or more, e) array of float
+        The corners of the parts. Polygons wholly inside keep every digit.
+    (m+1,) array of int
+        Their offsets.
+    (m,) array of int
+        The pair each part belongs to, ascending; pairs without a part are missing.
+
+    Notes
+    -----
     Degenerate: nothing is left by a convex polygon without area, or where only points of a side are common; a polygon
     that is not convex may get coincident edges along the sides, which enclose no area.
+
     Source: Glaeser, section 6.2, figure 3 (Hodgman and Sutherland); erratum G6-04.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> square, triangle = np.array([(0.0, 4, 4, 0), (0, 0, 4, 4)]), np.array([(2.0, 9, 2), (0, 0, 9)])
+    >>> points, offsets, pair = geometry.clipped_by_convex(square, np.array([0, 4]), triangle, np.array([0, 3]))
+    >>> sorted(points.T.tolist()), pair.tolist()
+    ([[2.0, 0.0], [2.0, 4.0], [4.0, 0.0], [4.0, 4.0]], [0])
     """
     lines = _lines(clip_points, clip_offsets)
     sides = np.diff(clip_offsets)
@@ -38,10 +67,31 @@ def clipped_by_convex(
 def inside_convex(
     points: Floats, offsets: Ints, clip_points: Floats, clip_offsets: Ints, *, tolerance: float = 0.0
 ) -> Bools:
-    """(n,) whether all of polygon i lies inside convex polygon i or on its border, so that clipping leaves it whole.
+    """Whether all of polygon i lies inside convex polygon i or on its border, so that clipping leaves it whole.
 
-    Arguments as of clipped. Degenerate: nothing lies inside a polygon without area.
+    Parameters
+    ----------
+    points, offsets, clip_points, clip_offsets, tolerance : array and float
+        As of clipped_by_convex.
+
+    Returns
+    -------
+    (n,) array of bool
+        For every pair.
+
+    Notes
+    -----
+    Degenerate: nothing lies inside a polygon without area.
+
     Source: Glaeser, section 6.2; erratum G6-04.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> small, large = np.array([(1.0, 2, 1), (1, 1, 2)]), np.array([(0.0, 4, 4, 0), (0, 0, 4, 4)])
+    >>> geometry.inside_convex(small, np.array([0, 3]), large, np.array([0, 4])).tolist()
+    [True]
     """
     lines = _lines(clip_points, clip_offsets)
     sides = np.diff(clip_offsets)

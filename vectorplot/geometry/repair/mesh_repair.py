@@ -81,8 +81,34 @@ def _many(count: int, one: str, many: str) -> str:
 
 @dataclass(frozen=True)
 class MeshReport:
-    """What a mesh is like. size: extents along x, y, z; closed: no boundary edge; oriented: neighbours agree about the
-    outside; convex: closed, oriented and convex within 1e-9 of its extent."""
+    """What a mesh is like.
+
+    Parameters
+    ----------
+    vertices, faces, edges : int
+        How many there are.
+    boundary_edges : int
+        Edges of one face only.
+    nonmanifold_edges : int
+        Edges of more than two faces.
+    components : int
+        Pieces that hang together.
+    closed : bool
+        No boundary edge.
+    oriented : bool
+        Neighbours agree about the outside.
+    convex : bool
+        Closed, oriented and convex within 1e-9 of its extent.
+    size : (float, float, float)
+        Extents along x, y and z.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> report = geometry.mesh_report(geometry.box((1, 2, 3)))
+    >>> report.edges, report.closed, report.convex, report.size
+    (12, True, True, (1.0, 2.0, 3.0))
+    """
 
     vertices: int
     faces: int
@@ -97,7 +123,31 @@ class MeshReport:
 
 
 def mesh_report(mesh: Mesh) -> MeshReport:
-    """The report on a mesh, in one sort of its edges. Degenerate: a mesh without faces is closed and not convex."""
+    """The report on a mesh, in one sort of its edges.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Any.
+
+    Returns
+    -------
+    MeshReport
+        Counts of faces and edges, and whether it bounds a body.
+
+    Notes
+    -----
+    Degenerate: a mesh without faces is closed and not convex.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> report = geometry.mesh_report(triangle)
+    >>> report.boundary_edges, report.closed, report.components
+    (3, False, 1)
+    """
     uses = edge_uses(mesh)
     number, _ = components(mesh, uses) if mesh.face_count else (0, None)
     boundary = int((uses.count == 1).sum())
@@ -162,8 +212,33 @@ def _solid_angles(mesh: Mesh, eye: Floats) -> Floats:
 def mended(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:
     """The mesh without degenerate faces, welded where it is open, faces agreeing about the outside; and what was done.
 
-    precision: relative spacing of the coordinates in the file (2^-23 for 32-bit floats, 2^-52 for 64-bit). What cannot
-    be mended (open, non-manifold, one-sided) is kept and counted. A closed consistent mesh is left as it is.
+    Parameters
+    ----------
+    mesh : Mesh
+        As a file has it.
+    precision : float
+        Relative spacing of the coordinates in the file (2^-23 for 32-bit floats, 2^-52 for 64-bit).
+
+    Returns
+    -------
+    Mesh
+        What cannot be mended (open, non-manifold, one-sided) is kept.
+    Mending
+        What was done, and what is left, in numbers.
+
+    Notes
+    -----
+    A closed consistent mesh is left as it is, but turned where it shows its inside, and without vertices of no face.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    >>> soup = vp.Mesh.from_triangles(corners, [(0, 1, 2), (3, 5, 4)])
+    >>> mesh, done = geometry.mended(soup, precision=2.0**-23)
+    >>> len(mesh.vertices), done.welded, done.turned
+    (4, 2, 1)
     """
     mesh, dropped = without_degenerate(mesh)
     mending = Mending(degenerate=dropped)
@@ -180,7 +255,29 @@ def mended(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:
 
 
 def welded(mesh: Mesh) -> tuple[Mesh, int]:
-    """The mesh with equal vertices made one, and how many were lost."""
+    """The mesh with equal vertices made one, and how many were lost.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        With vertices that may stand several times.
+
+    Returns
+    -------
+    Mesh
+        With the same faces.
+    int
+        How many vertices it has less.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    >>> mesh, lost = geometry.welded(vp.Mesh.from_triangles(corners, [(0, 1, 2), (3, 4, 5)]))
+    >>> len(mesh.vertices), lost
+    (4, 2)
+    """
     first, number = distinct_points(mesh.vertices)
     return Mesh(mesh.vertices[first] + 0.0, number[mesh.corners], mesh.offsets, mesh.present), len(number) - len(first)
 

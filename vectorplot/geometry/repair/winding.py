@@ -70,9 +70,30 @@ def edge_uses(mesh: Mesh) -> EdgeUses:
 def is_closed_oriented(mesh: Mesh) -> bool:
     """Whether every edge is run along as often in one direction as in the other.
 
-    That is: the mesh bounds a solid and its faces agree about the outside. No sort: every directed edge from a to b
-    adds r(a) s(b) - r(b) s(a) modulo 2^64 for fixed random r and s, which cancels. A mesh that is not closed passes
-    with a probability of about 2^-63. Degenerate: a mesh without faces is closed.
+    Parameters
+    ----------
+    mesh : Mesh
+        Any.
+
+    Returns
+    -------
+    bool
+        True where the mesh bounds a solid and its faces agree about the outside.
+
+    Notes
+    -----
+    No sort: every directed edge from a to b adds r(a) s(b) - r(b) s(a) modulo 2^64 for fixed random r and s, which
+    cancels. A mesh that is not closed passes with a probability of about 2^-63.
+
+    Degenerate: a mesh without faces is closed.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> geometry.is_closed_oriented(geometry.box((1, 1, 1))), geometry.is_closed_oriented(triangle)
+    (True, False)
     """
     return faces_are_closed(len(mesh.vertices), mesh.corners, mesh.offsets)
 
@@ -176,10 +197,37 @@ def _connected(count: int, one: Ints, other: Ints) -> tuple[int, Ints]:
 
 
 def consistent_winding(mesh: Mesh, uses: EdgeUses) -> tuple[Bools, bool]:
-    """(f,) the faces to turn round so that neighbours agree, as few as possible, and whether all agree then.
+    """Which faces to turn round so that neighbours agree, as few as possible, and whether all agree then.
 
+    Parameters
+    ----------
+    mesh : Mesh
+        With f faces.
+    uses : EdgeUses
+        Of its edges, as of edge_uses.
+
+    Returns
+    -------
+    (f,) array of bool
+        The faces to turn.
+    bool
+        False where there is a one-sided piece: it stays as it is.
+
+    Notes
+    -----
     Every face is taken twice, as listed and turned; across an edge each state of a face goes with one state of its
-    neighbour. In a one-sided piece (a Moebius band) both states of a face are connected: such a piece stays as it is.
+    neighbour. In a one-sided piece (a Moebius band) both states of a face are connected.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> from vectorplot.geometry.repair.winding import edge_uses
+    >>> corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 2, 0)]
+    >>> mesh = vp.Mesh.from_triangles(corners, [(0, 1, 2), (0, 2, 3), (2, 3, 4)])
+    >>> turn, agree = geometry.consistent_winding(mesh, edge_uses(mesh))
+    >>> turn.tolist(), agree
+    ([False, False, True], True)
     """
     faces = mesh.face_count
     same = _face_pairs(mesh, uses, uses.agree)
