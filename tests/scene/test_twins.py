@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from support.top_fills import assert_same_picture
 
 import vectorplot as vp
-from vectorplot.scene.twins import fingerprint, without_twins
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.polylines import segments
+from vectorplot.scene.twins import NOTHING, fingerprint, first_twins, without_twins
+from vectorplot.scene.view import look
 from vectorplot.surfaces import Torus
 from vectorplot.testing.shapes import box
 
@@ -46,3 +51,53 @@ def test_shapes_are_the_same_where_all_their_numbers_are() -> None:
     assert fingerprint(Torus(2.0, 0.7)) == fingerprint(Torus(2.0, 0.7)) != fingerprint(Torus(2.0, 0.71))
     assert fingerprint(box((0, 0, 0), (1, 1, 1))) != fingerprint(box((0, 0, 0), (1, 1, 2)))
     assert fingerprint(len) == fingerprint(len) != fingerprint(abs)
+
+
+def in_one_place(*shapes, hides=None):
+    hides = [True] * len(shapes) if hides is None else hides
+    items = [vp.Item(str(k), shape, occludes=hide) for k, (shape, hide) in enumerate(zip(shapes, hides, strict=True))]
+    return look(vp.Scene(tuple(items)), CAMERA)
+
+
+def test_bodies_in_one_place_are_told_from_those_that_only_begin_there() -> None:
+    one, two, long = box((0, 0, 0), (1, 1, 1)), box((0, 0, 0), (1, 1, 2)), box((0, 0, 0), (1, 1, 1 + 1e-12))
+    turned = Mesh(one.vertices, np.roll(one.corners, 4), one.offsets)
+    view = in_one_place(one, two, one, NOTHING, two, one, long, NOTHING, turned)
+    assert first_twins(view).tolist() == [0, 1, 0, 3, 1, 0, 6, 7, 8]
+
+
+def test_a_body_that_hides_nothing_is_no_twin_of_one_that_does() -> None:
+    one = box((0, 0, 0), (1, 1, 1))
+    assert first_twins(in_one_place(one, one, one, one, hides=[False, True, False, True])).tolist() == [0, 1, 0, 1]
+
+
+def test_no_bodies_or_one() -> None:
+    assert first_twins(in_one_place()).tolist() == []
+    assert first_twins(in_one_place(box((0, 0, 0), (1, 1, 1)))).tolist() == [0]
+
+
+@pytest.mark.parametrize("hidden", ["none", "solid"])
+def test_copies_of_bodies_change_no_picture(hidden) -> None:
+    # A block that two others pierce, each of them several times in its place.
+    shapes = [box((0, 0, 0), (2, 2, 2)), box((1, 1, 1), (3, 3, 3)), box((-1, 0.5, 0.5), (4, 0.8, 0.8))]
+    once, often = (
+        vp.draw(vp.Scene(tuple(vp.Item(str(k), shapes[k]) for k in which)), CAMERA, hidden=hidden)
+        for which in ([0, 1, 2], [0, 1, 2, 1, 0, 0, 2, 1, 0, 2, 2])
+    )
+    for one, other in zip(once.layers, often.layers, strict=True):
+        assert np.allclose(sides_of(one.strokes), sides_of(other.strokes), rtol=0.0, atol=1e-6)
+
+
+def sides_of(strokes):
+    """(s,4) the sides of strokes, sorted, each from left to right."""
+    ends = np.concatenate([paths.points[segments(paths)] for paths in strokes])
+    swap = (ends[:, 0, 0] > ends[:, 1, 0])[:, None, None]
+    return np.array(sorted(np.round(np.where(swap, ends[:, ::-1], ends), 6).reshape(-1, 4).tolist()))
+
+
+def test_hundreds_of_bodies_in_one_place_take_hardly_longer_than_one() -> None:
+    # What pairs of pairs of faces would take: minutes.
+    one = box((0, 0, 0), (1, 1, 1))
+    start = time.process_time()
+    vp.draw(vp.Scene(tuple(vp.Item(str(k), one) for k in range(500))))
+    assert time.process_time() - start < 5.0

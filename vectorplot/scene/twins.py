@@ -1,4 +1,4 @@
-"""Items in the very place of other ones: of those that hide each other everywhere only the last one is seen."""
+"""Items in the very place of other ones: they show nothing, hide nothing and meet nothing that those do not."""
 
 from __future__ import annotations
 
@@ -6,11 +6,19 @@ from collections import Counter
 from collections.abc import Hashable
 from dataclasses import fields, is_dataclass, replace
 from hashlib import blake2b
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import View
+
+_WEIGHT = float(np.sqrt(2.0))
+"""Sums with irrational steps between their weights differ where bodies do, nearly always."""
 
 NOTHING = Mesh(np.zeros((0, 3)), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
 
@@ -39,6 +47,60 @@ def without_twins(scene: Scene) -> Scene:
         return scene
     pairs = zip(scene.items, covered, strict=True)
     return replace(scene, items=tuple(replace(item, shape=NOTHING) if gone else item for item, gone in pairs))
+
+
+def first_twins(view: View) -> Ints:
+    """(i,) for every item of a view the first one that has, to the last digit, the same faces in the same place, and
+    hides as it does or does not: itself where no other one is before it; smooth surfaces and empty items are their own.
+    """
+    items = len(view.item_vertices) - 1
+    first = np.arange(items)
+    offsets, faces = view.item_vertices, np.searchsorted(view.face_item, np.arange(items + 1))
+    some = np.flatnonzero((np.diff(offsets) > 0) & (np.diff(faces) > 0))
+    glance = [view.occludes[some], np.diff(faces)[some], np.diff(offsets)[some], *view.points[:, offsets[some]]]
+    some, glance, _ = _alike(some, glance)
+    if not len(some):
+        return first
+    some, _, leader = _alike(some, [*glance[:3], *_weighted(view, some)])
+    return _checked(view, faces, some, leader, first) if len(some) else first
+
+
+def _alike(items: Ints, said: list[NDArray[Any]]) -> tuple[Ints, list[NDArray[Any]], Ints]:
+    """Those items (k,) of which the same is said as of another one, with what is said, and the first one of each."""
+    order = np.lexsort((items, *said))
+    new = np.ones(len(items), dtype=np.bool_)
+    new[1:] = np.logical_or.reduce([column[order[1:]] != column[order[:-1]] for column in said])
+    run = np.cumsum(new) - 1
+    several = np.bincount(run, minlength=1)[run] > 1
+    leader = items[order][np.flatnonzero(new)][run[several]] if len(items) else items
+    return items[order][several], [column[order][several] for column in said], leader
+
+
+def _weighted(view: View, items: Ints) -> list[Floats]:
+    """Sums over the coordinates of each item, weighted by their places."""
+    vertex, offsets = ragged.take(view.item_vertices, items)
+    weight = 1.0 + _WEIGHT * ragged.place(np.diff(offsets))
+    return [np.add.reduceat(weight * axis[vertex], offsets[:-1]) for axis in view.points]
+
+
+def _checked(view: View, faces: Ints, items: Ints, leader: Ints, first: Ints) -> Ints:
+    """The first ones (i,) with the leaders (k,) of items (k,) that are like them in all vertices and faces."""
+    later = items != leader
+    items, leader = items[later], leader[later]
+    same = np.ones(len(items), dtype=np.bool_)
+    for offsets, values in (
+        (view.item_vertices, [*view.points]),
+        (faces, [view.face_sizes]),
+        (view.offsets[faces], [view.corners - np.repeat(view.item_vertices[view.face_item], view.face_sizes)]),
+    ):
+        one, runs = ragged.take(offsets, items)
+        # Sizes may differ where only sums are equal.
+        other = np.minimum(ragged.ranges(offsets[leader], np.diff(runs)), len(values[0]) - 1)
+        differ = np.logical_or.reduce([column[one] != column[other] for column in values])
+        same &= ~np.logical_or.reduceat(differ, runs[:-1])
+        same &= np.diff(offsets)[items] == np.diff(offsets)[leader]
+    first[items[same]] = leader[same]
+    return first
 
 
 def _glance(shape: object) -> Hashable:

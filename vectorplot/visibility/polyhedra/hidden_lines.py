@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
+from vectorplot.scene.twins import first_twins
 from vectorplot.scene.view import View
 from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra.cells import covered_cells, entered
@@ -63,7 +64,10 @@ def visible_parts(
     if not len(segments):
         return Visibility(*intervals.complement(0, *_nothing(), gap), np.zeros(0, dtype=np.intp))
     grid, pieces = _pieces(view, faces, segments)
-    occluders = _occluders(view, faces, solid, grid, grids.deepest(grid, pieces))
+    # Of bodies in one place one hides as much as all of them.
+    once = first_twins(view) == np.arange(len(solid))
+    alone = replace(view, occludes=view.occludes & once)
+    occluders = _occluders(alone, faces, solid & once, grid, grids.deepest(grid, pieces))
     cover = covered_cells(view, grid, occluders)
     covered = pieces.nearest > cover[pieces.row * grid.columns[0] + pieces.column]
     zones = [

@@ -27,6 +27,7 @@ from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.geometry.repair.winding import pieces_of_faces
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.twins import first_twins
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import ProjectedFaces
 from vectorplot.words import LineKind
@@ -161,13 +162,26 @@ def intersection_lines(
         part = view.face_item
     else:
         part = pieces_of_faces(view.points.shape[1], view.corners, view.offsets)[1]
-    met = face_intersections(_faces(view, faces), part, view.tolerance)
-    one, two = view.face_item[met.one], view.face_item[met.two]
+    asked, which = _faces(view, faces), np.flatnonzero(~_beyond_two(first_twins(view))[view.face_item])
+    if len(which) < view.face_count:
+        asked = _some_faces(asked, which)
+    met = face_intersections(asked, part[which], view.tolerance)
+    one, two = view.face_item[which[met.one]], view.face_item[which[met.two]]
     one, two = np.minimum(one, two), np.maximum(one, two)
     kept = wants[one] | wants[two]
     owner = np.where(wants[one], one, two)[kept]
     kind = np.full(int(kept.sum()), int(LineKind.INTERSECTION))
     return straight_lines(met.start[:, kept], met.end[:, kept], kind, owner, np.zeros_like(kind))
+
+
+def _beyond_two(first: Ints) -> Bools:
+    """(i,) the items that are in the place of two others, of which the first ones (i,) are given: what they meet, and
+    how they meet each other, is told by the first two."""
+    later = np.flatnonzero(first != np.arange(len(first)))
+    second = later[np.unique(first[later], return_index=True)[1]]
+    result = np.zeros(len(first), dtype=np.bool_)
+    result[later], result[second] = True, False
+    return result
 
 
 def pattern_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines:
