@@ -9,14 +9,16 @@ from .implicit.implicit_curves import (
     implicit_plane_sections,
     implicit_point_light_isophotes,
 )
-from .implicit.implicit_tracing import ImplicitTracing
+from .implicit.implicit_tracing import ImplicitCurves, ImplicitTracing
 from .implicit.polygonize import polygonized
-from .intersections.implicit_mesh_section import implicit_mesh_section
-from .intersections.mesh_section import mesh_section
+from .intersections.double_curves import DoubleCurves
+from .intersections.implicit_mesh_section import ImplicitMeshSection, implicit_mesh_section
+from .intersections.mesh_section import MeshSection, mesh_section
 from .intersections.self_intersection import self_intersections
 from .intersections.surface_intersection import surface_intersection
-from .meshes.edges import Faces, mesh_edges
-from .meshes.mesh_intersections import face_intersections
+from .meshes.edges import Edges, Faces, mesh_edges
+from .meshes.mesh_curves import MeshCurves
+from .meshes.mesh_intersections import Intersections, face_intersections
 from .meshes.mesh_lines import (
     mesh_contour_across_faces,
     mesh_isophote_edges,
@@ -30,20 +32,31 @@ from .meshes.mesh_lines import (
 from .parametric.conditions import CentralContour, ParallelContour
 from .parametric.contour import contour, parallel_contour
 from .parametric.curve_tracing import Tracing
-from .parametric.cusps import contour_cusps, contour_with_cusps
+from .parametric.cusps import Cusps, contour_cusps, contour_with_cusps
 from .parametric.isophotes import isophotes, point_light_isophotes
 from .parametric.parameter_lines import borders, parameter_lines, u_lines, v_lines
 from .parametric.sections import level_lines, plane_sections, section_by_implicit
 from .parametric.singular_lines import singular_lines
-from .tessellation import surface_tessellation
+from .parametric.surface_curves import SurfaceCurves
+from .tessellation import Tessellation, surface_tessellation
 from .zeros.grid_triangulation import average_normals, mesh_of_grid, triangulate_surface
 from .zeros.zero_manifold import ZeroManifold, zero_manifold_of_f_uv
 
 __all__ = [
     "CentralContour",
+    "Cusps",
+    "DoubleCurves",
+    "Edges",
     "Faces",
+    "ImplicitCurves",
+    "ImplicitMeshSection",
     "ImplicitTracing",
+    "Intersections",
+    "MeshCurves",
+    "MeshSection",
     "ParallelContour",
+    "SurfaceCurves",
+    "Tessellation",
     "Tracing",
     "ZeroManifold",
     "average_normals",

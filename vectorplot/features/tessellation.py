@@ -34,10 +34,36 @@ FREE = -1
 class Tessellation:
     """Triangles with the places on the true surface that their corners have.
 
-    points (n,3); triangles (t,3) of points, places (t,3,d) of their corners; a point may have several places (seams,
-    poles). cells (t,): the cell a triangle belongs to. edges (e,2), smaller point first; sides (t,3): the edge from
-    corner k to the next. rails (e,): what a point on the edge must stay on, as its sheet numbers such lines; FREE for
-    edges inside. border (e,): edges of one triangle.
+    Parameters
+    ----------
+    points : (n, 3) array of float
+        In world coordinates.
+    triangles : (t, 3) array of int
+        Of points.
+    places : (t, 3, d) array of float
+        Of their corners, such as u and v; a point may have several places (seams, poles).
+    cells : (t,) array of int
+        The cell a triangle belongs to.
+    edges : (e, 2) array of int
+        Of points, the smaller one first.
+    sides : (t, 3) array of int
+        The edge from corner k to the next.
+    rails : (e,) array of int
+        What a point on the edge must stay on, as its sheet numbers such lines; -1 for edges inside.
+    border : (e,) array of bool
+        Edges of one triangle.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> can = surfaces.Cylinder()
+    >>> found = features.surface_tessellation(can, columns=8, rows=3)
+    >>> isinstance(found, features.Tessellation), int(found.border.sum())  # round the bottom and round the top
+    (True, 16)
+    >>> places = found.places.reshape(-1, 2)
+    >>> bool(np.allclose(can.points(*places.T), found.points[found.triangles].reshape(-1, 3)))
+    True
     """
 
     points: Floats

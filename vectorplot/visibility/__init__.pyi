@@ -3,9 +3,13 @@ from .painter.image_faces import ImageFaces, image_faces, image_points
 from .painter.mikado import Mikado, mikado
 from .painter.order import Painted, painters_order
 from .painter.pairs.face_pairs import APART, BEHIND, COPLANAR, IN_FRONT, STRADDLING
+from .painter.precedence import Precedence
 from .painter.priorities import Objects, demands, priorities, view_objects, wholly_hidden
 from .painter.slices import cut_into_slices, slice_order, sliced_order
 from .polyhedra.hidden_lines import Visibility, counted_parts, visible_parts
+from .polyhedra.occluders import solid_items
+from .polyhedra.pairs import Segments
+from .projected_faces import ProjectedFaces, project_faces
 
 __all__ = [
     "APART",
@@ -18,6 +22,9 @@ __all__ = [
     "ObjectOrder",
     "Objects",
     "Painted",
+    "Precedence",
+    "ProjectedFaces",
+    "Segments",
     "Visibility",
     "counted_parts",
     "cut_into_slices",
@@ -32,8 +39,10 @@ __all__ = [
     "object_order",
     "painters_order",
     "priorities",
+    "project_faces",
     "slice_order",
     "sliced_order",
+    "solid_items",
     "view_objects",
     "visible_parts",
     "wholly_hidden",

@@ -24,11 +24,30 @@ EVERYWHERE = np.float32(1e30)
 
 @dataclass(frozen=True, eq=False)
 class ProjectedFaces:
-    """facing (f,): 1 for a face that shows its outside, -1 its inside, 0 edge-on: then it hides nothing.
+    """Faces in the image: which side they show, and the box each one fills.
 
-    box (4,f): smallest and largest x, smallest and largest y in the image, rounded outwards; nearest (f,) smallest
-    depth. A face behind the near plane has an infinite nearest depth, one that reaches through it fills the whole
-    image."""
+    Parameters
+    ----------
+    facing : (f,) array of int8
+        1 for a face that shows its outside, -1 its inside, 0 edge-on: then it hides nothing.
+    box : (4, f) array of float32
+        Smallest and largest x, smallest and largest y in the image, rounded outwards.
+    nearest : (f,) array of float32
+        The smallest depth.
+
+    Notes
+    -----
+    A face behind the near plane has an infinite nearest depth, one that reaches through it fills the whole image.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> view = scene.look(vp.Scene((vp.Item("cube", geometry.box((1, 1, 1))),)), vp.Camera((5, 4, 3)))
+    >>> faces = visibility.project_faces(view)
+    >>> isinstance(faces, visibility.ProjectedFaces), len(faces), faces.box.shape
+    (True, 6, (4, 6))
+    """
 
     facing: Bytes
     box: Floats32
@@ -39,10 +58,32 @@ class ProjectedFaces:
 
 
 def project_faces(view: View) -> ProjectedFaces:
-    """The faces of the view in the image.
+    """The faces of a view in the image.
 
+    Parameters
+    ----------
+    view : View
+        As of scene.look.
+
+    Returns
+    -------
+    ProjectedFaces
+        One entry for each face of the view.
+
+    Notes
+    -----
     A face is edge-on where its image is narrower than the view's tolerance.
+
     Source: Glaeser, section 5.1 (backfaces and frontfaces).
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> camera = vp.Camera((0.5, -9, 0.5), target=(0.5, 0, 0.5), parallel=True)
+    >>> view = scene.look(vp.Scene((vp.Item("cube", geometry.box((1, 1, 1))),)), camera)
+    >>> sorted(visibility.project_faces(view).facing.tolist())
+    [-1, 0, 0, 0, 0, 1]
     """
     count = view.face_count
     faces = ProjectedFaces(np.empty(count, np.int8), np.empty((4, count), np.float32), np.empty(count, np.float32))

@@ -82,11 +82,36 @@ class ImplicitTracing:
 class ImplicitCurves:
     """Polylines on an implicit surface.
 
-    points (n,3); offsets (m+1,): curve i has the points offsets[i] to offsets[i+1]; closed (m,): the last point joins
-    the first, which is not repeated. Seen from where F > 0 the condition is positive on the left. levels (m,): the
-    level a curve of a family belongs to; otherwise 0.
-    isolated (i,3): single points that satisfy the condition; nodes (k,3): where curves cross.
-    doubts: a sentence for each thing that could not be decided.
+    Parameters
+    ----------
+    points : (n, 3) array of float
+        In world coordinates.
+    offsets : (m+1,) array of int
+        Curve i has the points offsets[i] to offsets[i+1].
+    closed : (m,) array of bool
+        The last point joins the first, which is not repeated.
+    levels : (m,) array of float
+        The level a curve of a family belongs to; otherwise 0.
+    isolated : (i, 3) array of float
+        Single points that satisfy the condition.
+    nodes : (k, 3) array of float
+        Where curves cross.
+    doubts : tuple of str
+        A sentence for each thing that could not be decided.
+
+    Notes
+    -----
+    Seen from where F > 0 the condition is positive on the left.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> tracing = features.ImplicitTracing(cells=12)
+    >>> curves = features.implicit_level_lines(surfaces.implicit_sphere(1.0), [0.0, 0.5], tracing=tracing)
+    >>> isinstance(curves, features.ImplicitCurves), len(curves), curves.doubts
+    (True, 2, ())
+    >>> bool((curves[1][0] == curves[1][-1]).all())  # a closed curve, led back to its first point
+    True
     """
 
     points: Floats = field(metadata=EACH_POINT)

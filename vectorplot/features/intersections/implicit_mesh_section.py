@@ -116,8 +116,24 @@ class ImplicitPatch:
 
 @dataclass(frozen=True, eq=False)
 class ImplicitMeshSection:
-    """curves: on the surface; normals (n,3): the unit normal of the face of the mesh in which the segment from every
-    point to the next runs; the last point of an open curve has that of the segment before."""
+    """The curves in which an implicit surface meets the faces of a mesh.
+
+    Parameters
+    ----------
+    curves : ImplicitCurves
+        On the surface.
+    normals : (n, 3) array of float
+        The unit normal of the face of the mesh in which the segment from every point to the next runs; the last point
+        of an open curve has that of the segment before.
+
+    Examples
+    --------
+    >>> from vectorplot import features, geometry, surfaces
+    >>> ball, cube = surfaces.implicit_sphere(1.2, centre=(1, 1, 1)), geometry.box((2, 2, 2))
+    >>> section = features.implicit_mesh_section(ball, cube, tracing=features.ImplicitTracing(cells=12))
+    >>> isinstance(section, features.ImplicitMeshSection), section.normals.shape == section.curves.points.shape
+    (True, True)
+    """
 
     curves: ImplicitCurves
     normals: Floats

@@ -27,9 +27,26 @@ MOST_BORDERS = 1000
 
 @dataclass(frozen=True, eq=False)
 class MeshSection:
-    """curves: on the surface; faces (n,): the face of the mesh in which the segment from every point to the next runs;
-    the last point of an open curve has that of the segment before; normals (n,3): its unit normal there, that of one
-    of its triangles where it is not planar."""
+    """The curves in which a surface meets the faces of a mesh.
+
+    Parameters
+    ----------
+    curves : SurfaceCurves
+        On the surface.
+    faces : (n,) array of int
+        The face of the mesh in which the segment from every point to the next runs; the last point of an open curve has
+        that of the segment before.
+    normals : (n, 3) array of float
+        Its unit normal there, that of one of its triangles where it is not planar.
+
+    Examples
+    --------
+    >>> from vectorplot import features, geometry, surfaces
+    >>> ball, cube = surfaces.Sphere(1.2, centre=(1, 1, 1)), geometry.box((2, 2, 2))
+    >>> section = features.mesh_section(ball, cube, tracing=features.Tracing(columns=15, rows=15))
+    >>> isinstance(section, features.MeshSection), section.normals.shape == section.curves.points.shape
+    (True, True)
+    """
 
     curves: SurfaceCurves
     faces: Ints

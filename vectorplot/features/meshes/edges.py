@@ -23,9 +23,34 @@ BLOCK = 1 << 16
 
 @dataclass(frozen=True, eq=False)
 class Edges:
-    """Edges of a mesh: start and end (e,) vertices, kind (e,), face (e,) one of the faces there, front (e,): whether
-    a face there shows its outside; side (e,): 1 where all faces there lie to the left of start -> end in the image,
-    -1 where they lie to the right, 0 elsewhere."""
+    """Edges of a mesh, and what they are.
+
+    Parameters
+    ----------
+    start, end : (e,) array of int
+        Vertices.
+    kind : (e,) array of int
+        Values of LineKind.
+    face : (e,) array of int
+        One of the faces there.
+    front : (e,) array of bool
+        Whether a face there shows its outside.
+    side : (e,) array of int
+        1 where all faces there lie to the left of start -> end in the image, -1 where they lie to the right, 0
+        elsewhere.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import features, geometry
+    >>> cube = geometry.box((1, 1, 1))
+    >>> facing = np.sign(cube.face_normals @ (3, 2, 1)).astype(np.int8)
+    >>> faces = features.Faces(cube.vertices.T, cube.corners, cube.offsets, np.zeros(24, dtype=bool), facing)
+    >>> edges = features.mesh_edges(faces, {vp.LineKind.EDGES}, crease_angle_deg=25.0)
+    >>> isinstance(edges, features.Edges), int(edges.front.sum()), len(edges.front)  # three of the edges are behind
+    (True, 9, 12)
+    """
 
     start: Ints
     end: Ints

@@ -35,10 +35,33 @@ NO_FACE = -1
 class MeshCurves:
     """Polylines in the faces of a mesh.
 
-    points (n,3); offsets (m+1,): curve i has the points offsets[i] to offsets[i+1]; closed (m,): the last point joins
-    the first, which is not repeated. faces (n,): the face in which the segment from each point to the next lies,
-    NO_FACE at the end of an open curve. levels (m,): the level a curve of a family belongs to. Seen from outside the
-    side of larger values is on the left.
+    Parameters
+    ----------
+    points : (n, 3) array of float
+        In world coordinates.
+    offsets : (m+1,) array of int
+        Curve i has the points offsets[i] to offsets[i+1].
+    closed : (m,) array of bool
+        The last point joins the first, which is not repeated.
+    faces : (n,) array of int
+        The face in which the segment from each point to the next lies, -1 at the end of an open curve.
+    levels : (m,) array of float
+        The level a curve of a family belongs to.
+
+    Notes
+    -----
+    Seen from outside the side of larger values is on the left.
+
+    Examples
+    --------
+    >>> from vectorplot import features, geometry
+    >>> curves = features.mesh_level_lines(geometry.box((2, 2, 2)), [0.5, 1.0])
+    >>> isinstance(curves, features.MeshCurves), len(curves), curves.levels.tolist()
+    (True, 2, [0.5, 1.0])
+    >>> len(curves[0])  # four corners, and the first one again
+    5
+    >>> len(curves.smooth(tolerance=0.01))  # Bézier paths
+    2
     """
 
     points: Floats = field(metadata=EACH_POINT)

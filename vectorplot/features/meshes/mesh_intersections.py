@@ -24,7 +24,25 @@ AXIS_SHIFT = 16.0
 
 @dataclass(frozen=True, eq=False)
 class Intersections:
-    """Segments in which two faces meet: start and end (3,n), and the two faces (n,)."""
+    """Segments in which two faces meet.
+
+    Parameters
+    ----------
+    start, end : (3, n) array of float
+        Their ends, in the coordinates of the faces.
+    one, two : (n,) array of int
+        The two faces.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features
+    >>> points = np.array([(-1, -1, 0), (1, -1, 0), (0, 1, 0), (0, -1, -1), (0, 1, -1), (0, 0, 1)], dtype=float)
+    >>> faces = features.Faces(points.T, np.arange(6), np.array([0, 3, 6]), np.zeros(6, bool), np.ones(2, np.int8))
+    >>> meeting = features.face_intersections(faces, np.array([0, 1]), tolerance=1e-9)
+    >>> isinstance(meeting, features.Intersections), meeting.one.tolist(), meeting.two.tolist()
+    (True, [0], [1])
+    """
 
     start: Floats = field(metadata=IN_COLUMNS)
     end: Floats = field(metadata=IN_COLUMNS)

@@ -31,8 +31,24 @@ ROUNDS = 6
 
 @dataclass(frozen=True, eq=False)
 class Cusps:
-    """u, v (k,): parameters, running on with those of the curves; after (k,): positions of the points of the curves
-    that come before them; in the order along the curves."""
+    """Where the image of a contour turns back.
+
+    Parameters
+    ----------
+    u, v : (k,) array of float
+        Parameters, running on with those of the curves.
+    after : (k,) array of int
+        Positions of the points of the curves that come before them; in the order along the curves.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> torus = surfaces.Torus(3.0, 1.0)
+    >>> condition = features.ParallelContour(torus, direction=(2, 0, 1))
+    >>> cusps = features.contour_cusps(condition, features.parallel_contour(torus, (2, 0, 1)))
+    >>> isinstance(cusps, features.Cusps), torus.points(cusps.u, cusps.v).shape
+    (True, (4, 3))
+    """
 
     u: Floats
     v: Floats

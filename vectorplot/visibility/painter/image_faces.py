@@ -21,11 +21,34 @@ from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, ne
 
 @dataclass(frozen=True, eq=False)
 class ImageFaces:
-    """Convex polygons, counter-clockwise in the image.
+    """Convex polygons in the image, after the projective map that makes all sight lines parallel.
 
-    points (3,c): x and y in the image plane, and the height above it, which grows towards the eye; offsets (n+1,);
-    planes (5,n): x, y and height of a point of each plane and its two slopes; source (n,): the face of the view each
-    polygon is (a part of); rank (n,): the order in which faces that lie in one plane are drawn.
+    Parameters
+    ----------
+    points : (3, c) array of float
+        x and y in the image plane, and the height above it, which grows towards the eye; counter-clockwise.
+    offsets : (n+1,) array of int
+        Polygon i has the points offsets[i] to offsets[i+1].
+    planes : (5, n) array of float
+        x, y and height of a point of each plane and its two slopes.
+    source : (n,) array of int
+        The face of the view each polygon is (a part of).
+    rank : (n,) array of int
+        The order in which faces that lie in one plane are drawn.
+
+    Notes
+    -----
+    Planes stay planes, and every face is a convex polygon over its image. Made by image_faces.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> view = scene.look(vp.Scene((vp.Item("cube", geometry.box((1, 1, 1))),)), vp.Camera((5, 4, 3)))
+    >>> faces = visibility.image_faces(view, np.arange(6))
+    >>> len(faces), faces.some(np.array([0, 1])).offsets.tolist()
+    (6, [0, 4, 8])
     """
 
     points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)
@@ -106,10 +129,36 @@ def outer_sides(view: View) -> Ints:
 
 
 def image_faces(view: View, which: Ints) -> ImageFaces:
-    """Some faces of the view in the image, cut off at the near plane; those seen edge-on are left out.
+    """Some faces of the view in the image, cut off at the near plane.
 
+    Parameters
+    ----------
+    view : View
+        As of scene.look.
+    which : (n,) array of int
+        Faces of the view.
+
+    Returns
+    -------
+    ImageFaces
+        Without those seen edge-on.
+
+    Notes
+    -----
     The height over the image plane is f (f - d) / d for the depth d and the image plane's depth f; in a parallel
-    projection it is f - d itself. Source: Glaeser, section 2.4 (the transformation T2).
+    projection it is f - d itself.
+
+    Source: Glaeser, section 2.4 (the transformation T2).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> cube = vp.Item("cube", geometry.box((1, 1, 1)))
+    >>> view = scene.look(vp.Scene((cube,)), vp.Camera((0, 0, 9), parallel=True))
+    >>> len(visibility.image_faces(view, np.arange(6)))  # the four sides are seen edge-on
+    2
     """
     position, offsets = ragged.take(view.offsets, which)
     corner = view.corners[position]
@@ -123,8 +172,36 @@ def image_faces(view: View, which: Ints) -> ImageFaces:
 
 
 def image_points(view: View, points: Floats) -> Floats:
-    """(3,n) x and y in the image, and heights that grow towards the eye, of points (3,n) of the view: the projective
-    map that makes sight lines parallel. Without meaning where they are nearer than the near plane.
+    """Points of the view under the projective map that makes sight lines parallel.
+
+    Parameters
+    ----------
+    view : View
+        As of scene.look.
+    points : (3, n) array of float
+        In the view's coordinates.
+
+    Returns
+    -------
+    (3, n) array of float
+        x and y in the image, and heights that grow towards the eye.
+
+    Notes
+    -----
+    Without meaning where points are nearer than the near plane.
+
+    Source: Glaeser, section 2.4 (the transformation T2).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> cube = vp.Item("cube", geometry.box((2, 2, 2)))
+    >>> view = scene.look(vp.Scene((cube,)), vp.Camera((1, -9, 1), target=(1, 1, 1)))
+    >>> one, two = visibility.image_points(view, view.points_of(np.array([(1.0, 0.0, 1.0), (1.0, 2.0, 1.0)]))).T
+    >>> bool(np.allclose(one[:2], two[:2])), bool(one[2] > two[2])  # one sight line; the first is nearer
+    (True, True)
     """
     if view.eye is None:
         height = points[2]

@@ -12,20 +12,57 @@ from vectorplot.geometry import ragged
 
 @dataclass(frozen=True, eq=False)
 class Mikado:
-    """order (n,): what is drawn, back to front; knot (k,): what lies on one another in circles, and what lies between
-    such circles: the things that could not be taken off from either side, in ascending order. They stand in the middle
-    of the order, without promise."""
+    """An order of things, and what has none.
+
+    Parameters
+    ----------
+    order : (n,) array of int
+        What is drawn, back to front.
+    knot : (k,) array of int
+        What lies on one another in circles, and what lies between such circles, in ascending order: the things that
+        could not be taken off from either side. They stand in the middle of the order, without promise.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import visibility
+    >>> found = visibility.mikado(4, before=np.array([0, 1, 2]), after=np.array([1, 2, 1]))
+    >>> found.order.tolist(), found.knot.tolist()
+    ([0, 3, 1, 2], [1, 2])
+    """
 
     order: Ints
     knot: Ints
 
 
 def mikado(count: int, before: Ints, after: Ints) -> Mikado:
-    """The order of things 0 to count - 1 of which before[k] has to be drawn before after[k].
+    """The order of things that have to be drawn before one another, as in the game of mikado.
 
+    Parameters
+    ----------
+    count : int
+        How many things there are: 0 to count - 1.
+    before, after : (d,) array of int
+        before[k] has to be drawn before after[k].
+
+    Returns
+    -------
+    Mikado
+        The order, and what lies on one another in circles.
+
+    Notes
+    -----
     Round by round the things that nothing lies on are taken off to the front, those that lie on nothing to the back,
     each round in ascending order. Linear in the number of demands.
+
     Source: Glaeser, section 5.6, figure 11; erratum G5-04 (one of the two is enough to go on).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import visibility
+    >>> visibility.mikado(3, before=np.array([2, 0]), after=np.array([0, 1])).order.tolist()
+    [2, 0, 1]
     """
     later = Links(count, before, after)
     earlier = Links(count, after, before)

@@ -43,10 +43,31 @@ LEVELS = 12
 
 @dataclass(frozen=True, eq=False)
 class Painted:
-    """Polygons back to front: faces, whose points (3,c) are places in the image and heights above it, and whose source
-    is the face of the view that each one is or is a part of. uncut: how many there were before the cutting; knots (i,):
-    the items that pierce one another, or lie on one another in circles; undone: groups that could not stay together;
-    ribbons: how many ribbons the items have that are painted slice by slice."""
+    """Polygons in the painter's order, back to front.
+
+    Parameters
+    ----------
+    faces : ImageFaces
+        Their points are places in the image and heights above it; their source is the face of the view that each one is
+        or is a part of.
+    uncut : int
+        How many there were before the cutting.
+    knots : (i,) array of int
+        The items that pierce one another, or lie on one another in circles.
+    undone : tuple of int
+        Groups that could not stay together.
+    ribbons : mapping of int to int
+        How many ribbons the items have that are painted slice by slice.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> view = scene.look(vp.Scene((vp.Item("cube", geometry.box((1, 1, 1))),)), vp.Camera((5, 4, 3)))
+    >>> painted = visibility.painters_order(view)
+    >>> isinstance(painted, visibility.Painted), len(painted), painted.uncut
+    (True, 3, 3)
+    """
 
     faces: ImageFaces
     uncut: int
@@ -68,20 +89,51 @@ def painters_order(
 ) -> Painted:
     """The faces that can be seen, in an order in which each may be painted over those before it.
 
+    Parameters
+    ----------
+    view : View
+        As of scene.look.
+    projected : ProjectedFaces, optional
+        As of project_faces, where they are known already.
+    known : mapping of int to Precedence, optional
+        For items whose structure tells the order (known_orders, graph_order, ring_order) what has to be drawn before
+        what among their faces; these are compared with those of other items only, and with each other where they then
+        lie on one another in circles.
+    sliced : mapping of int to Section, optional
+        Planes that cut items into slices, in world coordinates: where nothing else overlaps such an item in the image
+        it is painted slice by slice, as of ribbon_order.
+    group : (i,) array of int, optional
+        The group of each item, -1 for none: first the groups are put in order, then what is in each, but for those that
+        lie on other things in a circle.
+
+    Returns
+    -------
+    Painted
+        The faces, cut where there is no other way.
+
+    Raises
+    ------
+    InputError
+        Where a known order is not one of the item's faces.
+
+    Notes
+    -----
     Convex bodies are compared as wholes; only where they pierce one another, or lie on one another in circles, their
     faces are, and cut where there is no other way. Faces whose images do not overlap may stand in any order; of faces
-    that overlap in one plane the larger one comes first. Nothing depends on the order of the items, except which of
-    two faces in the same place is seen.
-    known: for items whose structure tells the order (known_orders, graph_order, ring_order) what has to be drawn before
-    what among their faces; these are compared with those of other items only, and with each other where they then lie
-    on one another in circles.
-    sliced: planes that cut items into slices, in world coordinates: where nothing else overlaps such an item in the
-    image it is painted slice by slice, as of ribbon_order.
-    group (i,): the group of each item, -1 for none: first the groups are put in order, then what is in each, but for
-    those that lie on other things in a circle.
-    Errors: InputError where a known order is not one of the item's faces.
-    Degenerate: faces seen edge-on are left out.
+    that overlap in one plane the larger one comes first. Nothing depends on the order of the items, except which of two
+    faces in the same place is seen. Degenerate: faces seen edge-on are left out.
+
     Source: Glaeser, sections 5.1 and 5.5 to 5.7; Newell, Newell and Sancha (1972).
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> above = geometry.box((1, 1, 1), placement=(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 2))
+    >>> boxes = (vp.Item("high", above), vp.Item("low", geometry.box((1, 1, 1))))
+    >>> view = scene.look(vp.Scene(boxes), vp.Camera((2, 3, 9)))
+    >>> view.face_item[visibility.painters_order(view).faces.source].tolist()
+    [1, 1, 1, 0, 0, 0]
     """
     projected = project_faces(view) if projected is None else projected
     faces = image_faces(view, drawn_faces(view, projected))

@@ -13,11 +13,31 @@ from vectorplot.visibility.painter.image_faces import ImageFaces
 
 @dataclass(frozen=True, eq=False)
 class Precedence:
-    """Of two faces of one item that overlap in the image it is known which comes first.
+    """What is known of the order of one item's faces: of two that overlap in the image, which comes first.
 
-    face (n,): every face of the item, by its number in the view, and -1 for gaps, which hide nothing but pass on what
-    comes before what; before, after (k,): of these, what has to be drawn before what. Faces that no chain of demands
-    links, or that make circles, do not overlap or have to be compared.
+    Parameters
+    ----------
+    face : (n,) array of int
+        Every face of the item, by its number in the view, and -1 for gaps, which hide nothing but pass on what comes
+        before what.
+    before, after : (k,) array of int
+        Positions in face: before[k] has to be drawn before after[k].
+
+    Notes
+    -----
+    Faces that no chain of demands links, or that make circles, do not overlap or have to be compared.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import scene, visibility
+    >>> corners = [(x, y, z) for z in (0, 1, 2) for x, y in ((0, 0), (4, 0), (4, 4), (0, 4))]
+    >>> cards = vp.Mesh.from_polygons(corners, [(8, 9, 10, 11), (0, 1, 2, 3), (4, 5, 6, 7)])
+    >>> view = scene.look(vp.Scene((vp.Item("cards", cards),)), vp.Camera((2, 2, 9)))
+    >>> upwards = visibility.Precedence.of_order(np.array([1, 2, 0]))
+    >>> visibility.painters_order(view, known={0: upwards}).faces.source.tolist()
+    [1, 2, 0]
     """
 
     face: Ints

@@ -27,9 +27,34 @@ from vectorplot.visibility.projected_faces import project_faces
 
 @dataclass(frozen=True, eq=False)
 class Objects:
-    """Items, or groups of them, as an eye or a lamp sees them: faces, those drawn; owner (n,) the object of each, -1
-    for none; box (6,k) smallest and largest x, y and height of each object in the image (inside out where nothing of it
-    is drawn); around: boxes and spheres in the view."""
+    """Items, or groups of them, as an eye or a lamp sees them.
+
+    Parameters
+    ----------
+    view : View
+        As of scene.look.
+    faces : ImageFaces
+        Those drawn.
+    owner : (n,) array of int
+        The object of each face, -1 for none.
+    box : (6, k) array of float
+        Smallest and largest x, y and height of each object in the image; inside out where nothing of it is drawn.
+    around : Surroundings
+        Boxes and spheres in the view.
+
+    Notes
+    -----
+    Made by view_objects.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> view = scene.look(vp.Scene((vp.Item("cube", geometry.box((1, 1, 1))),)), vp.Camera((5, 4, 3)))
+    >>> objects = visibility.view_objects(view)
+    >>> isinstance(objects, visibility.Objects), len(objects), objects.owner.tolist()
+    (True, 1, [0, 0, 0])
+    """
 
     view: View
     faces: ImageFaces
@@ -42,11 +67,33 @@ class Objects:
 
 
 def view_objects(view: View, object_of: ArrayLike | None = None) -> Objects:
-    """The objects of a view; object_of (i,): the object that each item belongs to, from 0 on, or -1 for none; None:
-    every item is an object.
+    """The objects of a view.
 
-    The view of a lamp makes the system of a lamp: there in front means nearer to the lamp.
-    Errors: InputError for a table of another length, or an object without points.
+    Parameters
+    ----------
+    view : View
+        As of scene.look; the view of a lamp makes the system of a lamp: there in front means nearer to the lamp.
+    object_of : (i,) array_like of int, optional
+        The object that each item belongs to, from 0 on, or -1 for none; every item is an object where None.
+
+    Returns
+    -------
+    Objects
+        What priorities and wholly_hidden ask.
+
+    Raises
+    ------
+    InputError
+        For a table of another length, or an object without points.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> cubes = tuple(vp.Item(name, geometry.box((1, 1, 1))) for name in ("one", "two", "three"))
+    >>> view = scene.look(vp.Scene(cubes), vp.Camera((5, 4, 3)))
+    >>> len(visibility.view_objects(view)), len(visibility.view_objects(view, [0, 0, 1]))
+    (3, 2)
     """
     items = len(view.item_vertices) - 1
     of = np.arange(items) if object_of is None else np.asarray(object_of, dtype=np.intp)
@@ -130,11 +177,41 @@ def _by_outlines(objects: Objects, first: Ints, second: Ints) -> Codes:
 
 
 def priorities(objects: Objects, subset: ArrayLike | None = None, *, critical: bool = False) -> Codes:
-    """(k,k) the codes of which_first for all pairs of objects, or of some of them: row against column.
+    """What objects do to one another: a table of all pairs.
 
-    Opposite places say the same of each other. The table has as many places as there are pairs: for thousands of
-    objects painters_order, which compares only what overlaps, is the way.
-    Source: Glaeser, section 5.6.
+    Parameters
+    ----------
+    objects : Objects
+        As of view_objects.
+    subset : (k,) array_like of int, optional
+        Some of the objects; all of them where None.
+    critical : bool
+        The outlines of the faces always decide, so that no priority is given where nothing overlaps.
+
+    Returns
+    -------
+    (k, k) array of int8
+        Row against column: APART where neither hides anything of the other, IN_FRONT where the first has to be drawn
+        later, BEHIND where the second has, STRADDLING where both would have to. Opposite places say the same of each
+        other.
+
+    Notes
+    -----
+    Boxes in the image that do not overlap decide nothing; then depths that do not, spheres and planes that keep apart;
+    what is left open the outlines of the faces decide. The table has as many places as there are pairs: for thousands
+    of objects painters_order, which compares only what overlaps, is the way.
+
+    Source: Glaeser, sections 5.5 and 5.6; errata G5-02, G5-03, G5-05.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> above = geometry.box((1, 1, 1), placement=(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 2))
+    >>> boxes = (vp.Item("high", above), vp.Item("low", geometry.box((1, 1, 1))))
+    >>> table = visibility.priorities(visibility.view_objects(scene.look(vp.Scene(boxes), vp.Camera((2, 3, 9)))))
+    >>> bool(table[0, 1] == visibility.IN_FRONT), bool(table[1, 0] == visibility.BEHIND)
+    (True, True)
     """
     chosen = np.arange(len(objects)) if subset is None else np.asarray(subset, dtype=np.intp)
     row, column = np.triu_indices(len(chosen), 1)
@@ -146,16 +223,58 @@ def priorities(objects: Objects, subset: ArrayLike | None = None, *, critical: b
 
 
 def demands(table: Codes) -> tuple[Ints, Ints]:
-    """A table of priorities as demands: (d,) objects to be drawn before the objects (d,)."""
+    """A table of priorities as demands.
+
+    Parameters
+    ----------
+    table : (k, k) array of int8
+        As of priorities.
+
+    Returns
+    -------
+    before, after : (d,) arrays of int
+        The objects before[k] have to be drawn before the objects after[k].
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import visibility
+    >>> from vectorplot.visibility import APART, BEHIND, IN_FRONT
+    >>> before, after = visibility.demands(np.array([[APART, IN_FRONT], [BEHIND, APART]]))
+    >>> before.tolist(), after.tolist()
+    ([1], [0])
+    """
     before, after = np.nonzero((table == BEHIND) | (table == STRADDLING))
     return before, after
 
 
 def wholly_hidden(objects: Objects) -> Bools:
-    """(k,) the objects of which nothing is seen, because their outline lies inside that of one convex body in front of
-    them: they need not be drawn. Objects of which nothing is drawn anyway count as hidden.
+    """The objects of which nothing is seen, since one convex body in front of them covers them: they need not be drawn.
 
+    Parameters
+    ----------
+    objects : Objects
+        As of view_objects.
+
+    Returns
+    -------
+    (k,) array of bool
+        True where the outline of the object lies inside that of one closed convex item in front of it. Objects of which
+        nothing is drawn anyway count as hidden.
+
+    Notes
+    -----
     Source: Glaeser, section 5.5, case 3; errata G5-02, G6-05.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> behind = geometry.box((1, 1, 1), placement=(1, 0, 0, -3, 0, 1, 0, 1, 0, 0, 1, 1))
+    >>> items = (vp.Item("wall", geometry.box((1, 4, 4))), vp.Item("cube", behind))
+    >>> view = scene.look(vp.Scene(items), vp.Camera((20, 2, 2), target=(0, 2, 2)))
+    >>> visibility.wholly_hidden(visibility.view_objects(view)).tolist()
+    [False, True]
     """
     view, faces, count = objects.view, objects.faces, len(objects)
     corner_owner = np.repeat(objects.owner, np.diff(faces.offsets))

@@ -16,12 +16,34 @@ from vectorplot.visibility.painter.pairs.face_pairs import APART, face_relations
 
 
 def slice_order(levels: ArrayLike, eye: float) -> Ints:
-    """(k,) the slices between parallel planes, back to front: slice i lies between levels i and i+1.
+    """The slices between parallel planes, back to front.
 
-    levels (k+1,) ascending, eye: of the same coordinate; infinite where the rays are parallel. The slices below the eye
-    come first, upwards, then those above it, downwards, and last the one the eye is in.
-    Errors: InputError where levels do not ascend.
+    Parameters
+    ----------
+    levels : (k+1,) array_like of float
+        Ascending: slice i lies between levels i and i+1.
+    eye : float
+        Of the same coordinate; infinite where the rays are parallel.
+
+    Returns
+    -------
+    (k,) array of int
+        The slices below the eye come first, upwards, then those above it, downwards, and last the one the eye is in.
+
+    Raises
+    ------
+    InputError
+        Where levels do not ascend, or are fewer than two.
+
+    Notes
+    -----
     Source: Glaeser, sections 5.2 to 5.4 (the plane through the eye).
+
+    Examples
+    --------
+    >>> from vectorplot import visibility
+    >>> visibility.slice_order([0.0, 1.0, 2.0, 3.0], eye=1.5).tolist()
+    [0, 2, 1]
     """
     level = np.asarray(levels, dtype=np.float64)
     if level.ndim != 1 or len(level) < 2 or not (np.diff(level) > 0.0).all():
@@ -44,13 +66,43 @@ def eye_coordinate(eye: ArrayLike, axis: int) -> float:
 
 
 def cut_into_slices(points: ArrayLike, offsets: Ints, axis: int, levels: ArrayLike) -> tuple[Polygons, Ints, Ints]:
-    """Convex polygons with corners points (c,3), cut by the planes where a coordinate has one of some ascending levels
-    (k,): the pieces, the polygon each comes from, and its slice, 0 below the first level, k above the last.
+    """Convex polygons cut by the planes where a coordinate has one of some levels.
 
-    New corners lie on the planes to the last digit. All polygons are halved at once, so that the price grows with the
-    pieces and the logarithm of the levels.
+    Parameters
+    ----------
+    points : (c, 3) array_like of float
+        The corners of all polygons, one after the other.
+    offsets : (n+1,) array of int
+        Polygon i has the corners offsets[i] to offsets[i+1].
+    axis : int
+        Which coordinate: 0, 1 or 2.
+    levels : (k,) array_like of float
+        Ascending.
+
+    Returns
+    -------
+    pieces : Polygons
+        What the polygons fall into; new corners lie on the planes to the last digit.
+    source : (p,) array of int
+        The polygon each piece comes from.
+    slices : (p,) array of int
+        The slice each piece lies in, 0 below the first level, k above the last.
+
+    Notes
+    -----
+    All polygons are halved at once, so that the price grows with the pieces and the logarithm of the levels.
     Degenerate: a polygon in one of the planes lies in the slice above it.
+
     Source: Glaeser, section 5.4, figure 6 (horizontal slices).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import visibility
+    >>> corners = [(0, 0, 0), (1, 0, 0), (1, 0, 4), (0, 0, 4)]
+    >>> pieces, source, slices = visibility.cut_into_slices(corners, np.array([0, 4]), axis=2, levels=[1.0, 3.0])
+    >>> len(pieces), source.tolist(), slices.tolist()
+    (3, [0, 0, 0], [0, 1, 2])
     """
     level = np.asarray(levels, dtype=np.float64)
     pieces, source = Polygons(np.array(points, dtype=np.float64), offsets), np.arange(len(offsets) - 1)
@@ -82,12 +134,39 @@ def _cut_at(polygons: Polygons, height: Floats, axis: int, level: Floats) -> Pol
 
 
 def sliced_order(faces: ImageFaces, place: Ints, tolerance: float) -> ImageFaces:
-    """Faces back to front, where place (n,) of the slice each lies in is known: only faces of one slice are compared,
-    and cut where they must be.
+    """Faces back to front, where it is known of each in which slice it lies.
 
-    place: rank of the slice in the order of drawing, as of slice_order. The price grows with the faces, however many
-    slices overlap in the image.
+    Parameters
+    ----------
+    faces : ImageFaces
+        As of image_faces.
+    place : (n,) array of int
+        The rank of each one's slice in the order of drawing, as of slice_order.
+    tolerance : float
+        What counts as distance zero, that of the view.
+
+    Returns
+    -------
+    ImageFaces
+        Only faces of one slice are compared, and cut where they must be.
+
+    Notes
+    -----
+    The price grows with the faces, however many slices overlap in the image.
+
     Source: Glaeser, section 5.3 (ribbons of a slice by priority).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> cubes = tuple(vp.Item(name, geometry.box((1, 1, 1))) for name in ("one", "two"))
+    >>> view = scene.look(vp.Scene(cubes), vp.Camera((5, 4, 3)))
+    >>> faces = visibility.image_faces(view, np.array([1, 2, 7, 8]))  # two of each cube
+    >>> ordered = visibility.sliced_order(faces, np.array([1, 1, 0, 0]), view.tolerance)
+    >>> view.face_item[ordered.source].tolist()
+    [1, 1, 0, 0]
     """
     found = related(faces, pairs_in_slices(faces, place, tolerance), tolerance)
     pieces, places = cut_into_order(faces, place, found, tolerance)

@@ -39,8 +39,29 @@ Progress = Callable[[float], None]
 
 @dataclass(frozen=True, eq=False)
 class Visibility:
-    """Parts of segments: segment (k,), from parameter low to high (k,), and hidden_by (k,): by how many items each
-    part is hidden, 0 for visible ones. Ascending along each segment."""
+    """Parts of segments, and by how many items each is hidden.
+
+    Parameters
+    ----------
+    segment : (k,) array of int
+        The segment each is a part of, ascending.
+    low, high : (k,) array of float
+        From which parameter of the segment to which, 0 to 1; ascending along each segment.
+    hidden_by : (k,) array of int
+        By how many items each part is hidden, 0 for visible ones.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> view = scene.look(vp.Scene((vp.Item("wall", geometry.box((1, 2, 2))),)), vp.Camera((9, 1, 1), target=(0, 1, 1)))
+    >>> faces = visibility.project_faces(view)
+    >>> line = visibility.Segments(*(view.points_of(np.array([(2.0, y, 1.0)])) for y in (0.0, 2.0)))
+    >>> parts = visibility.visible_parts(view, faces, visibility.solid_items(view, faces), line, lambda share: None)
+    >>> isinstance(parts, visibility.Visibility), len(parts), parts.hidden_by.tolist()  # in front of the wall
+    (True, 1, [0])
+    """
 
     segment: Ints
     low: Floats
@@ -54,11 +75,45 @@ class Visibility:
 def visible_parts(
     view: View, faces: ProjectedFaces, solid: Bools, segments: Segments, progress: Progress
 ) -> Visibility:
-    """The visible parts of segments; solid (i,) as solid_items tells.
+    """The visible parts of straight segments.
 
+    Parameters
+    ----------
+    view : View
+        As of scene.look.
+    faces : ProjectedFaces
+        As of project_faces.
+    solid : (i,) array of bool
+        As of solid_items: the items that hide as convex solids.
+    segments : Segments
+        In the view's coordinates.
+    progress : callable
+        progress(share) is called while it works.
+
+    Returns
+    -------
+    Visibility
+        The visible parts only.
+
+    Notes
+    -----
     What lies on an occluder or on the border of its shadow is visible; a line along a border is hidden where both its
     sides are. Parts below ten tolerances of the view are left out.
+
     Source: Glaeser, section 7.2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> camera = vp.Camera((9, 1, 1), target=(0, 1, 1), parallel=True)
+    >>> view = scene.look(vp.Scene((vp.Item("wall", geometry.box((1, 2, 2))),)), camera)
+    >>> faces = visibility.project_faces(view)
+    >>> line = visibility.Segments(*(view.points_of(np.array([(-3.0, y, 1.0)])) for y in (-1.0, 3.0)))
+    >>> parts = visibility.visible_parts(view, faces, visibility.solid_items(view, faces), line, lambda share: None)
+    >>> parts.low.round(9).tolist(), parts.high.round(9).tolist()
+    ([0.0, 0.75], [0.25, 1.0])
     """
     gap = _gaps(view, segments)
     if not len(segments):
@@ -96,9 +151,42 @@ def visible_parts(
 def counted_parts(
     view: View, faces: ProjectedFaces, solid: Bools, segments: Segments, progress: Progress
 ) -> Visibility:
-    """All parts of segments with the number of items that hide each; an item that hides itself counts once.
+    """All parts of straight segments, with the number of items that hide each.
 
-    The visible parts are those of visible_parts.
+    Parameters
+    ----------
+    view : View
+        As of scene.look.
+    faces : ProjectedFaces
+        As of project_faces.
+    solid : (i,) array of bool
+        As of solid_items: the items that hide as convex solids.
+    segments : Segments
+        In the view's coordinates.
+    progress : callable
+        progress(share) is called while it works.
+
+    Returns
+    -------
+    Visibility
+        An item that hides itself counts once. The visible parts are those of visible_parts.
+
+    Notes
+    -----
+    Source: Glaeser, section 7.2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> camera = vp.Camera((9, 1, 1), target=(0, 1, 1), parallel=True)
+    >>> view = scene.look(vp.Scene((vp.Item("wall", geometry.box((1, 2, 2))),)), camera)
+    >>> faces = visibility.project_faces(view)
+    >>> line = visibility.Segments(*(view.points_of(np.array([(-3.0, y, 1.0)])) for y in (-1.0, 3.0)))
+    >>> parts = visibility.counted_parts(view, faces, visibility.solid_items(view, faces), line, lambda share: None)
+    >>> parts.low.round(9).tolist(), parts.hidden_by.tolist()
+    ([0.0, 0.25, 0.75], [0, 1, 0])
     """
     gap = _gaps(view, segments)
     if not len(segments):

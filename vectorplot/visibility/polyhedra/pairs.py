@@ -17,7 +17,20 @@ FULL = 0.6
 
 @dataclass(frozen=True, eq=False)
 class Segments:
-    """Straight segments in the view's coordinates: start and end (3,n), all of them beyond the near plane."""
+    """Straight segments in the view's coordinates, all of them beyond the near plane.
+
+    Parameters
+    ----------
+    start, end : (3, n) array of float
+        Their ends, such as points_of of a view gives them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import visibility
+    >>> len(visibility.Segments(start=np.zeros((3, 4)), end=np.ones((3, 4))))
+    4
+    """
 
     start: Floats
     end: Floats
