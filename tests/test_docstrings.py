@@ -105,6 +105,7 @@ ROOMS = [
     "surfaces",
     "testing",
     "textbook",
+    "visibility",
 ]
 
 
