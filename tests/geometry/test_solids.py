@@ -51,6 +51,16 @@ def test_a_placed_box_is_the_transformed_box():
     assert np.allclose(placed.vertices, box((1, 2, 3)).transformed(matrix).vertices, atol=1e-14)
 
 
+@pytest.mark.parametrize("lengths", [(2, 3, 4), (2.0, 3.0, 4.0), (2, 3.0, 4), (10**10, 3, 4)])
+@pytest.mark.parametrize("number", [int, float])
+def test_whole_numbers_make_the_same_box(lengths, number):
+    placement = [number(x) for x in (0, -1, 0, 5, 1, 0, 0, 6, 0, 0, 1, 7)]
+    made, same = box(lengths, placement=placement), box([*map(float, lengths)], placement=[*map(float, placement)])
+    assert made.vertices.dtype == np.float64
+    assert (made.vertices == same.vertices).all()
+    assert body_record(made).volume == body_record(same).volume
+
+
 def test_the_unchecked_box_would_pass_the_checks():
     body = box((1, -2, 3), caps=(TOP,))
     checked = Mesh(body.vertices, body.corners, body.offsets, body.present)

@@ -35,15 +35,47 @@ def revolution(
 ) -> Mesh:
     """The polyhedron that a meridian polygon sweeps in equal steps about the z-axis.
 
-    meridian (s,3) runs upwards in a half-plane through the axis; order: the points of every ring; caps: which of
-    ``bottom`` (at the meridian's first end) and ``top`` are present, where that end lies off the axis; the others are
-    stored, but not present. Vertices ring by ring; faces band by band from the first end, then end faces, bottom, top.
-    angle_deg < 360: a closed body; order - 1 steps, and planar end faces through the first and the last meridian that
-    reach to the axis (after half a turn the two are one face). A meridian that ends where it begins sweeps a ring
-    without caps. Of a meridian outside a half-plane the patches are cut into triangles.
-    Errors: InputError for an order or an angle out of bounds, fewer than two different points.
+    Parameters
+    ----------
+    meridian : (s, 3) array_like of float
+        Runs upwards in a half-plane through the axis.
+    order : int
+        The points of every ring.
+    angle_deg : float
+        360 for a full turn. Less: a closed body; order - 1 steps, and planar end faces through the first and the last
+        meridian that reach to the axis (after half a turn the two are one face).
+    caps : collection of {"bottom", "top"}
+        Which of bottom (at the meridian's first end) and top are present, where that end lies off the axis; the others
+        are stored, but not present.
+
+    Returns
+    -------
+    Mesh
+        Vertices ring by ring; faces band by band from the first end, then end faces, bottom, top.
+
+    Raises
+    ------
+    InputError
+        For an order or an angle out of bounds, fewer than two different points, a meridian that lies on the axis, and,
+        with an angle, one that does not lie in a half-plane through it.
+
+    Notes
+    -----
+    A meridian that ends where it begins sweeps a ring without caps. Of a meridian outside a half-plane the patches are
+    cut into triangles.
+
     Degenerate: points on the axis stay single vertices; a meridian that runs downwards has its faces turned outwards.
+
     Source: Glaeser, section 3.4; errata G3-11, D-4.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> cone = geometry.revolution([(1, 0, 0), (0, 0, 2)], order=12)
+    >>> len(cone.vertices), cone.face_sizes.tolist()
+    (13, [3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 12])
+    >>> geometry.mesh_report(geometry.revolution([(1, 0, 0), (0, 0, 2)], order=5, angle_deg=90)).closed
+    True
     """
     profile = _profile(meridian, order, angle_deg)
     quads, keep = _bands(profile)

@@ -138,12 +138,32 @@ def _ranks(following: Ints, closed: Bools, first_edge: Ints) -> Ints:
 
 
 def contour_edges(mesh: Mesh, centre: ArrayLike) -> Ints:
-    """The edges (e, 2) of a mesh between a face that shows its outside and one that does not, front face on the left.
+    """The edges of a mesh between a face that shows its outside and one that does not.
 
-    centre (3,): the eye or lamp; (x, y, z, 0) for rays that come from the direction (x, y, z). Faces that are not
-    present count: they close the body. A hole that no face closes is closed by its border, so the border of a single
-    polygon is its contour. Faces seen edge-on count as turned away.
+    Parameters
+    ----------
+    mesh : Mesh
+        Any polyhedron.
+    centre : (3,) or (4,) array_like of float
+        The eye or lamp; (x, y, z, 0) for rays that come from the direction (x, y, z).
+
+    Returns
+    -------
+    (e, 2) array of int
+        Indices of vertices, the front face on the left.
+
+    Notes
+    -----
+    Faces that are not present count: they close the body. A hole that no face closes is closed by its border, so the
+    border of a single polygon is its contour. Faces seen edge-on count as turned away.
+
     Source: Glaeser, section 6.1; erratum G6-01.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.contour_edges(geometry.box((2, 2, 2)), centre=(9, 1, 1)).tolist()
+    [[1, 2], [2, 6], [6, 5], [5, 1]]
     """
     whole = closed_by_borders(mesh)
     front = _faces_towards(whole, np.asarray(centre, dtype=np.float64))[whole.corner_face]
@@ -184,13 +204,37 @@ def _faces_towards(mesh: Mesh, centre: Floats) -> Bools:
 
 
 def spatial_hull(mesh: Mesh, centre: ArrayLike) -> Ints:
-    """The contour polygon (k,) in space, as vertex indices, of a polyhedron with a convex outline: counter-clockwise
-    as seen from the eye or lamp. Its image is the convex hull of the images of all vertices.
+    """The contour polygon in space of a polyhedron with a convex outline.
 
-    centre (3,), or (x, y, z, 0) for rays that come from a direction.
-    Errors: InputError where the contour has several branches: then there is no such outline.
+    Parameters
+    ----------
+    mesh : Mesh
+        A convex body, or what looks like one.
+    centre : (3,) or (4,) array_like of float
+        As of contour_edges.
+
+    Returns
+    -------
+    (k,) array of int
+        Indices of vertices, counter-clockwise as seen from the eye or lamp. The image of the polygon is the convex hull
+        of the images of all vertices.
+
+    Raises
+    ------
+    InputError
+        Where the contour has several branches: then there is no such outline.
+
+    Notes
+    -----
     Degenerate: no points for an eye inside, or a single polygon seen edge-on.
+
     Source: Glaeser, section 6.1; erratum G6-01.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> len(geometry.spatial_hull(geometry.box((2, 2, 2)), centre=(9, 8, 7)))
+    6
     """
     contour = concat(contour_edges(mesh, centre))
     if len(contour) > 1:
@@ -199,6 +243,30 @@ def spatial_hull(mesh: Mesh, centre: ArrayLike) -> Ints:
 
 
 def contour_branches(mesh: Mesh, centre: ArrayLike) -> Branches:
-    """The contour of any polyhedron, joined to closed branches: a faceted torus has two. Source: Glaeser, section
-    6.1."""
+    """The contour of any polyhedron, joined to closed branches: a faceted torus has two.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Any polyhedron.
+    centre : (3,) or (4,) array_like of float
+        As of contour_edges.
+
+    Returns
+    -------
+    Branches
+        Polylines of vertex indices.
+
+    Notes
+    -----
+    Source: Glaeser, section 6.1.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> ring = geometry.revolution([(3, 0, 0), (4, 0, -1), (5, 0, 0), (4, 0, 1), (3, 0, 0)], order=8)
+    >>> branches = geometry.contour_branches(ring, centre=(0, 0, 1, 0))
+    >>> [len(branch) for branch in branches], branches.closed.tolist()
+    ([8, 8], [True, True])
+    """
     return concat(contour_edges(mesh, centre))

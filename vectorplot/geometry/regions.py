@@ -20,7 +20,28 @@ WIDTH_KEPT = 4.0
 
 
 def polygons_of(points: Floats, offsets: Ints) -> Any:
-    """(n,) simple polygons with the corners points (2 or more, c), offsets (n+1,), of three corners or more each."""
+    """Polygons of shapely from corners and offsets.
+
+    Parameters
+    ----------
+    points : (2 or more, c) array of float
+        Columns are corners; x and y count.
+    offsets : (n+1,) array of int
+        Polygon i has the corners offsets[i] to offsets[i+1], three or more.
+
+    Returns
+    -------
+    (n,) array of shapely.Polygon
+        Simple where the polygons are.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> (square,) = geometry.polygons_of(np.array([(0.0, 4.0, 4.0, 0.0), (0.0, 0.0, 3.0, 3.0)]), np.array([0, 4]))
+    >>> square.area
+    12.0
+    """
     import shapely
 
     position = np.insert(np.arange(points.shape[1]), offsets[1:], offsets[:-1])

@@ -15,17 +15,83 @@ from vectorplot.tolerances.of_angles import PARALLEL_SINE
 
 
 def rotation_x(angle: ArrayLike) -> Floats:
-    """The rotations (..., 3, 3) about the x-axis by angles (...). Source: equation 1.27."""
+    """The rotations about the x-axis.
+
+    Parameters
+    ----------
+    angle : (...) array_like of float
+        In radians, from y to z.
+
+    Returns
+    -------
+    (..., 3, 3) array of float
+        Acts on points as rows: points @ rotation.
+
+    Notes
+    -----
+    Source: Glaeser, equation 1.27.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> np.allclose((0, 1, 0) @ geometry.rotation_x(np.pi / 2), (0, 0, 1))
+    True
+    """
     return _about_coordinate_axis(angle, 0)
 
 
 def rotation_y(angle: ArrayLike) -> Floats:
-    """The rotations (..., 3, 3) about the y-axis by angles (...). Source: equation 1.28."""
+    """The rotations about the y-axis.
+
+    Parameters
+    ----------
+    angle : (...) array_like of float
+        In radians, from z to x.
+
+    Returns
+    -------
+    (..., 3, 3) array of float
+        Acts on points as rows: points @ rotation.
+
+    Notes
+    -----
+    Source: Glaeser, equation 1.28.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> np.allclose((0, 0, 1) @ geometry.rotation_y(np.pi / 2), (1, 0, 0))
+    True
+    """
     return _about_coordinate_axis(angle, 1)
 
 
 def rotation_z(angle: ArrayLike) -> Floats:
-    """The rotations (..., 3, 3) about the z-axis by angles (...). Source: equation 1.29."""
+    """The rotations about the z-axis.
+
+    Parameters
+    ----------
+    angle : (...) array_like of float
+        In radians, from x to y.
+
+    Returns
+    -------
+    (..., 3, 3) array of float
+        Acts on points as rows: points @ rotation.
+
+    Notes
+    -----
+    Source: Glaeser, equation 1.29.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> np.allclose((1, 0, 0) @ geometry.rotation_z(np.pi / 2), (0, 1, 0))
+    True
+    """
     return _about_coordinate_axis(angle, 2)
 
 
@@ -41,15 +107,63 @@ def _about_coordinate_axis(angle: ArrayLike, axis: int) -> Floats:
 
 
 def inverse_rotation(rotation: ArrayLike) -> Floats:
-    """The rotations (..., 3, 3) back: the transposed matrices. Source: equation 1.26."""
+    """The rotations back: the transposed matrices.
+
+    Parameters
+    ----------
+    rotation : (..., 3, 3) array_like of float
+        Orthogonal.
+
+    Returns
+    -------
+    (..., 3, 3) array of float
+        Their inverses.
+
+    Notes
+    -----
+    Source: Glaeser, equation 1.26.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> rotation = geometry.rotation_about((1, 2, 3), 0.7)
+    >>> np.allclose(rotation @ geometry.inverse_rotation(rotation), np.eye(3))
+    True
+    """
     return np.swapaxes(np.asarray(rotation, dtype=np.float64), -1, -2)
 
 
 def axis_frame(axis: ArrayLike) -> Floats:
-    """Right-handed frames (..., 3, 3) of unit rows e, f, g, with g along the axis (..., 3) and e horizontal.
+    """Right-handed frames of unit rows e, f, g, with g along an axis and e horizontal.
 
-    Degenerate: for an upright axis e is the x-axis. Errors: InputError for an axis without length.
+    Parameters
+    ----------
+    axis : (..., 3) array_like of float
+        Of any length but zero.
+
+    Returns
+    -------
+    (..., 3, 3) array of float
+        Rows e, f and g.
+
+    Raises
+    ------
+    InputError
+        For an axis without length.
+
+    Notes
+    -----
+    Degenerate: for an upright axis e is the x-axis.
+
     Source: Glaeser, section 1.6, equation 30.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> np.allclose(geometry.axis_frame((2, 0, 0)), [(0, 1, 0), (0, 0, 1), (1, 0, 0)])
+    True
     """
     g = normalize(axis)
     upright = (g[..., 0] == 0.0) & (g[..., 1] == 0.0)
@@ -59,30 +173,112 @@ def axis_frame(axis: ArrayLike) -> Floats:
 
 
 def rotation_about(axis: ArrayLike, angle: ArrayLike) -> Floats:
-    """The rotations (..., 3, 3) about axes (..., 3) through the origin: into the axis frame, about z, and back.
+    """The rotations about axes through the origin: into the axis frame, about z, and back.
 
+    Parameters
+    ----------
+    axis : (..., 3) array_like of float
+        Of any length but zero.
+    angle : (...) array_like of float
+        In radians, counter-clockwise seen from the axis' tip.
+
+    Returns
+    -------
+    (..., 3, 3) array of float
+        Acts on points as rows: points @ rotation.
+
+    Raises
+    ------
+    InputError
+        For an axis without length.
+
+    Notes
+    -----
     Source: Glaeser, section 1.6, equations 30 and 31.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> np.allclose((1, 0, 0) @ geometry.rotation_about((1, 1, 1), np.radians(120)), (0, 1, 0))
+    True
     """
     frame = axis_frame(axis)
     return np.asarray(inverse_rotation(frame) @ rotation_z(angle) @ frame)
 
 
 def rotated_about_line(points: ArrayLike, on_line: ArrayLike, axis: ArrayLike, angle: float) -> Floats:
-    """The points (..., 3) turned about the line through a point (3,) along an axis (3,).
+    """Points turned about the line through a point along an axis.
 
+    Parameters
+    ----------
+    points : (..., 3) array_like of float
+        In space.
+    on_line, axis : (3,) array_like of float
+        A point of the line, and its direction.
+    angle : float
+        In radians, counter-clockwise seen from the axis' tip.
+
+    Returns
+    -------
+    (..., 3) array of float
+        The points where they are then.
+
+    Raises
+    ------
+    InputError
+        For an axis without length.
+
+    Notes
+    -----
     Source: Glaeser, end of section 1.6.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> np.allclose(geometry.rotated_about_line([(3, 0, 0)], (1, 0, 0), (0, 0, 1), np.pi / 2), [(1, 2, 0)])
+    True
     """
     a = np.asarray(on_line, dtype=np.float64)
     return np.asarray((np.asarray(points, dtype=np.float64) - a) @ rotation_about(axis, angle) + a)
 
 
 def look_rotation(centres: ArrayLike, twist: ArrayLike = 0.0) -> Floats:
-    """The rotations (..., 3, 3) that carry centres (..., 3) onto the positive z-axis, horizontal lines staying
-    horizontal but for the twist (...): Z(-gamma) X(-beta) Z(-alpha).
+    """The rotations that carry centres onto the positive z-axis, horizontal lines staying horizontal but for a twist.
 
-    One line for the screen and all lights: only the screen has a twist.
-    Degenerate: for a centre above or below the origin the azimuth is 0; the inverse is the transposed matrix.
-    Errors: InputError for a centre in the origin. Source: Glaeser, sections 2.1, equations 1 to 4, and 2.4.
+    Parameters
+    ----------
+    centres : (..., 3) array_like of float
+        Eyes or lamps, with the target as the origin.
+    twist : (...) array_like of float
+        In radians.
+
+    Returns
+    -------
+    (..., 3, 3) array of float
+        Z(-gamma) X(-beta) Z(-alpha), acts on points as rows: points @ rotation.
+
+    Raises
+    ------
+    InputError
+        For a centre in the origin.
+
+    Notes
+    -----
+    One line for the screen and all lights: only the screen has a twist. The inverse is the transposed matrix.
+
+    Degenerate: for a centre above or below the origin the azimuth is 0.
+
+    Source: Glaeser, sections 2.1, equations 1 to 4, and 2.4.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> rotation = geometry.look_rotation((0, -5, 0))
+    >>> np.allclose([(0, -5, 0), (1, 0, 0), (0, 0, 1)] @ rotation, [(0, 0, 5), (1, 0, 0), (0, 1, 0)])
+    True
     """
     spherical = spherical_coordinates(normalize(centres))
     gamma, beta = np.pi / 2.0 + spherical[..., 1], np.pi / 2.0 - spherical[..., 2]
@@ -90,11 +286,31 @@ def look_rotation(centres: ArrayLike, twist: ArrayLike = 0.0) -> Floats:
 
 
 def euler_angles(axes: ArrayLike) -> tuple[float, float, float]:
-    """The angles alpha, beta, gamma of Z(alpha) X(beta) Z(gamma), for a frame (3, 3) of unit rows right, up, back.
+    """The angles alpha, beta, gamma of Z(alpha) X(beta) Z(gamma) for a frame, in radians.
 
-    -pi < alpha <= pi, 0 <= beta <= pi, -pi/2 < gamma <= 3 pi/2 (a quarter turn more than the azimuth of the eye).
+    Parameters
+    ----------
+    axes : (3, 3) array_like of float
+        Unit rows right, up, back.
+
+    Returns
+    -------
+    (float, float, float)
+        -pi < alpha <= pi, 0 <= beta <= pi, -pi/2 < gamma <= 3 pi/2 (a quarter turn more than the azimuth of the eye).
+
+    Notes
+    -----
     Degenerate: where beta is 0 or pi, gamma is pi/2, so that an upright view has the azimuth 0.
+
     Source: Glaeser, section 2.1, equations 9 and 10; erratum G2-01.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> axes = geometry.rotation_z(0.1) @ geometry.rotation_x(0.2) @ geometry.rotation_z(0.3)
+    >>> np.allclose(geometry.euler_angles(axes), (0.1, 0.2, 0.3))
+    True
     """
     m = np.asarray(axes, dtype=np.float64)
     sine = float(np.hypot(m[2, 0], m[2, 1]))

@@ -31,9 +31,37 @@ _BOX = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7), (3, 2, 1, 0), (4
 def box(lengths: Sequence[float], *, caps: Collection[str] = BOTH_CAPS, placement: Sequence[float] = IDENTITY) -> Mesh:
     """The box with one corner in the origin and edges of three lengths along the axes, then placed.
 
-    caps: which of ``bottom`` and ``top`` are present; a hollow box has none. Faces: the four sides, beginning at y = 0,
-    then bottom and top. A negative length points the other way; a placement that mirrors turns the faces round.
-    Errors: InputError for a length that is zero or not finite. Source: Glaeser, section 3.5.
+    Parameters
+    ----------
+    lengths : (3,) sequence of float
+        Along x, y and z; a negative length points the other way.
+    caps : collection of {"bottom", "top"}
+        Which of them are present; a hollow box has none.
+    placement : (12,) sequence of float
+        The three rows of a 3x4 matrix (rotation and translation) acting on columns, one after the other.
+
+    Returns
+    -------
+    Mesh
+        Faces: the four sides, beginning at y = 0, then bottom and top. A placement that mirrors turns the faces round.
+
+    Raises
+    ------
+    InputError
+        For a length that is zero or not finite.
+
+    Notes
+    -----
+    Source: Glaeser, section 3.5.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> raised = geometry.box((2, 3, 4), placement=(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 5))
+    >>> raised.face_count, raised.bounds.tolist()
+    (6, [[0.0, 0.0, 5.0], [2.0, 3.0, 9.0]])
+    >>> geometry.box((2, 3, 4), caps=()).present.tolist()
+    [True, True, True, True, False, False]
     """
     x, y, z = lengths
     a, b, c, t, d, e, f, u, g, h, i, v = placement
@@ -47,7 +75,7 @@ def box(lengths: Sequence[float], *, caps: Collection[str] = BOTH_CAPS, placemen
     axy, dxy, gxy = ax + by, dx + ey, gx + hy
     low = [t, u, v, ax, dx, gx, axy, dxy, gxy, ty, uy, vy]
     high = [t + cz, u + fz, v + iz, ax + cz, dx + fz, gx + iz, axy + cz, dxy + fz, gxy + iz, ty + cz, uy + fz, vy + iz]
-    vertices = np.array(low + high).reshape(8, 3)
+    vertices = np.array(low + high, dtype=np.float64).reshape(8, 3)
     mirrored = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0.0
     turned = (x < 0.0) ^ (y < 0.0) ^ (z < 0.0) ^ mirrored
     corners, offsets, present = _box_faces(turned, BOTTOM in caps, TOP in caps)
@@ -67,7 +95,26 @@ def _box_faces(turned: bool, bottom: bool, top: bool) -> tuple[Ints, Ints, Bools
 
 
 def placed(mesh: Mesh, placement: Sequence[float]) -> Mesh:
-    """The mesh under a placement (twelve numbers, see IDENTITY)."""
+    """The mesh under a placement.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Where it was made.
+    placement : (12,) sequence of float
+        The three rows of a 3x4 matrix (rotation and translation) acting on columns, one after the other.
+
+    Returns
+    -------
+    Mesh
+        With the same faces; a placement that mirrors turns them round.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.placed(geometry.box((1, 1, 1)), (1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0)).bounds.tolist()
+    [[5.0, 0.0, 0.0], [6.0, 1.0, 1.0]]
+    """
     if tuple(placement) == IDENTITY:
         return mesh
     return mesh.transformed(np.array([*placement, 0.0, 0.0, 0.0, 1.0]).reshape(4, 4))
@@ -76,10 +123,40 @@ def placed(mesh: Mesh, placement: Sequence[float]) -> Mesh:
 def prism(base_points: ArrayLike, vector: ArrayLike, *, caps: Collection[str] = BOTH_CAPS) -> Mesh:
     """The body that a planar polygon sweeps when it is moved along a vector.
 
-    base_points (b,3), vector (3,). 2b vertices (the base, then the top), 3b edges; faces: the b sides in the order of
-    the edges of the base, then bottom and top. A base that runs clockwise about the vector is turned round.
-    Errors: InputError for fewer than three points, a vector in the plane of the base. A base that is not planar is used
-    with an InputWarning. Source: Glaeser, section 3.5.
+    Parameters
+    ----------
+    base_points : (b, 3) array_like of float
+        The base; one that runs clockwise about the vector is turned round.
+    vector : (3,) array_like of float
+        From the base to the top.
+    caps : collection of {"bottom", "top"}
+        Which of them are present.
+
+    Returns
+    -------
+    Mesh
+        2b vertices (the base, then the top), 3b edges; faces: the b sides in the order of the edges of the base, then
+        bottom and top.
+
+    Raises
+    ------
+    InputError
+        For fewer than three points, points that are not finite, a vector in the plane of the base.
+
+    Warns
+    -----
+    InputWarning
+        For a base that is not planar; it is used all the same.
+
+    Notes
+    -----
+    Source: Glaeser, section 3.5.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.prism([(0, 0, 0), (1, 0, 0), (0, 1, 0)], (0, 0, 2)).polygons()
+    [[0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5], [2, 1, 0], [3, 4, 5]]
     """
     body = swept_polygon(base_points, vector, caps=caps)
     if not is_planar(base_points):
@@ -143,10 +220,36 @@ def presence(count: int, shown: Collection[str], stored: Sequence[str]) -> Bools
 
 
 def polyhedron(vertices: ArrayLike, faces: Sequence[Sequence[int]]) -> Mesh:
-    """The polyhedron with these faces (indices from 0), turned outwards if its outline is convex.
+    """The polyhedron with some faces, turned outwards if its outline is convex.
 
-    So a convex body may list its faces either way round. Others are left as they are listed.
-    Errors: as Mesh. Source: Glaeser, sections 3.2 and 3.3; erratum G3-18.
+    Parameters
+    ----------
+    vertices : (n, 3) array_like of float
+        In world units.
+    faces : sequence of sequences of int
+        Vertex indices from 0.
+
+    Returns
+    -------
+    Mesh
+        A convex body may list its faces either way round; others are left as they are listed.
+
+    Raises
+    ------
+    InputError
+        For what Mesh refuses.
+
+    Notes
+    -----
+    Source: Glaeser, sections 3.2 and 3.3; erratum G3-18.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> corners, faces = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2), (0, 1, 3), (1, 2, 3), (0, 2, 3)]
+    >>> tetrahedron = geometry.polyhedron(corners, faces)
+    >>> tetrahedron.polygons(), geometry.is_closed_oriented(tetrahedron)
+    ([[2, 1, 0], [0, 1, 3], [1, 2, 3], [3, 2, 0]], True)
     """
     mesh = Mesh.from_polygons(vertices, faces)
     turned = turned_outwards(mesh)
@@ -177,9 +280,28 @@ def zero_distance(points: Floats) -> float:
 
 
 def has_convex_outline(mesh: Mesh) -> bool:
-    """Whether no vertex lies outside the plane of any face: true for convex bodies and for parts of their surfaces.
+    """Whether no vertex lies outside the plane of any face.
 
-    Degenerate: faces without area say nothing; a vertex nearer to a plane than zero_distance lies in it.
+    Parameters
+    ----------
+    mesh : Mesh
+        Its faces turned outwards.
+
+    Returns
+    -------
+    bool
+        True for convex bodies and for parts of their surfaces.
+
+    Notes
+    -----
+    Degenerate: faces without area say nothing; a vertex nearer to a plane than about 1e-9 of the extent lies in it.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> spool = geometry.revolution([(2, 0, 0), (1, 0, 1), (2, 0, 2)], order=6)
+    >>> geometry.has_convex_outline(geometry.box((1, 1, 1))), geometry.has_convex_outline(spool)
+    (True, False)
     """
     used = np.unique(mesh.corners)
     if not len(used):

@@ -71,7 +71,24 @@ def largest_component(vectors: ArrayLike) -> Floats:
 
 
 def length(vectors: ArrayLike) -> Floats:
-    """The lengths (...) of vectors (..., k), without overflow or underflow on the way."""
+    """The lengths of vectors, without overflow or underflow on the way.
+
+    Parameters
+    ----------
+    vectors : (..., k) array_like of float
+        In the plane, in space, or of any dimension.
+
+    Returns
+    -------
+    (...) array of float
+        Not negative.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.length([(3, 4), (0, 0)]).tolist()
+    [5.0, 0.0]
+    """
     v = np.asarray(vectors, dtype=np.float64)
     largest = np.abs(v).max(axis=-1, initial=0.0, keepdims=True)
     scaled = v / np.where((largest > 0.0) & (largest < np.inf), largest, 1.0)
@@ -79,12 +96,35 @@ def length(vectors: ArrayLike) -> Floats:
 
 
 def normalize(vectors: ArrayLike, *, magnitude: ArrayLike = 0.0) -> Floats:
-    """Unit vectors (..., k) of the same directions.
+    """Unit vectors of the same directions.
 
-    magnitude (...): the largest coordinate the vectors were made of; a difference of points that is no longer than
-    their rounding has no direction.
-    Errors: InputError for a vector without length, or of a length that is not finite.
+    Parameters
+    ----------
+    vectors : (..., k) array_like of float
+        Of any length but zero.
+    magnitude : (...) array_like of float
+        The largest coordinate the vectors were made of; a difference of points that is no longer than their rounding
+        has no direction.
+
+    Returns
+    -------
+    (..., k) array of float
+        Of length 1.
+
+    Raises
+    ------
+    InputError
+        For a vector without length, or of a length that is not finite.
+
+    Notes
+    -----
     Source: Glaeser, section 1.2, equations 11 and 12; errata G1-03, G1-06.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.normalize((3, 4)).round(9).tolist()
+    [0.6, 0.8]
     """
     v = np.asarray(vectors, dtype=np.float64)
     long = length(v)
@@ -96,9 +136,29 @@ def normalize(vectors: ArrayLike, *, magnitude: ArrayLike = 0.0) -> Floats:
 
 
 def point_on_line(p: ArrayLike, q: ArrayLike, parameter: ArrayLike) -> Floats:
-    """The points (..., k) of the lines PQ at the parameters (...): 0 gives P, 1 gives Q, any number is allowed.
+    """The points of lines PQ at some parameters: 0 gives P, 1 gives Q, any number is allowed.
 
+    Parameters
+    ----------
+    p, q : (..., k) array_like of float
+        Two points of each line.
+    parameter : (...) array_like of float
+        In units of PQ.
+
+    Returns
+    -------
+    (..., k) array of float
+        Points of the lines; 0 and 1 give P and Q to the last digit.
+
+    Notes
+    -----
     Source: Glaeser, section 1.1, equations 4 and 5.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.point_on_line((0, 0), (4, 2), [0.25, 2]).tolist()
+    [[1.0, 0.5], [8.0, 4.0]]
     """
     p, q = np.asarray(p, dtype=np.float64), np.asarray(q, dtype=np.float64)
     t = np.asarray(parameter, dtype=np.float64)[..., None]
@@ -107,9 +167,34 @@ def point_on_line(p: ArrayLike, q: ArrayLike, parameter: ArrayLike) -> Floats:
 
 
 def point_at_distance(p: ArrayLike, q: ArrayLike, distance: ArrayLike) -> Floats:
-    """The points (..., k) of the lines PQ at a distance (...) from P, towards Q; negative distances lie beyond P.
+    """The points of lines PQ at some distance from P, towards Q.
 
-    Errors: InputError where P is Q. Source: Glaeser, section 1.2, equation 13.
+    Parameters
+    ----------
+    p, q : (..., k) array_like of float
+        Two points of each line.
+    distance : (...) array_like of float
+        Negative distances lie beyond P.
+
+    Returns
+    -------
+    (..., k) array of float
+        Points of the lines.
+
+    Raises
+    ------
+    InputError
+        Where P is Q.
+
+    Notes
+    -----
+    Source: Glaeser, section 1.2, equation 13.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.point_at_distance((0, 0), (3, 4), [10, -5]).round(9).tolist()
+    [[6.0, 8.0], [-3.0, -4.0]]
     """
     p, q = np.asarray(p, dtype=np.float64), np.asarray(q, dtype=np.float64)
     size = np.maximum(np.abs(p).max(axis=-1), np.abs(q).max(axis=-1))
@@ -117,15 +202,63 @@ def point_at_distance(p: ArrayLike, q: ArrayLike, distance: ArrayLike) -> Floats
 
 
 def translated(points: ArrayLike, vector: ArrayLike) -> Floats:
-    """The points (..., k) moved by a vector. Source: Glaeser, section 1.4."""
+    """Points moved by a vector.
+
+    Parameters
+    ----------
+    points : (..., k) array_like of float
+        In the plane or in space.
+    vector : (k,) or (..., k) array_like of float
+        One for all, or one for each.
+
+    Returns
+    -------
+    (..., k) array of float
+        The points where they are then.
+
+    Notes
+    -----
+    Source: Glaeser, section 1.4.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.translated([(0, 0, 0), (1, 2, 3)], (0, 0, 5)).tolist()
+    [[0.0, 0.0, 5.0], [1.0, 2.0, 8.0]]
+    """
     return np.asarray(np.asarray(points, dtype=np.float64) + np.asarray(vector, dtype=np.float64))
 
 
 def angle(a: ArrayLike, b: ArrayLike) -> Floats:
-    """The angles (...) between directions (..., k), 0 to pi, in radians.
+    """The angles between directions, in radians.
 
+    Parameters
+    ----------
+    a, b : (..., 2 or 3) array_like of float
+        Of any length but zero.
+
+    Returns
+    -------
+    (...) array of float
+        0 to pi.
+
+    Raises
+    ------
+    InputError
+        For a vector without length.
+
+    Notes
+    -----
     Accurate for tiny and for straight angles, where the cosine alone has lost its digits.
-    Errors: InputError for a vector without length. Source: Glaeser, section 1.2, equations 14 and 15.
+
+    Source: Glaeser, section 1.2, equations 14 and 15.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> np.degrees(geometry.angle((1, 0), [(5, 5), (0, 1), (-2, 0)])).round(9).tolist()
+    [45.0, 90.0, 180.0]
     """
     a, b = normalize(a), normalize(b)
     sine = np.abs(cross(a, b)) if a.shape[-1] == 2 else length(cross(a, b))
@@ -133,24 +266,104 @@ def angle(a: ArrayLike, b: ArrayLike) -> Floats:
 
 
 def angle_line_plane(direction: ArrayLike, normal: ArrayLike) -> Floats:
-    """The angles (...) between lines and planes given by their normals: 0 in the plane, positive towards the normal.
+    """The angles between lines and planes given by their normals, in radians.
 
+    Parameters
+    ----------
+    direction : (..., 3) array_like of float
+        Of the lines.
+    normal : (..., 3) array_like of float
+        Of the planes.
+
+    Returns
+    -------
+    (...) array of float
+        -pi/2 to pi/2: 0 in the plane, positive towards the normal.
+
+    Raises
+    ------
+    InputError
+        For a vector without length.
+
+    Notes
+    -----
     Source: Glaeser, section 1.2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> np.degrees(geometry.angle_line_plane((1, 0, 1), (0, 0, 1))).round(9).item()
+    45.0
     """
     return np.asarray(np.pi / 2.0 - angle(direction, normal))
 
 
 def angle_planes(normal: ArrayLike, other: ArrayLike) -> Floats:
-    """The angles (...) between planes: those of their normals. Source: Glaeser, section 1.2."""
+    """The angles between planes: those of their normals, in radians.
+
+    Parameters
+    ----------
+    normal, other : (..., 3) array_like of float
+        Of any length but zero.
+
+    Returns
+    -------
+    (...) array of float
+        0 to pi.
+
+    Raises
+    ------
+    InputError
+        For a normal without length.
+
+    Notes
+    -----
+    Source: Glaeser, section 1.2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> np.degrees(geometry.angle_planes((0, 0, 1), (0, 3, 0))).round(9).item()
+    90.0
+    """
     return angle(normal, other)
 
 
 def lambert_cosine(normal: ArrayLike, point: ArrayLike, light: ArrayLike) -> Floats:
-    """The cosines (...) that say how brightly faces are lit: 1 facing the light, negative on the side turned away.
+    """The cosines that say how brightly faces are lit: 1 facing the light, negative on the side turned away.
 
-    normal (..., 3): of the faces; point (..., 3): their barycentres; light: where the light stands (3 components), or
-    (x, y, z, 0) for parallel rays that come from the direction (x, y, z).
-    Errors: InputError for a light in a barycentre. Source: Glaeser, sections 1.2 and 4.5.
+    Parameters
+    ----------
+    normal : (..., 3) array_like of float
+        Of the faces, of any length but zero.
+    point : (..., 3) array_like of float
+        Their barycentres.
+    light : (..., 3) or (..., 4) array_like of float
+        Where the light stands, or (x, y, z, 0) for parallel rays that come from the direction (x, y, z).
+
+    Returns
+    -------
+    (...) array of float
+        -1 to 1.
+
+    Raises
+    ------
+    InputError
+        For a light in a barycentre, and a normal without length.
+
+    Notes
+    -----
+    Source: Glaeser, sections 1.2 and 4.5.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.lambert_cosine((0, 0, 1), (0, 0, 0), [(0, 0, 5), (0, 0, -5)]).tolist()
+    [1.0, -1.0]
+    >>> geometry.lambert_cosine((0, 0, 1), (7, 7, 0), (3, 0, 4, 0)).round(9).item()
+    0.8
     """
     light = np.asarray(light, dtype=np.float64)
     point = np.asarray(point, dtype=np.float64)
@@ -162,9 +375,31 @@ def lambert_cosine(normal: ArrayLike, point: ArrayLike, light: ArrayLike) -> Flo
 
 
 def spherical_coordinates(points: ArrayLike) -> Floats:
-    """Distance from the origin, azimuth and elevation (..., 3) of points in space, angles in radians.
+    """Distance from the origin, azimuth and elevation of points in space, angles in radians.
 
-    Degenerate: on the z-axis the azimuth is 0; the origin is (0, 0, 0). Source: Glaeser, section 2.4.
+    Parameters
+    ----------
+    points : (..., 3) array_like of float
+        In space.
+
+    Returns
+    -------
+    (..., 3) array of float
+        Distance, azimuth from the x-axis (-pi to pi), elevation above the xy-plane (-pi/2 to pi/2).
+
+    Notes
+    -----
+    Degenerate: on the z-axis the azimuth is 0; the origin is (0, 0, 0).
+
+    Source: Glaeser, section 2.4.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> distance, azimuth, elevation = geometry.spherical_coordinates((0, 1, 1))
+    >>> round(distance.item(), 6), round(np.degrees(azimuth).item(), 6), round(np.degrees(elevation).item(), 6)
+    (1.414214, 90.0, 45.0)
     """
     p = np.asarray(points, dtype=np.float64)
     across = length(p[..., :2])
@@ -173,7 +408,30 @@ def spherical_coordinates(points: ArrayLike) -> Floats:
 
 
 def from_spherical_coordinates(coordinates: ArrayLike) -> Floats:
-    """The points (..., 3) with these distances, azimuths and elevations."""
+    """The points with some distances, azimuths and elevations.
+
+    Parameters
+    ----------
+    coordinates : (..., 3) array_like of float
+        As spherical_coordinates gives them, angles in radians.
+
+    Returns
+    -------
+    (..., 3) array of float
+        In space.
+
+    Notes
+    -----
+    Source: Glaeser, section 2.4.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> points = np.array([(1.0, 2.0, 3.0), (0.0, 0.0, -4.0)])
+    >>> np.allclose(geometry.from_spherical_coordinates(geometry.spherical_coordinates(points)), points)
+    True
+    """
     distance, azimuth, elevation = np.moveaxis(np.asarray(coordinates, dtype=np.float64), -1, 0)
     across = distance * np.cos(elevation)
     return np.stack([across * np.cos(azimuth), across * np.sin(azimuth), distance * np.sin(elevation)], axis=-1)

@@ -16,12 +16,35 @@ BOTTOM, TOP = 0, 1
 
 
 def convex_hull(points: ArrayLike) -> Ints:
-    """The corners (h,) of the convex hull of points (n, 2 or more columns, of which two count), counter-clockwise from
-    the leftmost one; points on its sides are no corners.
+    """The corners of the convex hull of points in the plane, counter-clockwise from the leftmost one.
 
-    Errors: InputError for coordinates that are not finite. Degenerate: two corners where all points lie on a line, one
-    where all are the same, of which the first listed, none for no points.
+    Parameters
+    ----------
+    points : (n, 2 or more) array_like of float
+        The first two columns count.
+
+    Returns
+    -------
+    (h,) array of int
+        Numbers of points; those on the hull's sides are no corners.
+
+    Raises
+    ------
+    InputError
+        For coordinates that are not finite, and for fewer than two columns.
+
+    Notes
+    -----
+    Degenerate: two corners where all points lie on a line, one where all are the same, of which the first listed, none
+    for no points.
+
     Source: Glaeser, section 6.1, figure 1 (Bykat); errata G6-02, G6-03.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.convex_hull([(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 0)]).tolist()
+    [0, 1, 3, 4]
     """
     p = np.asarray(points, dtype=np.float64)
     if p.ndim != 2 or p.shape[1] < 2:
@@ -109,12 +132,36 @@ def _without_flat_corners(p: Floats, owner: Ints, corner: Ints, count: int) -> t
 
 
 def hull_mesh(points: ArrayLike) -> Mesh:
-    """The convex hull of points (n,3) as a polyhedron: its vertices, in the order of the points, and its faces, whole
-    polygons, counter-clockwise from outside.
+    """The convex hull of points in space as a polyhedron.
 
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        Four or more, not in one plane.
+
+    Returns
+    -------
+    Mesh
+        Its vertices, in the order of the points, and its faces, whole polygons, counter-clockwise from outside.
+
+    Raises
+    ------
+    InputError
+        For fewer than four points, coordinates that are not finite, points in one plane.
+
+    Notes
+    -----
     Triangles whose planes are the same within a thousand-millionth of the extent are one face.
-    Errors: InputError for fewer than four points, coordinates that are not finite, points in one plane.
+
     Source: Barber, Dobkin and Huhdanpaa, The quickhull algorithm for convex hulls (1996), as scipy has it.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> base, top, inside = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], (0.5, 0.5, 1), (0.5, 0.5, 0.2)
+    >>> pyramid = geometry.hull_mesh([*base, top, inside])
+    >>> len(pyramid.vertices), sorted(pyramid.face_sizes.tolist())
+    (5, [3, 3, 3, 3, 4])
     """
     from scipy.spatial import ConvexHull, QhullError
 

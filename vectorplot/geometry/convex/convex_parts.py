@@ -17,12 +17,40 @@ from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 
 def convex_polygon_parts(outline: ArrayLike, holes: Sequence[ArrayLike] = ()) -> list[Ints]:
-    """Convex polygons that together cover a plane polygon: lists of point numbers, counter-clockwise.
+    """Convex polygons that together cover a plane polygon.
 
-    outline (n,2) counter-clockwise, holes (k,2) clockwise; the points are numbered through, the outline first. The
-    parts are triangles of a constrained Delaunay triangulation, joined over the diagonals that convexity does not need.
-    Errors: InputError for an outline that crosses itself. Degenerate: a convex outline without holes is its own part.
+    Parameters
+    ----------
+    outline : (n, 2) array_like of float
+        Counter-clockwise.
+    holes : sequence of (k, 2) array_like of float
+        Clockwise.
+
+    Returns
+    -------
+    list of (m,) array of int
+        Numbers of points, counter-clockwise; the points are numbered through, the outline first.
+
+    Raises
+    ------
+    InputError
+        For an outline that crosses itself.
+
+    Notes
+    -----
+    The parts are triangles of a constrained Delaunay triangulation, joined over the diagonals that convexity does not
+    need.
+
+    Degenerate: a convex outline without holes is its own part.
+
     Source: Glaeser, section 3.5; the joining is that of Hertel and Mehlhorn.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> angle = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
+    >>> [len(part) for part in geometry.convex_polygon_parts(angle)]
+    [4, 4]
     """
     rings = [np.asarray(ring, dtype=np.float64).reshape(-1, 2) for ring in (outline, *holes)]
     if not len(rings) > 1 and is_convex_polygon(rings[0]):
@@ -32,7 +60,26 @@ def convex_polygon_parts(outline: ArrayLike, holes: Sequence[ArrayLike] = ()) ->
 
 
 def is_convex_polygon(points: Floats) -> bool:
-    """Whether a polygon (n,2) turns left or goes straight on at every corner, and once round in all."""
+    """Whether a polygon turns left or goes straight on at every corner, and once round in all.
+
+    Parameters
+    ----------
+    points : (n, 2) array of float
+        The corners.
+
+    Returns
+    -------
+    bool
+        False for a convex polygon that runs clockwise.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
+    >>> geometry.is_convex_polygon(square), geometry.is_convex_polygon(square[::-1])
+    (True, False)
+    """
     sides = np.roll(points, -1, axis=0) - points
     after = np.roll(sides, -1, axis=0)
     turn = sides[:, 0] * after[:, 1] - sides[:, 1] * after[:, 0]
@@ -91,7 +138,34 @@ def _joined(points: Floats, triangles: Ints) -> list[Ints]:
 def convex_prism_parts(base_points: ArrayLike, vector: ArrayLike) -> list[Mesh]:
     """Convex prisms that together fill the prism over a planar base.
 
-    Errors: as prism. Source: Glaeser, section 3.5.
+    Parameters
+    ----------
+    base_points : (b, 3) array_like of float
+        A planar polygon.
+    vector : (3,) array_like of float
+        Along which it is moved.
+
+    Returns
+    -------
+    list of Mesh
+        One where the base is convex.
+
+    Raises
+    ------
+    InputError
+        For what prism refuses, and a base that crosses itself.
+
+    Notes
+    -----
+    Source: Glaeser, section 3.5.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> angle = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (1, 1, 0), (1, 2, 0), (0, 2, 0)]
+    >>> parts = geometry.convex_prism_parts(angle, (0, 0, 1))
+    >>> round(sum(geometry.body_record(part).volume for part in parts), 9)
+    3.0
     """
     whole = prism(base_points, vector)
     count = len(whole.vertices) // 2
@@ -130,9 +204,36 @@ def signed_area(points: Floats) -> float:
 def convex_revolution_parts(meridian: ArrayLike, order: int, *, angle_deg: float = FULL_TURN) -> list[Mesh]:
     """Convex polyhedra that together fill a body of revolution.
 
-    Where every horizontal plane meets the meridian once, slices between horizontal planes, in parts of at most half a
-    turn; else the convex parts of the profile, swept step by step. The meridian lies in a half-plane through the axis.
-    Errors: as revolution. Source: Glaeser, section 3.4, figure 4.
+    Parameters
+    ----------
+    meridian : (s, 3) array_like of float
+        In a half-plane through the z-axis.
+    order : int
+        As of revolution.
+    angle_deg : float
+        As of revolution.
+
+    Returns
+    -------
+    list of Mesh
+        Where every horizontal plane meets the meridian once, slices between horizontal planes, in parts of at most half
+        a turn; else the convex parts of the profile, swept step by step.
+
+    Raises
+    ------
+    InputError
+        For what revolution refuses.
+
+    Notes
+    -----
+    Source: Glaeser, section 3.4, figure 4.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> spool = [(2, 0, 0), (1, 0, 1), (2, 0, 2)]
+    >>> [part.face_count for part in geometry.convex_revolution_parts(spool, order=6)]
+    [8, 8]
     """
     revolution(meridian, order, angle_deg=angle_deg)  # refuses what makes no body
     points = checked_points(meridian, "meridian")
@@ -199,7 +300,35 @@ def _without_repeats(face: list[int]) -> list[int]:
 
 
 def split_faces(mesh: Mesh, chosen: Bools) -> Mesh:
-    """The mesh with the chosen faces cut into convex parts; the others first, in their order."""
+    """The mesh with some faces cut into convex parts.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        With f faces.
+    chosen : (f,) array of bool
+        The faces to be cut, which are planar.
+
+    Returns
+    -------
+    Mesh
+        With the same vertices; the other faces first, in their order.
+
+    Raises
+    ------
+    InputError
+        For a face that crosses itself.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (1, 1, 0), (1, 2, 0), (0, 2, 0)]
+    >>> angle = vp.Mesh.from_polygons(corners, [range(6)])
+    >>> geometry.split_faces(angle, np.array([True])).face_sizes.tolist()
+    [4, 4]
+    """
     polygons = mesh.polygons()
     present = np.ones(mesh.face_count, dtype=np.bool_) if mesh.present is None else mesh.present
     numbers = np.flatnonzero(~chosen).tolist()

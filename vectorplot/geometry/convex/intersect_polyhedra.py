@@ -21,12 +21,40 @@ MAX_PLANES = 10_000
 def polyhedron_intersection(body: Mesh, convex: Mesh) -> Mesh:
     """The part of a closed polyhedron that lies inside a closed convex one.
 
-    Faces of body first, in their order, then those of convex that close the cuts; a face that is not present stays so.
+    Parameters
+    ----------
+    body : Mesh
+        Closed, its faces turned outwards.
+    convex : Mesh
+        The same, and convex, with at most 10000 faces.
+
+    Returns
+    -------
+    Mesh
+        Faces of body first, in their order, then those of convex that close the cuts; a face that is not present stays
+        so.
+
+    Raises
+    ------
+    InputError
+        If a mesh is not closed with all its faces (also those not present) turned outwards, or neither is convex; for a
+        convex one of too many faces.
+
+    Notes
+    -----
     If body is convex too, so is the result, and the order of the two does not matter.
-    Errors: InputError if a mesh is not closed with all its faces (also those not present) turned outwards, or neither
-    is convex. Degenerate: bodies that only touch have an empty intersection; of two faces in one plane that of body
-    stays; distances below 1e-9 of the extent are zero. A cut with holes is closed by several convex faces.
+
+    Degenerate: bodies that only touch have an empty intersection; of two faces in one plane that of body stays;
+    distances below 1e-9 of the extent are zero. A cut with holes is closed by several convex faces.
+
     Source: Glaeser, section 3.6; errata G3-12 to G3-15.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> one, other = geometry.box((2, 2, 2)), geometry.box((2, 2, 2), placement=(1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1))
+    >>> geometry.polyhedron_intersection(one, other).bounds.tolist()
+    [[1.0, 1.0, 1.0], [2.0, 2.0, 2.0]]
     """
     for mesh in (body, convex):
         if not is_closed_oriented(mesh):
@@ -72,9 +100,41 @@ def _sides(distance: Floats, zero: float) -> Ints:
 
 
 def cut_body(body: Mesh, normal: Floats, point: Floats, zero: float, shown: bool) -> Mesh:
-    """The part of a closed polyhedron behind the plane through a point with an outer normal.
+    """The part of a closed polyhedron behind a plane with an outer normal.
 
-    Faces in the plane close it, which are present if shown. Points up to the distance zero from the plane lie in it.
+    Parameters
+    ----------
+    body : Mesh
+        Closed, its faces turned outwards.
+    normal, point : (3,) array of float
+        Of the plane: a unit vector, and a point in it.
+    zero : float
+        Points up to this distance from the plane lie in it.
+    shown : bool
+        Whether the faces in the plane that close it are present.
+
+    Returns
+    -------
+    Mesh
+        Vertices that no face has any more stay.
+
+    Raises
+    ------
+    InputError
+        For a body that is not closed.
+
+    Notes
+    -----
+    Source: Glaeser, section 3.6.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> cube = geometry.box((2, 2, 2))
+    >>> corner = geometry.cut_body(cube, np.array((1, 1, 1)) / np.sqrt(3), np.array((1.0, 2.0, 2.0)), 1e-9, shown=True)
+    >>> corner.face_count, sorted(corner.face_sizes.tolist())
+    (7, [3, 4, 4, 4, 5, 5, 5])
     """
     distance = (body.vertices - point) @ normal
     side = _sides(distance, zero)

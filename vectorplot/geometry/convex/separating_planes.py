@@ -31,11 +31,36 @@ Infos = NDArray[np.int8]
 
 
 def own_box(points: ArrayLike) -> Floats:
-    """The box (8,3) around points (n,3): corner k has the largest x where k is odd, y where k & 2, z where k & 4.
+    """The box around points.
 
-    Taken of a shape before it is turned, and turned with it, it fits closer than one along the axes taken later. A flat
-    box is widened, to both sides alike, so that every side has a plane.
-    Errors: InputError for no points, or such that are not finite. Source: Glaeser, section 5.8, figure 13.
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        One or more.
+
+    Returns
+    -------
+    (8, 3) array of float
+        Corner k has the largest x where k is odd, y where k & 2, z where k & 4.
+
+    Raises
+    ------
+    InputError
+        For no points, or such that are not finite.
+
+    Notes
+    -----
+    Taken of a shape before it is turned, and turned with it, it fits closer than one along the axes taken later.
+
+    Degenerate: a flat box is widened, to both sides alike, so that every side has a plane.
+
+    Source: Glaeser, section 5.8, figure 13.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.own_box([(0, 0, 0), (1, 2, 3)])[[0, 1, 2, 4]].tolist()
+    [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]]
     """
     p = np.asarray(points, dtype=np.float64)
     if p.ndim != 2 or p.shape[1:] != (3,) or not len(p) or not np.isfinite(p).all():
@@ -50,9 +75,34 @@ def own_box(points: ArrayLike) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Surroundings:
-    """What is around shapes: boxes (n,8,3) as of own_box, turned or not; spheres (n,4), centre and radius; points (v,3)
-    and offsets (n+1,); planes (f,4), unit normal outwards and constant, of the faces of the convex ones, and
-    plane_offsets (n+1,)."""
+    """What is around shapes: boxes, spheres, points and planes.
+
+    Parameters
+    ----------
+    boxes : (n, 8, 3) array of float
+        As of own_box, turned or not.
+    spheres : (n, 4) array of float
+        Centre and radius.
+    points : (v, 3) array of float
+        The vertices of all shapes.
+    offsets : (n+1,) array of int
+        Shape k has the points offsets[k] to offsets[k+1].
+    planes : (f, 4) array of float
+        Unit normal outwards and constant, of the faces of the convex ones.
+    plane_offsets : (n+1,) array of int
+        Shape k has the planes plane_offsets[k] to plane_offsets[k+1].
+
+    Notes
+    -----
+    Source: Glaeser, section 5.8.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> around = geometry.Surroundings.of([geometry.box((2, 2, 2)), geometry.box((1, 1, 1))])
+    >>> len(around), around.spheres[0].round(6).tolist(), around.plane_offsets.tolist()
+    (2, [1.0, 1.0, 1.0, 1.732051], [0, 6, 12])
+    """
 
     boxes: Floats
     spheres: Floats
@@ -66,7 +116,25 @@ class Surroundings:
 
     @classmethod
     def of(cls, shapes: Sequence[Mesh], boxes: Sequence[ArrayLike] | None = None) -> Surroundings:
-        """Of meshes, with their own boxes if these are known. Errors: InputError for a mesh without vertices."""
+        """What is around meshes.
+
+        Parameters
+        ----------
+        shapes : sequence of Mesh
+            n of them.
+        boxes : sequence of (8, 3) array_like of float, optional
+            Their own boxes, if these are known.
+
+        Returns
+        -------
+        Surroundings
+            In the same order.
+
+        Raises
+        ------
+        InputError
+            For a mesh without vertices.
+        """
         around = [own_box(s.vertices) if boxes is None else np.asarray(boxes[k]) for k, s in enumerate(shapes)]
         middles = [box.mean(axis=0) for box in around]
         radii = [np.sqrt(((s.vertices - m) ** 2).sum(axis=1).max()) for s, m in zip(shapes, middles, strict=True)]
@@ -98,8 +166,32 @@ def _outer_planes(mesh: Mesh) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Separations:
-    """What keeps pairs of shapes apart: info (p,) as of FIRST_ABOVE; planes (p,4) unit normal and constant, NaN where
-    there is none; spheres (p,2,4) of both shapes."""
+    """What keeps pairs of shapes apart.
+
+    Parameters
+    ----------
+    info : (p,) array of int8
+        0 where nothing is known; 1 where the first shape is on the side the plane's normal points to, -1 where it is on
+        the other one; 2 where spheres around both have no common points.
+    planes : (p, 4) array of float
+        Unit normal and constant, NaN where there is none.
+    spheres : (p, 2, 4) array of float
+        Of both shapes.
+
+    Notes
+    -----
+    Source: Glaeser, sections 5.5 and 5.8; errata G5-05 to G5-07.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> left, right = geometry.box((1, 1, 1)), geometry.box((1, 1, 1), placement=(1, 0, 0, 1.5, 0, 1, 0, 0, 0, 0, 1, 0))
+    >>> around = geometry.Surroundings.of([left, right])
+    >>> found = geometry.separations(around, np.array([0]), np.array([1]))
+    >>> found.nearer(eye=(-9, 0, 0)).tolist(), found.nearer(eye=(9, 0, 0)).tolist()
+    ([1], [-1])
+    """
 
     info: Infos
     planes: Floats
@@ -127,11 +219,32 @@ class Separations:
 
 
 def spheres_power(spheres: Floats, eye: ArrayLike) -> Floats:
-    """(n,) the power of the eye with respect to spheres (n,4), d^2 - r^2; for a direction towards it (x, y, z, 0) the
-    distance of the centre from a far plane. Disjoint spheres are drawn by falling power.
+    """The power of the eye with respect to spheres, d^2 - r^2.
 
+    Parameters
+    ----------
+    spheres : (n, 4) array of float
+        Centre and radius.
+    eye : (3,) or (4,) array_like of float
+        The eye, or (x, y, z, 0) for a direction towards it.
+
+    Returns
+    -------
+    (n,) array of float
+        For a direction the distance of the centre from a far plane. Disjoint spheres are drawn by falling power.
+
+    Notes
+    -----
     The plane of equal power lies between two disjoint spheres, whatever their radii.
+
     Source: Glaeser, section 5.5, figure 9; erratum G5-03.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> geometry.spheres_power(np.array([(0, 0, 0, 1.0), (3, 0, 0, 1.5)]), eye=(5, 0, 0)).tolist()
+    [24.0, 1.75]
     """
     place = np.asarray(eye, dtype=np.float64)
     if len(place) == 4:
@@ -141,12 +254,39 @@ def spheres_power(spheres: Floats, eye: ArrayLike) -> Floats:
 
 
 def separations(around: Surroundings, first: Ints, second: Ints, *, tolerance: float = ZERO_OF_EXTENT) -> Separations:
-    """What keeps the shapes first (p,) and second (p,) apart: spheres, else the plane of a side of either box, else
-    that of a face of either shape if it is convex, else nothing.
+    """What keeps shapes apart, pair by pair.
 
-    A plane counts where no point is beyond it by more than the tolerance times the size of the two; of several
-    sides the one with the widest gap is taken. Exchange of a pair exchanges the answer.
-    Degenerate: shapes that touch are apart. Source: Glaeser, section 5.8; errata G5-06, G5-07.
+    Parameters
+    ----------
+    around : Surroundings
+        Of n shapes.
+    first, second : (p,) array of int
+        Numbers of shapes.
+    tolerance : float
+        A plane counts where no point is beyond it by more than this times the size of the two.
+
+    Returns
+    -------
+    Separations
+        Spheres, else the plane of a side of either box, else that of a face of either shape if it is convex, else
+        nothing.
+
+    Notes
+    -----
+    Of several sides the one with the widest gap is taken. Exchange of a pair exchanges the answer.
+
+    Degenerate: shapes that touch are apart.
+
+    Source: Glaeser, section 5.8; errata G5-06, G5-07.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> shapes = [geometry.box((1, 1, 1), placement=(1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0)) for x in (0, 1, 9)]
+    >>> found = geometry.separations(geometry.Surroundings.of(shapes), np.array([0, 0]), np.array([1, 2]))
+    >>> found.info.tolist(), found.planes[0].tolist()
+    ([-1, 2], [1.0, 0.0, 0.0, 1.0])
     """
     low, high = np.minimum(first, second), np.maximum(first, second)
     spheres = np.stack([around.spheres[low], around.spheres[high]], axis=1)
@@ -169,10 +309,46 @@ def separations(around: Surroundings, first: Ints, second: Ints, *, tolerance: f
 def separations_after_moves(
     before: Separations, around: Surroundings, first: Ints, second: Ints, moved: Bools
 ) -> Separations:
-    """What keeps the same pairs apart after some shapes, moved (n,), have moved: only their pairs are looked at again.
+    """What keeps the same pairs apart after some shapes have moved: only their pairs are looked at again.
 
-    before: what kept them apart; around: the shapes where they are now. A plane found for a pair holds until one of the
-    two moves. Errors: InputError unless there is one of before for each pair. Source: Glaeser, section 5.8.
+    Parameters
+    ----------
+    before : Separations
+        What kept the pairs apart.
+    around : Surroundings
+        The shapes where they are now.
+    first, second : (p,) array of int
+        Numbers of shapes.
+    moved : (n,) array of bool
+        Which of the shapes have moved.
+
+    Returns
+    -------
+    Separations
+        Of all pairs.
+
+    Raises
+    ------
+    InputError
+        Unless there is one of before for each pair.
+
+    Notes
+    -----
+    A plane found for a pair holds until one of the two moves.
+
+    Source: Glaeser, section 5.8.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> def around(x):
+    ...     moving = geometry.box((1, 1, 1), placement=(1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0))
+    ...     return geometry.Surroundings.of([geometry.box((1, 1, 1)), moving])
+    >>> pair = np.array([0]), np.array([1])
+    >>> before = geometry.separations(around(1), *pair)
+    >>> geometry.separations_after_moves(before, around(9), *pair, moved=np.array([False, True])).info.tolist()
+    [2]
     """
     if not len(before.info) == len(first) == len(second):
         raise InputError(f"{len(first)} pairs need as many separations, not {len(before.info)}")
