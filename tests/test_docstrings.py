@@ -99,6 +99,7 @@ ROOMS = [
     "effects",
     "exact",
     "features",
+    "geometry",
     "io",
     "scene",
     "shading",
