@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, Vertices, refined
 from vectorplot.features.implicit.polygonize import onto_surface, polygonized, settled_mesh
@@ -21,7 +21,9 @@ from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.surfaces.jumps import jumps
 from vectorplot.surfaces.normals import unit_normals
+from vectorplot.surfaces.parts import creases
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, is_implicit, is_parametrised
+from vectorplot.tolerances.of_parameters import ON_BORDER_OF_DOMAIN
 from vectorplot.tolerances.of_values import VANISHED_GRADIENT
 
 FEWEST, USUAL, FINEST = (2, 4), 16, 1024
@@ -56,11 +58,12 @@ INSIDE = 0.75
 @dataclass(frozen=True, eq=False)
 class Facets:
     """A mesh, and the unit normals (v,3) of the true surface at its vertices, NaN where it has none; complete: whether
-    it is as fine as was asked for."""
+    it is as fine as was asked for; sharp (v,): the vertices on sharp edges, with the normal of one side."""
 
     mesh: Mesh
     normals: Floats
-    complete: bool = True
+    complete: bool
+    sharp: Bools
 
 
 @dataclass(frozen=True)
@@ -120,10 +123,12 @@ def facets(shape: Surface | ImplicitSurface, demand: Demand, most: int = USUAL_B
     """
     if is_parametrised(shape):
         net = _first_net(shape, demand)
-        return _facets(_without_jumps(shape, refined(net, _Patch(shape, tuple(poles(shape))), demand, most)))
+        net = _without_jumps(shape, refined(net, _Patch(shape, tuple(poles(shape))), demand, most))
+        return _facets(net, np.isin(net.vertices.places[:, 1], creases(shape)))
     if is_implicit(shape):
         level = _level(shape)
-        return _facets(refined(level.net, level, demand, most))
+        net = refined(level.net, level, demand, most)
+        return _facets(net, np.zeros(len(net.vertices.points), dtype=np.bool_))
     raise InputError(f"a {type(shape).__name__} is no smooth surface")
 
 
@@ -149,11 +154,13 @@ def _without_jumps(surface: Surface, net: Net) -> Net:
     return replace(net, triangles=net.triangles[~torn.reshape(-1, 3).any(axis=1)])
 
 
-def _facets(net: Net) -> Facets:
+def _facets(net: Net, sharp: Bools) -> Facets:
     triangles = net.triangles[net.vertices.known[net.triangles].all(axis=1)]
     used, corners = np.unique(triangles, return_inverse=True)
     vertices = net.vertices.some(used)
-    return Facets(Mesh.from_triangles(vertices.points, corners.reshape(-1, 3)), vertices.normals, net.complete)
+    return Facets(
+        Mesh.from_triangles(vertices.points, corners.reshape(-1, 3)), vertices.normals, net.complete, sharp[used]
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -203,7 +210,13 @@ def _first_net(surface: Surface, demand: Demand) -> Net:
     domain, patch = surface.domain, _Patch(surface, ())
     columns = _enough(lambda count: _lines(patch, count, across=True), domain.closed_u, demand)
     rows = _enough(lambda count: _lines(patch, count, across=False), domain.closed_v, demand)
-    places = np.stack(np.meshgrid(*domain.grid(columns, rows), indexing="ij"), axis=-1)
+    u, v = domain.grid(columns, rows)
+    # No side of a triangle may lead over a sharp edge.
+    sharp = creases(surface)
+    near = np.abs(v[:, None] - sharp) <= ON_BORDER_OF_DOMAIN * domain.size[1]
+    v = np.sort(np.concatenate([v[~near.any(axis=1)], sharp]))
+    rows = len(v) - 1
+    places = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1)
     number = grid_numbers(surface, columns, rows).ravel()
     vertices = patch.at(places.reshape(-1, 2))
     grid = vertices.points.reshape(columns + 1, rows + 1, 3)

@@ -14,6 +14,7 @@ from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.seams import without_seams
 from vectorplot.scene.surface_lines import SurfaceLines
+from vectorplot.surfaces.parts import creases
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 
 
@@ -113,7 +114,9 @@ def _surface(shape: Surface | ImplicitSurface, curves: SurfaceLines) -> str:
     if is_parametrised(shape):
         domain = shape.domain
         names = [name for name, closed in (("u", domain.closed_u), ("v", domain.closed_v)) if closed]
-        words.append(f"closed in {' and '.join(names)}" if names else "not closed")
+        caps = len(creases(shape))
+        closed = f"closed in {' and '.join(names)}" if names else "not closed"
+        words.append(f"{_number(caps, 'cap')}" if caps else closed)
     else:
         words[0] = "implicit surface" if family == "implicit" else f"implicit {words[0]}"
     if curves.columns or curves.rows:

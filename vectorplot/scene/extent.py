@@ -8,6 +8,7 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
 from vectorplot.surfaces.balls import ball_of, bounds_of_balls
+from vectorplot.surfaces.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.tolerances.of_numbers import LARGEST
 
@@ -48,12 +49,15 @@ def smooth_bounds(shape: Surface | ImplicitSurface | Curve) -> Floats:
     Error: less than a thousandth of the extent, as long as bumps are wider than a GRIDth of the domain.
     Errors: InputError for a surface without a finite point, for one that passes infinity on the grid, for an implicit
     one whose box has no extent along an axis, be it by rounding, and for what is no surface.
+    Of balls, frusta and parts of balls they are exact.
     Degenerate: where a surface runs off to infinity between the points of the first grid, it ends with them.
     """
-    if ball := ball_of(shape):
-        (bounds,) = bounds_of_balls([ball])
-        check_range(bounds)
-        return np.asarray(bounds)
+    found = bounds_of_balls([ball]) if (ball := ball_of(shape)) else None
+    if found is None and (body := capped_quadric_of(shape)):
+        found = bounds_of_capped_quadrics([body])
+    if found is not None:
+        check_range(found[0])
+        return np.asarray(found[0])
     if is_parametrised(shape):
         return _parametrised_bounds(shape)
     if is_implicit(shape):

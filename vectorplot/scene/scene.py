@@ -15,6 +15,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.extent import in_range, smooth_bounds
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.balls import ball_of, bounds_of_balls
+from vectorplot.surfaces.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 from vectorplot.words import MATERIALS, check_colour, line_words, unknown
 
@@ -340,9 +341,12 @@ class Scene:
         """
         smooth = [(item.name, item.shape) for item in self.items if not isinstance(item.shape, Mesh)]
         balls = [ball_of(shape) for _, shape in smooth]
-        boxes = bounds_of_balls([ball for ball in balls if ball is not None])
+        bodies = [capped_quadric_of(shape) for _, shape in smooth]
+        many = bounds_of_balls([ball for ball in balls if ball]), bounds_of_capped_quadrics([b for b in bodies if b])
+        boxes = np.concatenate(many)
         if in_range(boxes).all():
-            smooth = [named for named, ball in zip(smooth, balls, strict=True) if ball is None]
+            known = zip(smooth, balls, bodies, strict=True)
+            smooth = [named for named, ball, body in known if ball is None and body is None]
         others = (_bounds(name, shape) for name, shape in smooth)
         corners = np.concatenate([self.vertices, boxes.reshape(-1, 3), *others])
         if not len(corners):

@@ -1,4 +1,5 @@
 from .curvature import first_form, gaussian_curvature, mean_curvature, second_form
+from .families.capped import Capped, Frustum, rod
 from .families.cyclide import ImplicitCyclide, dupin_cyclide
 from .families.cylinder import Cone, Cylinder
 from .families.ellipsoid import Ellipsoid, Sphere
@@ -33,11 +34,13 @@ from .surface import Domain, ImplicitSurface, Surface
 from .trimmed import TrimmedSurface
 
 __all__ = [
+    "Capped",
     "Cone",
     "Cylinder",
     "Disc",
     "Domain",
     "Ellipsoid",
+    "Frustum",
     "FunctionSurface",
     "Graph",
     "HyperbolicParaboloid",
@@ -87,6 +90,7 @@ __all__ = [
     "mean_curvature",
     "minimal_spiral_surface",
     "revolution_surface",
+    "rod",
     "rotoidal_surface",
     "second_form",
     "spiral_surface",

@@ -29,7 +29,7 @@ def test_smooth_items_become_meshes_with_their_true_normals():
     assert 1e-4 < np.abs(off).max() < 0.02
     ring = mesh.vertices * (1, 1, 0)
     true = mesh.vertices - 3.0 * ring / np.linalg.norm(ring, axis=1)[:, None]
-    assert np.abs(np.abs((true * made.normals[1]).sum(axis=1)) - 1.0).max() < 1e-9
+    assert np.abs(np.abs((true * made.normals[1].at_vertices).sum(axis=1)) - 1.0).max() < 1e-9
 
 
 def test_a_curve_has_no_faces():

@@ -35,9 +35,11 @@ from vectorplot.io.scenes.scene_slots import (
     read_whole,
 )
 from vectorplot.io.scenes.scene_words import Words
+from vectorplot.surfaces.families.capped import Capped, Frustum, rod
 from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.families.elliptic_sections import EllipticSections
 from vectorplot.surfaces.families.helical import helical_surface
 from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
 from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
@@ -52,6 +54,7 @@ from vectorplot.surfaces.families.translation import translation_surface
 from vectorplot.surfaces.regions import Disc
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.surfaces.trimmed import TrimmedSurface
+from vectorplot.tolerances.of_numbers import ROUNDING
 
 Pair = tuple[float, float]
 
@@ -89,6 +92,38 @@ def _trimmed(build: Callable[..., Surface]) -> Callable[..., Surface]:
             raise InputError(_no_part(surface.domain, u, v)) from None
 
     return part
+
+
+def _closable(build: Callable[..., EllipticSections]) -> Callable[..., Surface]:
+    """How to build a surface that can be closed by flat caps, or take a part of it."""
+
+    def closed(*, capped: bool, u: Pair | None = None, v: Pair | None = None, **values: Any) -> Surface:
+        if not capped:
+            return _trimmed(build)(u=u, v=v, **values)
+        if u is not None:
+            raise InputError("'capped' needs the whole turn, without 'u'")
+        surface = build(**values)
+        try:
+            return Capped(surface, v)
+        except InputError:
+            if v is None or not hasattr(surface, "domain") or _is_part(surface.domain, v):
+                raise
+            raise InputError(_no_part(surface.domain, u, v)) from None
+
+    return closed
+
+
+def _is_part(domain: Domain, v: Pair) -> bool:
+    slack = ROUNDING * domain.size[1]
+    return domain.v_start - slack <= v[0] < v[1] <= domain.v_end + slack
+
+
+def _frustum(*, radii: Pair, height: float, centre: tuple[float, ...]) -> Frustum:
+    return Frustum(radii[0], radii[1], height, centre)
+
+
+def _rod(*, radius: float, points: tuple[float, ...]) -> Surface:
+    return rod(points[:3], points[3:], radius)
 
 
 def _no_part(domain: Domain, u: Pair | None, v: Pair | None) -> str:
@@ -245,20 +280,21 @@ def _read_path(words: Words, at: int, owner: str, what: str) -> tuple[Curve, int
 
 _GENERATOR = dict.fromkeys(CURVES, Slot(_read_curve, needed=True, into="generator"))
 _ANGULAR = {"centre": _CENTRE, "u": _PART}
+_CLOSABLE = {**_ANGULAR, "capped": Slot(read_flag, False)}
 _BENT = {"width": _number(1.5), "angle": _TURNED}
 
 SURFACES = {
     "torus": Family(
         {"major": _number(3.0), "minor": _number(1.0), **_ANGULAR, "v": _PART}, ("major", "minor"), _trimmed(Torus)
     ),
-    "sphere": Family({"radius": _number(1.0), **_ANGULAR, "v": _PART}, ("radius",), _trimmed(Sphere)),
+    "sphere": Family({"radius": _number(1.0), **_CLOSABLE, "v": _PART}, ("radius",), _closable(Sphere)),
     "ellipsoid": Family(
-        {"semi_axes": _numbers(1.0, 1.0, 1.0), **_ANGULAR, "v": _PART}, ("semi_axes",), _trimmed(Ellipsoid)
+        {"semi_axes": _numbers(1.0, 1.0, 1.0), **_CLOSABLE, "v": _PART}, ("semi_axes",), _closable(Ellipsoid)
     ),
     "cylinder": Family(
-        {"radius": _number(1.0), "bottom": _number(0.0), "top": _number(1.0), "depth": _number(), **_ANGULAR},
+        {"radius": _number(1.0), "bottom": _number(0.0), "top": _number(1.0), "depth": _number(), **_CLOSABLE},
         ("radius", "bottom", "top"),
-        _trimmed(Cylinder),
+        _closable(Cylinder),
     ),
     "cone": Family(
         {
@@ -268,23 +304,29 @@ SURFACES = {
             "bottom": _number(0.0),
             "top": _number(1.0),
             "depth_slope": _number(),
-            **_ANGULAR,
+            **_CLOSABLE,
         },
         ("radius", "height"),
-        _trimmed(_cone),
+        _closable(_cone),
     ),
+    "frustum": Family(
+        {"radii": _numbers(1.0, 0.5), "height": _number(1.0), **_CLOSABLE}, ("radii", "height"), _closable(_frustum)
+    ),
+    "rod": Family({"radius": _number(1.0), "points": Slot(read_numbers(6), needed=True)}, ("radius",), _rod),
     "hyperboloid": Family(
-        {"semi_axes": _numbers(1.0, 1.0, 1.0), "bottom": _number(-1.0), "top": _number(1.0), **_ANGULAR},
+        {"semi_axes": _numbers(1.0, 1.0, 1.0), "bottom": _number(-1.0), "top": _number(1.0), **_CLOSABLE},
         ("semi_axes", "bottom", "top"),
-        _trimmed(Hyperboloid),
+        _closable(Hyperboloid),
     ),
     "hyperboloid_sheet": Family(
-        {"semi_axes": _numbers(1.0, 1.0, 1.0), "top": _number(2.0), **_ANGULAR},
+        {"semi_axes": _numbers(1.0, 1.0, 1.0), "top": _number(2.0), **_CLOSABLE},
         ("semi_axes", "top"),
-        _trimmed(HyperboloidSheet),
+        _closable(HyperboloidSheet),
     ),
     "paraboloid": Family(
-        {"a": _number(1.0), "b": _number(1.0), "top": _number(1.0), **_ANGULAR}, ("a", "b", "top"), _trimmed(Paraboloid)
+        {"a": _number(1.0), "b": _number(1.0), "top": _number(1.0), **_CLOSABLE},
+        ("a", "b", "top"),
+        _closable(Paraboloid),
     ),
     "hyperbolic_paraboloid": Family(
         {"a": _number(1.0), "b": _number(1.0), "width": _number(1.0), "depth": _number(1.0), "centre": _CENTRE},

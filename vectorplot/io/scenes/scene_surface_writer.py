@@ -23,6 +23,7 @@ from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_formulas import Formulas
 from vectorplot.scene.scene import Light
 from vectorplot.scene.surface_lines import SurfaceLines
+from vectorplot.surfaces.families.capped import Capped, Frustum
 from vectorplot.surfaces.families.cyclide import ImplicitCyclide
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
@@ -127,13 +128,23 @@ def _trimmed(part: TrimmedSurface) -> str:
     whole = part.surface
     words = surface_text(whole)
     angular_v = isinstance(whole, Torus | Sphere | Ellipsoid | InvertedSurface)
-    angular_u = angular_v or isinstance(whole, Cylinder | Cone | Hyperboloid | HyperboloidSheet | Paraboloid)
+    angular_u = angular_v or isinstance(whole, Cylinder | Cone | Frustum | Hyperboloid | HyperboloidSheet | Paraboloid)
     for name, span, angular in (("u", part.u, angular_u), ("v", part.v, angular_v)):
         if span is not None:
             if not angular:
                 raise InputError(f"the scene language has no word for a part in {name} of a {type(whole).__name__}")
             words += f" {name} {_degrees(*span)}"
     return words
+
+
+def _capped(body: Capped) -> str:
+    """A body with caps, its range of v in degrees where that is an angle."""
+    words = surface_text(body.surface)
+    if body.v is not None:
+        if not isinstance(body.surface, Sphere | Ellipsoid):
+            raise InputError(f"the scene language has no word for a part in v of a {type(body.surface).__name__}")
+        words += f" v {_degrees(*body.v)}"
+    return f"{words} capped"
 
 
 def _formulas(function: NumericFunction) -> Formulas:
@@ -256,6 +267,8 @@ _WRITERS: dict[type, Callable[[Any], str]] = {
     Cone: lambda s: (
         "cone" + _named(slope=s.slope, bottom=s.bottom, top=s.top, depth_slope=s.depth_slope, centre=s.centre)
     ),
+    Frustum: lambda s: f"frustum {_numbers((s.radius, s.top_radius, s.height))}{_named(centre=s.centre)}",
+    Capped: _capped,
     Hyperboloid: lambda s: f"hyperboloid {_numbers((*s.semi_axes, s.bottom, s.top))}{_named(centre=s.centre)}",
     HyperboloidSheet: lambda s: f"hyperboloid_sheet {_numbers((*s.semi_axes, s.top))}{_named(centre=s.centre)}",
     Paraboloid: lambda s: f"paraboloid {_numbers((s.a, s.b, s.top))}{_named(centre=s.centre)}",

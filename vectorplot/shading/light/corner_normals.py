@@ -15,6 +15,18 @@ from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_numbers import ROUNDING
 
+BEYOND_EDGE = float(np.cos(np.radians(20.0)))
+"""Triangles of a smooth surface do not turn so far from its true normals at their corners as the cosine of this."""
+
+
+@dataclass(frozen=True, eq=False)
+class TrueNormals:
+    """What a surface tells of the vertices of a mesh in its place: at_vertices (v,3) unit normals of the world, zero
+    where it has none; on_edge (v,): those on sharp edges, with the normal of one side of them."""
+
+    at_vertices: Floats
+    on_edge: Bools
+
 
 @dataclass(frozen=True, eq=False)
 class CornerNormals:
@@ -24,21 +36,23 @@ class CornerNormals:
     index: Ints
 
 
-def view_normals(view: View, normals: Sequence[Floats | None], crease_angle_deg: float) -> CornerNormals:
+def view_normals(view: View, normals: Sequence[TrueNormals | None], crease_angle_deg: float) -> CornerNormals:
     """The normals at the corners of the triangles (t, 3) that the faces of a view make, as of ragged.fans.
 
-    normals: for every item the unit normals (v, 3) of the world at its vertices, None where its faces are flat or,
-    where they meet at less than the crease angle, look round.
+    normals: for every item those of its true surface, None where its faces are flat or, where they meet at less than
+    the crease angle, look round.
     """
     triangles = view.corners[ragged.fans(view.offsets)[0]]
     points = np.ascontiguousarray(view.points.T)
     known, given = np.zeros(len(points), dtype=np.bool_), np.zeros((len(points), 3))
+    on_edge = np.zeros(len(points), dtype=np.bool_)
     for item, own in enumerate(normals):
         if own is not None:
             part = slice(view.item_vertices[item], view.item_vertices[item + 1])
-            given[part] = own @ view.axes.T
+            given[part] = own.at_vertices @ view.axes.T
             known[part] = True
-    return corner_normals(points, triangles, crease_angle_deg, given, known)
+            on_edge[part] = own.on_edge
+    return corner_normals(points, triangles, crease_angle_deg, given, known, on_edge)
 
 
 def at_corners(view: View, normals: CornerNormals) -> Floats:
@@ -72,12 +86,13 @@ def unit(vectors: Floats) -> Floats:
 
 
 def corner_normals(
-    points: Floats, triangles: Ints, crease_angle_deg: float, given: Floats, known: Bools
+    points: Floats, triangles: Ints, crease_angle_deg: float, given: Floats, known: Bools, on_edge: Bools | None = None
 ) -> CornerNormals:
     """The normals at the corners of triangles (t, 3) of points (n, 3).
 
     Each is the mean, by area, of the normals of those triangles around the vertex that differ from its own by no more
-    than the crease angle. given (n, 3), known (n,): vertices of true surfaces have their true normals.
+    than the crease angle. given (n, 3), known (n,): vertices of true surfaces have their true normals; on_edge (n,):
+    those of them on sharp edges that of one side, for the triangles there.
     Degenerate: triangles without area have no say; alone they get zeros.
     """
     faces = face_normals(points, triangles)
@@ -88,14 +103,18 @@ def corner_normals(
     # Where all triangles lie within half of the angle from the mean, they lie within the angle from each other.
     least = np.cos(np.radians(min(crease_angle_deg, 180.0)) / 2.0)
     sharp = np.zeros(len(points), dtype=np.bool_)
+    beyond = np.zeros(triangles.shape, dtype=np.bool_)
     for k in range(3):
         vertex = triangles[:, k]
         cosine = np.einsum("ij,ij->i", own, np.take(mean, vertex, axis=0))
         sharp[vertex[cosine < least]] = True
+        if on_edge is not None:
+            beyond[:, k] = on_edge[vertex] & (cosine < BEYOND_EDGE)
     sharp &= ~known
-    if not sharp.any():
+    apart = sharp[triangles] | beyond
+    if not apart.any():
         return CornerNormals(mean, triangles)
-    return _with_creases(faces, own, triangles, sharp, mean, crease_angle_deg)
+    return _with_creases(faces, own, triangles, apart, mean, crease_angle_deg)
 
 
 def _sum_at(triangles: Ints, values: Floats, count: int) -> Floats:
@@ -107,10 +126,10 @@ def _sum_at(triangles: Ints, values: Floats, count: int) -> Floats:
 
 
 def _with_creases(
-    faces: Floats, own: Floats, triangles: Ints, sharp: Bools, mean: Floats, angle_deg: float
+    faces: Floats, own: Floats, triangles: Ints, apart: Bools, mean: Floats, angle_deg: float
 ) -> CornerNormals:
-    """The corners at sharp vertices with normals of their own."""
-    corner = np.flatnonzero(sharp[triangles.ravel()])
+    """The corners, some (t,3) of them apart from the others, with normals of their own."""
+    corner = np.flatnonzero(apart)
     vertex, triangle = triangles.ravel()[corner], corner // 3
     order = np.argsort(vertex, kind="stable")
     vertex, triangle, corner = vertex[order], triangle[order], corner[order]

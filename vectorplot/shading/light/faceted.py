@@ -8,23 +8,22 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Floats
 from vectorplot.errors import InputWarning
 from vectorplot.features.edge_splitting import Demand
 from vectorplot.features.facets import facets
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
 from vectorplot.scene.scene import Item, Scene
+from vectorplot.shading.light.corner_normals import TrueNormals
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 
 
 @dataclass(frozen=True, eq=False)
 class FacetedScene:
-    """A scene without smooth surfaces; the triangles in their place are no plane mirrors. normals: for every item the
-    unit normals (v, 3) at its vertices, zero where the surface has none; None where its faces are those of a
-    polyhedron."""
+    """A scene without smooth surfaces; the triangles in their place are no plane mirrors. normals: for every item those
+    of its surface; None where its faces are those of a polyhedron."""
 
     scene: Scene
-    normals: tuple[Floats | None, ...]
+    normals: tuple[TrueNormals | None, ...]
 
 
 def faceted(scene: Scene, demand: Callable[[int], Demand], budget: Budget = USUAL) -> FacetedScene:
@@ -48,7 +47,7 @@ def without_curved_mirror(item: Item) -> Item:
 
 def _faceted_item(
     item: Item, demand: Callable[[int], Demand], number: int, budget: Budget
-) -> tuple[Item, Floats | None]:
+) -> tuple[Item, TrueNormals | None]:
     shape = item.shape
     if not (is_parametrised(shape) or is_implicit(shape)):
         return replace(item, shape=item.mesh), None
@@ -56,4 +55,5 @@ def _faceted_item(
     if not found.complete:
         text = unresolved("the surface is shown by triangles that are coarser than the tolerance")
         warnings.warn(f"{item.name}: {text}", InputWarning, stacklevel=5)
-    return replace(without_curved_mirror(item), shape=found.mesh), np.nan_to_num(found.normals)
+    normals = TrueNormals(np.nan_to_num(found.normals), found.sharp)
+    return replace(without_curved_mirror(item), shape=found.mesh), normals

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
-from vectorplot.features.edge_splitting import NONE, Edges
-from vectorplot.features.facets import INSIDE, Allowed, off_chords, turning
+from vectorplot.features.edge_splitting import LOOKS, NONE, Edges
+from vectorplot.features.facets import INSIDE, JUMP, Allowed, off_chords, turning
 from vectorplot.geometry.cameras.unit_projection import Projection
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.extent import smooth_bounds
@@ -94,7 +94,12 @@ class PictureFineness:
     def _shade_errors(self, edges: Edges) -> Floats:
         """(k,n) how far shades are from those between the shades of the ends of a side."""
         nodes = np.concatenate((edges.start.points[None], edges.at.points, edges.end.points[None]))
-        normals = np.concatenate((edges.start.normals[None], edges.at.normals, edges.end.normals[None]))
+        # An end on a sharp edge has the normal of the other side of it.
+        ends = [
+            np.where(_jumps(one.normals, beside)[:, None], beside, one.normals)[None]
+            for one, beside in ((edges.start, edges.at.normals[0]), (edges.end, edges.at.normals[len(LOOKS) - 1]))
+        ]
+        normals = np.concatenate((ends[0], edges.at.normals, ends[1]))
         # A side is seen from one side, that of its middle.
         places, ways = self._in_view(nodes[2], normals[2])
         away = np.einsum("ij,ij->i", ways, towards(places, view_eye(self.view))) < 0.0
@@ -108,6 +113,11 @@ class PictureFineness:
 
     def _in_view(self, points: Floats, normals: Floats) -> tuple[Floats, Floats]:
         return self.view.points_of(points).T, normals @ self.view.axes.T
+
+
+def _jumps(one: Floats, other: Floats) -> Bools:
+    """(n,) whether unit normals (n,3) differ by more than those of a smooth surface."""
+    return np.asarray((one * other).sum(axis=-1) < np.cos(JUMP))
 
 
 def picture_fineness(

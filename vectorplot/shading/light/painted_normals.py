@@ -11,7 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.scene.scene import Item, Light
 from vectorplot.scene.view import View
-from vectorplot.shading.light.corner_normals import at_corners, view_normals
+from vectorplot.shading.light.corner_normals import TrueNormals, at_corners, view_normals
 from vectorplot.shading.light.face_shades import decal_shades, face_middles, face_normals
 from vectorplot.shading.light.illumination import DIRECT_SHARE, shades
 from vectorplot.shading.light.palettes import PALETTE_SIZE
@@ -25,7 +25,7 @@ def painted_normals(
     view: View,
     items: Sequence[Item],
     lights: Sequence[Light],
-    given: Sequence[Floats | None],
+    given: Sequence[TrueNormals | None],
     plane: Ints,
     crease_angle_deg: float,
 ) -> Floats:

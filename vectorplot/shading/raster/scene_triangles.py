@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
-from vectorplot.shading.light.corner_normals import CornerNormals, view_normals
+from vectorplot.shading.light.corner_normals import CornerNormals, TrueNormals, view_normals
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +28,7 @@ class SceneTriangles:
         return len(self.corners)
 
 
-def scene_triangles(view: View, normals: Sequence[Floats | None], crease_angle_deg: float) -> SceneTriangles:
+def scene_triangles(view: View, normals: Sequence[TrueNormals | None], crease_angle_deg: float) -> SceneTriangles:
     """The faces of a view; normals and crease angle as of view_normals."""
     fans, face = ragged.fans(view.offsets)
     points = np.ascontiguousarray(view.points.T)

@@ -10,6 +10,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry.vectors import from_components
+from vectorplot.surfaces.surface import Domain
 
 # (p, q), their first and their second derivatives.
 Profile = tuple[tuple[Floats, Floats], tuple[Floats, Floats], tuple[Floats, Floats]]
@@ -20,6 +21,11 @@ class EllipticSections(ABC):
 
     u runs counter-clockwise from above; where v rises on the outside, the normals point outwards.
     """
+
+    @property
+    @abstractmethod
+    def domain(self) -> Domain:
+        """Angle and v."""
 
     @abstractmethod
     def _ellipse(self) -> tuple[float, float]:

@@ -11,10 +11,11 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Scene
+from vectorplot.surfaces.parts import smooth_parts
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.testing.rays.implicit_rays import implicit_hides
 from vectorplot.testing.rays.mesh_rays import edge_distances, hits, occluders, sight_rays
-from vectorplot.testing.rays.surface_rays import surface_hides
+from vectorplot.testing.rays.surface_rays import Hiding, surface_hides
 
 
 class Sight(NamedTuple):
@@ -98,7 +99,9 @@ def visible_by_rays(scene: Scene, camera: Camera, points: ArrayLike, *, items: S
         if not item.hides or not len(targets):
             continue
         if is_parametrised(item.shape):
-            found = surface_hides(item.shape, eye, rays, middle, size)
+            parts = [surface_hides(part.surface, eye, rays, middle, size) for part in smooth_parts(item.shape)]
+            hides, distances, touches = (np.stack(column) for column in zip(*parts, strict=True))
+            found = Hiding(np.any(hides, axis=0), distances.min(axis=0), np.any(touches, axis=0))
         elif is_implicit(item.shape):
             found = implicit_hides(item.shape, rays, middle, size)
         else:

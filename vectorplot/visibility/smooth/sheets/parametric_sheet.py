@@ -35,7 +35,8 @@ LONGEST_STEP = 0.05
 @dataclass(frozen=True, eq=False)
 class ParametricSheet:
     """A parametrised surface, already in the view's coordinates, and its tessellation; jumps: whether it has triangles
-    that were left out, because the surface jumps beneath them."""
+    that were left out, because the surface jumps beneath them; creases: the v at which another sheet of the item begins
+    behind a sharp edge; is_cap: whether it is a flat end, without parameter lines."""
 
     surface: Surface
     item: int
@@ -45,6 +46,8 @@ class ParametricSheet:
     corners: Ints
     sags: Floats
     jumps: bool
+    creases: tuple[float, ...] = ()
+    is_cap: bool = False
 
     def points(self, places: Floats) -> Floats:
         """(k,3) points."""

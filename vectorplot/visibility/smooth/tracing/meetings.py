@@ -61,9 +61,10 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
             itself[number] = len(found) > 0 or bool(found.doubts)
             doubts += [f"{scene.items[sheet.item].name}: {text}" for text in found.doubts]
             parts.append(_double(found, sheet, number, sheet, number, sheet.item))
+    # The sheets of one item are parts of one surface, which meet at its sharp edges only.
     for one, two in combinations(range(len(sheets)), 2):
         items = [i for i in sorted((sheets[one].item, sheets[two].item)) if wants[i]]
-        if items and _overlap(boxes[one], boxes[two]):
+        if items and sheets[one].item != sheets[two].item and _overlap(boxes[one], boxes[two]):
             part, unsure = _pair(sheets, one, two, items[0], tracing)
             names = " and ".join(scene.items[sheets[k].item].name for k in (one, two))
             doubts += [f"{names}: {text}" for text in unsure]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from vectorplot.features.parametric.conditions import (
@@ -25,6 +27,7 @@ from vectorplot.features.zeros.zero_manifold import JUMPS
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
+from vectorplot.surfaces.parts import smooth_parts
 from vectorplot.surfaces.placed import placed_once
 from vectorplot.surfaces.surface import Surface
 from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves
@@ -36,10 +39,13 @@ from vectorplot.words import LineKind
 Found = tuple[LineKind, ConditionCurves | ParameterCurves, SurfaceCurves]
 
 
-def sheet_of_parametrised(view: View, surface: Surface, item: int, hides: bool) -> ParametricSheet:
-    """The sheet of a surface of the world."""
-    placed = placed_once(surface, view.axes.T / view.scale, np.zeros(3), view.centre)
-    return parametric_sheet(placed, item, hides)
+def sheets_of_parametrised(view: View, surface: Surface, item: int, hides: bool) -> list[ParametricSheet]:
+    """The sheets of a surface of the world, one for each of its smooth parts."""
+    sheets = []
+    for part in smooth_parts(surface):
+        placed = placed_once(part.surface, view.axes.T / view.scale, np.zeros(3), view.centre)
+        sheets.append(replace(parametric_sheet(placed, item, hides), creases=part.creases, is_cap=part.is_cap))
+    return sheets
 
 
 def curves_of_parametrised(
@@ -85,7 +91,7 @@ def _asked_for(
     """Parameter lines, isophotes, sections and paths."""
     surface, lines = sheet.surface, item.curves
     result: list[Found] = []
-    if LineKind.PARAMETER in wanted and lines.columns + lines.rows > 0:
+    if LineKind.PARAMETER in wanted and lines.columns + lines.rows > 0 and not sheet.is_cap:
         found = parameter_lines(surface, lines.columns, lines.rows, tracing=tracing)
         result.append((LineKind.PARAMETER, ParameterCurves(sheet, number), found))
     if LineKind.ISOPHOTE in wanted and lines.isophotes:

@@ -20,7 +20,8 @@ from vectorplot.visibility.smooth.sheets.implicit_sheet import implicit_sheet
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.tracing.implicit_items import curves_of_implicit
 from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet, meetings
-from vectorplot.visibility.smooth.tracing.parametric_items import curves_of_parametrised, sheet_of_parametrised
+from vectorplot.visibility.smooth.tracing.parametric_items import curves_of_parametrised, sheets_of_parametrised
+from vectorplot.visibility.smooth.tracing.rims import with_rims
 from vectorplot.visibility.smooth.tracing.space_items import space_curve
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves, together
 from vectorplot.words import LineKind
@@ -59,7 +60,7 @@ def scene_sheets(scene: Scene, view: View, without: Collection[int] = ()) -> tup
         if number in without:
             continue
         if is_parametrised(item.shape):
-            sheets.append(sheet_of_parametrised(view, item.shape, number, item.hides))
+            sheets += sheets_of_parametrised(view, item.shape, number, item.hides)
         elif is_implicit(item.shape):
             sheets.append(implicit_sheet(view, item.shape, number, item.hides))
     return tuple(sheets)
@@ -90,7 +91,8 @@ def traced_scene(
             parts, unsure = curves_of_implicit(scene, view, sheet, number, wanted, tracing)
         doubts += [f"{item.name}: {text}" for text in in_one_line(unsure)]
         done((number + 1) / (len(sheets) + 1))
-        drawn += [part.some(np.flatnonzero(np.isin(part.kind, list(wanted)))) for part in parts]
+        lines = with_rims(view, sheets, number, parts)
+        drawn += [part.some(np.flatnonzero(np.isin(part.kind, list(wanted)))) for part in lines]
         if item.hides:
             edges += [part.some(np.flatnonzero(np.isin(part.kind, HIDING))) for part in parts]
     wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)

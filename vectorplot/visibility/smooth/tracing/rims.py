@@ -1,0 +1,102 @@
+"""The sharp edges at which the sheets of an item meet, as lines of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.vectors import dot
+from vectorplot.scene.view import View
+from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
+from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+from vectorplot.words import LineKind
+
+HALVINGS = 60
+"""Steps of halving from a chord to the place where a sheet turns away: what is left is rounding."""
+
+
+def with_rims(view: View, sheets: tuple[SmoothSheet, ...], number: int, parts: Sequence[Curves]) -> list[Curves]:
+    """The curves of a sheet, its borders at sharp edges cut into what is outline, a contour, and what is a crease.
+
+    An edge belongs to the first of the two sheets that meet there; that of the second one is left out.
+    """
+    sheet = sheets[number]
+    if not isinstance(sheet, ParametricSheet) or not sheet.creases:
+        return list(parts)
+    result = []
+    for part in parts:
+        v = part.places[part.offsets[:-1], 1] if len(part) else np.zeros(0)
+        along = part.places[part.offsets[1:] - 1, 1] if len(part) else v
+        rim = (part.kind == LineKind.BOUNDARY) & (v == along) & np.isin(v, sheet.creases)
+        result.append(part.some(np.flatnonzero(~rim)))
+        own = rim & (v == sheet.surface.domain.v_end)
+        if own.any():
+            other = sheets[number + 1]
+            assert isinstance(other, ParametricSheet)
+            result.append(_cut(view, sheet, other, part.some(np.flatnonzero(own))))
+    return result
+
+
+def _cut(view: View, one: ParametricSheet, other: ParametricSheet, curves: Curves) -> Curves:
+    """Edges between two sheets, cut where one of the sheets turns away: contours where one faces the eye and the other
+    does not, else creases."""
+
+    def outline(places: Floats) -> Bools:
+        return np.asarray(_faces(view, one, places) != _faces(view, other, places))
+
+    there = outline(curves.places)
+    chord = curves.chords
+    chord = chord[there[chord] != there[chord + 1]]
+    low, high = np.zeros(len(chord)), np.ones(len(chord))
+    start, way = curves.places[chord], curves.places[chord + 1] - curves.places[chord]
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        before = outline(start + middle[:, None] * way) == there[chord]
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    places = start + low[:, None] * way
+    points = one.points(places)
+    return _pieces(curves, chord, places, points, there)
+
+
+def _faces(view: View, sheet: ParametricSheet, places: Floats) -> Bools:
+    """(k,) whether a sheet shows its front at places."""
+    return np.asarray(dot(sheet.normals(places), projection.sight(view, sheet.points(places))) > 0.0)
+
+
+def _pieces(curves: Curves, chord: Ints, places: Floats, points: Floats, outline: Bools) -> Curves:
+    """The curves, cut at points of the chords that begin at chord (k,); outline (n,): where old points lie on one.
+
+    Each cut ends a piece and begins the next one.
+    """
+    after = np.repeat(chord + 1, 2)
+    bounds = ragged.offsets(np.diff(curves.offsets) + 2 * np.bincount(curves.owner[chord], minlength=len(curves)))
+    begin = np.concatenate([bounds[:-1], chord + 2 + 2 * np.arange(len(chord))])
+    turned = np.concatenate([outline[curves.offsets[:-1]], outline[chord + 1]])
+    of = np.concatenate([np.arange(len(curves)), curves.owner[chord]])
+    order = np.argsort(begin, kind="stable")
+    of, turned = of[order], turned[order]
+    whole = np.bincount(of, minlength=len(curves))[of] == 1
+
+    def put(values: Floats, new: Floats) -> Floats:
+        return np.insert(values, after, np.repeat(new, 2, axis=0), axis=0)
+
+    return replace(
+        curves,
+        points=put(curves.points, points),
+        places=put(curves.places, places),
+        second_places=put(curves.second_places, np.full_like(places, np.nan)),
+        offsets=np.append(begin[order], bounds[-1]),
+        closed=curves.closed[of] & whole,
+        kind=np.where(turned, int(LineKind.CONTOUR), int(LineKind.CREASE)),
+        item=curves.item[of],
+        family=curves.family[of],
+        level=curves.level[of],
+        side=curves.side[of],
+        behind=curves.behind[of],
+    )
