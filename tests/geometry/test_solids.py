@@ -11,7 +11,7 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.adjacency import body_record, mesh_edges
 from vectorplot.geometry.repair.winding import is_closed_oriented
-from vectorplot.geometry.solids import BOTTOM, TOP, box, has_convex_outline, polyhedron, prism, turned_outwards
+from vectorplot.geometry.solids import BOTTOM, TOP, box, has_convex_outline, placed, polyhedron, prism, turned_outwards
 
 SWEEP = [[0, 2, 0], [0, -1.4, 0], [0, -2, 0.6], [0, -2, 1.2], [0, -1.4, 1.6], [0, 2, 1.6]]
 
@@ -72,6 +72,20 @@ def test_the_unchecked_box_would_pass_the_checks():
 def test_a_box_without_volume_is_refused(bad):
     with pytest.raises(InputError, match="finite lengths"):
         box(bad)
+
+
+@pytest.mark.parametrize("which", range(12))
+@pytest.mark.parametrize("bad", [float("nan"), float("inf"), -float("inf"), 1e308])
+def test_a_placement_that_is_not_finite_is_refused_by_boxes_and_meshes_alike(which, bad):
+    placement = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]
+    placement[which] = bad
+    if bad == 1e308 and which % 4 == 3:
+        assert np.isfinite(box((8, 8, 8), placement=placement).vertices).all()
+        return
+    with pytest.raises(InputError, match="finite"):
+        box((8, 8, 8), placement=placement)
+    with pytest.raises(InputError, match="finite"), np.errstate(over="ignore", invalid="ignore"):
+        placed(box((8, 8, 8)), placement)
 
 
 @pytest.mark.capability("G3.5-translation")

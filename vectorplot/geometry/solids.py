@@ -48,7 +48,7 @@ def box(lengths: Sequence[float], *, caps: Collection[str] = BOTH_CAPS, placemen
     Raises
     ------
     InputError
-        For a length that is zero or not finite.
+        For a length that is zero or not finite, and for a placement that is not finite.
 
     Notes
     -----
@@ -65,7 +65,7 @@ def box(lengths: Sequence[float], *, caps: Collection[str] = BOTH_CAPS, placemen
     """
     x, y, z = lengths
     a, b, c, t, d, e, f, u, g, h, i, v = placement
-    if not isfinite(abs(x) + abs(y) + abs(z) + abs(t) + abs(u) + abs(v)) or x == 0.0 or y == 0.0 or z == 0.0:
+    if not isfinite(abs(x) + abs(y) + abs(z)) or x == 0.0 or y == 0.0 or z == 0.0:
         raise InputError(f"box {x:g} {y:g} {z:g}: three finite lengths other than zero are needed")
     # The corners written out: a scene may hold thousands of boxes, and matrix products cost several times as much.
     ax, dx, gx = a * x + t, d * x + u, g * x + v
@@ -75,6 +75,8 @@ def box(lengths: Sequence[float], *, caps: Collection[str] = BOTH_CAPS, placemen
     axy, dxy, gxy = ax + by, dx + ey, gx + hy
     low = [t, u, v, ax, dx, gx, axy, dxy, gxy, ty, uy, vy]
     high = [t + cz, u + fz, v + iz, ax + cz, dx + fz, gx + iz, axy + cz, dxy + fz, gxy + iz, ty + cz, uy + fz, vy + iz]
+    if not all(map(isfinite, low + high)):
+        raise InputError(f"box {x:g} {y:g} {z:g}: its placement is not finite, or too large")
     vertices = np.array(low + high, dtype=np.float64).reshape(8, 3)
     mirrored = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0.0
     turned = (x < 0.0) ^ (y < 0.0) ^ (z < 0.0) ^ mirrored
@@ -108,6 +110,11 @@ def placed(mesh: Mesh, placement: Sequence[float]) -> Mesh:
     -------
     Mesh
         With the same faces; a placement that mirrors turns them round.
+
+    Raises
+    ------
+    InputError
+        For a placement that is not finite.
 
     Examples
     --------
