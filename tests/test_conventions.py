@@ -14,7 +14,7 @@ import pytest
 
 import vectorplot
 from vectorplot.cli.main import run
-from vectorplot.errors import InputWarning
+from vectorplot.io.scenes.scene_language import parse_scene
 
 PACKAGE = Path(vectorplot.__file__).parent
 
@@ -98,12 +98,15 @@ def test_only_the_command_prints():
 
 
 @pytest.mark.capability("G1.1-convention")
-def test_messages_can_be_sent_elsewhere(caplog):
+def test_messages_can_be_sent_elsewhere(caplog, capsys):
+    """What the package has to tell goes to the log of whoever calls it, once it asks for that, and nowhere else."""
     logging.captureWarnings(True)
     try:
         with warnings.catch_warnings(), caplog.at_level(logging.WARNING, logger="py.warnings"):
             warnings.simplefilter("always")
-            warnings.warn("three faces dropped", InputWarning, stacklevel=1)
+            scene = parse_scene("A nocolour box 1 1 1")
+            vectorplot.draw(scene, vectorplot.Camera((3.0, -5.0, 4.0), fov_deg=80.0))
     finally:
         logging.captureWarnings(False)
-    assert "three faces dropped" in caplog.text
+    assert "InputWarning" in caplog.text and "A: unknown colour 'nocolour'" in caplog.text
+    assert capsys.readouterr() == ("", "")

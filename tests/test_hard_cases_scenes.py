@@ -142,6 +142,7 @@ def test_interpenetrating_boxes_meet_in_segments_at_which_their_edges_switch() -
 
 
 @pytest.mark.hard(22)
+@pytest.mark.capability("G7.2-zones")
 def test_an_object_that_is_wholly_hidden_is_in_the_hidden_layer() -> None:
     scene = scene_of(WALL=box((-3, 0, -3), (3, 0.1, 3)), CUBE=box((-1, 1, -1), (1, 3, 1)))
     camera = vp.Camera((0.5, -8, 0.25), (0, 0, 0))

@@ -185,6 +185,7 @@ def line_behind_a_vertex(seed: int, through: bool) -> tuple[vp.Scene, vp.Camera]
 
 
 @pytest.mark.hard(10)
+@pytest.mark.capability("G7.2-zones")
 @pytest.mark.parametrize("seed", range(12))
 @pytest.mark.parametrize("through", [False, True])
 def test_an_edge_through_a_vertex_of_the_occluder_changes_once_at_most(seed: int, through: bool) -> None:

@@ -20,11 +20,13 @@ def test_visible_intervals_of_the_test_values() -> None:
     assert np.allclose(np.column_stack([low, high]), [[0.0, 0.1], [0.7, 0.8]], atol=1e-15)
 
 
+@pytest.mark.capability("G7.2-visible")
 def test_two_zones_leave_three_intervals() -> None:
     _, low, high = complement(1, *union(*one_owner([(0.2, 0.3), (0.6, 0.7)]), NO_GAP), NO_GAP)
     assert np.column_stack([low, high]).tolist() == [[0.0, 0.2], [0.3, 0.6], [0.7, 1.0]]
 
 
+@pytest.mark.capability("G7.2-zones")
 def test_a_whole_zone_leaves_nothing_and_no_zone_leaves_all() -> None:
     assert len(complement(1, *union(*one_owner([(0.0, 1.0)]), NO_GAP), NO_GAP)[0]) == 0
     owner, low, high = complement(2, *union(*one_owner([(0.0, 1.0)]), np.zeros(2)), np.zeros(2))
@@ -34,6 +36,7 @@ def test_a_whole_zone_leaves_nothing_and_no_zone_leaves_all() -> None:
 ZONES = st.lists(st.tuples(st.integers(0, 3), st.integers(0, 64), st.integers(0, 64)), max_size=20)
 
 
+@pytest.mark.capability("G7.2-visible")
 @given(ZONES)
 def test_every_point_is_in_the_union_or_the_complement(raw: list[tuple[int, int, int]]) -> None:
     owner = np.array([zone[0] for zone in raw], dtype=np.intp)

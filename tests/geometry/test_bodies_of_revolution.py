@@ -89,6 +89,18 @@ def test_a_cut_body_is_closed_by_planar_end_faces(angle, order):
     assert body_record(body).volume == pytest.approx((order - 1) * np.sin(step) / 2 * frusta, rel=1e-9)
 
 
+@pytest.mark.capability("G3.4-revolution")
+@pytest.mark.parametrize("angle", [360, 180, 100])
+def test_a_meridian_that_runs_downwards_gives_the_same_body(angle):
+    for meridian in (CYLINDER, CONE, ROTSWEEP):
+        up, down = (revolution(m, 12, angle_deg=angle) for m in (meridian, meridian[::-1]))
+        assert is_closed_oriented(down) and counts(down) == counts(up)
+        assert (
+            body_record(down).volume == pytest.approx(body_record(up).volume, rel=1e-12) and body_record(up).volume > 0
+        )
+        assert np.allclose(np.sort(down.vertices, axis=0), np.sort(up.vertices, axis=0), atol=1e-12)
+
+
 @pytest.mark.capability("G3.4-caps")
 def test_caps_of_a_hollow_body_are_stored_but_not_present():
     body = revolution(CYLINDER, 40, caps=("bottom",))

@@ -41,6 +41,15 @@ def test_products_are_associative(a, b, c):
     assert np.allclose((v @ x) @ y, v @ (x @ y), atol=1e-14)
     pool = np.stack([v, 2 * v, -v])
     assert np.allclose(pool @ (x @ y), [p @ x @ y for p in pool], atol=1e-14)
+    # Rows times columns, as the source writes them: a row vector is multiplied from the left.
+    found, first, second = x @ y, x.tolist(), y.tolist()
+    for i in range(3):
+        for j in range(3):
+            assert found[i, j] == pytest.approx(sum(first[i][k] * second[k][j] for k in range(3)), abs=1e-15)
+        assert (v @ x)[i] == pytest.approx(sum(v.tolist()[k] * first[k][i] for k in range(3)), abs=1e-14)
+    # All pairs of two lots of matrices at once.
+    lots = r.rotation_x([a, b])[:, None] @ r.rotation_y([b, c])
+    assert np.allclose(lots[1, 0], r.rotation_x(b) @ r.rotation_y(b), atol=1e-15)
 
 
 @pytest.mark.capability("G1.5-inverse-rot")
@@ -64,8 +73,24 @@ def test_about_any_axis_as_rodrigues_says(g, phi):
     points = np.array([[3.0, -1.0, 4.0], [0.5, 2.0, -7.0]])
     for direction in (g, EZ, -EZ):
         assert np.allclose(points @ r.rotation_about(direction, phi), rodrigues(points, direction, phi), atol=1e-13)
-    frame = r.axis_frame(g)
-    assert np.allclose(frame @ frame.T, np.eye(3), atol=1e-14) and np.linalg.det(frame) > 0
+        # Into the frame e, f, g, about z there, and back.
+        frame = r.axis_frame(direction)
+        assert np.allclose(frame @ frame.T, np.eye(3), atol=1e-14) and np.linalg.det(frame) > 0
+        assert (
+            np.allclose(frame[2], np.asarray(direction) / np.linalg.norm(direction), atol=1e-14) and frame[0, 2] == 0.0
+        )
+        to_frame = frame.T
+        about = to_frame @ r.rotation_z(phi) @ np.linalg.inv(to_frame)
+        assert np.allclose(r.rotation_about(direction, phi), about, atol=1e-13)
+
+
+@pytest.mark.capability("G1.6-rot-axis")
+@pytest.mark.parametrize("up", [3.0, -0.2, 1e-200])
+def test_an_upright_axis_has_a_frame_of_its_own(up):
+    frame = r.axis_frame((0.0, 0.0, up))
+    assert np.abs(frame).tolist() == np.eye(3).tolist() and frame[0].tolist() == [1.0, 0.0, 0.0]
+    assert frame[2, 2] == np.sign(up) and np.linalg.det(frame) == 1.0
+    assert np.allclose(EX @ r.rotation_about((0.0, 0.0, up), 0.3), (np.cos(0.3), np.sign(up) * np.sin(0.3), 0.0))
 
 
 @pytest.mark.capability("G1.6-rot-offset")

@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
 from vectorplot.geometry import vectors as v
+from vectorplot.geometry.repair.adjacency import face_records
+from vectorplot.geometry.solids import box
 from vectorplot.shading.raster.pixel_lines import whole_pixels
 
 component = st.floats(-1e3, 1e3)
@@ -200,6 +202,16 @@ def test_brightness_under_near_and_parallel_light():
     assert np.allclose(parallel, 0.8, atol=1e-15)
     near = v.lambert_cosine(up, centres, (0.0, 0.0, 5.0))
     assert np.allclose(near, (1.0, np.sqrt(0.5), -1.0), atol=1e-15)
+    # Of the faces of a body: to the sun all points of a face are alike, to a lamp its barycentre counts.
+    records = face_records(box((2.0, 4.0, 6.0)))
+    ways = np.array([3.0, 4.0, 12.0, 0.0])
+    assert np.allclose(v.lambert_cosine(records.normals, records.barycentres, ways), records.normals @ ways[:3] / 13.0)
+    lamp = np.array([1.0, 2.0, 16.0])
+    (top,) = v.lambert_cosine(records.normals, records.barycentres, lamp)[records.normals[:, 2] > 0.9]
+    assert top == 1.0, "it stands above the middle of the top"
+    arms = lamp - records.barycentres
+    expected = (records.normals * arms).sum(axis=1) / np.linalg.norm(arms, axis=1)
+    assert np.allclose(v.lambert_cosine(records.normals, records.barycentres, lamp), expected, atol=1e-15)
 
 
 @pytest.mark.capability("G2.4-spherical")

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from vectorplot.draw import draw
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.projection import CoordinateSystem
@@ -88,6 +89,15 @@ def test_points_behind_the_eye_are_told() -> None:
     view = look(scene, Camera((0.0, 0.0, 0.5), (0.0, 0.0, -5.0)))
     assert (view.depth < view.near).sum() == 4
     assert np.isfinite(view.image).all()
+    # Half of the points lie in the plane through the eye; the edges to the others are cut before they are divided.
+    scene = Scene((Item("box", box((-1, -1, -1), (1, 1, 1))),))
+    camera = Camera((0.0, 0.0, 1.0), (0.0, 0.0, -5.0), fov_deg=90.0)
+    view = look(scene, camera)
+    behind = view.depth < view.near
+    assert behind.sum() == 4 and view.depth[behind] == pytest.approx(0.0, abs=1e-15)
+    assert np.isfinite(view.image).all()
+    seen = np.concatenate([p.points3d for layer in draw(scene, camera, fit=False).layers for p in layer.strokes])
+    assert np.isfinite(seen).all() and (seen[:, 2] < 1.0).all() and seen[:, 2].min() == pytest.approx(-1.0)
 
 
 def test_the_scene_fills_the_unit_box_wherever_it_is() -> None:

@@ -59,6 +59,7 @@ def test_a_rubber_band_drawn_twice_vanishes():
         assert (fb.with_rubber_bands(once, start, end, colour).pages == noise.pages).all()
 
 
+@pytest.mark.capability("G4.6-fill")
 def test_polygons_are_filled_as_large_as_they_are():
     rng = np.random.default_rng(7)
     for _ in range(200):
@@ -72,6 +73,7 @@ def test_polygons_are_filled_as_large_as_they_are():
         assert abs(filled - area) <= girth / 2.0 + 1.0
 
 
+@pytest.mark.capability("G4.6-fill")
 def test_polygons_with_a_common_edge_share_no_pixel_and_leave_none_out():
     rng = np.random.default_rng(4)
     for _ in range(50):
@@ -90,6 +92,7 @@ def test_polygons_with_a_common_edge_share_no_pixel_and_leave_none_out():
         assert (numbers[0] + numbers[1] == 1).all()
 
 
+@pytest.mark.capability("G4.6-fill")
 def test_a_polygon_within_one_pixel_is_that_pixel():
     speck = Polygons.of(np.array([(7.3, 4.2), (7.4, 4.2), (7.4, 4.4)]))
     frame = fb.with_polygons(Framebuffer.of_numbers(20, 20), speck, 5)

@@ -35,6 +35,7 @@ def test_points_in_polygons_and_the_depth_there(seed):
     assert np.isnan(depth[~inside]).all()
 
 
+@pytest.mark.capability("G6.2-inside")
 def test_corners_and_sides_belong_to_the_polygon():
     inside, depth = in_convex_polygon(
         [(0, 0), (1, 0), (2, 1), (1, 2), (0, 1), (2, 2), (2.1, 1), (3, 0), (-1, 0)], SQUARE
@@ -77,6 +78,7 @@ def test_positions_of_random_outlines(seed):
         assert abs(mine) == pytest.approx(np.abs(apart).max(), abs=1e-12)
 
 
+@pytest.mark.capability("G6.2-relpos")
 def test_depths_are_interpolated_after_the_map():
     # The roof ridge from depth 0 to 1, crossed in the middle by a level bar at 0.6.
     one = np.array([(0.0, 0.4, 0), (4, 0.4, 1), (4, 0.6, 1), (0, 0.6, 0)])
@@ -86,6 +88,7 @@ def test_depths_are_interpolated_after_the_map():
     assert (result.first_depth, result.second_depth) == (pytest.approx(0.475), pytest.approx(0.6))
 
 
+@pytest.mark.capability("G6.2-relpos")
 def test_outlines_that_touch_are_disjoint_and_one_on_itself_lies_inside():
     beside = SQUARE + np.array([2.0, 0.5, 1.0])
     assert relative_position(SQUARE, beside).position is Position.DISJOINT
@@ -99,6 +102,22 @@ def test_outlines_that_touch_are_disjoint_and_one_on_itself_lies_inside():
     crossing = relative_position(SQUARE, np.array([(1.0, -0.5, 1), (2.5, 1, 1), (1, 2.5, 1), (-0.5, 1, 1)]))
     assert crossing.position is Position.CROSSING
     assert (crossing.first_depth, crossing.second_depth) == (0.0, 1.0)
+
+
+@pytest.mark.capability("G6.2-relpos")
+def test_a_difference_that_rounding_could_make_is_told_by_another_crossing():
+    # Two bars through the first: where they cross its first side the depths are all but equal, further on they are not.
+    for lean in (0.5, -0.5):
+        bar = np.array([(0.9, -1.0, -lean), (1.1, -1.0, -lean), (1.1, 3.0, 3 * lean), (0.9, 3.0, 3 * lean)])
+        result = relative_position(SQUARE, bar)
+        assert result.position is Position.CROSSING
+        assert (result.first_depth, result.second_depth) == (0.0, pytest.approx(2.0 * lean))
+        # Whichever side comes first, and whichever outline.
+        for turn in range(4):
+            found = relative_position(np.roll(SQUARE, turn, axis=0), np.roll(bar, -turn, axis=0)[::-1])
+            assert (found.first_depth, found.second_depth) == (0.0, pytest.approx(2.0 * lean))
+            back = relative_position(bar, np.roll(SQUARE, turn, axis=0))
+            assert (back.first_depth, back.second_depth) == (pytest.approx(2.0 * lean), 0.0)
 
 
 def test_wrong_outlines():

@@ -40,7 +40,7 @@ def lengths(drawing: Drawing, kind: str, hidden: bool) -> float:
     return total
 
 
-@pytest.mark.capability("G9.3-sections")
+@pytest.mark.capability("G9.3-sections", "G7.2-lines-on-faces")
 def test_sections_of_a_cube_are_squares_half_of_which_are_seen() -> None:
     drawing = draw(Scene((Item("cube", CUBE, curves=LEVELS),)), Camera((8.0, 7.0, 3.0)), hidden="solid")
     for line in curves_in_space(drawing, kind="section"):

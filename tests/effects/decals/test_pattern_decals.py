@@ -99,6 +99,7 @@ def test_patterns_that_are_not_convex_and_turn_the_wrong_way() -> None:
     assert np.isclose(shapely.union_all(flat).area, 5.0) and np.isclose(sum(p.area for p in flat), 5.0)
 
 
+@pytest.mark.capability("G6.5-patterns")
 def test_later_patterns_of_a_face_lie_above_earlier_ones() -> None:
     patterns = [Pattern("A", "cyan", 5, 2 * SQUARE), Pattern("B", "black", 5, SQUARE), Pattern("C", "cyan", 0, SQUARE)]
     decals = pattern_decals(*seen([cube(patterns), cube([])]))
@@ -176,6 +177,7 @@ def test_every_point_of_a_face_gets_the_colour_on_top_and_the_grade_of_its_shado
         assert in_plane(view, both) < 1e-13
 
 
+@pytest.mark.capability("G6.5-patterns")
 def test_patterns_on_dark_faces_lack_all_lights() -> None:
     item = cube([Pattern("A", "cyan", 5, SQUARE), Pattern("B", "cyan", 0, SQUARE)])
     scene, view = seen([item])

@@ -31,6 +31,7 @@ def test_average_normals_of_a_torus_are_within_h_squared_also_on_the_seams():
     assert errors[0] / errors[1] > 3.5 and errors[1] / errors[2] > 3.5
 
 
+@pytest.mark.capability("G8.4-normals")
 def test_average_normals_of_a_sphere_are_within_h_squared_at_the_poles_too():
     inner, poles = [], []
     for n in (16, 32, 64):
@@ -43,6 +44,7 @@ def test_average_normals_of_a_sphere_are_within_h_squared_at_the_poles_too():
     assert poles[2] < 0.05
 
 
+@pytest.mark.capability("G8.4-normals")
 def test_average_normal_of_a_plane_looks_to_the_side_of_x_u_cross_x_v():
     u, v = np.meshgrid(np.arange(4.0), np.arange(3.0), indexing="ij")
     assert np.array_equal(average_normals(np.stack([u, v, 0 * u], axis=-1))[..., 2], np.ones((4, 3)))
@@ -66,6 +68,7 @@ def test_triangulation_has_two_triangles_a_cell_and_covers_each_cell_once():
     assert len(cells) == 96 and (count == 2).all()
 
 
+@pytest.mark.capability("G8.4-triangulate", "G8.4-zero-manifold")
 def test_the_diagonal_follows_the_fold():
     # A roof whose ridge runs along the diagonals i + j = const: cutting across the ridge would chip it.
     i, j = np.meshgrid(np.arange(6.0), np.arange(6.0), indexing="ij")

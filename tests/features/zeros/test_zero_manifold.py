@@ -39,9 +39,15 @@ def test_circle_is_one_closed_branch_refined_to_rounding():
     assert np.abs(np.hypot(*curve.points.T) - np.sqrt(0.5)).max() < 1e-12
     # Positive outside: the outside is on the left, so the circle is run clockwise.
     assert abs(area(curve[0][:-1]) + np.pi / 2) < 2e-2
-    assert curve.triangulation[0].shape == (2 * 30 * 30, 3)
+    triangles, normals = curve.triangulation
+    assert triangles.shape == (2 * 30 * 30, 3)
+    # Of the grid (u, v, f(u, v)), in units of its spans: at every point the normal of the graph, to the square of a step.
+    u, v = np.meshgrid(np.linspace(-1, 1, 31), np.linspace(-1, 1, 31), indexing="ij")
+    assert np.allclose(curve.grid[..., :2], np.stack([u, v], axis=-1)) and normals.shape == (31, 31, 3)
+    assert np.allclose(np.linalg.norm(normals, axis=2), 1.0)
 
 
+@pytest.mark.capability("G8.4-zero-manifold")
 def test_several_closed_branches():
     curve = zero_manifold_of_f_uv(lambda u, v: np.sin(9 * u) * np.sin(9 * v) - 0.5, SQUARE, columns=50, rows=50)
     f = np.sin(9 * curve.points[:, 0]) * np.sin(9 * curve.points[:, 1]) - 0.5
@@ -97,6 +103,7 @@ def test_contour_condition_of_the_torus_at_the_test_values():
     assert abs(torus_contour(np.array(0.4), np.array(-1.1)) - 5.89563091788613) < 1e-12
 
 
+@pytest.mark.capability("G8.4-zero-manifold")
 def test_contour_of_the_torus_on_the_meridian_of_the_test_values():
     curve = zero_manifold_of_f_uv(torus_contour, torus_domain(), columns=24, rows=24)
     assert len(curve) == 2 and curve.closed.all()
@@ -197,6 +204,7 @@ def test_a_curve_that_leaves_the_domain_between_two_grid_points_is_cut_there():
     assert np.allclose(on_top, 0.025 + np.array([-1, 1]) * np.sqrt(top - 1), atol=1e-9)
 
 
+@pytest.mark.capability("G8.4-zero-manifold")
 @pytest.mark.parametrize("seed", range(12))
 def test_random_waves_have_the_same_branches_as_on_a_much_finer_grid(seed):
     waves = np.random.default_rng(seed).normal(size=(2, 9, 9))

@@ -255,6 +255,19 @@ def test_direct_switch_equals_the_way_through_the_world(p):
     assert np.allclose(pr.changed_coordinates(p, CoordinateSystem.world(), light), light.from_world(p), atol=1e-15)
 
 
+@pytest.mark.capability("G2.4-switch")
+def test_a_point_has_the_same_number_in_the_pools_of_all_systems():
+    pool = cloud()
+    systems = [CoordinateSystem.world(), CoordinateSystem.of_screen(BOOK, WINDOW)]
+    systems += [CoordinateSystem.of_light(lamp, TARGET) for lamp in [(4, -6, 9), (-8, 3, 11)]]
+    pools = [system.from_world(pool) for system in systems]
+    for one, here in zip(systems, pools, strict=True):
+        for other, there in zip(systems, pools, strict=True):
+            # By number from pool to pool, or point by point by way of the world.
+            assert np.allclose(pr.changed_coordinates(here, one, other), there, rtol=0, atol=1e-8)
+            assert np.allclose(pr.changed_coordinates(here[7], one, other), there[7], rtol=0, atol=1e-8)
+
+
 @pytest.mark.capability("G2.4-target-origin")
 def test_scene_and_centres_move_so_that_the_target_is_the_origin():
     pool, centres = cloud(), np.array([EYE, (4, -6, 9)])

@@ -59,6 +59,7 @@ def test_areas_are_those_of_shapely_for_many_pairs_at_once(star):
     assert ((expected > 1e-12) == np.isin(np.arange(400), pair))[whole & ((expected == 0) | (expected > 1e-12))].all()
 
 
+@pytest.mark.capability("G6.2-clip-convex")
 def test_a_side_through_corners_cuts_the_square_in_half():
     half = one(SQUARE, np.array([[0.0, 2.0, -1.0], [0.0, 2.0, 3.0]]))
     assert area(half) == pytest.approx(2.0, abs=1e-15)
@@ -66,6 +67,7 @@ def test_a_side_through_corners_cuts_the_square_in_half():
     assert area(half) == pytest.approx(2.0, abs=1e-15)
 
 
+@pytest.mark.capability("G6.2-clip-convex")
 def test_further_rows_are_interpolated_linearly():
     subject = np.concatenate([SQUARE, [3.0 + 2.0 * SQUARE[0] - 5.0 * SQUARE[1]]])
     part = one(subject, np.array([[1.0, 4.0, 0.7], [0.3, 1.0, 5.0]]))
@@ -73,6 +75,7 @@ def test_further_rows_are_interpolated_linearly():
     assert np.abs(part[2] - (3.0 + 2.0 * part[0] - 5.0 * part[1])).max() < 1e-14
 
 
+@pytest.mark.capability("G6.2-clip-convex")
 def test_a_polygon_inside_keeps_every_digit_and_its_first_corner():
     inner = np.array([[0.1, 1.9, 1.0 / 3.0], [0.1, 0.2, 1.7]])
     assert one(inner, SQUARE).tolist() == inner.tolist()

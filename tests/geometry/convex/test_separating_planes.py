@@ -135,6 +135,7 @@ def test_the_power_orders_disjoint_spheres_of_very_different_radii():
     assert (by_distance != first_met)[common].sum() > 0
 
 
+@pytest.mark.capability("G5.8-sepplane")
 def test_no_plane_where_there_is_none_and_one_where_shapes_touch():
     ell = prism([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], 0.0, 1.0)
     cube = box((1.2, 1.2, 0.1), (1.8, 1.8, 0.9))
@@ -150,6 +151,7 @@ def test_no_plane_where_there_is_none_and_one_where_shapes_touch():
     assert touching.nearer((1, 0, 0, 0)).tolist() == [-1]
 
 
+@pytest.mark.capability("G5.8-bbox", "G5.8-sepplane")
 def test_a_turned_box_fits_closer_than_one_taken_later():
     turn = np.eye(4)
     turn[:2, :2] = [[np.sqrt(0.5), -np.sqrt(0.5)], [np.sqrt(0.5), np.sqrt(0.5)]]

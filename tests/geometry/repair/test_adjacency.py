@@ -110,6 +110,7 @@ def test_common_edge_by_positions_in_the_first_face():
 
 
 @pytest.mark.capability("G3.3-common-edge")
+@pytest.mark.capability("G3.3-edges-from-faces")
 def test_faces_that_share_vertices_which_are_no_neighbours_have_no_common_edge():
     mesh = Mesh.from_polygons(
         [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [1, 0, 1], [0, 1, 1]], [[0, 1, 2, 3], [0, 4, 2, 5]]

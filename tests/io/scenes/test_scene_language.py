@@ -86,9 +86,12 @@ def test_pyramid_without_its_edges():
 def test_bodies_of_revolution():
     cone = one("CONE green revolution solid\n meridian 4 0 0 , 0 0 7 order 30")
     assert counts(cone) == (31, 60, 31) and cone.colour == "green"
+    assert body_record(cone.shape).volume == pytest.approx(116.430546857945, rel=1e-14), "TV19"
     cylinder = one("CYLINDER orange revolution hollow +bottom meridian 2.5 0 -5 , 2.5 0 5 order 40")
     assert counts(cylinder) == (80, 120, 42)
     assert cylinder.shape.present.tolist() == [True] * 41 + [False]
+    closed = one("CYLINDER orange revolution solid meridian 2.5 0 -5 , 2.5 0 5 order 40")
+    assert body_record(closed.shape).volume == pytest.approx(195.543081300289, rel=1e-14), "TV18"
     half = one("ROTSWEEP lightcyan revolution solid rot_angle 180\nmeridian 2 0 -5 , 3 0 -2 , 3 0 3 , 0 0 5 order 20")
     assert np.allclose(half.shape.vertices[27], [1.20508627395891, 2.74731997996517, -2], atol=1e-13)
     assert is_closed_oriented(half.shape)

@@ -46,6 +46,7 @@ def test_rays_see_the_same_triangles_but_next_to_edges(seed):
     assert not (wrong & ~near & ~(beside_edges(seen) & beside_edges(rays))).any()
 
 
+@pytest.mark.capability("G7.3-zbuffer")
 @pytest.mark.parametrize("seed", [0, 3])
 def test_the_order_of_the_triangles_changes_nothing(seed):
     points, corners = sample(seed)
@@ -56,6 +57,7 @@ def test_the_order_of_the_triangles_changes_nothing(seed):
     assert (one.source == np.where(other.source >= 0, order[other.source], -1)).mean() > 0.999
 
 
+@pytest.mark.capability("G7.3-zbuffer")
 def test_of_equally_deep_triangles_the_first_is_kept():
     points = np.array([(-1, -1, 0), (1, -1, 0), (0, 1, 0)], dtype=np.float64)
     camera = Camera((0, 0, 5), up=(0, 1, 0))

@@ -34,6 +34,18 @@ def test_first_and_last_shade_are_the_limits(name):
 @pytest.mark.capability("G4.3-palettes")
 def test_eight_palettes_fill_a_colour_map():
     assert tuple(PALETTE_LIMITS) == PALETTES and len(colour_map([]).entries) == 256 == 8 * colour_map([]).size
+    # The book's table, lower and upper limit.
+    table = {
+        "gray": (0, 0, 0, 1, 1, 1),
+        "green": (0, 0.3, 0, 0.8, 1, 0.8),
+        "yellow": (0.5, 0.3, 0, 1, 1, 0.5),
+        "blue": (0, 0.25, 0.45, 0.7, 0.7, 1),
+        "pink": (0.5, 0, 0.25, 1, 0.85, 0.8),
+        "cyan": (0, 0.25, 0.25, 0.5, 1, 1),
+        "magenta": (0.1, 0.1, 0.1, 1, 0.2, 1),
+        "orange": (0.5, 0.15, 0, 1, 0.6, 0.4),
+    }
+    assert {name: tuple(np.ravel(limits)) for name, limits in PALETTE_LIMITS.items()} == table
 
 
 @pytest.mark.capability("G4.3-spectrum")
@@ -66,6 +78,7 @@ def test_halves_lie_in_their_parent(name, count):
 
 
 @pytest.mark.capability("G4.3-lookup")
+@pytest.mark.capability("G3.L-light-dark")
 def test_numbers_of_palettes():
     assert [palette_number(name) for name in PALETTE_LIMITS] == list(range(8))
     assert [palette_number("light" + name) for name in PALETTE_LIMITS] == list(range(8, 16))

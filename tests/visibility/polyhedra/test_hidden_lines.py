@@ -47,7 +47,7 @@ def assert_as_rays_say(scene: Scene, camera: Camera, result: Seen, samples: int)
 
 
 @pytest.mark.slow
-@pytest.mark.capability("G7.2-exact", "G7.2-zones", "G7.2-lines-on-faces")
+@pytest.mark.capability("G7.2-exact", "G7.2-zones")
 @pytest.mark.parametrize("name", SCENES)
 def test_hard_shapes_as_rays_see_them(name: str) -> None:
     for camera, result in views_of(name):
