@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
+from support.drawn import drawn
 from support.paths import DATA, MODELS
 
 from vectorplot.draw import default_camera, draw
@@ -144,6 +146,30 @@ def test_patterns_lie_on_their_faces_and_are_hidden_with_them() -> None:
     ]
     assert len(pattern) == 1 and np.allclose(pattern[0][:, 2], 1.0) and len(pattern[0]) == 4
     assert "pattern" not in kinds_of(draw(scene, Camera((4.0, -6.0, -5.0))))
+
+
+@pytest.mark.capability("G7.2-lines-on-faces")
+@pytest.mark.parametrize("parallel", [False, True])
+@pytest.mark.parametrize("seed", range(3))
+def test_patterns_of_bodies_among_others_are_seen_where_rays_see_them(seed: int, parallel: bool) -> None:
+    random = np.random.default_rng(seed)
+    items, whole = [], 0.0
+    for item in rotated_boxes(8, seed).items:
+        shapes = []
+        for face in range(6):
+            outline = random.uniform(0.02, 0.08) * np.array([(-1.0, -1.0), (1.5, -0.5), (0.7, 1.0)])
+            shapes.append(Pattern(f"P{face}", "red", face, outline))
+            whole += np.linalg.norm(outline - np.roll(outline, 1, axis=0), axis=1).sum()
+        items.append(replace(item, patterns=tuple(shapes)))
+    scene = Scene(tuple(items))
+    camera = Camera(tuple(random.normal(size=3) * 4.0), parallel=parallel)
+    drawing = draw(scene, camera, hidden="solid", lines=("pattern",))
+    assert kinds_of(drawing) == {"pattern"}
+    lines = drawn(drawing)
+    # Of a body one sees half of the sides at most; what is drawn of them is visible or hidden, nothing is missing.
+    assert lines.length == pytest.approx(whole, rel=1e-6)
+    assert 0.1 * whole < lines.visible.length < 0.6 * whole
+    assert assert_drawing_is_right(drawing, scene, camera, samples=400) > 200
 
 
 def test_hidden_lines_come_dashed_or_solid_on_a_layer_that_is_not_plotted() -> None:

@@ -13,18 +13,25 @@ from support.pixel_rays import first_triangles, pixel_rays
 from support.shaded_scenes import triangles_of
 
 import vectorplot as vp
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.backends.raster import painted
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.testing import assert_drawing_is_right
 from vectorplot.testing.shapes import (
     box,
+    box_on_table,
     cyclic_bars,
+    edge_on_plate,
     hollow_tube,
     interpenetrating_boxes,
+    moebius_strip,
+    non_manifold_edge,
     open_mesh,
     rotation,
+    t_junction,
     without,
 )
+from vectorplot.testing.surfaces import torus_mesh
 
 COLOURS = ("#ff0000", "#00ff00", "#0000ff")
 COLUMNS, ROWS = 96, 72
@@ -64,19 +71,32 @@ def paints_right(scene: vp.Scene, camera: vp.Camera) -> None:
     assert wrong == 0 and sure > 0
 
 
-def renders_right(scene: vp.Scene, camera: vp.Camera) -> None:
-    pixels = vp.render(scene, camera, size=(COLUMNS, ROWS), fit=False, background="black", samples=1).pixels
+def shown_in_pixels(verb: str, scene: vp.Scene, camera: vp.Camera) -> Ints:
+    """(rows, columns) which of the three colours a picture shows, 3 for none."""
+    if verb == "render":
+        pixels = vp.render(scene, camera, size=(COLUMNS, ROWS), fit=False, background="black", samples=1).pixels
+    else:
+        drawing = vp.paint(scene, camera, page=vp.Page(COLUMNS, ROWS, 0), fit=False)
+        pixels = painted(np.zeros((ROWS, COLUMNS, 3), dtype=np.uint8), drawing)
+    return np.where(pixels.any(axis=2), pixels.argmax(axis=2), 3)
+
+
+def met_by_rays(scene: vp.Scene, camera: vp.Camera) -> tuple[Ints, Bools]:
+    """(rows, columns) the colours that rays meet, 3 for none, and where all around a pixel it is the same."""
     vertices, triangles = triangles_of(*(item.mesh for item in scene.items))
     counts = [len(triangles_of(item.mesh)[1]) for item in scene.items]
     colour = np.repeat(np.arange(len(counts)) % 3, counts)
     found = first_triangles(vertices, triangles, *pixel_rays(camera, COLUMNS, ROWS))
     expected = np.where(found >= 0, np.append(colour, 3)[found], 3).reshape(ROWS, COLUMNS)
-    shown = np.where(pixels.any(axis=2), pixels.argmax(axis=2), 3)
     padded = np.pad(expected, 1, mode="edge")
     around = np.array([padded[i : i + ROWS, j : j + COLUMNS] for i in range(3) for j in range(3)])
-    inner = (around == expected).all(axis=0)
+    return expected, (around == expected).all(axis=0)
+
+
+def renders_right(scene: vp.Scene, camera: vp.Camera) -> None:
+    expected, inner = met_by_rays(scene, camera)
     assert inner.mean() > 0.5
-    assert (shown == expected)[inner].all()
+    assert (shown_in_pixels("render", scene, camera) == expected)[inner].all()
 
 
 VERBS = {"draw": draws_right, "paint": paints_right, "render": renders_right}
@@ -140,6 +160,88 @@ OPEN: dict[str, Callable[[], vp.Scene]] = {
         )
     ),
 }
+
+
+CUBE_AND_OTHERS = vp.Scene(
+    (
+        vp.Item("CUBE", box((-1, -1, -1), (1, 1, 1))),
+        vp.Item("OTHER", box((3, 2, 1), (4, 3, 2))),
+        vp.Item("LOW", box((-1, -6, -1), (4, -3, 0.5))),
+    )
+)
+PLACES: dict[str, tuple[vp.Scene, tuple[float, ...], list[tuple[float, ...]]]] = {
+    "in the hole of a ring": (
+        vp.Scene((vp.Item("RING", torus_mesh()), vp.Item("FAR", box((4.5, -0.5, -0.5), (5, 0.5, 0.5))))),
+        (0.1, -0.2, 0.05),
+        [(3, 0.1, 0.2), (-0.5, 2, -0.1), (2, 1, 0.9)],
+    ),
+    "in a solid": (CUBE_AND_OTHERS, (0.3, -0.2, 0.1), [(1, -0.2, 0.1), (0.1, -3, 0.2)]),
+    "above a floor that reaches behind the eye": (
+        vp.Scene(
+            (
+                vp.Item("FLOOR", box((-1, -50, -1), (1, 10, 0))),
+                vp.Item("POST", box((-0.4, 4, 0), (0.4, 5, 3))),
+                vp.Item("BEHIND", box((-1, -9, 0), (1, -5, 2))),
+            )
+        ),
+        (0.0, 0.0, 1.0),
+        [(0, 10, 1), (0.2, 3, 0.4), (0.1, -2, 0.9)],
+    ),
+}
+
+
+@pytest.mark.hard(2, 3, 5)
+@pytest.mark.parametrize("verb", VERBS)
+@pytest.mark.parametrize("place", PLACES)
+def test_from_amid_the_scene_every_verb_shows_what_rays_meet(verb: str, place: str) -> None:
+    scene, eye, targets = PLACES[place]
+    for target in targets:
+        VERBS[verb](in_three_colours(scene), vp.Camera(eye, target, fov_deg=100))
+
+
+@pytest.mark.hard(4)
+@pytest.mark.parametrize("verb", ["paint", "render"])
+@pytest.mark.parametrize("eye", [(1.0, 1.0, 1.0), (1.0, 0.0, 1.0), (1.0, 0.2, 0.1)], ids=["vertex", "edge", "face"])
+def test_on_a_vertex_an_edge_or_a_face_pictures_are_those_from_just_outside(verb: str, eye: tuple[float, ...]) -> None:
+    scene = in_three_colours(CUBE_AND_OTHERS)
+    out = 1e-4 * np.array([np.sign(x) if abs(x) == 1.0 else 0.0 for x in eye])
+    for target in ((0, 0, 0.1), (5, 4, 3), (1, -3, 1), (1, 3, -2), (1, -4, 0)):
+        beside = vp.Camera(tuple(eye + out), tuple(target + out), fov_deg=100)
+        expected, inner = met_by_rays(scene, beside)
+        shown = shown_in_pixels(verb, scene, vp.Camera(eye, target, fov_deg=100))
+        assert inner.mean() > 0.8 and (shown == expected)[inner].all(), target
+
+
+AS_RAYS_SAY = [
+    pytest.param(box_on_table, marks=pytest.mark.hard(7)),
+    pytest.param(t_junction, marks=pytest.mark.hard(11)),
+    pytest.param(non_manifold_edge, marks=pytest.mark.hard(12)),
+    pytest.param(lambda: vp.Scene((vp.Item("STRIP", moebius_strip()),)), marks=pytest.mark.hard(14)),
+    pytest.param(edge_on_plate, marks=pytest.mark.hard(1)),
+]
+
+
+@pytest.mark.parametrize("verb", ["paint", "render"])
+@pytest.mark.parametrize("make", AS_RAYS_SAY)
+def test_awkward_shapes_are_shown_in_pictures_as_rays_meet_them(verb: str, make: Callable[[], vp.Scene]) -> None:
+    for seed in range(2):
+        scene = in_three_colours(turned(make(), seed) if seed else make())
+        for camera in cameras(scene)[seed::3]:
+            VERBS[verb](scene, camera)
+
+
+@pytest.mark.hard(16)
+@pytest.mark.parametrize("verb", ["paint", "render"])
+@pytest.mark.parametrize("points", [[(0, 0, 0), (1, 1, 1), (2, 2, 2)], [(1, 2, 3)] * 3])
+def test_triangles_without_area_leave_no_trace_in_pictures(verb: str, points: list[tuple[int, ...]]) -> None:
+    cube = vp.Item("CUBE", box((-1, -1, -1), (1, 1, 1)))
+    speck = vp.Item("SPECK", Mesh.from_triangles(points, [[0, 1, 2]]))
+    for camera in (vp.Camera((5, -7, 4)), vp.Camera((7, 7, 7), (1, 1, 1)), vp.Camera.view("top", (0, 0, 0), 6)):
+        with_it, alone = (
+            shown_in_pixels(verb, in_three_colours(vp.Scene(items)), camera) for items in ((cube, speck), (cube,))
+        )
+        assert np.array_equal(with_it, alone)
+        assert (shown_in_pixels(verb, in_three_colours(vp.Scene((speck,))), camera) == 3).all()
 
 
 @pytest.mark.slow

@@ -77,10 +77,13 @@ def test_thin_strokes_are_lines_of_single_pixels():
     assert picture[80 - 10, 30].tolist() == [255, 0, 0] or picture[80 - 11, 30].tolist() == [255, 0, 0]
 
 
+@pytest.mark.hard(55, 56)
 def test_points_and_empty_drawings():
     dot = drawing_of(paths_of([(30, 30)]), pen=Pen(4.0))
     assert 8 <= (painted(BLANK, dot) != 255).any(axis=2).sum() <= 18
-    assert (painted(BLANK, Drawing(120.0, 80.0, ())) == 255).all()
+    nothing = Drawing(120.0, 80.0, (Layer("faces", Pen(), (Fills.empty(), paths_of())),))
+    for empty in (Drawing(120.0, 80.0, ()), nothing):
+        assert (painted(BLANK, empty) == 255).all()
     assert png_bytes(dot) == png_bytes(dot)
     for wrong in (0.0, np.nan, 1e9):
         with pytest.raises(InputError):

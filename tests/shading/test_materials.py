@@ -8,6 +8,8 @@ import pytest
 import vectorplot as vp
 from vectorplot.backends.raster import painted
 from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.shading.light.palettes import palette
+from vectorplot.words import PALETTES
 
 WORDS = ("normal", "metallic", "shiny", "mat", "wood", "plastic", "transparent", "mirror")
 SAME = {"reflecting": "shiny", "matte": "mat"}
@@ -87,3 +89,20 @@ def test_plastic_metal_wood_and_normal_differ_as_their_laws_say(verb, body):
     assert np.median(levels["metallic"]) < np.median(levels["wood"])
     assert (levels["plastic"] > np.quantile(levels["plastic"], 0.5) + 150).mean() < 0.35
     assert levels["plastic"].mean() < levels["normal"].mean()
+
+
+@pytest.mark.capability("G3.L-light-dark", "G3.L-colour")
+@pytest.mark.parametrize(("verb", "name"), [*(("paint", name) for name in PALETTES), ("render", "magenta")])
+def test_a_light_or_dark_colour_has_the_upper_or_lower_half_of_its_palette(verb, name):
+    parent = palette(name, 256).astype(int)
+    for word, part in (("", parent), ("light", parent[127:]), ("dark", parent[:129])):
+        scene = parse_scene(f"camera eye 4 -7 5 light L position 3 -6 8 BODY {word}{name} {BODIES['a box']}")
+        if verb == "render":
+            shown = vp.render(scene, size=(40, 30), samples=1).pixels.reshape(-1, 3).astype(int)
+            shown = shown[(shown != 255).any(axis=1)]
+        else:
+            shown = vp.paint(scene).layers[0].fills[0].colours.astype(int)
+        assert len(shown) > 5 and len(np.unique(shown, axis=0)) >= 3
+        # Every colour of the picture is one of that part of the ramp, to the rounding of its shade.
+        off = np.abs(shown[:, None] - part).max(axis=2).min(axis=1)
+        assert off.max() <= 4, (word, off.max())

@@ -6,6 +6,7 @@ Nothing is smoothed: a pixel is in a stroke or a polygon, or it is not. Make the
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
@@ -119,8 +120,8 @@ def _fill(flat: Bytes, fills: Fills, points: Floats, columns: int, rows: int) ->
     even[polygon[~same]] = False
     # Runs that are painted at once: flat opaque ones, shaded ones, and those one sees through, one by one.
     kind = np.where(fills.opacity < 1.0, 2 + np.arange(len(fills)), np.where(even, 0, 1))
-    borders = np.flatnonzero(np.diff(kind, prepend=-1))
-    for begin, end in zip(borders.tolist(), [*borders[1:].tolist(), len(fills)], strict=True):
+    borders = np.append(np.flatnonzero(np.diff(kind, prepend=-1)), len(fills)).tolist()
+    for begin, end in pairwise(borders):
         part = slice(fills.offsets[begin], fills.offsets[end])
         shaded = np.column_stack([points[part], fills.colours[part]])
         polygons = Polygons(shaded, fills.offsets[begin : end + 1] - fills.offsets[begin])

@@ -9,8 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import vectorplot as vp
+from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.shadows.shadow_shades import LEVELS, shadow_shades
+from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.shading.light.illumination import DIRECT_SHARE, shades
+from vectorplot.testing.shapes import box
 
 SHARES = st.lists(st.floats(0.0, 3.0), min_size=3, max_size=3)
 
@@ -47,3 +51,47 @@ def test_shades_fall_with_every_light_that_is_lacking_and_rise_with_depth(
 
 def test_in_the_dark_nothing_is_lost() -> None:
     assert shadow_shades(np.zeros((2, 1)), [1.0, 1.0], [3], 0.1).tolist() == [0.1]
+
+
+ROAD = Item("ROAD", box((-3, 0, -1), (3, 60, 0)))
+WALL = Item("WALL", box((1, 0, 3), (2, 60, 3.2)))
+ALONG = vp.Camera((0, -10, 6), (0, 10, 0), fov_deg=50)
+
+
+@pytest.mark.capability("G6.3-shadow-shade")
+def test_a_large_shadow_becomes_darker_with_its_depth_in_pixels() -> None:
+    scene = Scene((ROAD, WALL), (Light((0, 0, 1), parallel=True, intensity=1.0),))
+    pixels = vp.render(scene, ALONG, size=(160, 120), fit=False, samples=1).pixels.astype(int)
+    y = np.array([2.0, 6.0, 14.0, 30.0, 50.0])
+    levels = []
+    for x in (1.5, -1.5):  # Below the wall, and beside it.
+        right, up, ahead = ALONG.axes @ (np.stack([np.full(5, x), y, np.zeros(5)]) - np.array(ALONG.target)[:, None])
+        scale = 60.0 / np.tan(np.radians(25.0)) / (ALONG.distance - ahead)
+        levels.append(pixels[np.rint(59.5 - up * scale).astype(int), np.rint(79.5 + right * scale).astype(int), 0])
+    dark, lit = levels
+    assert (np.diff(dark) < 0).all() and (np.diff(lit) < 0).all()
+    # Half of the reduced palette is gone, at any depth.
+    assert np.abs(lit - dark - 0.5 * DIRECT_SHARE * 255.0).max() <= 2.0
+
+
+@pytest.mark.capability("G6.3-shadow-shade")
+def test_a_large_painted_shadow_varies_as_the_light_on_its_plane_does() -> None:
+    """A plane in sunlight has one shade, and so have its shadows; under a lamp both have gradients."""
+    shades = {}
+    for light in (Light((0, 0, 1), parallel=True, intensity=1.0), Light((0, 5, 9), intensity=1.0)):
+        (fills,) = vp.paint(Scene((ROAD, WALL), (light,)), ALONG).layers[0].fills
+        lowest = np.minimum.reduceat(fills.points3d[:, 2], fills.offsets[:-1])
+        top = (lowest > -1e-9) & (fills.item == 0)
+        away = np.linalg.norm(fills.points3d - light.position, axis=1)
+        shades[light.parallel] = []
+        for kind in (FillKind.SHADOW, FillKind.FACE):
+            own = np.repeat(top & (fills.kind == kind), np.diff(fills.offsets))
+            shades[light.parallel].append((away[own], fills.colours[own, 0].astype(int)))
+    assert [len(np.unique(level)) for _, level in shades[True]] == [1, 1]
+    (far, dark), (further, lit) = shades[False]
+    assert np.ptp(dark) > 40 and np.ptp(lit) > 60
+    assert np.corrcoef(far, dark)[0, 1] < -0.8 and dark[far.argmin()] >= dark.max() - 2
+    # Half as bright as what is lit at the same distance.
+    nearest = np.abs(far[:, None] - further).argmin(axis=1)
+    beside = np.abs(far - further[nearest]) < 0.3
+    assert beside.sum() > 5 and (dark[beside] < 0.75 * lit[nearest[beside]] + 12).all()

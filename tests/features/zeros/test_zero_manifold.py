@@ -41,10 +41,12 @@ def test_circle_is_one_closed_branch_refined_to_rounding():
     assert abs(area(curve[0][:-1]) + np.pi / 2) < 2e-2
     triangles, normals = curve.triangulation
     assert triangles.shape == (2 * 30 * 30, 3)
-    # Of the grid (u, v, f(u, v)), in units of its spans: at every point the normal of the graph, to the square of a step.
+    # At every inner point of the grid (u, v, f(u, v)) the normal of the graph, to the square of a step.
     u, v = np.meshgrid(np.linspace(-1, 1, 31), np.linspace(-1, 1, 31), indexing="ij")
     assert np.allclose(curve.grid[..., :2], np.stack([u, v], axis=-1)) and normals.shape == (31, 31, 3)
     assert np.allclose(np.linalg.norm(normals, axis=2), 1.0)
+    slopes = (-normals[..., :2] / normals[..., 2:])[1:-1, 1:-1]
+    assert np.abs(slopes - 2 * np.stack([u, v], axis=-1)[1:-1, 1:-1]).max() < (2 / 30) ** 2
 
 
 @pytest.mark.capability("G8.4-zero-manifold")

@@ -8,8 +8,11 @@ import numpy as np
 import pytest
 from support.paths import DATA
 
+from vectorplot.draw import draw
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.convex.separating_planes import FIRST_ABOVE, separations
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.outline import contour_branches
 from vectorplot.geometry.repair.adjacency import (
     NO_FACE,
     body_record,
@@ -156,10 +159,10 @@ def test_all_that_is_recorded_of_the_objects_of_a_scene_fits_together(name):
     ]
     for camera in systems:
         objects = view_objects(look(scene, camera))
-        points, first = objects.view.points, objects.view.item_vertices
+        points, first_vertex = objects.view.points, objects.view.item_vertices
         image = objects.view.image
         for k in range(len(items)):
-            own = slice(first[k], first[k + 1])
+            own = slice(first_vertex[k], first_vertex[k + 1])
             low, high = objects.box[0:4:2, k], objects.box[1:4:2, k]
             assert (low >= image[:, own].min(axis=1) - 1e-6).all() and (high <= image[:, own].max(axis=1) + 1e-6).all()
             centre, radius = objects.around.spheres[k, :3], objects.around.spheres[k, 3]
@@ -168,6 +171,26 @@ def test_all_that_is_recorded_of_the_objects_of_a_scene_fits_together(name):
         assert np.array_equal(table == IN_FRONT, (table == BEHIND).T)
         obscured = wholly_hidden(objects)
         assert obscured.shape == (len(items),) and not obscured.all()
+        seen = {int(k) for layer in draw(scene, camera).layers for paths in layer.strokes for k in paths.item}
+        assert not seen & set(np.flatnonzero(obscured).tolist())
+        # The contour of each: the edges between faces that look at this eye or light and others, joined to closed ones.
+        centre = (*camera.direction, 0.0) if camera.parallel else camera.eye
+        for item in items:
+            corner = item.mesh.vertices[item.mesh.corners[item.mesh.offsets[:-1]]]
+            way = np.array(camera.direction) if camera.parallel else np.array(camera.eye) - corner
+            looks = (item.mesh.face_normals * way).sum(axis=1) > 1e-9 * np.abs(way).max()
+            across = neighbour_faces(item.mesh)
+            contour = contour_branches(item.mesh, centre)
+            assert contour.closed.all() and len(contour.points) >= 3
+            if (across != NO_FACE).all():
+                assert 2 * len(contour.points) == (looks[item.mesh.corner_face] != looks[across]).sum()
+        # The planes that keep two objects apart do so, as the record of the pair says.
+        first, second = np.triu_indices(len(items), 1)
+        record = separations(objects.around, first, second)
+        for k in np.flatnonzero(np.abs(record.info) == FIRST_ABOVE):
+            for sign, item in ((record.info[k], first[k]), (-record.info[k], second[k])):
+                own = points[:, first_vertex[item] : first_vertex[item + 1]]
+                assert (sign * (record.planes[k, :3] @ own - record.planes[k, 3]) >= -1e-8).all()
 
 
 @pytest.mark.capability("G3.2-face")

@@ -64,7 +64,7 @@ def test_the_smaller_of_faces_in_one_plane_is_seen_at_every_size_distance_and_sc
         assert np.allclose(np.array(shown) / sum(shown), wanted, atol=0.01 + 30.0 / sum(shown))
 
 
-@pytest.mark.hard(76)
+@pytest.mark.hard(6, 76)
 def test_equal_faces_in_one_place_are_seen_as_they_are_painted() -> None:
     cube = box((-1, -1, -1), (1, 1, 1))
     for names in (("#ff0000", "#0000ff"), ("#0000ff", "#ff0000")):

@@ -63,6 +63,10 @@ def test_larger_exponents_are_darker_between_the_ends():
     series = np.array([il.lambert(cosine, c) for c in (0.5, 0.7, 1.0, 2.0, 4.0, 8.0)])
     assert (np.diff(series, axis=0) < 0).all()
     assert np.all(il.lambert(1.0, 3.0) == 1.0) and np.all(il.lambert(0.0, 0.5) == 0.0)
+    # The words for materials have the exponents of their figure.
+    exponents = {word: finish.exponent for word, finish in FINISHES.items()}
+    assert exponents["normal"] == 1.0 and exponents["metallic"] >= 2.0
+    assert 0.5 <= exponents["mat"] < 1.0 and 0.5 <= exponents["wood"] < 1.0
 
 
 @pytest.mark.capability("G4.5-darkface")

@@ -7,8 +7,10 @@ import pytest
 from support.painted import nearest, sample_points, top_polygon
 from support.strewn import STREWN, placed
 
+from vectorplot.effects.shadows.shadow_decals import cast_shadows
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.scene.scene import Light
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import (
     box,
@@ -53,6 +55,55 @@ def seen_pairs(view, objects, samples=3000):
     there = np.isfinite(heights)
     apart = np.where(there, heights, 0.0)[:, None] - np.where(there, heights, 0.0)[None]
     return ((apart > 1e-6) & there[:, None] & there[None] & sure).any(axis=2)
+
+
+def row_and_column_apart(span):
+    return (span[0][:, None] >= span[1][None]) | (span[1][:, None] <= span[0][None])
+
+
+@pytest.mark.capability("G5.5-rect", "G5.5-depth", "G5.6-priorities")
+@pytest.mark.parametrize("parallel", [False, True])
+@pytest.mark.parametrize("seed", range(4))
+def test_rectangles_apart_have_no_priority_and_depths_apart_decide(seed, parallel):
+    scene = random_convex_solids(24, seed)
+    objects = view_objects(look(scene, Camera((9, 7, 6), tuple(scene.bounds.mean(axis=0)), parallel=parallel)))
+    table = priorities(objects)
+    for k in range(len(objects)):
+        # The boxes are those of the images of the faces that are drawn.
+        mine = np.flatnonzero(objects.owner == k)
+        corner = np.concatenate([np.arange(*objects.faces.offsets[[f, f + 1]]) for f in mine])
+        low, high = objects.faces.points[:, corner].min(axis=1), objects.faces.points[:, corner].max(axis=1)
+        assert np.array_equal(objects.box[0::2, k], low) and np.array_equal(objects.box[1::2, k], high)
+    off = row_and_column_apart(objects.box[0:2]) | row_and_column_apart(objects.box[2:4])
+    assert off.sum() > 200 and (table[off] == APART).all()
+    nearer = ~off & (objects.box[4][:, None] >= objects.box[5][None])
+    assert nearer.sum() > 5 and (table[nearer] == IN_FRONT).all() and (table.T[nearer] == BEHIND).all()
+    # Of some objects the table is that part of the whole one, in the order asked for.
+    some = np.random.default_rng(seed).permutation(24)[:9]
+    for critical in (False, True):
+        whole = priorities(objects, critical=critical)
+        assert np.array_equal(priorities(objects, some, critical=critical), whole[np.ix_(some, some)])
+
+
+@pytest.mark.capability("G5.5-which-first")
+@pytest.mark.parametrize("light", [Light((3.0, -2.0, 5.0), parallel=True), Light((4.0, -3.0, 7.0))])
+@pytest.mark.parametrize("seed", range(3))
+def test_in_the_system_of_a_light_what_is_in_front_shadows_what_is_behind(light, seed):
+    scene = random_convex_solids(9, seed)
+    middle = scene.bounds.mean(axis=0)
+    place = middle + light.position if light.parallel else light.position
+    view = look(scene, Camera(tuple(place), tuple(middle), parallel=light.parallel))
+    objects, count = view_objects(view), len(scene.items)
+    first, second = (index.ravel() for index in np.indices((count, count)))
+    codes = which_first(objects, first, second, critical=True).reshape(count, count)
+    # The shadows of one body after the other: they lie on bodies behind it only.
+    seen = look(scene, Camera((6.0, 5.0, 9.0), tuple(middle)))
+    shadowed = np.zeros((count, count), dtype=bool)
+    for caster in range(count):
+        cast = cast_shadows(seen, (light,), casters=np.arange(count) == caster)
+        shadowed[caster, seen.face_item[cast.face]] = True
+    assert shadowed.sum() > 3
+    assert np.isin(codes[shadowed], (IN_FRONT, STRADDLING)).all()
 
 
 @pytest.mark.slow
