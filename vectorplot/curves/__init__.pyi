@@ -1,4 +1,5 @@
 from .bezier.arcs import EllipseArc, arc_path
+from .bezier.elliptic_arcs import EllipseArcs
 from .bezier.fit import fitted_curve, fitted_paths
 from .bezier.paths import BezierPath, BezierPaths
 from .circle import Circle
@@ -16,6 +17,7 @@ __all__ = [
     "Circle",
     "Curve",
     "EllipseArc",
+    "EllipseArcs",
     "FunctionCurve",
     "Helix",
     "Line",

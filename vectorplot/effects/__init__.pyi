@@ -1,9 +1,11 @@
 from .cuts import between_planes
+from .decals.decal_polygons import Decals
 from .glass.refraction import angle_of_refraction, inverse_refraction, plate_shift, refracted, seen_in_surface
 from .halos import halo
 from .shadows.shadow_decals import shadow_decals
 
 __all__ = [
+    "Decals",
     "angle_of_refraction",
     "between_planes",
     "halo",

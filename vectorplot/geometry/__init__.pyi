@@ -45,7 +45,7 @@ from .convex.separating_planes import (
     spheres_power,
 )
 from .mesh import Mesh
-from .outline import contour_branches, contour_edges, spatial_hull
+from .outline import Branches, contour_branches, contour_edges, spatial_hull
 from .regions import polygons_of
 from .repair.adjacency import (
     BodyRecord,
@@ -57,8 +57,8 @@ from .repair.adjacency import (
     face_records,
     neighbour_faces,
 )
-from .repair.mesh_repair import MeshReport, mended, mesh_report, welded
-from .repair.winding import consistent_winding, is_closed_oriented
+from .repair.mesh_repair import Mending, MeshReport, mended, mesh_report, welded
+from .repair.winding import EdgeUses, consistent_winding, edge_uses, is_closed_oriented
 from .rotations import (
     axis_frame,
     euler_angles,
@@ -89,10 +89,13 @@ from .vectors import (
 __all__ = [
     "BodyRecord",
     "Box",
+    "Branches",
     "Camera",
     "ClippedLines",
     "CoordinateSystem",
+    "EdgeUses",
     "FaceRecords",
+    "Mending",
     "Mesh",
     "MeshReport",
     "PixelWindow",
@@ -127,6 +130,7 @@ __all__ = [
     "cut_body",
     "cut_polygons",
     "diagonal_field_of_vision_deg",
+    "edge_uses",
     "euler_angles",
     "face_barycentres",
     "face_constants",

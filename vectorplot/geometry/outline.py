@@ -16,8 +16,24 @@ from vectorplot.tolerances.of_numbers import ROUNDING
 
 @dataclass(frozen=True, eq=False)
 class Branches:
-    """Polylines of vertex indices. points (p,); offsets (b+1,): branch i has the points offsets[i] to offsets[i+1];
-    closed (b,): the last point joins the first, which is not repeated."""
+    """Polylines of vertex indices.
+
+    Parameters
+    ----------
+    points : (p,) array of int
+        Of all branches, one after the other.
+    offsets : (b+1,) array of int
+        Branch i has the points offsets[i] to offsets[i+1].
+    closed : (b,) array of bool
+        The last point joins the first, which is not repeated.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> branches = geometry.contour_branches(geometry.box((2, 2, 2)), centre=(9, 1, 1))
+    >>> len(branches), branches[0].tolist()
+    (1, [1, 2, 6, 5])
+    """
 
     points: Ints
     offsets: Ints

@@ -1,7 +1,7 @@
 from .paper import sheet_size
 from .placement import Placement, field_of_vision, fitted_picture
 from .scene import Item, Light, Material, Page, Pattern, Scene
-from .surface_lines import Section, SurfaceLines, even_cosines
+from .surface_lines import Section, SurfaceLines, SurfacePath, even_cosines, path_on_surface
 from .view import View, look
 
 __all__ = [
@@ -14,10 +14,12 @@ __all__ = [
     "Scene",
     "Section",
     "SurfaceLines",
+    "SurfacePath",
     "View",
     "even_cosines",
     "field_of_vision",
     "fitted_picture",
     "look",
+    "path_on_surface",
     "sheet_size",
 ]

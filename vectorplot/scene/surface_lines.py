@@ -82,7 +82,25 @@ class Section:
 
 @dataclass(frozen=True)
 class SurfacePath:
-    """A curve on a parametrised surface: function gives u and v at t from start to end; made by `path_on_surface`."""
+    """A curve on a parametrised surface; made by path_on_surface.
+
+    Parameters
+    ----------
+    function : NumericFunction
+        Gives u and v at t.
+    start, end : float
+        The range of t.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.scene import path_on_surface
+    >>> path = path_on_surface(lambda t: (t, 0.5 * t), 0.0, 6.0)
+    >>> path.start, path.end
+    (0.0, 6.0)
+    >>> vp.SurfaceLines(paths=(path,)).paths == (path,)
+    True
+    """
 
     function: NumericFunction
     start: float
@@ -109,9 +127,40 @@ def _each_plane_once(sections: tuple[Section, ...]) -> tuple[Section, ...]:
 def path_on_surface(function: Callable[..., Any], start: float, end: float) -> SurfacePath:
     """The curve on a surface with the parameters function(t) = (u, v), start <= t <= end.
 
-    Errors: InputError, naming the function, when it raises, returns complex numbers or the wrong shape.
+    Parameters
+    ----------
+    function : callable
+        function(t) gives u and v, for a number or an array of them.
+    start, end : float
+        The range of t.
+
+    Returns
+    -------
+    SurfacePath
+        For the paths of SurfaceLines.
+
+    Raises
+    ------
+    InputError
+        For a range that is empty or not finite; naming the function, when it raises, returns complex numbers or the
+        wrong shape.
+
+    Notes
+    -----
     Degenerate: where it leaves the surface, or is not finite, the curve is interrupted.
+
     Source: Glaeser, section 8.2, equation 9.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot.scene import path_on_surface
+    >>> from vectorplot.surfaces import Torus
+    >>> knot = path_on_surface(lambda t: (2 * t, 3 * t), 0.0, 2 * np.pi)
+    >>> torus = vp.Item("torus", Torus(3.0, 1.0), curves=vp.SurfaceLines(paths=(knot,)))
+    >>> len(torus.curves.paths)
+    1
     """
     first, last = parameter_range("path", start, end)
     return SurfacePath(numeric_function(function, 2, (Range(first, last, False),)), first, last)

@@ -2,11 +2,13 @@ from .painter.groups import ObjectOrder, gordian_knots, group_ranks, grouped_ord
 from .painter.image_faces import ImageFaces, image_faces, image_points
 from .painter.mikado import Mikado, mikado
 from .painter.order import Painted, painters_order
+from .painter.pairs.bodies import Bodies, convex_bodies
 from .painter.pairs.face_pairs import APART, BEHIND, COPLANAR, IN_FRONT, STRADDLING
 from .painter.precedence import Precedence
 from .painter.priorities import Objects, demands, priorities, view_objects, wholly_hidden
 from .painter.slices import cut_into_slices, slice_order, sliced_order
 from .polyhedra.hidden_lines import Visibility, counted_parts, visible_parts
+from .polyhedra.lines import Lines, edge_lines
 from .polyhedra.occluders import solid_items
 from .polyhedra.pairs import Segments
 from .projected_faces import ProjectedFaces, project_faces
@@ -17,7 +19,9 @@ __all__ = [
     "COPLANAR",
     "IN_FRONT",
     "STRADDLING",
+    "Bodies",
     "ImageFaces",
+    "Lines",
     "Mikado",
     "ObjectOrder",
     "Objects",
@@ -26,9 +30,11 @@ __all__ = [
     "ProjectedFaces",
     "Segments",
     "Visibility",
+    "convex_bodies",
     "counted_parts",
     "cut_into_slices",
     "demands",
+    "edge_lines",
     "gordian_knots",
     "group_ranks",
     "grouped_order",

@@ -32,8 +32,23 @@ _MOST_SEGMENTS = 1 << 16
 class EllipseArcs:
     """Arcs centre + cos(t) first + sin(t) second, from t = start to end: first and second are the semi-axes.
 
-    centre, first, second (a,2); start, end (a,) radians, end less than start for clockwise arcs; stroke (a,): the
-    number of the stroke that each arc draws.
+    Parameters
+    ----------
+    stroke : (a,) array of int
+        The number of the stroke that each arc draws.
+    centre, first, second : (a, 2) array of float
+        The centre and the semi-axes, as vectors.
+    start, end : (a,) array of float
+        In radians, end less than start for clockwise arcs.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.curves import EllipseArcs
+    >>> centre, first, second = np.array([[5.0, 5.0]]), np.array([[2.0, 0.0]]), np.array([[0.0, 1.0]])
+    >>> half = EllipseArcs(np.array([0]), centre, first, second, np.array([0.0]), np.array([np.pi]))
+    >>> half.points(np.array([[0.0, np.pi / 2]])).round(9).tolist()
+    [[[7.0, 5.0], [5.0, 6.0]]]
     """
 
     stroke: Ints

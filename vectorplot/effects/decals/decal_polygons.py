@@ -15,13 +15,45 @@ from vectorplot.geometry.records import IN_COLUMNS
 class Decals:
     """Polygons on faces of a View, painted right after the face they lie on.
 
-    points (3,c) in the view's coordinates, on the planes of their faces; offsets (m+1,): decal k has the points
-    offsets[k] to offsets[k+1], simple, its turn that of the face; face (m,) the face of the view it lies on; kind (m,)
-    of FillKind; grade (m,) how many lights it lacks (0 for decals that are no shadows); light (m,) which light of the
-    scene, -1 for several or none; colour (m,) index into colours, or -1: the face's own; level (m,) the order on one
-    face, smaller first, equal ones in any order; colours: names of palettes and colours; lacking (m,): the lights that
-    do not get there at all, bit k for light k (None: as far as light says); opacity (m,) how much of the face they
-    cover (None: all of it).
+    Parameters
+    ----------
+    points : (3, c) array of float
+        In the view's coordinates, on the planes of their faces.
+    offsets : (m+1,) array of int
+        Decal k has the points offsets[k] to offsets[k+1], simple, its turn that of the face.
+    face : (m,) array of int
+        The face of the view it lies on.
+    kind : (m,) array of int
+        FillKind values.
+    grade : (m,) array of int
+        How many lights it lacks (0 for decals that are no shadows).
+    light : (m,) array of int
+        Which light of the scene, -1 for several or none.
+    colour : (m,) array of int
+        Index into colours, or -1: the face's own.
+    level : (m,) array of int
+        The order on one face, smaller first, equal ones in any order.
+    colours : tuple of str
+        Names of palettes and colours.
+    lacking : (m,) array of int, optional
+        The lights that do not get there at all, bit k for light k; as far as light says where None.
+    opacity : (m,) array of float, optional
+        How much of the face they cover; all of it where None.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import effects
+    >>> from vectorplot.scene import look
+    >>> def square(side, height):
+    ...     corners = [(-side, -side, height), (side, -side, height), (side, side, height), (-side, side, height)]
+    ...     return vp.Mesh.from_polygons(corners, [(0, 1, 2, 3)])
+    >>> scene = vp.Scene((vp.Item("floor", square(4, 0)), vp.Item("roof", square(1, 1))))
+    >>> shadows = effects.shadow_decals(look(scene, vp.Camera.view("top")), [vp.Light((1, 0, 2), parallel=True)])
+    >>> shadows
+    <Decals: 1 polygons on 1 faces>
+    >>> shadows.light.tolist(), shadows.lights_lacking.tolist()
+    ([0], [1])
     """
 
     points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)

@@ -37,8 +37,30 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Mending:
-    """What was done to a mesh, in numbers: vertices welded; faces dropped as degenerate or as repeated; faces turned
-    round. And what is left: boundary edges, edges of more than two faces, and whether some piece is one-sided."""
+    """What was done to a mesh, and what is left, in numbers.
+
+    Parameters
+    ----------
+    welded : int
+        Vertices made one with others.
+    degenerate, repeated : int
+        Faces dropped as degenerate, and as repeated.
+    turned : int
+        Faces turned round.
+    boundary_edges, nonmanifold_edges : int
+        What is left: edges of one face, and of more than two.
+    one_sided : bool
+        Whether some piece is one-sided.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> flat = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 1, 1)])
+    >>> mesh, done = geometry.mended(flat, precision=2.0**-52)
+    >>> str(done)
+    'dropped 1 degenerate face; open mesh (3 boundary edges)'
+    """
 
     welded: int = 0
     degenerate: int = 0

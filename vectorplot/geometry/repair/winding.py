@@ -23,8 +23,23 @@ LABEL_BITS = 40
 class EdgeUses:
     """The undirected edges of a mesh and the face corners that run along them.
 
-    corner (c,) positions of corners, sorted by the edge from this corner to the next; forward (c,) whether that way
-    leads to the larger vertex number; first (e,) where the uses of an edge begin; count (e,) how many there are.
+    Parameters
+    ----------
+    corner : (c,) array of int
+        Positions of corners, sorted by the edge from this corner to the next.
+    forward : (c,) array of bool
+        Whether that way leads to the larger vertex number.
+    first : (e,) array of int
+        Where the uses of an edge begin.
+    count : (e,) array of int
+        How many there are.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> uses = geometry.edge_uses(geometry.box((1, 1, 1)))
+    >>> len(uses.count), bool((uses.count == 2).all()), bool(uses.agree.all())
+    (12, True, True)
     """
 
     corner: Ints
@@ -52,7 +67,26 @@ class EdgeUses:
 
 
 def edge_uses(mesh: Mesh) -> EdgeUses:
-    """The edges of the mesh with their uses, by one sort of packed integers."""
+    """The edges of a mesh with their uses, by one sort of packed integers.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        With c corners and e edges.
+
+    Returns
+    -------
+    EdgeUses
+        Every edge once, whichever way faces run along it.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> square = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)])
+    >>> sorted(geometry.edge_uses(square).count.tolist())
+    [1, 1, 1, 1, 2]
+    """
     start, end = mesh.corners, mesh.corners[mesh.next_corner]
     keys = np.minimum(start, end) * len(mesh.vertices) + np.maximum(start, end)
     bits = len(keys).bit_length()
@@ -222,10 +256,9 @@ def consistent_winding(mesh: Mesh, uses: EdgeUses) -> tuple[Bools, bool]:
     --------
     >>> import vectorplot as vp
     >>> from vectorplot import geometry
-    >>> from vectorplot.geometry.repair.winding import edge_uses
     >>> corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 2, 0)]
     >>> mesh = vp.Mesh.from_triangles(corners, [(0, 1, 2), (0, 2, 3), (2, 3, 4)])
-    >>> turn, agree = geometry.consistent_winding(mesh, edge_uses(mesh))
+    >>> turn, agree = geometry.consistent_winding(mesh, geometry.edge_uses(mesh))
     >>> turn.tolist(), agree
     ([False, False, True], True)
     """

@@ -40,10 +40,34 @@ HEADLIGHT = Light(UPPER_LEFT, parallel=True, intensity=1.0)
 
 @dataclass(frozen=True, eq=False)
 class Shades:
-    """How bright n points are. shares (l,n): what a light of intensity 1 gives, 1 and more being as bright as can be;
-    matt (l,n): the same without highlights; backlit (l,n): whether a light shines on their far side; intensity (l,) of
-    the lights, or (l,3) of their red, green and blue where one of them is coloured; cue (n,): what is added because
-    they are near the eye."""
+    """How bright n points are in the light of l lights.
+
+    Parameters
+    ----------
+    shares : (l, n) array of float
+        What a light of intensity 1 gives, 1 and more being as bright as can be.
+    matt : (l, n) array of float
+        The same without highlights.
+    backlit : (l, n) array of bool
+        Whether a light shines on their far side.
+    intensity : (l,) or (l, 3) array of float
+        Of the lights, or of their red, green and blue where one of them is coloured.
+    cue : (n,) array of float
+        What is added because they are near the eye.
+
+    Notes
+    -----
+    Source: Glaeser, sections 4.5 and 8.5.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.shading import Shades
+    >>> shares = np.array([[0.5, 1.0], [0.25, 0.5]])
+    >>> shades = Shades(shares, shares, np.zeros((2, 2), dtype=bool), np.array([1.0, 1.0]), np.zeros(2))
+    >>> shades.total.round(6).tolist(), shades.of_light(1).round(6).tolist()
+    ([0.6, 0.8], [0.2, 0.4])
+    """
 
     shares: Floats
     matt: Floats

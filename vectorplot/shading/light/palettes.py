@@ -236,8 +236,35 @@ def shaded_colours(names: Sequence[str], which: Ints, shade: ArrayLike, count: i
 
 @dataclass(frozen=True, eq=False)
 class ColourMap:
-    """The entries (m, 3) of a device's colour table: palettes of size shades each for the parents that are in use, one
-    after the other from entry offset on; entries before it belong to others."""
+    """The entries of a device's colour table: palettes one after the other, and what belongs to others before them.
+
+    Parameters
+    ----------
+    entries : (m, 3) array of uint8
+        Red, green and blue.
+    parents : tuple of str
+        The palettes that are in use, in their order.
+    size : int
+        How many shades each has.
+    offset : int
+        The first entry of the first palette.
+
+    Raises
+    ------
+    InputError
+        From entry: for a palette that is not in the map.
+
+    Notes
+    -----
+    Source: Glaeser, section 4.3.
+
+    Examples
+    --------
+    >>> from vectorplot import shading
+    >>> colours = shading.colour_map(["blue"], colours=64, offset=16)
+    >>> colours.size, colours.entry("blue", [0.0, 1.0]).tolist(), colours.background
+    (48, [16, 63], (0, 0, 0))
+    """
 
     entries: Colours
     parents: tuple[str, ...]

@@ -67,7 +67,25 @@ class ScreenTriangles:
 
 @dataclass(frozen=True)
 class HalfSpace:
-    """Homogeneous points p (4,) with normal . p >= limit."""
+    """Homogeneous points p with normal . p >= limit.
+
+    Parameters
+    ----------
+    normal : (float, float, float, float)
+        What the coordinates x, y, z and weight of a point are multiplied by.
+    limit : float
+        The smallest product.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import shading
+    >>> system = shading.raster_system(vp.Camera((0, 0, 5), up=(0, 1, 0), parallel=True, height=8.0), 8, 8)
+    >>> points = system.homogeneous([(-3, -3, 0), (3, -3, 0), (-3, 3, 0)])
+    >>> right = shading.HalfSpace((1.0, 0.0, 0.0, -3.5))
+    >>> shading.screen_triangles(points, [(0, 1, 2)], sides=[right]).points[:, 0].max().item()
+    6.5
+    """
 
     normal: tuple[float, float, float, float]
     limit: float = 0.0

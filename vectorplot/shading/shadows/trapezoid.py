@@ -31,10 +31,27 @@ SEARCH_STEP = 0.05
 
 @dataclass(frozen=True, eq=False)
 class Axis:
-    """The line of sight in the lamp's image plane. origin (2,): N; direction (2,): unit vector to F; top, base:
-    distances from N, along the direction, of the two parallel lines of the trapezoid.
+    """The line of sight in the lamp's image plane.
 
+    Parameters
+    ----------
+    origin : (2,) array of float
+        N, the image of the centre of the near plane.
+    direction : (2,) array of float
+        Unit vector to F, that of the far plane.
+    top, base : float
+        Distances from N, along the direction, of the two parallel lines of the trapezoid.
+
+    Notes
+    -----
     Source: Ressler, equations 1 to 4.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import line_of_sight
+    >>> axis = line_of_sight([(-1, 0), (1, 0), (3, 4), (-3, 4)], near=(0, 0), far=(0, 4))
+    >>> axis.direction.tolist(), axis.top, axis.base, axis.length
+    ([0.0, 1.0], 0.0, 4.0, 4.0)
     """
 
     origin: Floats
@@ -62,12 +79,37 @@ class Axis:
 
 
 def line_of_sight(points: ArrayLike, near: ArrayLike, far: ArrayLike) -> Axis:
-    """The axis between the images (2,) of the centres of the near and the far plane, with its top and base lines.
+    """The axis between the images of the centres of the near and the far plane, with its top and base lines.
 
-    points (n, 2): of the frustum; inner ones change nothing.
-    Errors: InputError without points, and for what is not finite.
+    Parameters
+    ----------
+    points : (n, 2) array_like of float
+        Images of the frustum; inner ones change nothing.
+    near, far : (2,) array_like of float
+        Images of the centres of its planes.
+
+    Returns
+    -------
+    Axis
+        Its top and base line touch the points.
+
+    Raises
+    ------
+    InputError
+        Without points, and for what is not finite.
+
+    Notes
+    -----
     Degenerate: where both centres have one image, as the lamp shines along the line of sight, the axis is x.
+
     Source: Ressler, equations 1 to 4.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import line_of_sight
+    >>> axis = line_of_sight([(0, -2), (0, 2), (8, 3), (9, 0)], near=(1, 0), far=(8, 0))
+    >>> axis.top, axis.base
+    (-1.0, 8.0)
     """
     p, n, f = (np.asarray(x, dtype=np.float64) for x in (points, near, far))
     if p.ndim != 2 or p.shape[1] != 2 or not len(p) or not all(np.isfinite(x).all() for x in (p, n, f)):
@@ -143,8 +185,7 @@ def trapezoid(points: ArrayLike, axis: Axis, eta: float) -> Floats:
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.shading import trapezoid
-    >>> from vectorplot.shading.shadows.trapezoid import line_of_sight
+    >>> from vectorplot.shading import line_of_sight, trapezoid
     >>> frustum = [(-1, 0), (1, 0), (3, 4), (-3, 4)]
     >>> axis = line_of_sight(frustum, near=(0, 0), far=(0, 4))
     >>> bool(np.allclose(trapezoid(frustum, axis, eta=2.0), frustum))
@@ -211,8 +252,7 @@ def bounding_trapezoid(points: ArrayLike, axis: Axis, focus: float, line: float 
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.shading import bounding_trapezoid
-    >>> from vectorplot.shading.shadows.trapezoid import line_of_sight
+    >>> from vectorplot.shading import bounding_trapezoid, line_of_sight
     >>> frustum = [(-1, 0), (1, 0), (3, 4), (-3, 4)]
     >>> axis = line_of_sight(frustum, near=(0, 0), far=(0, 4))
     >>> bool(np.allclose(bounding_trapezoid(frustum, axis, focus=16 / 7), frustum))

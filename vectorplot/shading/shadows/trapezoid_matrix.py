@@ -23,8 +23,28 @@ HALF_TURN = np.diag([-1.0, -1.0, 1.0])
 
 @dataclass(frozen=True, eq=False)
 class SquareMap:
-    """matrix (3, 3): first corner to (-1, -1), second to (1, -1), third to (1, 1), fourth to (-1, 1); shift: d, how far
-    the meeting point of the sides was moved, and stretch: u, both infinite for the affine map of a near-rectangle."""
+    """The map of a trapezoid onto the square from -1 to 1.
+
+    Parameters
+    ----------
+    matrix : (3, 3) array of float
+        First corner to (-1, -1), second to (1, -1), third to (1, 1), fourth to (-1, 1).
+    shift : float
+        d, how far the meeting point of the sides was moved.
+    stretch : float
+        u; both infinite for the affine map of a near-rectangle.
+
+    Notes
+    -----
+    Source: Ressler, sections 4 and 5.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import square_map
+    >>> found = square_map([(-2, 0), (2, 0), (2, 4), (-2, 4)])
+    >>> (found.matrix @ (2, 4, 1)).tolist(), found.shift
+    ([1.0, 1.0, 1.0], inf)
+    """
 
     matrix: Floats
     shift: float

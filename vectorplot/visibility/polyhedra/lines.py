@@ -38,10 +38,41 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """Straight lines in the view's coordinates: start and end (3,n), kind (n,) LineKind values, item (n,); side (n,):
-    1 or -1 for an outline, where its surface lies to the left or right of start -> end in the image, 0 for other
-    lines; smooth (n,): a chord of a smooth curve, both of its ends on it; behind (n,): how many smooth surfaces hide
-    all of it; chords: which parts of smooth curves they are, if some are."""
+    """Straight lines in the view's coordinates.
+
+    Parameters
+    ----------
+    start, end : (3, n) array of float
+        Their ends.
+    kind : (n,) array of int
+        LineKind values.
+    item : (n,) array of int
+        Of which item each is a line.
+    side : (n,) array of int
+        1 or -1 for an outline, where its surface lies to the left or right of start -> end in the image, 0 for other
+        lines.
+    smooth : (n,) array of bool
+        A chord of a smooth curve, both of its ends on it.
+    behind : (n,) array of int
+        How many smooth surfaces hide all of it.
+    chords : ChordParts, optional
+        Which parts of smooth curves they are, if some are.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import visibility
+    >>> from vectorplot.scene import look
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> scene = vp.Scene((vp.Item("triangle", triangle),))
+    >>> view = look(scene, vp.Camera.view("top"))
+    >>> wanted = frozenset({vp.LineKind.BOUNDARY})
+    >>> faces = visibility.project_faces(view)
+    >>> lines = visibility.edge_lines(scene, view, faces, wanted, 25.0, np.zeros(1, dtype=bool))
+    >>> len(lines), lines.some(np.array([0])).item.tolist()
+    (3, [0])
+    """
 
     start: Floats = field(metadata=IN_COLUMNS)
     end: Floats = field(metadata=IN_COLUMNS)
@@ -121,7 +152,40 @@ def edge_lines(
 ) -> Lines:
     """Contours, boundaries, creases and other edges of all items.
 
-    backs (i,): items whose edges between faces that all turn away are wanted too; of a closed solid they are hidden.
+    Parameters
+    ----------
+    scene : Scene
+        With its polyhedra.
+    view : View
+        Of the scene.
+    faces : ProjectedFaces
+        Of the view.
+    kinds : frozenset of LineKind
+        Those asked for; an item's own come first.
+    crease_angle_deg : float
+        Sharper edges are creases.
+    backs : (i,) array of bool
+        Items whose edges between faces that all turn away are wanted too; of a closed solid they are hidden.
+
+    Returns
+    -------
+    Lines
+        With their kinds, items and sides.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import visibility
+    >>> from vectorplot.geometry import box
+    >>> from vectorplot.scene import look
+    >>> scene = vp.Scene((vp.Item("cube", box((2, 2, 2))),))
+    >>> view = look(scene, vp.Camera((6, 5, 4)))
+    >>> wanted = frozenset({vp.LineKind.CONTOUR, vp.LineKind.CREASE})
+    >>> faces = visibility.project_faces(view)
+    >>> lines = visibility.edge_lines(scene, view, faces, wanted, 25.0, np.zeros(1, dtype=bool))
+    >>> [int((lines.kind == kind).sum()) for kind in (vp.LineKind.CONTOUR, vp.LineKind.CREASE)]
+    [6, 3]
     """
     parts = []
     for wanted, items in wanted_kinds(scene, kinds):

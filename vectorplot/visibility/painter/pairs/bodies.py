@@ -16,9 +16,35 @@ from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, ne
 
 @dataclass(frozen=True, eq=False)
 class Bodies:
-    """Convex bodies: item (b,); corners (2,c) and offsets (b+1,) of their outlines in the image; shown, first (b+1,):
-    the faces that body k shows are the image faces shown[first[k]] to shown[first[k+1]]; sphere (4,b): centres and
-    radii of spheres around them in the view."""
+    """Convex bodies with their outlines in the image.
+
+    Parameters
+    ----------
+    item : (b,) array of int
+        Which item of the view each is.
+    corners : (2, c) array of float
+        Of the outlines.
+    offsets : (b+1,) array of int
+        Body k has the outline offsets[k] to offsets[k+1].
+    shown : (s,) array of int
+        Image faces that bodies show.
+    first : (b+1,) array of int
+        Body k shows the image faces shown[first[k]] to shown[first[k+1]].
+    sphere : (4, b) array of float
+        Centres and radii of spheres around them in the view.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import visibility
+    >>> from vectorplot.geometry import box
+    >>> from vectorplot.scene import look
+    >>> view = look(vp.Scene((vp.Item("cube", box((2, 2, 2))),)), vp.Camera((6, 5, 4)))
+    >>> bodies = visibility.convex_bodies(view, visibility.painters_order(view).faces, np.array([0]))
+    >>> len(bodies), bodies.offsets.tolist(), bodies.first.tolist()
+    (1, [0, 6], [0, 3])
+    """
 
     item: Ints
     corners: Floats
@@ -39,10 +65,37 @@ def outlined_items(view: View, projected: ProjectedFaces) -> Bools:
 
 
 def convex_bodies(view: View, faces: ImageFaces, items: Ints) -> Bodies:
-    """Closed convex items, given with the image faces of the whole scene, as bodies.
+    """Closed convex items as bodies, with their outlines and the spheres around them.
 
-    Left out are bodies whose outline is, by rounding, not one closed polygon.
+    Parameters
+    ----------
+    view : View
+        What is seen.
+    faces : ImageFaces
+        Of the whole scene, those that can be seen.
+    items : (b,) array of int
+        Closed convex items.
+
+    Returns
+    -------
+    Bodies
+        Left out are bodies whose outline is, by rounding, not one closed polygon.
+
+    Notes
+    -----
     Source: Glaeser, sections 5.5 and 6.1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import visibility
+    >>> from vectorplot.geometry import box
+    >>> from vectorplot.scene import look
+    >>> view = look(vp.Scene((vp.Item("cube", box((2, 2, 2))),)), vp.Camera.view("top"))
+    >>> bodies = visibility.convex_bodies(view, visibility.painters_order(view).faces, np.array([0]))
+    >>> sorted(bodies.corners.T.tolist()), bodies.sphere[3].round(6).tolist()
+    ([[0.0, 0.0], [0.0, 2.0], [2.0, 0.0], [2.0, 2.0]], [1.732051])
     """
     number = np.full(len(view.item_vertices) - 1, -1, dtype=np.intp)
     number[items] = np.arange(len(items))
