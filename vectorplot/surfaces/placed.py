@@ -24,7 +24,7 @@ class PlacedSurface(Placed):
     surface : Surface
         What is placed.
     matrix : (3, 3) array_like of float
-        Turns, mirrors and scales rows from the left, as those of geometry.rotations.
+        Turns, mirrors and scales, such as the rotations of the room geometry.
     shift : (3,) array_like of float
         What is added, in world units.
 
@@ -110,7 +110,7 @@ class PlacedImplicit(Placed):
     surface : ImplicitSurface
         What is placed.
     matrix : (3, 3) array_like of float
-        Turns, mirrors and scales rows from the left, as those of geometry.rotations.
+        Turns, mirrors and scales, such as the rotations of the room geometry.
     shift : (3,) array_like of float
         What is added, in world units.
 

@@ -71,7 +71,7 @@ class Surface(Protocol):
     A protocol: whatever has these members is a surface, of this package or of a user. domain says where it is defined;
     points(u, v) are (..., 3) in world units, NaN where the surface has a hole; partials are the two derivatives by u
     and by v, second_partials the three by u twice, by u and v, by v twice, (..., 3) each. All functions take arrays u,
-    v of one shape (...) and are vectorised. Front is where x_u cross x_v points.
+    v of one shape (...) and are vectorised. The normal is x_u cross x_v.
 
     Examples
     --------

@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from vectorplot.errors import InputError
+from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.singular_lines import singular_lines
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
@@ -77,3 +79,9 @@ def test_lines_that_are_points_are_isolated():
 def test_smooth_surfaces_pinch_points_and_one_sided_ones_have_none(surface):
     curves = singular_lines(surface)
     assert len(curves) == 0 and not len(curves.isolated) and not curves.doubts
+
+
+@pytest.mark.parametrize("tracing", [Tracing(columns=1), Tracing(rows=1), Tracing(columns=2), Tracing(resolution=0.0)])
+def test_a_grid_that_is_too_coarse_is_refused(tracing):
+    with pytest.raises(InputError, match="expected"):
+        singular_lines(Torus(), tracing=tracing)

@@ -68,11 +68,27 @@ def test_branches_at_a_small_angle_go_straight_through_their_node(degrees, turn)
 
 @pytest.mark.hard(39)
 @pytest.mark.parametrize("cells", [8, 9, 11, 12, 20, 32, 47])
-def test_single_points_at_lattice_points_are_found(cells):
+@pytest.mark.parametrize("sign", [1.0, -1.0], ids=["valley", "hill"])
+def test_single_points_at_lattice_points_are_found(sign, cells):
     curve = zero_manifold_of_f_uv(
-        lambda u, v: u * u + 3 * v * v + u * v, Domain(-1, 1, -1, 1), columns=cells, rows=cells
+        lambda u, v: sign * (u * u + 3 * v * v + u * v), Domain(-1, 1, -1, 1), columns=cells, rows=cells
     )
     assert len(curve) == 0 and curve.isolated.shape == (1, 2) and np.abs(curve.isolated).max() < 1e-9
+
+
+@pytest.mark.hard(39)
+@pytest.mark.parametrize("sign", [1.0, -1.0], ids=["valley", "hill"])
+@pytest.mark.parametrize("share", [(0, 0.5), (0.5, 0.5), (0.25, 0), (1 / 3, 0), (0.1875, 0.25), (0.2718, 1 / 512)])
+def test_single_points_anywhere_in_a_cell_are_found_whether_hills_or_valleys(share, sign):
+    for cells in (7, 8, 45):
+        at = -1.0 + 2.0 * (cells // 2 + np.array(share)) / cells
+        curve = zero_manifold_of_f_uv(
+            lambda u, v, at=at: sign * ((u - at[0]) ** 2 + (v - at[1]) ** 2),
+            Domain(-1, 1, -1, 1),
+            columns=cells,
+            rows=cells,
+        )
+        assert len(curve) == 0 and curve.isolated.shape == (1, 2) and np.abs(curve.isolated - at).max() < 1e-8
 
 
 @pytest.mark.hard(38)

@@ -68,7 +68,8 @@ def implicit_contour(surface: ImplicitSurface, eye: ArrayLike, *, tracing: Impli
     Raises
     ------
     InputError
-        For an eye that is not three finite numbers, and what `polygonized` refuses.
+        For an eye that is not three finite numbers, what `polygonized` refuses, and a resolution or tolerance that is
+        not positive.
 
     Notes
     -----
@@ -113,7 +114,7 @@ def implicit_parallel_contour(
     Raises
     ------
     InputError
-        For a direction without length, and what `polygonized` refuses.
+        For a direction without length, what `polygonized` refuses, and a resolution or tolerance that is not positive.
 
     Notes
     -----
@@ -166,7 +167,8 @@ def implicit_isophotes(
     Raises
     ------
     InputError
-        For a light without length, cosines not within -1 and 1, and what `polygonized` refuses.
+        For a light without length, cosines not within -1 and 1, what `polygonized` refuses, and a resolution or
+        tolerance that is not positive.
 
     Notes
     -----
@@ -210,7 +212,8 @@ def implicit_point_light_isophotes(
     Raises
     ------
     InputError
-        For a light that is not three finite numbers, cosines not within -1 and 1, and what `polygonized` refuses.
+        For a light that is not three finite numbers, cosines not within -1 and 1, what `polygonized` refuses, and a
+        resolution or tolerance that is not positive.
 
     Notes
     -----
@@ -252,7 +255,7 @@ def implicit_intersection(
     Raises
     ------
     InputError
-        For what `polygonized` refuses.
+        For what `polygonized` refuses, and a resolution or tolerance that is not positive.
 
     Notes
     -----
@@ -303,7 +306,8 @@ def implicit_plane_sections(
     Raises
     ------
     InputError
-        For a normal without length, offsets that are not finite, and what `polygonized` refuses.
+        For a normal without length, offsets that are not finite, what `polygonized` refuses, and a resolution or
+        tolerance that is not positive.
 
     Notes
     -----
@@ -351,7 +355,7 @@ def implicit_level_lines(
     Raises
     ------
     InputError
-        For heights that are not finite, and what `polygonized` refuses.
+        For heights that are not finite, what `polygonized` refuses, and a resolution or tolerance that is not positive.
 
     Notes
     -----

@@ -37,7 +37,7 @@ def contour(surface: Surface, eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> 
     Raises
     ------
     InputError
-        For an eye that is not three finite numbers, a grid that is too coarse.
+        For an eye that is not three finite numbers, a grid that is too coarse, a resolution that is not positive.
 
     Notes
     -----
@@ -85,7 +85,7 @@ def parallel_contour(surface: Surface, direction: ArrayLike, *, tracing: Tracing
     Raises
     ------
     InputError
-        For a direction without length, a grid that is too coarse.
+        For a direction without length, a grid that is too coarse, a resolution that is not positive.
 
     Notes
     -----

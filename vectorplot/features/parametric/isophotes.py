@@ -41,7 +41,8 @@ def isophotes(surface: Surface, light: ArrayLike, cosines: ArrayLike, *, tracing
     Raises
     ------
     InputError
-        For a light without length, cosines not within -1 and 1, a grid that is too coarse.
+        For a light without length, cosines not within -1 and 1, a grid that is too coarse, a resolution that is not
+        positive.
 
     Notes
     -----
@@ -85,7 +86,8 @@ def point_light_isophotes(
     Raises
     ------
     InputError
-        For a light that is not three finite numbers, cosines not within -1 and 1, a grid that is too coarse.
+        For a light that is not three finite numbers, cosines not within -1 and 1, a grid that is too coarse, a
+        resolution that is not positive.
 
     Notes
     -----

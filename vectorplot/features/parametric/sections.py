@@ -37,7 +37,7 @@ def section_by_implicit(surface: Surface, other: ImplicitSurface, *, tracing: Tr
     Raises
     ------
     InputError
-        For a grid that is too coarse.
+        For a grid that is too coarse, a resolution that is not positive.
 
     Warns
     -----
@@ -101,7 +101,8 @@ def plane_sections(
     Raises
     ------
     InputError
-        For a normal without length, offsets that are not finite numbers in a row, a grid that is too coarse.
+        For a normal without length, offsets that are not finite numbers in a row, a grid that is too coarse, a
+        resolution that is not positive.
 
     Warns
     -----
@@ -163,7 +164,7 @@ def level_lines(surface: Surface, heights: ArrayLike, *, tracing: Tracing = DEFA
     Raises
     ------
     InputError
-        For heights that are not finite numbers in a row, a grid that is too coarse.
+        For heights that are not finite numbers in a row, a grid that is too coarse, a resolution that is not positive.
 
     Warns
     -----

@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.features.parametric.curve_tracing import Tracing, curves_where_zero, samples, wrapped
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves
+from vectorplot.features.zeros.zero_manifold import check_grid
 from vectorplot.geometry.polylines import some
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.surfaces.surface import Domain, Surface, normals
@@ -42,7 +43,7 @@ def singular_lines(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCu
     Raises
     ------
     InputError
-        For a grid that is too coarse.
+        For a grid that is too coarse, a resolution that is not positive.
 
     Notes
     -----
@@ -64,6 +65,7 @@ def singular_lines(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCu
     >>> len(curves), bool(np.allclose(curves.points[:, :2], 0.0))
     (1, True)
     """
+    check_grid(surface.domain, tracing.columns, tracing.rows, tracing.resolution)
     if not len(samples(surface)[2]):
         return no_curves()
     size = _size(surface)

@@ -194,7 +194,7 @@ def zero_manifold_of_f_uv(
     >>> circle.closed.tolist(), bool(np.allclose(np.linalg.norm(circle.points, axis=1), 1.0))
     ([True], True)
     """
-    _check(domain, columns, rows, resolution)
+    check_grid(domain, columns, rows, resolution)
     field, w = grid_values(scalar_field(f, domain, gradient), columns, rows)
     scale = _scale(field, w)
     unit = _unit(scale)
@@ -248,9 +248,12 @@ def _found(subdivision: Subdivision, traced: Segments, scale: float) -> _Found:
     joined = joined_at_nodes(field, traced.points, traced.pairs, single, reach)
     lines, dots = without_repeats(_polylines(field, joined.points, joined.segments), field.size)
     lines, beads = _without_beads(field, lines, cell)
-    # A point beside a curve, or one of a line that goes over into a curve, is not alone.
-    alone = np.where(doubles.flat[~line], FAR_APART, 3.0)[:, None] * cell
-    alone = (joined.meets == 0) & without_points_near(field, single, traced.points, alone)
+    # A point beside a curve, or one of a line that goes over into a curve, is not alone; what went round it and shrank
+    # to it does not count.
+    apart = np.where(doubles.flat[~line], FAR_APART, 3.0)[:, None] * cell
+    near, point = within(field, traced.points, single, apart)
+    alone = joined.meets == 0
+    alone[near[joined.around[point] != near]] = False
     touching = doubles.points[line]
     touching = touching[without_points_near(field, touching, traced.points, 1.5 * cell)]
     return _Found(
@@ -299,7 +302,8 @@ def _smallest_cell(lattice: Lattice) -> Floats:
     return np.asarray(lattice.field.size / (lattice.columns << lattice.levels, lattice.rows << lattice.levels))
 
 
-def _check(domain: Domain, columns: int, rows: int, resolution: float) -> None:
+def check_grid(domain: Domain, columns: int, rows: int, resolution: float) -> None:
+    """An InputError for fewer than two columns or rows, three in a closed direction, and a resolution not positive."""
     for count, closed, word in ((columns, domain.closed_u, "columns"), (rows, domain.closed_v, "rows")):
         if count < 2 + closed:
             raise InputError(f"{count} {word} of cells: expected {2 + closed} or more")

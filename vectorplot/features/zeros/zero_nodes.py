@@ -146,11 +146,12 @@ def _critical(field: ScalarField, starts: Floats, cell: Floats) -> tuple[Floats,
 @dataclass(frozen=True, eq=False)
 class Joined:
     """points (p,2) and segments (s,2) of a curve whose branches meet in nodes; meets (k,): how many branches end at
-    each double point."""
+    each double point; around (q,): the double point within whose reach each of the points before lay, or -1."""
 
     points: Floats
     segments: Ints
     meets: Ints
+    around: Ints
 
 
 def joined_at_nodes(field: ScalarField, points: Floats, segments: Ints, nodes: Floats, reach: Floats) -> Joined:
@@ -160,7 +161,7 @@ def joined_at_nodes(field: ScalarField, points: Floats, segments: Ints, nodes: F
     Ends that are opposite in the cyclic order around a node are joined to each other, so that branches go straight on.
     """
     if not len(nodes):
-        return Joined(points, segments, np.zeros(0, dtype=np.intp))
+        return Joined(points, segments, np.zeros(0, dtype=np.intp), np.full(len(points), -1))
     inside = _node_around(field, points, nodes, reach)
     at_node = inside[segments]
     broken = (at_node[:, 0] < 0) != (at_node[:, 1] < 0)
@@ -178,7 +179,10 @@ def joined_at_nodes(field: ScalarField, points: Floats, segments: Ints, nodes: F
     new = np.where((outer == 0)[:, None], np.stack([end, copy], axis=1), np.stack([copy, end], axis=1))
     kept = segments[(at_node < 0).all(axis=1)]
     return Joined(
-        np.concatenate([points, np.repeat(nodes, copies, axis=0)]), np.concatenate([kept, new]), np.asarray(meets)
+        np.concatenate([points, np.repeat(nodes, copies, axis=0)]),
+        np.concatenate([kept, new]),
+        np.asarray(meets),
+        inside,
     )
 
 

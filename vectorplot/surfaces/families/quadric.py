@@ -42,7 +42,8 @@ class Quadric:
     --------
     >>> import numpy as np
     >>> from vectorplot.surfaces import Quadric
-    >>> saddle = Quadric([1, -1, 0, 0, 0, 0, 0, 0, -1, 0], [(-1, -1, -1), (1, 1, 1)])  # x^2 - y^2 - z
+    >>> box = np.array([(-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)])
+    >>> saddle = Quadric([1, -1, 0, 0, 0, 0, 0, 0, -1, 0], box)  # x^2 - y^2 - z
     >>> saddle.degree, float(saddle.values(np.array([1.0, 0.5, 0.0])))
     (2, 0.75)
     """
