@@ -285,6 +285,10 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
     stages.append(Stage("look", "the scene in the camera's axes, in the unit box"))
     stages.append(Stage("faces", "the faces in the image, and which side they show"))
     stages.append(Stage("order", "back to front; what pierces or overlaps in circles is cut"))
+    # Mirrors and refracting glass show what nothing else does.
+    shows_more = any(item.material.is_mirror or item.material.refraction != 1.0 for item in scene.items)
+    if stages[0].name == "facets" and not shows_more:
+        stages.append(Stage("unseen facets", "triangles of smooth surfaces that are wholly covered are left out"))
     if fills != "erasing" and any(item.material.opacity < 1.0 for item in scene.items):
         stages.append(Stage("transparent sheets", "polygons of transparent items stand together where they can"))
     if fills == "erasing":

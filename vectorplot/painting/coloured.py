@@ -18,6 +18,7 @@ from vectorplot.plan import Walk
 from vectorplot.scene.scene import Page
 from vectorplot.shading.light.face_shades import Shades
 from vectorplot.shading.light.painted_colours import Lighting, colours_of, opacities
+from vectorplot.shading.light.refinement import shade_error
 
 if TYPE_CHECKING:
     from vectorplot.effects.decals.decal_polygons import Decals
@@ -27,7 +28,7 @@ def coloured(
     walk: Walk, seen: Seen, lighting: Lighting, page: Page, aura_mm: float, tolerance_mm: float, budget: Budget
 ) -> Fills:
     """The polygons of the picture in their colours, with all that lies on them and is seen in them."""
-    seen = replace(seen, faces=finer(seen, lighting, budget.facets))
+    seen = replace(seen, faces=finer(seen, lighting, budget.facets, shade_error(tolerance_mm)))
     shades = walk.run("shades", shades_of_faces, seen, lighting)
     aura = aura_mm / seen.placement.scale
     decals, lighting = _decals(walk, seen, lighting, aura, budget)

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.light.face_shades import Shades
+from vectorplot.shading.light.faceted import FacetedScene
 from vectorplot.shading.light.painted_colours import Lighting, corner_shades_of
 from vectorplot.shading.light.refinement import SHORTEST_MM, refined
 from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
+from vectorplot.visibility.painter.order import Painted
+from vectorplot.visibility.painter.unseen import unseen_faces
 from vectorplot.visibility.projected_faces import ProjectedFaces
 
 
@@ -26,11 +31,21 @@ class Seen:
     placement: Placement
 
 
-def finer(seen: Seen, lighting: Lighting, most: int) -> ImageFaces:
-    """The polygons, those that are shaded so small that no corner shows, or as many as may be."""
+def without_unseen_facets(faceted: FacetedScene, view: View, projected: ProjectedFaces, painted: Painted) -> ImageFaces:
+    """The polygons without those of smooth surfaces that are wholly covered."""
+    smooth = np.array([normals is not None for normals in faceted.normals], dtype=np.bool_)
+    pieces = np.bincount(painted.faces.source, minlength=view.face_count)
+    unseen = unseen_faces(view, projected, (pieces > 0) & smooth[view.face_item], pieces > 1)
+    return painted.faces.some(np.flatnonzero(~unseen[painted.faces.source]))
+
+
+def finer(seen: Seen, lighting: Lighting, most: int, error: float) -> ImageFaces:
+    """The polygons, those that are shaded so small that shades are off by no more than error, or as many as may be."""
     faces = seen.faces
     shortest = SHORTEST_MM / seen.placement.scale
-    points, offsets, parent = refined(seen.view, lighting, faces.points, faces.offsets, faces.source, shortest, most)
+    points, offsets, parent = refined(
+        seen.view, lighting, faces.points, faces.offsets, faces.source, shortest, most, error
+    )
     if len(parent) == len(faces):
         return faces
     return ImageFaces(points, offsets, faces.planes[:, parent], faces.source[parent], faces.rank[parent])

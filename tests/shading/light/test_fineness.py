@@ -13,7 +13,8 @@ from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.paint import paint
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.scene import Item, Page, Scene
-from vectorplot.shading.light.fineness import SHADE_ERROR, picture_fineness
+from vectorplot.shading.light.fineness import picture_fineness
+from vectorplot.shading.light.refinement import SHADE_ERROR
 from vectorplot.surfaces.families.cyclide import dupin_cyclide
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.quadric import implicit_sphere
@@ -35,7 +36,7 @@ def made(surface, camera: Camera | None = None, tolerance_mm: float = 0.02):
     camera = camera or default_camera(scene)
     projection = projection_of(camera, scene.bounds)
     allowed = allowed_in_space(scene, projection, Page(), True, tolerance_mm)
-    demand = picture_fineness(scene, projection, False, allowed)(0)
+    demand = picture_fineness(scene, projection, False, allowed, 0.02)(0)
     return facets(surface, demand), demand
 
 
@@ -112,5 +113,7 @@ def test_boxes_of_other_items_count_where_they_meet_and_once():
     balls = [Sphere(1.0)] * 50 + [Sphere(1.0, (5.0 * k, 0.0, 0.0)) for k in range(1, 50)]
     scene = Scene(tuple(Item(f"BALL{number}", ball) for number, ball in enumerate(balls)))
     projection = projection_of(default_camera(scene), scene.bounds)
-    demand = picture_fineness(scene, projection, False, allowed_in_space(scene, projection, Page(200, 150), True, 0.02))
+    demand = picture_fineness(
+        scene, projection, False, allowed_in_space(scene, projection, Page(200, 150), True, 0.02), 0.02
+    )
     assert [len(demand(number).others) for number in (0, 49, 60)] == [1, 1, 0]

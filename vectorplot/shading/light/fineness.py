@@ -19,13 +19,14 @@ from vectorplot.scene.view import View, view_of
 from vectorplot.shading.light.face_shades import point_shades, view_eye, view_lights
 from vectorplot.shading.light.faceted import without_curved_mirror
 from vectorplot.shading.light.illumination import homogeneous_light, towards
-
-SHADE_ERROR = 2.0 / 255.0
-"""By how much of a palette shades along sides of triangles may be off."""
+from vectorplot.shading.light.refinement import shade_error
 
 DEEP, DEEP_IN_LIGHT = 40.0, 3.0
 """By how many times the tolerance triangles may be off the surface where that can be seen from the eye only, along the
 sight rays: apart from outlines, borders and other items; fewer where borders of shadows show it."""
+
+DEEPEST_MM, LEAST_DEEP = 1.0, 5.0
+"""They are never farther off than this on the page, or so many tolerances: coarse nets take many cuts at outlines."""
 
 TURN = np.radians(40.0)
 """By so much normals may turn along a side at most, however little light there is to show it."""
@@ -40,7 +41,7 @@ class PictureFineness:
 
     Its outlines, seen by the eye and by the lights, its borders, and what is near other items are within the tolerance
     (where a narrow triangle beside an outline turns away, within five times of it); shades along sides within
-    SHADE_ERROR. Surfaces fold over where sight rays and light rays touch them: there outlines
+    shade_error, a part of their palette. Surfaces fold over where sight rays and light rays touch them: there outlines
     and the borders of dark sides begin.
 
     view: of the scene, its points being what it reaches; lights: in its coordinates, as of view_lights; casts: whether
@@ -55,6 +56,7 @@ class PictureFineness:
     deep: float
     others: Floats
     allowed: Allowed
+    shade_error: float
 
     @property
     def outlines(self) -> int:
@@ -72,7 +74,7 @@ class PictureFineness:
         allowed = self.allowed(edges.at.points)
         strict = (edges.fold != NONE) & (edges.fold < self.outlines) | self._among_others(edges.at.points)
         far = off_chords(edges) / (INSIDE * allowed * np.where(strict, 1.0, self.deep))
-        found = np.maximum(np.maximum(far, self._shade_errors(edges) / SHADE_ERROR), turning(edges) / TURN)
+        found = np.maximum(np.maximum(far, self._shade_errors(edges) / self.shade_error), turning(edges) / TURN)
         return np.where(self._long(edges, allowed), found, 0.0)
 
     def border_excess(self, edges: Edges) -> Floats:
@@ -121,14 +123,14 @@ def _jumps(one: Floats, other: Floats) -> Bools:
 
 
 def picture_fineness(
-    scene: Scene, projection: Projection, casts: bool, allowed: Allowed
+    scene: Scene, projection: Projection, casts: bool, allowed: Allowed, tolerance_mm: float
 ) -> Callable[[int], PictureFineness]:
     """What a picture of the scene asks of the triangles of its items, by their numbers. casts: whether its lights throw
-    shadows; allowed: how far triangles may be off outlines, so that it is the tolerance on the page."""
+    shadows; allowed: how far triangles may be off outlines, so that it is tolerance_mm on the page."""
     reached = Mesh(box_corners(scene.bounds), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
     view = view_of(Scene((Item("box", reached),)), projection)
     lights = view_lights(view, scene.lights)
-    deep = DEEP_IN_LIGHT if casts else DEEP
+    deep = min(DEEP_IN_LIGHT if casts else DEEP, max(DEEPEST_MM / tolerance_mm, LEAST_DEEP))
     if any(item.material.is_mirror or item.material.refraction != 1.0 for item in scene.items):
         # Mirrors and glass show items from elsewhere.
         deep = 1.0
@@ -138,7 +140,7 @@ def picture_fineness(
         others = [box for other, box in enumerate(boxes) if other != number and len(box)]
         near = _meeting(np.array(others).reshape(-1, 2, 3), boxes[number])
         item = without_curved_mirror(scene.items[number])
-        return PictureFineness(view, item, lights, casts, deep, near, allowed)
+        return PictureFineness(view, item, lights, casts, deep, near, allowed, shade_error(tolerance_mm))
 
     return demand
 

@@ -11,8 +11,11 @@ from vectorplot.shading.light.painted_colours import Lighting, corner_shades_of,
 from vectorplot.tolerances.of_numbers import ROUNDING
 from vectorplot.visibility.painter.image_faces import view_points
 
-SHADE_ERROR = 2.0 / 255.0
-"""By how much of a palette shades in the middle of sides may be off."""
+SHADE_ERROR, USUAL_MM = 2.0 / 255.0, 0.02
+"""By how much of a palette shades along sides may be off, where polygons may be off by so many mm."""
+
+SHADE_LIMITS = (0.5, 4.0)
+"""By how many times as much shades may be off at least, and at most."""
 
 SHORTEST_MM = 1.0
 """Sides of shaded polygons on the page that are no longer are not cut any more."""
@@ -32,11 +35,25 @@ PARTS = {
 its sides."""
 
 
+def shade_error(tolerance_mm: float) -> float:
+    """By how much of a palette shades along sides may be off in a picture whose polygons may be off by so many mm: in
+    proportion, from half of SHADE_ERROR to four times as much."""
+    low, high = SHADE_LIMITS
+    return SHADE_ERROR * min(max(tolerance_mm / USUAL_MM, low), high)
+
+
 def refined(
-    view: View, lighting: Lighting, points: Floats, offsets: Ints, source: Ints, shortest: float, most: int
+    view: View,
+    lighting: Lighting,
+    points: Floats,
+    offsets: Ints,
+    source: Ints,
+    shortest: float,
+    most: int,
+    error: float = SHADE_ERROR,
 ) -> tuple[Floats, Ints, Ints]:
-    """Convex polygons with triangles in place of those on which linear shading would be off by more than SHADE_ERROR:
-    points (3,c) of the image, offsets (m+1,), and parent (m,), ascending, the polygon that each is a part of.
+    """Convex polygons with triangles in place of those on which linear shading would be off by more than error: points
+    (3,c) of the image, offsets (m+1,), and parent (m,), ascending, the polygon that each is a part of.
 
     points, offsets (n+1,) and source (n,) as of ImageFaces; sides in the image that are shorter than shortest are not
     cut any more. Polygons with one shade stay as they are. Where there would be more than most polygons the longest
@@ -46,7 +63,7 @@ def refined(
     position, ends = ragged.take(offsets, smooth)
     fans, of = ragged.fans(ends)
     triangles, parent = points[:, position[fans]].transpose(1, 2, 0), smooth[of]
-    bad = _longest(_badly_shaded(view, lighting, triangles, source[parent], shortest), most - len(source))
+    bad = _longest(_badly_shaded(view, lighting, triangles, source[parent], shortest, error), most - len(source))
     cut = np.zeros(len(source), dtype=np.bool_)
     cut[parent[bad.any(axis=1)]] = True
     if not cut.any():
@@ -64,7 +81,7 @@ def refined(
         triangles, whole = _halved(triangles[going], bad[going])
         parent = parent[going][whole]
         count += int(bad[going].sum())
-        bad = _longest(_badly_shaded(view, lighting, triangles, source[parent], shortest), most - count)
+        bad = _longest(_badly_shaded(view, lighting, triangles, source[parent], shortest, error), most - count)
     made, of_made = np.concatenate(done), np.concatenate(done_parent)
     kept = np.flatnonzero(~cut)
     position, ends = ragged.take(offsets, kept)
@@ -76,9 +93,12 @@ def refined(
     return every[:, position], starts, number[order]
 
 
-def _badly_shaded(view: View, lighting: Lighting, triangles: Floats, source: Ints, shortest: float) -> Floats:
+def _badly_shaded(
+    view: View, lighting: Lighting, triangles: Floats, source: Ints, shortest: float, error: float
+) -> Floats:
     """(t,3) the lengths of the sides of triangles (t,3,3) of the image, by the corners at which they begin, on which
-    the shade is not that between their ends; 0 for the others, and for those that are no longer than shortest."""
+    the shade is off that between their ends by more than error; 0 for the others, and for those that are no longer than
+    shortest."""
     after = triangles[:, [1, 2, 0]]
     length = np.hypot(*(after - triangles)[..., :2].transpose(2, 0, 1))
     length = np.where(length > shortest, length, 0.0)
@@ -94,7 +114,7 @@ def _badly_shaded(view: View, lighting: Lighting, triangles: Floats, source: Int
     shade = shade.reshape(-1, len(some), 1 + len(BETWEEN), 3)
     ends, share = shade[:, :, :1], BETWEEN[..., 0]
     off = np.abs(shade[:, :, 1:] - (1.0 - share) * ends - share * ends[..., [1, 2, 0]]).max(axis=(0, 2))
-    length[some] = np.where(off > SHADE_ERROR, length[some], 0.0)
+    length[some] = np.where(off > error, length[some], 0.0)
     return length
 
 
