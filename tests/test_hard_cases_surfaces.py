@@ -1,4 +1,5 @@
-"""The hard cases 29, 48, 49 and 72 as drawings: cusps of contours, pinch points, cuspidal edges, lines through them."""
+"""The hard cases 29, 48, 49, 72 and 80 as drawings: cusps of contours, pinch points, cuspidal edges, lines through
+them, balls that touch or coincide."""
 
 from __future__ import annotations
 
@@ -8,7 +9,8 @@ import pytest
 import vectorplot as vp
 from vectorplot.curves.line import Line
 from vectorplot.drawing.drawing import Curves, Drawing
-from vectorplot.surfaces.families.cylinder import Cone
+from vectorplot.surfaces.families.cylinder import Cone, Cylinder
+from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function import surface_of_function
 from vectorplot.surfaces.surface import Domain
@@ -128,3 +130,35 @@ def test_a_line_through_an_apex_is_hidden_to_the_apex_and_no_further(parallel: b
     drawing = vp.draw(scene, vp.Camera((9.0, -14.0, 7.0), parallel=parallel), lines=("curve",))
     heights = np.concatenate([paths.points3d[:, 2] for layer in drawing.layers for paths in layer.strokes])
     assert np.isclose(heights.min(), 4.0, atol=1e-6) and np.isclose(heights.max(), 5.0)
+
+
+TOGETHER = {
+    "touching": [Sphere(1.0), Sphere(0.5, (1.5, 0.0, 0.0))],
+    "touching from inside": [Sphere(1.0), Sphere(0.5, (0.5, 0.0, 0.0))],
+    "concentric": [Sphere(1.0), Sphere(0.6)],
+    "coincident": [Sphere(1.0), Sphere(1.0)],
+    "along the axis": [Cylinder(1.0, -2.0, 2.0), Sphere(0.5, (0.0, 0.0, -3.0))],
+}
+
+
+@pytest.mark.slow
+@pytest.mark.hard(80)
+@pytest.mark.filterwarnings("ignore:S0. f is zero:vectorplot.errors.InputWarning")
+@pytest.mark.parametrize(
+    ("name", "eye", "parallel"),
+    [
+        ("touching", (5.0, -9.0, 4.0), False),
+        ("touching", (9.0, 0.0, 0.0), True),
+        ("touching from inside", (0.0, 0.0, 9.0), True),
+        ("concentric", (5.0, -9.0, 4.0), True),
+        ("coincident", (9.0, 0.0, 0.0), False),
+        ("along the axis", (0.0, 0.0, 9.0), True),
+        ("along the axis", (0.0, 0.0, 9.0), False),
+    ],
+)
+def test_balls_that_touch_or_coincide_and_a_cylinder_along_its_axis(name: str, eye: tuple, parallel: bool) -> None:
+    lines = vp.SurfaceLines(4, 3)
+    scene = vp.Scene(tuple(vp.Item(f"S{k}", shape, curves=lines) for k, shape in enumerate(TOGETHER[name])))
+    camera = vp.Camera(eye, parallel=parallel)
+    drawing = vp.draw(scene, camera, hidden="solid")
+    assert assert_drawing_is_right(drawing, scene, camera, samples=150, clearance=1e-4) > 50

@@ -42,6 +42,7 @@ def test_the_surface_passes_through_the_points():
     assert np.allclose((far - 1e9) / 1e6, points, atol=1e-8)
 
 
+@pytest.mark.capability("G9.3-polygonize")
 def test_outside_the_hull_are_holes_and_the_mesh_leaves_them_out():
     grid = grid_of_scattered([(0, 0, 0), (1, 0, 1), (0, 1, 1)], 4, 4)
     assert np.isnan(grid[4, 4, 2])
@@ -61,6 +62,7 @@ def test_extra_points_lie_on_splines_and_the_given_ones_stay():
     assert np.allclose(flat[..., 2], 2 * flat[..., 0] - flat[..., 1])
 
 
+@pytest.mark.capability("G9.3-polygonize")
 def test_closed_grids_become_closed_meshes():
     torus = Torus(3, 1)
     u, v = np.meshgrid(*torus.domain.grid(12, 8), indexing="ij")

@@ -103,6 +103,21 @@ def test_sections_of_faces_that_are_not_convex_are_whole():
 
 
 @pytest.mark.hard(36)
+@pytest.mark.parametrize("rows", [6, 12, 24])
+@pytest.mark.parametrize("turn", [(0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0)])
+def test_contours_through_vertices_and_along_edges_are_one_polyline(rows, turn):
+    """Seen along its axes a globe has a whole ring, or a meridian, of vertices on its contour."""
+    mesh = globe(rows)
+    way = np.array(turn) / np.linalg.norm(turn)
+    for found in (mesh_parallel_contour_across_faces(mesh, turn), mesh_contour_across_faces(mesh, 1e9 * way)):
+        assert len(found) == 1 and found.closed.all()
+        assert np.abs(found.points @ way).max() < 0.1
+        step = np.diff(found[0], axis=0)
+        length = np.linalg.norm(step, axis=1)
+        assert length.min() > 0.0 and 5.9 < length.sum() < 2.0 * np.pi, "once round, neither to and fro nor twice"
+
+
+@pytest.mark.hard(36)
 def test_sections_through_vertices_and_along_edges_are_one_polyline():
     # Through two opposite edges of a cube; through a vertex only; in a face.
     low, high = CUBE.bounds

@@ -11,7 +11,8 @@ from vectorplot.features.parametric.sections import level_lines, plane_sections,
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.families.quadric import implicit_cylinder, implicit_plane, implicit_sphere
+from vectorplot.surfaces.families.hyperboloid import Hyperboloid
+from vectorplot.surfaces.families.quadric import Quadric, implicit_cylinder, implicit_plane, implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 
 BOX = [[-9.0] * 3, [9.0] * 3]
@@ -54,6 +55,30 @@ def test_viviani_curve_on_the_cylinder_and_on_the_sphere():
         length = np.linalg.norm(np.diff(true, axis=0), axis=1).sum()
         found = sum(np.linalg.norm(np.diff(curves[k], axis=0), axis=1).sum() for k in range(len(curves)))
         assert abs(found - length) < 0.02
+
+
+@pytest.mark.capability("G8.4-intersection")
+def test_hyperboloid_and_torus():
+    torus, other = Torus(3.0, 1.0), ImplicitTorus(3.0, 1.0)
+    # With a common axis they meet in two circles: of rho^2 = 9 + z^2 and (rho - 3)^2 + z^2 = 1.
+    ring = Quadric((1, 1, -1, 0, 0, 0, 0, 0, 0, -9), BOX)
+    rho = (6.0 + np.sqrt(44.0)) / 4.0
+    for curves in (section_by_implicit(torus, ring), section_by_implicit(Hyperboloid((3.0, 3.0, 3.0), -3, 3), other)):
+        assert len(curves) == 2 and curves.closed.all() and not curves.doubts
+        assert np.abs(np.hypot(*curves.points[:, :2].T) - rho).max() < 1e-10
+        assert np.sort(curves.points[[curves.offsets[0], curves.offsets[1]], 2]) == pytest.approx(
+            [-np.sqrt(rho**2 - 9), np.sqrt(rho**2 - 9)], abs=1e-10
+        )
+    # Beside each other: on both surfaces, and the same curves whichever of them is traced on.
+    beside = Quadric((1, 1, -1, 0, 0, 0, -2, 0, 0, -3), BOX)  # (x - 1)^2 + y^2 - z^2 = 4
+    on_torus = section_by_implicit(torus, beside)
+    on_ring = section_by_implicit(Hyperboloid((2.0, 2.0, 2.0), -3, 3, (1, 0, 0)), other)
+    lengths = []
+    for curves in (on_torus, on_ring):
+        assert len(curves) == len(on_torus) > 0 and curves.closed.all()
+        assert np.abs(beside.values(curves.points)).max() < 1e-9 and np.abs(other.values(curves.points)).max() < 1e-8
+        lengths.append(sum(np.linalg.norm(np.diff(curves[k], axis=0), axis=1).sum() for k in range(len(curves))))
+    assert lengths[0] == pytest.approx(lengths[1], rel=2e-3)
 
 
 @pytest.mark.capability("G8.4-intersection")

@@ -180,12 +180,14 @@ def test_a_chain_of_balls_that_meet_a_torus_is_traced_and_one_apart_is_not():
     assert forms_of([*chain, Item("ring", Torus(1.0, 0.3)), Item("far", Sphere(1.0, (0, 9, 0)))]).items == {5}
 
 
+@pytest.mark.hard(80)
 def test_equal_balls_are_drawn_once():
     ball, twin, other = Item("a", Sphere(1.0)), Item("b", Sphere(1.0)), Item("c", Sphere(0.5, (1.2, 0, 0)))
     one, two = (draw(Scene(items), Camera(eye=(5, -9, 4))) for items in ((ball, other), (ball, twin, other)))
     assert len(strokes_of(one)) == len(strokes_of(two))
 
 
+@pytest.mark.hard(80)
 def test_equal_balls_hide_the_far_sides_of_each_other_s_lines():
     lines = SurfaceLines(columns=6, rows=4)
     ball, twin = Item("a", Sphere(1.0), curves=lines), Item("b", PlacedSurface(Sphere(0.5), 2.0 * np.eye(3)))
@@ -199,6 +201,7 @@ def test_equal_balls_hide_the_far_sides_of_each_other_s_lines():
     assert lengths[0] == pytest.approx(lengths[1], rel=1e-3)
 
 
+@pytest.mark.hard(80)
 def test_touching_balls_have_no_curve_in_common_and_whole_contours():
     scene = Scene((Item("a", Sphere(1.0)), Item("b", Sphere(1.0, (2.0, 0.0, 0.0)))))
     drawing = draw(scene, Camera(eye=(1.0, -9.0, 0.0), target=(1, 0, 0), parallel=True))
