@@ -47,6 +47,7 @@ def test_a_field_of_vision_makes_a_parallel_camera_central():
     assert camera_from(CameraOptions(height=9.0), scene).height == 9.0
 
 
+@pytest.mark.capability("G2.1-views")
 @pytest.mark.parametrize("name", sorted(VIEWS))
 def test_a_view_looks_at_the_middle_from_its_direction(name):
     camera = camera_from(CameraOptions(view=name), SCENE)

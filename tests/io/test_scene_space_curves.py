@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -22,10 +24,10 @@ from vectorplot.io.info import describe
 from vectorplot.io.scenes.scene_families import CURVES
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.surfaces.families.revolution import revolution_surface
-from vectorplot.testing import assert_on_both, curves_in_space
+from vectorplot.testing import assert_on_both, assert_same_curve, curves_in_space
 
 TURN = 2.0 * np.pi
 MOVES = "rotation x 30 scale 1 2 -0.5 translation -1 0 0 matrix 0 1 0 2 1 0 0 0 0 0 3 1"
@@ -86,6 +88,25 @@ def same_curve(found, wanted):
 @pytest.mark.parametrize(("text", "wanted"), FAMILIES)
 def test_a_family_is_the_curve_of_that_name(text, wanted):
     assert is_curve(shape(text)) and same_curve(shape(text), wanted)
+
+
+@pytest.mark.capability("G8.1-curve", "G8.1-line", "G8.1-circle", "G8.1-loxodrome", "G8.1-cylcyl")
+@pytest.mark.parametrize(("text", "wanted"), FAMILIES)
+def test_what_is_drawn_of_a_curve_is_all_of_it(text, wanted):
+    """From its formula to a polyline, and to a picture as fine as asked for."""
+    true = wanted.points(np.linspace(wanted.start, wanted.end, 4001))
+    camera = Camera((5.0, -9.0, 40.0), tuple(true.mean(axis=0)), parallel=True)
+    page = Page(100.0, 100.0, 5.0)
+    drawing = draw(parse_scene(f"A curve {text}"), camera, page=page, tolerance_mm=0.02, curves="polyline")
+    image = np.column_stack([true, np.ones(len(true))]) @ drawing.page_from_world.T
+    paths = [paths for layer in drawing.layers for paths in layer.strokes]
+    lines = [one.points[a:b] for one in paths for a, b in pairwise(one.offsets)]
+    lines = [np.vstack([line, line[:1]]) for line in lines] if wanted.closed else lines
+    assert_same_curve(lines, image[:, :2] / image[:, 3:], 0.025)
+    ends = np.concatenate([line[[0, -1]] for line in curves_in_space(drawing, kind="curve")])
+    if not wanted.closed:
+        for end in true[[0, -1]]:
+            assert np.linalg.norm(ends - end, axis=1).min() < 1e-9
 
 
 @pytest.mark.capability("G3.6-write")
