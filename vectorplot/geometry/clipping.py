@@ -58,7 +58,23 @@ class Window:
 
     @classmethod
     def of_size(cls, width: float, height: float) -> Window:
-        """The whole window, from (0, 0) to (width, height)."""
+        """The whole window, from (0, 0) to (width, height).
+
+        Parameters
+        ----------
+        width, height : float
+            Both positive.
+
+        Returns
+        -------
+        Window
+            With min_x and min_y 0.
+
+        Raises
+        ------
+        InputError
+            Where it is empty.
+        """
         return cls(0.0, width, 0.0, height)
 
     @property
@@ -315,7 +331,18 @@ class Polygons:
 
     @classmethod
     def of(cls, *polygons: ArrayLike) -> Polygons:
-        """The polygons given as arrays (k, columns) of corners."""
+        """The polygons given as arrays of corners.
+
+        Parameters
+        ----------
+        polygons : (k, columns) array_like of float
+            One for each, all of as many columns.
+
+        Returns
+        -------
+        Polygons
+            In the same order.
+        """
         arrays = [np.asarray(p, dtype=np.float64) for p in polygons]
         return cls(np.concatenate(arrays), ragged.offsets([len(a) for a in arrays]))
 

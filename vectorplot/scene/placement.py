@@ -68,7 +68,18 @@ class Placement:
         return np.vstack([rows[:2], [0.0, 0.0, 1.0, 0.0], rows[2:]])
 
     def on_page(self, image: Floats) -> Floats:
-        """(n,2) points of the image (2,n) in mm."""
+        """Points of the image on the page.
+
+        Parameters
+        ----------
+        image : (2, n) array of float
+            In units of the image.
+
+        Returns
+        -------
+        (n, 2) array of float
+            In mm, y upwards.
+        """
         return np.asarray((self.page_from_image[:2, :2] @ image).T + self.page_from_image[:2, 2])
 
 

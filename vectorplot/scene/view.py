@@ -85,7 +85,18 @@ class View(Projection):
         return len(self.corners) == 3 * self.face_count
 
     def after(self, position: Ints) -> Ints:
-        """(n,) where in corners the corners stand that follow those at some positions in their faces."""
+        """Where in corners the corners stand that follow those at some positions in their faces.
+
+        Parameters
+        ----------
+        position : (n,) array of int
+            Into corners.
+
+        Returns
+        -------
+        (n,) array of int
+            Into corners; after the last corner of a face comes its first.
+        """
         return next_positions(self.offsets, position)
 
     @cached_property

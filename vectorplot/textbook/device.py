@@ -70,7 +70,23 @@ class Device:
         return self.window
 
     def opened(self, columns: int, rows: int) -> Device:
-        """With an open window of so many pixels."""
+        """The device with an open window, all of the colour number 0.
+
+        Parameters
+        ----------
+        columns, rows : int
+            The size in pixels.
+
+        Returns
+        -------
+        Device
+            After that.
+
+        Raises
+        ------
+        InputError
+            For a raster too large or without pixels.
+        """
         return replace(self, window=Framebuffer.of_numbers(columns, rows))
 
     def closed(self) -> Device:
@@ -78,7 +94,23 @@ class Device:
         return replace(self, window=None, position=None, area=())
 
     def cleared(self, number: int) -> Device:
-        """With the drawn page in one colour."""
+        """The device with the drawn page in one colour.
+
+        Parameters
+        ----------
+        number : int
+            Of the colour, 0 to 255.
+
+        Returns
+        -------
+        Device
+            After that.
+
+        Raises
+        ------
+        InputError
+            For another number, and without a window.
+        """
         return replace(self, window=framebuffer.cleared(self.frame, number))
 
     def swapped(self) -> Device:
@@ -86,45 +118,181 @@ class Device:
         return replace(self, window=framebuffer.swapped_buffers(self.frame))
 
     def with_rgb(self, number: int, red: int, green: int, blue: int) -> Device:
-        """With a new colour, 0 to 255 each, under a number."""
+        """The device with a new colour under a number.
+
+        Parameters
+        ----------
+        number : int
+            0 to 255.
+        red, green, blue : int
+            0 to 255.
+
+        Returns
+        -------
+        Device
+            After that.
+
+        Raises
+        ------
+        InputError
+            For other numbers, and without a window.
+        """
         return replace(self, window=framebuffer.with_colour(self.frame, number, red, green, blue))
 
     def with_colour(self, number: int) -> Device:
-        """Drawing with a colour number from here on."""
+        """The device drawing with a colour number from here on.
+
+        Parameters
+        ----------
+        number : int
+            0 to 255.
+
+        Returns
+        -------
+        Device
+            After that.
+
+        Raises
+        ------
+        InputError
+            For another number.
+        """
         if not 0 <= number <= 255:
             raise InputError(f"colour number {number}: expected 0 to 255")
         return replace(self, colour=int(number))
 
     def pixel(self, column: int, row: int) -> int:
-        """The colour number on the drawn page."""
+        """The colour number of a pixel on the drawn page.
+
+        Parameters
+        ----------
+        column, row : int
+            Within the window.
+
+        Returns
+        -------
+        int
+            0 to 255.
+
+        Raises
+        ------
+        InputError
+            For a pixel outside the window, and without one.
+        """
         return int(framebuffer.pixel_colours(self.frame, [(column, row)])[0, 0])
 
     def with_pixel(self, column: int, row: int) -> Device:
-        """With a pixel in the current colour."""
+        """The device with a pixel in the current colour.
+
+        Parameters
+        ----------
+        column, row : int
+            One outside the window is left out.
+
+        Returns
+        -------
+        Device
+            After that.
+
+        Raises
+        ------
+        InputError
+            Without a window.
+        """
         return replace(self, window=framebuffer.with_pixels(self.frame, [(column, row)], self.colour))
 
     def moved(self, point: ArrayLike) -> Device:
-        """With the start of a polyline at a point (2 or more components, whole or not)."""
+        """The device with the start of a polyline at a point.
+
+        Parameters
+        ----------
+        point : (2 or more,) array_like of float
+            Column and row, whole or not.
+
+        Returns
+        -------
+        Device
+            After that.
+        """
         return replace(self, position=_plane(point))
 
     def drawn(self, point: ArrayLike) -> Device:
-        """With a line from the current position to a point, which is the next position."""
+        """The device with a line from the current position to a point, which is the next position.
+
+        Parameters
+        ----------
+        point : (2 or more,) array_like of float
+            Column and row, whole or not.
+
+        Returns
+        -------
+        Device
+            After that.
+
+        Raises
+        ------
+        InputError
+            Without a window, and before a first move.
+        """
         start, end = self._start(), _plane(point)
         return replace(self, window=framebuffer.with_lines(self.frame, [start], [end], self.colour), position=end)
 
     def rubber_band(self, point: ArrayLike) -> Device:
-        """As drawn, but by exclusive or: the same again erases it."""
+        """As drawn, but by exclusive or: the same again erases it.
+
+        Parameters
+        ----------
+        point : (2 or more,) array_like of float
+            Column and row, whole or not.
+
+        Returns
+        -------
+        Device
+            After that.
+
+        Raises
+        ------
+        InputError
+            Without a window, and before a first move.
+        """
         start, end = self._start(), _plane(point)
         return replace(
             self, window=framebuffer.with_rubber_bands(self.frame, [start], [end], self.colour), position=end
         )
 
     def moved_area(self, point: ArrayLike) -> Device:
-        """With the first corner of a polygon."""
+        """The device with the first corner of a polygon.
+
+        Parameters
+        ----------
+        point : (2 or more,) array_like of float
+            Column and row, whole or not.
+
+        Returns
+        -------
+        Device
+            After that.
+        """
         return replace(self, area=(_plane(point),))
 
     def drawn_area(self, point: ArrayLike) -> Device:
-        """With the next corner of the polygon."""
+        """The device with the next corner of the polygon.
+
+        Parameters
+        ----------
+        point : (2 or more,) array_like of float
+            Column and row, whole or not.
+
+        Returns
+        -------
+        Device
+            After that.
+
+        Raises
+        ------
+        InputError
+            Before a first corner.
+        """
         if not self.area:
             raise InputError("an area needs a first corner")
         return replace(self, area=(*self.area, _plane(point)))

@@ -115,7 +115,18 @@ class Framebuffer:
         return 1 - self.shown
 
     def picture(self, page: int | None = None) -> Bytes:
-        """(rows, columns, 3) red, green and blue of a page, of the one that is shown if none is named."""
+        """Red, green and blue of a page.
+
+        Parameters
+        ----------
+        page : int, optional
+            0 or 1; the page that is shown where None.
+
+        Returns
+        -------
+        (rows, columns, 3) array of uint8
+            Row 0 on top.
+        """
         pixels = self.pages[self.shown if page is None else page]
         return np.asarray(pixels if self.colours is None else self.colours[pixels[..., 0]])
 

@@ -90,5 +90,16 @@ class Frustum:
         return Mesh.from_polygons(np.take_along_axis(limits, _CORNERS, axis=0), _FACES)
 
     def contains(self, points: ArrayLike) -> Bools:
-        """(...) which world points (..., 3) lie inside or on the border."""
+        """Which world points lie inside or on the border.
+
+        Parameters
+        ----------
+        points : (..., 3) array_like of float
+            In the world.
+
+        Returns
+        -------
+        (...) array of bool
+            False for what lies behind the eye.
+        """
         return np.asarray((self.system.homogeneous(points) @ self.box.planes.T >= 0.0).all(axis=-1))

@@ -116,12 +116,35 @@ class Plane:
         return dot(self.normal, self.point)
 
     def distance(self, points: ArrayLike) -> Floats:
-        """(...) signed distances of points (..., 3), positive on the normal's side."""
+        """Signed distances of points.
+
+        Parameters
+        ----------
+        points : (..., 3) array_like of float
+            In space.
+
+        Returns
+        -------
+        (...) array of float
+            Positive on the normal's side.
+        """
         return np.asarray(dot(self.normal, np.asarray(points, dtype=np.float64) - self.point) / length(self.normal))
 
     def side(self, points: ArrayLike) -> NDArray[np.int8]:
-        """(...) +1 for points (..., 3) on the normal's side, -1 on the other; a point in the plane counts as +1.
+        """The sides of the planes that points lie on.
 
+        Parameters
+        ----------
+        points : (..., 3) array_like of float
+            In space.
+
+        Returns
+        -------
+        (...) array of int8
+            1 on the normal's side, -1 on the other; a point in the plane counts as 1.
+
+        Notes
+        -----
         In the plane means: as near as rounding can tell. Exact signs for three given points: orient3d.
         """
         arm = np.asarray(points, dtype=np.float64) - self.point

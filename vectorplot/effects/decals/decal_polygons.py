@@ -75,11 +75,37 @@ class Decals:
         return f"<Decals: {len(self)} polygons on {len(np.unique(self.face))} faces>"
 
     def of(self, decals: Ints) -> Decals:
-        """Some of the decals, given by their numbers, in that order."""
+        """Some of the decals, in the order asked for.
+
+        Parameters
+        ----------
+        decals : (k,) array of int
+            Their numbers.
+
+        Returns
+        -------
+        Decals
+            k polygons.
+        """
         return some(self, decals)
 
     def parts(self, decals: Ints, points: Floats, offsets: Ints) -> Decals:
-        """Polygons with corners points (3,c), offsets (k+1,), each a part of one of the decals (k,)."""
+        """Polygons each of which is a part of one of the decals.
+
+        Parameters
+        ----------
+        decals : (k,) array of int
+            Of which decal each is a part.
+        points : (3, c) array of float
+            Their corners, in the view's coordinates.
+        offsets : (k+1,) array of int
+            Polygon i has the points offsets[i] to offsets[i+1].
+
+        Returns
+        -------
+        Decals
+            With all else as of the decals they are parts of.
+        """
         # Not through of: each of many parts of a decal would have all its corners first.
         anywhere = np.zeros(points.shape[1], dtype=np.intp)
         return replace(with_points(self, anywhere, decals, offsets), points=points)

@@ -302,7 +302,18 @@ class CoordinateSystem:
 
     @classmethod
     def of_image(cls, camera: Camera) -> CoordinateSystem:
-        """A camera's system, in which images are measured in world units in the image plane."""
+        """A camera's system, in which images are measured in world units in the image plane.
+
+        Parameters
+        ----------
+        camera : Camera
+            The eye.
+
+        Returns
+        -------
+        CoordinateSystem
+            With the target as the origin.
+        """
         return cls(np.array(camera.target), camera.axes.T, INFINITE if camera.parallel else camera.distance)
 
     @classmethod
@@ -370,7 +381,25 @@ class CoordinateSystem:
 
     @classmethod
     def of_parallel_light(cls, direction: ArrayLike, target: ArrayLike = (0.0, 0.0, 0.0)) -> CoordinateSystem:
-        """The system of parallel rays that come from a direction (3,), such as sunlight."""
+        """The system of parallel rays, such as sunlight.
+
+        Parameters
+        ----------
+        direction : (3,) array_like of float
+            Where they come from, of any length but zero.
+        target : (3,) array_like of float
+            The origin.
+
+        Returns
+        -------
+        CoordinateSystem
+            A parallel projection.
+
+        Raises
+        ------
+        InputError
+            For a direction without length.
+        """
         return cls(np.asarray(target, dtype=np.float64), look_rotation(direction))
 
     @property
@@ -386,16 +415,55 @@ class CoordinateSystem:
         return np.asarray(self.target + self.distance * self.rotation[:, 2])
 
     def rotated(self, points: ArrayLike) -> Floats:
-        """World points (..., 3) with the target as the origin and the eye on the z-axis, not yet projected."""
+        """World points with the target as the origin and the eye on the z-axis, not yet projected.
+
+        Parameters
+        ----------
+        points : (..., 3) array_like of float
+            In the world.
+
+        Returns
+        -------
+        (..., 3) array of float
+            In world units.
+        """
         return np.asarray((np.asarray(points, dtype=np.float64) - self.target) @ self.rotation)
 
     def forbidden(self, points: ArrayLike) -> Bools:
-        """(...) which world points (..., 3) lie on or behind the neutral plane through the eye: they have no image."""
+        """Which world points lie on or behind the neutral plane through the eye: they have no image.
+
+        Parameters
+        ----------
+        points : (..., 3) array_like of float
+            In the world.
+
+        Returns
+        -------
+        (...) array of bool
+            All False in a parallel projection.
+        """
         return np.asarray(self.rotated(points)[..., 2] >= self.distance)
 
     def from_world(self, points: ArrayLike) -> Floats:
-        """World points (..., 3) in this system. Errors: InputError for forbidden points: clip them first.
+        """World points in this system.
 
+        Parameters
+        ----------
+        points : (..., 3) array_like of float
+            In the world.
+
+        Returns
+        -------
+        (..., 3) array of float
+            Image x and y, and depth.
+
+        Raises
+        ------
+        InputError
+            For forbidden points: clip them first.
+
+        Notes
+        -----
         Source: Glaeser, section 2.4 (world to screen, world to light).
         """
         images = project(self.rotated(points), self.distance)
@@ -403,15 +471,43 @@ class CoordinateSystem:
         return images
 
     def to_world(self, points: ArrayLike) -> Floats:
-        """Points (..., 3) of this system in the world."""
+        """Points of this system in the world.
+
+        Parameters
+        ----------
+        points : (..., 3) array_like of float
+            Image x and y, and depth.
+
+        Returns
+        -------
+        (..., 3) array of float
+            In the world.
+
+        Raises
+        ------
+        InputError
+            For depths on or behind the neutral plane.
+        """
         images = np.array(points, dtype=np.float64)
         images[..., :2] = (images[..., :2] - np.array(self.middle)) / np.array(self.scale)
         return np.asarray(unproject(images, self.distance) @ self.rotation.T + self.target)
 
     def homogeneous(self, points: ArrayLike) -> Floats:
-        """World points (..., 3) after T2, in homogeneous coordinates (..., 4) of pixels x, y and depth z*; the last
-        component is positive in front of the neutral plane. Every point has them, forbidden ones too: clip here.
+        """World points after T2, in homogeneous coordinates of pixels x, y and depth z*.
 
+        Parameters
+        ----------
+        points : (..., 3) array_like of float
+            In the world.
+
+        Returns
+        -------
+        (..., 4) array of float
+            The last component is positive in front of the neutral plane. Every point has them, forbidden ones too: clip
+            here.
+
+        Notes
+        -----
         The depth is z / (d - z); in a parallel projection z itself.
         """
         right, up, back = self.rotation.T

@@ -74,22 +74,71 @@ class Projection:
     axes: Floats
 
     def depth_of(self, points: Floats) -> Floats:
-        """(n,) the depths of points (3,n)."""
+        """The depths of points.
+
+        Parameters
+        ----------
+        points : (3, n) array of float
+            In the projection's coordinates.
+
+        Returns
+        -------
+        (n,) array of float
+            From the eye along the principal ray; in a parallel projection from the middle of the scene, away from the
+            eye.
+        """
         return np.asarray(-points[2] if self.eye is None else self.eye[2] - points[2], dtype=np.float64)
 
     def image_of(self, points: Floats) -> Floats:
-        """(2,n) the images of points (3,n)."""
+        """The images of points.
+
+        Parameters
+        ----------
+        points : (3, n) array of float
+            In the projection's coordinates.
+
+        Returns
+        -------
+        (2, n) array of float
+            In the image plane, with the origin where the principal ray meets it.
+
+        Notes
+        -----
+        Degenerate: points nearer than the near plane get the image of a point at the near plane.
+        """
         if self.eye is None:
             return points[:2] - self.target[:2, None]
         factor = self.focus / np.maximum(self.depth_of(points), self.near)
         return (points[:2] - self.eye[:2, None]) * factor
 
     def points_of(self, world: Floats) -> Floats:
-        """(3,n) points (n,3) of the world in the view's coordinates."""
+        """Points of the world in the projection's coordinates.
+
+        Parameters
+        ----------
+        world : (n, 3) array of float
+            In world units.
+
+        Returns
+        -------
+        (3, n) array of float
+            About -1 to 1 for what is in the scene.
+        """
         return np.asarray((self.axes / self.scale) @ (world - self.centre).T, dtype=np.float64)
 
     def world_of(self, points: Floats) -> Floats:
-        """(n,3) points (3,n) of the view in world coordinates."""
+        """Points of the projection in world coordinates.
+
+        Parameters
+        ----------
+        points : (3, n) array of float
+            In the projection's coordinates.
+
+        Returns
+        -------
+        (n, 3) array of float
+            In world units.
+        """
         return np.ascontiguousarray((self.scale * self.axes.T @ points).T + self.centre)
 
     @cached_property
@@ -114,8 +163,18 @@ class Projection:
         return np.inf if self.eye is None else float(self.eye[2] - self.target[2])
 
     def reaches_too_far(self, *points: Floats) -> bool:
-        """Whether any of some points (3,n) is nearer than the near plane, or too far off the principal ray to be
-        fitted to a page."""
+        """Whether any of some points is too near, or too far off the principal ray, to be fitted to a page.
+
+        Parameters
+        ----------
+        points : (3, n) array of float
+            In the projection's coordinates, as many arrays as there are.
+
+        Returns
+        -------
+        bool
+            False in a parallel projection; else True for points nearer than the near plane or more than 60 degrees off.
+        """
         if self.eye is None:
             return False
         limit = self.focus * np.tan(np.radians(FARTHEST_OFF_AXIS_DEG))

@@ -203,10 +203,23 @@ class Separations:
         return Separations(info, self.planes, self.spheres[:, ::-1])
 
     def nearer(self, eye: ArrayLike) -> Infos:
-        """(p,) 1 where the first shape is in front, -1 where the second is, 0 where neither can be told to be.
+        """Which shape of each pair is in front.
 
-        eye (3,), or (x, y, z, 0) for a direction towards it. Of disjoint spheres that one is in front which has the
-        smaller power with respect to the eye. Source: Glaeser, section 5.5, figure 9; erratum G5-03.
+        Parameters
+        ----------
+        eye : (3,) or (4,) array_like of float
+            The eye, or (x, y, z, 0) for a direction towards it.
+
+        Returns
+        -------
+        (p,) array of int8
+            1 where the first shape is in front, -1 where the second is, 0 where neither can be told to be.
+
+        Notes
+        -----
+        Of disjoint spheres that one is in front which has the smaller power with respect to the eye.
+
+        Source: Glaeser, section 5.5, figure 9; erratum G5-03.
         """
         place = np.asarray(eye, dtype=np.float64)
         finite = len(place) == 3

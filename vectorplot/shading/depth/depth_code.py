@@ -54,12 +54,50 @@ class DepthCode:
 
     @classmethod
     def ushort(cls, minimum: float, maximum: float) -> DepthCode:
-        """The 16-bit code, from 1000 to 65000; 0 is left for pixels without a depth. Source: Glaeser, section 7.3."""
+        """The 16-bit code, from 1000 to 65000; 0 is left for pixels without a depth.
+
+        Parameters
+        ----------
+        minimum, maximum : float
+            The depths that there are.
+
+        Returns
+        -------
+        DepthCode
+            Of 64000 steps.
+
+        Raises
+        ------
+        InputError
+            For an empty range.
+
+        Notes
+        -----
+        Source: Glaeser, section 7.3.
+        """
         return cls(minimum, maximum, 1000.0, 64000.0)
 
     @classmethod
     def fine(cls, minimum: float, maximum: float, bits: int) -> DepthCode:
-        """The finest code of so many bits."""
+        """The finest code of so many bits.
+
+        Parameters
+        ----------
+        minimum, maximum : float
+            The depths that there are.
+        bits : int
+            Codes are less than 2^bits.
+
+        Returns
+        -------
+        DepthCode
+            From the code 2 on.
+
+        Raises
+        ------
+        InputError
+            For an empty range.
+        """
         return cls(minimum, maximum, 2.0, float((1 << bits) - 5))
 
     @property
@@ -68,9 +106,22 @@ class DepthCode:
         return (self.maximum - self.minimum) / self.steps
 
     def scaled(self, depth: ArrayLike) -> Floats:
-        """The codes (...) of depths (...) before they are cut off.
+        """The codes of depths before they are cut off.
 
-        Errors: InputError for depths outside the range: clip first.
+        Parameters
+        ----------
+        depth : (...) array_like of float
+            From minimum to maximum.
+
+        Returns
+        -------
+        (...) array of float
+            From first to first + steps.
+
+        Raises
+        ------
+        InputError
+            For depths outside the range: clip first.
         """
         d = np.asarray(depth, dtype=np.float64)
         if d.size and not (d.min() >= self.minimum and d.max() <= self.maximum):
@@ -78,7 +129,18 @@ class DepthCode:
         return self.of_any(d)
 
     def of_any(self, depth: ArrayLike) -> Floats:
-        """The codes (...) of depths (...), outside the range too."""
+        """The codes of depths before they are cut off, outside the range too.
+
+        Parameters
+        ----------
+        depth : (...) array_like of float
+            Any.
+
+        Returns
+        -------
+        (...) array of float
+            Below first and above first + steps for those outside the range.
+        """
         d = np.asarray(depth, dtype=np.float64)
         size = self.maximum - self.minimum
         return np.asarray(self.first + self.steps * ((d - self.minimum) / (size if size > 0.0 else 1.0)))
@@ -90,9 +152,36 @@ class DepthCode:
         return self.steps / (size if size > 0.0 else 1.0)
 
     def code(self, depth: ArrayLike) -> NDArray[np.int64]:
-        """The codes (...) of depths (...)."""
+        """The codes of depths.
+
+        Parameters
+        ----------
+        depth : (...) array_like of float
+            From minimum to maximum.
+
+        Returns
+        -------
+        (...) array of int64
+            From first to first + steps.
+
+        Raises
+        ------
+        InputError
+            For depths outside the range: clip first.
+        """
         return self.scaled(depth).astype(np.int64)
 
     def depth(self, code: ArrayLike) -> Floats:
-        """The depths (...) of codes (...), right to one step."""
+        """The depths of codes, right to one step.
+
+        Parameters
+        ----------
+        code : (...) array_like of int
+            From first to first + steps.
+
+        Returns
+        -------
+        (...) array of float
+            From minimum to maximum.
+        """
         return np.asarray(self.minimum + (np.asarray(code, dtype=np.float64) - self.first) * self.step)

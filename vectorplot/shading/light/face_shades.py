@@ -86,7 +86,18 @@ class Shades:
         return shades(self.shares, self.intensity, self.cue)
 
     def of_light(self, number: int) -> Floats:
-        """(n,) or (3,n) shades from 0 to 1 if only one of the lights were on."""
+        """Shades if only one of the lights were on.
+
+        Parameters
+        ----------
+        number : int
+            Of the light, from 0.
+
+        Returns
+        -------
+        (n,) or (3, n) array of float
+            0 to 1; of red, green and blue in coloured light.
+        """
         return shades(self.shares[number : number + 1], self.intensity[number : number + 1], self.cue)
 
     @property

@@ -117,7 +117,18 @@ class Finish:
         return cls(exponent, diffuse, float(np.log2(sharpness)), sharpness)
 
     def weight_at(self, cosine: Floats) -> Floats:
-        """(...) the weight of the highlight, never negative, where the light comes in at an angle with this cosine."""
+        """The weight of the highlight where the light comes in at some angle.
+
+        Parameters
+        ----------
+        cosine : (...) array of float
+            Of the angle between normal and light.
+
+        Returns
+        -------
+        (...) array of float
+            Never negative.
+        """
         if isinstance(self.weight, float | int):
             return np.full(cosine.shape, max(float(self.weight), 0.0))
         from scipy.interpolate import CubicSpline

@@ -272,9 +272,24 @@ class ColourMap:
     offset: int
 
     def entry(self, name: str, shade: ArrayLike) -> Ints:
-        """(...) the entries for shades from 0 to 1 of a palette; halves lie in their parents.
+        """The entries for shades of a palette; halves lie in their parents.
 
-        Errors: InputError for a palette that is not in the map.
+        Parameters
+        ----------
+        name : str
+            A palette of the map, or its half as light... or dark... .
+        shade : (...) array_like of float
+            0 to 1.
+
+        Returns
+        -------
+        (...) array of int
+            Numbers in entries.
+
+        Raises
+        ------
+        InputError
+            For a palette that is not in the map.
         """
         parent, half = parent_and_half(name)
         if parent not in self.parents:

@@ -76,7 +76,26 @@ class ShadowBuffer:
     maps: tuple[ShadowMap, ...]
 
     def blocks(self, points: ArrayLike, normals: ArrayLike) -> Bools:
-        """(n,) whether something stands between the light and world points (n, 3) on faces with normals (n, 3)."""
+        """Whether something stands between the light and points of the world.
+
+        Parameters
+        ----------
+        points : (n, 3) array_like of float
+            In the world.
+        normals : (n, 3) array_like of float
+            Of the faces they lie on, of any length.
+
+        Returns
+        -------
+        (n,) array of bool
+            False for points outside the maps and behind the lamp.
+
+        Notes
+        -----
+        Error: about a texel along the borders of shadows; what rises less above a face than the bias casts none on it.
+
+        Source: Glaeser, section 8.6.
+        """
         p = np.asarray(points, dtype=np.float64).reshape(-1, 3)
         found = np.zeros(len(p), dtype=np.bool_)
         for one in self.maps:

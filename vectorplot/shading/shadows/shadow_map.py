@@ -92,7 +92,18 @@ class ShadowMap:
         return self.depths(self.code)
 
     def depths(self, code: NDArray[np.unsignedinteger[Any]]) -> Floats:
-        """(...) depths in the lamp's system of codes (...) of this map, -inf where it sees nothing."""
+        """Depths in the lamp's system of codes of this map.
+
+        Parameters
+        ----------
+        code : (...) array of uint8, uint16 or uint32
+            As the map holds them.
+
+        Returns
+        -------
+        (...) array of float
+            -inf where the lamp sees nothing.
+        """
         return np.asarray(np.where(code > 0, self.depth_code.depth(code), -np.inf))
 
 

@@ -70,11 +70,33 @@ class Axis:
         return np.array([-self.direction[1], self.direction[0]])
 
     def along(self, points: ArrayLike) -> Floats:
-        """(...) distances of points (..., 2) from N, measured along the direction."""
+        """Distances of points from N, measured along the direction.
+
+        Parameters
+        ----------
+        points : (..., 2) array_like of float
+            In the lamp's image plane.
+
+        Returns
+        -------
+        (...) array of float
+            Positive towards F.
+        """
         return np.asarray((np.asarray(points, dtype=np.float64) - self.origin) @ self.direction)
 
     def across(self, points: ArrayLike) -> Floats:
-        """(...) distances of points (..., 2) from the line of sight, positive on the left."""
+        """Distances of points from the line of sight.
+
+        Parameters
+        ----------
+        points : (..., 2) array_like of float
+            In the lamp's image plane.
+
+        Returns
+        -------
+        (...) array of float
+            Positive on the left.
+        """
         return np.asarray((np.asarray(points, dtype=np.float64) - self.origin) @ self.left)
 
 
