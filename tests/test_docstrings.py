@@ -141,6 +141,27 @@ def test_what_a_room_offers_explains_every_parameter_and_what_it_returns(name):
         assert "InputError" in found["Raises"]
 
 
+def with_sections(name: str) -> list[str]:
+    """The public functions of a class of a room that explain what they are given."""
+    own = {key: getattr(in_room(name), key) for key in vars(in_room(name)) if not key.startswith("_")}
+    functions = {key: value for key, value in own.items() if callable(value) and not inspect.isclass(value)}
+    return [f"{name}.{key}" for key, value in functions.items() if "Parameters" in sections(value)]
+
+
+@pytest.mark.parametrize("name", [method for name in IN_ROOMS for method in with_sections(name)])
+def test_functions_of_classes_that_explain_what_they_are_given_explain_all_of_it(name):
+    *owner, key = name.split(".")
+    shown = getattr(in_room(".".join(owner)), key)
+    signature, found = inspect.signature(shown), sections(shown)
+    summary = found.pop("").strip()
+    assert summary.endswith(".") and "\n" not in summary
+    assert list(found) == [heading for heading in ORDER if heading in found]
+    assert named(found["Parameters"]) == [parameter for parameter in signature.parameters if parameter != "self"]
+    assert ("Returns" in found) == (signature.return_annotation != "None")
+    if "raise InputError" in inspect.getsource(shown):
+        assert "InputError" in found["Raises"]
+
+
 @pytest.mark.parametrize("name", IN_ROOMS)
 def test_the_examples_of_what_a_room_offers_run(name):
     shown = in_room(name)
