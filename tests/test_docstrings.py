@@ -9,12 +9,17 @@ import functools
 import importlib
 import inspect
 import re
+import typing
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
 
 import pytest
 
 import vectorplot as vp
 
 ORDER = ["Parameters", "Returns", "Raises", "Warns", "Notes", "Examples"]
+PACKAGE = Path(vp.__file__).parent
 FUNCTIONS = [name for name in vp.__all__ if inspect.isfunction(getattr(vp, name))]
 CLASSES = [name for name in vp.__all__ if inspect.isclass(getattr(vp, name))]
 
@@ -92,22 +97,7 @@ def test_the_examples_run(name):
     assert doctest.DocTestRunner().run(test).failed == 0
 
 
-ROOMS = [
-    "backends",
-    "curves",
-    "drawing",
-    "effects",
-    "exact",
-    "features",
-    "geometry",
-    "io",
-    "scene",
-    "shading",
-    "surfaces",
-    "testing",
-    "textbook",
-    "visibility",
-]
+ROOMS = sorted(stub.parent.name for stub in PACKAGE.glob("*/__init__.pyi"))
 
 
 def names_of(room: str) -> list[str]:
@@ -168,3 +158,21 @@ def test_the_examples_of_what_a_room_offers_run(name):
     (test,) = doctest.DocTestFinder(recurse=False).find(shown, name, module=inspect.getmodule(shown), globs={})
     assert test.examples
     assert doctest.DocTestRunner().run(test).failed == 0
+
+
+def own_types(hint: Any) -> Iterator[type]:
+    """The classes of this package that an annotation names, however deep."""
+    if inspect.isclass(hint) and hint.__module__.startswith("vectorplot."):
+        yield hint
+    for part in hint if isinstance(hint, list) else typing.get_args(hint):
+        yield from own_types(part)
+
+
+def test_what_the_functions_of_rooms_take_and_give_is_offered_too():
+    offered = {*(getattr(vp, name) for name in CLASSES), *(in_room(name) for name in IN_ROOMS)}
+    missing = {}
+    for name in IN_ROOMS:
+        if inspect.isfunction(in_room(name)):
+            hints = typing.get_type_hints(in_room(name)).values()
+            missing |= {found.__name__: name for hint in hints for found in own_types(hint) if found not in offered}
+    assert not missing

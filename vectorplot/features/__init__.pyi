@@ -9,6 +9,7 @@ from .implicit.implicit_curves import (
     implicit_plane_sections,
     implicit_point_light_isophotes,
 )
+from .implicit.implicit_mesh import ImplicitMesh, implicit_mesh
 from .implicit.implicit_tracing import ImplicitCurves, ImplicitTracing
 from .implicit.polygonize import polygonized
 from .intersections.double_curves import DoubleCurves
@@ -49,6 +50,7 @@ __all__ = [
     "Edges",
     "Faces",
     "ImplicitCurves",
+    "ImplicitMesh",
     "ImplicitMeshSection",
     "ImplicitTracing",
     "Intersections",
@@ -70,6 +72,7 @@ __all__ = [
     "implicit_intersection",
     "implicit_isophotes",
     "implicit_level_lines",
+    "implicit_mesh",
     "implicit_mesh_section",
     "implicit_parallel_contour",
     "implicit_parallel_contour_cusps",

@@ -1,5 +1,6 @@
 from . import ragged
 from .bodies_of_revolution import revolution
+from .budget import Budget, budget_of
 from .cameras.camera import Camera
 from .cameras.lens import diagonal_field_of_vision_deg, field_of_vision_deg, focal_length_mm, lens_advice
 from .cameras.projection import (
@@ -90,6 +91,7 @@ __all__ = [
     "BodyRecord",
     "Box",
     "Branches",
+    "Budget",
     "Camera",
     "ClippedLines",
     "CoordinateSystem",
@@ -111,6 +113,7 @@ __all__ = [
     "axis_frame",
     "body_record",
     "box",
+    "budget_of",
     "changed_coordinates",
     "clip_and_draw",
     "clip_lines_2d",

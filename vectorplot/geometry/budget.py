@@ -16,10 +16,31 @@ HOW = "a larger budget may do (--budget)"
 class Budget:
     """Limits of the work on the smooth surfaces of a picture: with them every picture ends in seconds.
 
-    cells: of one size that the domain of a surface is cut into around one family of curves. triangles: that an implicit
-    surface is cut into around one. points: that the curves of one are refined to. pairs: of two chords, of a chord and
-    a triangle, or of a sight line and a triangle, that come near each other in the image and are looked at closely.
-    facets: triangles that a surface is painted or rendered by.
+    Parameters
+    ----------
+    cells : int
+        Of one size that the domain of a surface is cut into around one family of curves.
+    triangles : int
+        That an implicit surface is cut into around one.
+    points : int
+        That the curves of one are refined to.
+    pairs : int
+        Of two chords, of a chord and a triangle, or of a sight line and a triangle, that come near each other in the
+        image and are looked at closely.
+    facets : int
+        Triangles that a surface is painted or rendered by.
+
+    Notes
+    -----
+    What a budget does not do for is left out, and a doubt or an InputWarning says so.
+
+    Examples
+    --------
+    >>> from vectorplot import features, geometry, surfaces
+    >>> tracing = features.Tracing(tolerance=1e-9, budget=geometry.Budget(points=100))
+    >>> curves = features.contour(surfaces.Sphere(), (4, 0, 0), tracing=tracing)
+    >>> len(curves), len(curves.doubts)
+    (1, 1)
     """
 
     cells: int = 1 << 13
@@ -34,7 +55,29 @@ USUAL = Budget()
 
 
 def budget_of(factor: float) -> Budget:
-    """The usual budget, so many times. Errors: InputError unless the factor is finite and positive."""
+    """The usual budget, so many times.
+
+    Parameters
+    ----------
+    factor : float
+        Positive; 1 is the usual budget.
+
+    Returns
+    -------
+    Budget
+        Every limit so many times as large, and 1 at least.
+
+    Raises
+    ------
+    InputError
+        Unless the factor is finite and positive.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.budget_of(2.0).points == 2 * geometry.Budget().points
+    True
+    """
     if not 0.0 < factor < math.inf:
         raise InputError(f"a budget of {factor:g}: expected a factor that is finite and positive")
     limits = (USUAL.cells, USUAL.triangles, USUAL.points, USUAL.pairs, USUAL.facets)

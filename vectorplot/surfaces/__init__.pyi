@@ -6,7 +6,7 @@ from .families.ellipsoid import Ellipsoid, Sphere
 from .families.helical import helical_surface
 from .families.hyperbolic_paraboloid import HyperbolicParaboloid
 from .families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
-from .families.minimal import MinimalSurface, helicoid_to_catenoid, minimal_spiral_surface
+from .families.minimal import IsotropicCurve, MinimalSurface, helicoid_to_catenoid, minimal_spiral_surface
 from .families.motions import Motion, Rotoid, Screw, SpiralMotion, Translation
 from .families.quadric import (
     Quadric,
@@ -53,6 +53,7 @@ __all__ = [
     "ImplicitTorusByDistance",
     "InvertedImplicit",
     "InvertedSurface",
+    "IsotropicCurve",
     "MinimalSurface",
     "Motion",
     "Paraboloid",

@@ -22,7 +22,25 @@ Complexes = NDArray[np.complex128]
 
 
 class IsotropicCurve(Protocol):
-    """A curve P(w) in complex space whose tangents have the length zero: P'.P' = 0."""
+    """What every curve P(w) in complex space can do whose tangents have the length zero: P'.P' = 0.
+
+    Notes
+    -----
+    A protocol: points(w) are P, tangents(w) P' and second_derivatives(w) P'', (..., 3) of complex numbers each, at
+    complex parameters w (...). The real part of such a curve is a minimal surface, of which u and v are the parts of w.
+
+    Source: Glaeser, section 8.2, figure 8.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import surfaces
+    >>> def length_of_tangent(curve: surfaces.IsotropicCurve, w: complex) -> complex:
+    ...     tangent = curve.tangents(np.array(w))
+    ...     return complex((tangent * tangent).sum())
+    >>> abs(length_of_tangent(surfaces.helicoid_to_catenoid(0.0).curve, 1.0 + 2.0j)) < 1e-12
+    True
+    """
 
     def points(self, w: Complexes) -> Complexes:
         """(..., 3) P."""
