@@ -15,7 +15,8 @@ def read(path: str | os.PathLike[str]) -> Scene | Any:
     Parameters
     ----------
     path : str or path
-        A mesh (obj, stl, ply, off, glb), a text in the scene language (any other suffix), or a drawing (suffix .json).
+        A mesh (obj, stl, ply, off, glb), a molecule (xyz, pdb, cif), a drawing (json), or a text in the scene language
+        (any other suffix).
 
     Returns
     -------

@@ -60,7 +60,8 @@ if TYPE_CHECKING:
     ),
 )
 def draw(scene: Scene, **told: Any) -> Drawing:
-    """Draw INPUT, a scene file or a mesh (obj, stl, ply, off, glb), and write OUT (svg, ps, eps, pdf, png, json).
+    """Draw INPUT, a scene file, mesh (obj, stl, ply, off, glb) or molecule (xyz, pdb, cif), and write
+    OUT (svg, ps, eps, pdf, png, json).
 
     Camera options replace the fields of the camera in the scene file one by one.
     """

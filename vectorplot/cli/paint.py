@@ -50,7 +50,8 @@ if TYPE_CHECKING:
     TOLERANCE,
 )
 def paint(scene: Scene, *, flat: bool, **told: Any) -> Drawing:
-    """Paint INPUT, a scene file or a mesh (obj, stl, ply, off, glb), and write OUT (svg, ps, eps, pdf, png, json).
+    """Paint INPUT, a scene file, mesh (obj, stl, ply, off, glb) or molecule (xyz, pdb, cif), and write
+    OUT (svg, ps, eps, pdf, png, json).
 
     Camera options replace the fields of the camera in the scene file one by one.
     """

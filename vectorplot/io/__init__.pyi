@@ -1,13 +1,19 @@
 from .expressions.expression import Expression, parse_expression
 from .info import describe
+from .molecules.molecule import Molecule
+from .molecules.molecule_scene import molecule_scene
+from .molecules.read_molecule import read_molecule
 from .scenes.scene_language import parse_scene, read_scene
 from .scenes.scene_writer import write_scene
 
 __all__ = [
     "Expression",
+    "Molecule",
     "describe",
+    "molecule_scene",
     "parse_expression",
     "parse_scene",
+    "read_molecule",
     "read_scene",
     "write_scene",
 ]

@@ -21,11 +21,13 @@ from vectorplot.scene.extent import check_range
 from vectorplot.scene.scene import Item, Scene
 
 MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".glb")
+MOLECULE_SUFFIXES = (".xyz", ".pdb", ".ent", ".cif", ".mmcif")
 SCENE_SUFFIXES = (".scene", ".txt")
 
 
 def read(path: str | os.PathLike[str]) -> Scene:
-    """The scene in a file: a mesh (obj, stl, ply, off, glb) or a text in the scene language (any other suffix).
+    """The scene in a file: a mesh (obj, stl, ply, off, glb), a molecule (xyz, pdb, cif) or a text in the scene language
+    (any other suffix).
 
     A mesh file gives one item named after the file, or one for every object (OBJ) or node (glb) if there are several.
     Meshes are mended (see mesh_repair.mended); what was mended, and what could not be, is said in one InputWarning a
@@ -35,6 +37,11 @@ def read(path: str | os.PathLike[str]) -> Scene:
     """
     path = Path(path)
     check_file(path)
+    if path.suffix.lower() in MOLECULE_SUFFIXES:
+        from vectorplot.io.molecules.molecule_scene import molecule_scene
+        from vectorplot.io.molecules.read_molecule import read_molecule
+
+        return molecule_scene(read_molecule(path))
     reader = _mesh_reader(path.suffix.lower())
     if reader is None:
         _check_text(path)

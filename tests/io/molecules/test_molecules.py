@@ -1,0 +1,166 @@
+"""Molecules: their files, their bonds, and what is drawn for them."""
+
+from __future__ import annotations
+
+import builtins
+from pathlib import Path
+
+import numpy as np
+import pytest
+from support.paths import ROOT
+
+import vectorplot as vp
+from vectorplot.io import Molecule, molecule_scene, read_molecule
+from vectorplot.io.molecules.elements import elements_of
+
+WATER = "3\nwater\nO 0 0 0\nH 0.757 0.586 0\nH -0.757 0.586 0\n"
+
+
+def atom(serial: int, name: str, residue: str, place: tuple[float, float, float], element: str, other: str = " ") -> str:
+    x, y, z = place
+    kind = "HETATM" if residue in ("HOH", "LIG") else "ATOM  "
+    return (
+        f"{kind}{serial:5d} {name:<4}{other}{residue:>3} A{1 if residue != 'HOH' else 2:4d}    "
+        f"{x:8.3f}{y:8.3f}{z:8.3f}{1.0:6.2f}{0.0:6.2f}          {element:>2}\n"
+    )
+
+
+GLYCINE = "".join(
+    [
+        "MODEL        1\n",
+        atom(1, " N", "GLY", (0.0, 0.0, 0.0), "N"),
+        atom(2, " CA", "GLY", (1.46, 0.0, 0.0), "C"),
+        atom(3, " C", "GLY", (2.0, 1.42, 0.0), "C", "A"),
+        atom(4, " C", "GLY", (2.0, 1.2, 0.4), "C", "B"),
+        atom(5, " O", "GLY", (1.25, 2.4, 0.0), "O"),
+        atom(6, " O", "HOH", (9.0, 9.0, 9.0), "O"),
+        "ENDMDL\nMODEL        2\n",
+        atom(1, " N", "GLY", (5.0, 0.0, 0.0), "N"),
+        "ENDMDL\nEND\n",
+    ]
+)
+
+
+def written(folder: Path, name: str, text: str) -> Path:
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_caffeine_has_its_atoms_and_bonds():
+    caffeine = read_molecule(ROOT / "data" / "caffeine.xyz")
+    assert caffeine.name == "caffeine"
+    degree = np.bincount(caffeine.bonds.ravel(), minlength=24)
+    by_symbol = {s: sorted(degree[np.array(caffeine.symbols) == s].tolist()) for s in "CHNO"}
+    assert by_symbol == {"H": [1] * 10, "O": [1, 1], "N": [2, 3, 3, 3], "C": [3] * 5 + [4] * 3}
+
+
+@pytest.mark.parametrize("text", [WATER, WATER.replace("H", "h"), WATER.replace("H", "1").replace("O", "8", 1)])
+@pytest.mark.parametrize("more", ["", "\n\n", "3\nagain\nO 1 1 1\nH 1 1 2\nH 2 1 1\n"])
+def test_atoms_are_called_by_symbol_or_number_and_the_first_frame_counts(tmp_path, text, more):
+    water = read_molecule(written(tmp_path, "water.xyz", text + more))
+    assert water.symbols == ("O", "H", "H")
+    assert water.bonds.tolist() == [[0, 1], [0, 2]]
+    assert water.places[1].tolist() == [0.757, 0.586, 0.0]
+
+
+def test_of_a_file_of_the_data_bank_the_first_model_counts_and_water_does_not(tmp_path):
+    glycine = read_molecule(written(tmp_path, "gly.pdb", GLYCINE))
+    assert glycine.symbols == ("N", "C", "C", "O")
+    assert glycine.places[2].tolist() == [2.0, 1.42, 0.0]
+    assert glycine.bonds.tolist() == [[0, 1], [1, 2], [2, 3]]
+
+
+def test_a_file_with_nothing_but_water_shows_it(tmp_path):
+    assert read_molecule(written(tmp_path, "ice.pdb", atom(1, " O", "HOH", (1.0, 2.0, 3.0), "O"))).symbols == ("O",)
+
+
+def test_mmcif_is_read_as_pdb_is(tmp_path):
+    import gemmi
+
+    path = written(tmp_path, "gly.pdb", GLYCINE)
+    text = gemmi.read_structure(str(path)).make_mmcif_document().as_string()
+    other = read_molecule(written(tmp_path, "gly.cif", text))
+    assert other.symbols == read_molecule(path).symbols
+    assert np.allclose(other.places, read_molecule(path).places)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "line"),
+    [
+        ("a.xyz", "three\n", "a.xyz:1: expected the number of atoms, alone"),
+        ("a.xyz", "3 4\n", "a.xyz:1: expected the number of atoms, alone"),
+        ("a.xyz", "0\nnothing\n", "a.xyz: no atoms in this file"),
+        ("a.xyz", "99999999\nmany\nC 0 0 0\n", "a.xyz: announces 99999999 atoms, but has only"),
+        ("a.xyz", "2\nx\nC 0 0 0           \n", "a.xyz:3: the file ends after 1 of 2 atoms"),
+        ("a.xyz", "1\nx\nC 0 0             \n", "a.xyz:3: expected a symbol and three coordinates, got 'C 0 0'"),
+        ("a.xyz", "1\nx\nC 0 0 zero\n", "a.xyz:3: expected three coordinates, got '0 0 zero'"),
+        ("a.xyz", "1\nx\nC 0 0 nan\n", "a.xyz:3: expected three coordinates, got '0 0 nan'"),
+        ("a.xyz", "1\nx\nQq 0 0 0\n", "a.xyz:3: 'Qq' is no element"),
+        ("a.xyz", "1\nx\n999 0 0 0\n", "a.xyz:3: '999' is no element"),
+        ("a.pdb", "HEADER    NOTHING\nEND\n", "a.pdb: no atoms in this file"),
+        ("a.cif", "data_x\n_cell.length_a 1\n", "a.cif: no atoms in this file"),
+        ("a.cif", "loop_\n", "a.cif: no molecule: "),
+    ],
+)
+def test_what_is_wrong_is_said_in_one_line(tmp_path, monkeypatch, name, text, line):
+    written(tmp_path, name, text)
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(vp.InputError) as caught:
+        vp.read(name)
+    assert str(caught.value).startswith(line)
+    assert "\n" not in str(caught.value)
+
+
+def test_atoms_in_one_place_are_no_molecule(tmp_path):
+    crowd = "4000\ncrowd\n" + "C 0 0 0.0\n" * 4000
+    with pytest.raises(vp.InputError, match=r"crowd\.xyz: the atoms lie too close for a molecule"):
+        read_molecule(written(tmp_path, "crowd.xyz", crowd))
+
+
+def test_without_the_library_one_line_says_what_to_install(tmp_path, monkeypatch):
+    real = builtins.__import__
+
+    def without(name, *rest, **more):
+        if name == "gemmi":
+            raise ImportError(name)
+        return real(name, *rest, **more)
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    with pytest.raises(vp.InputError, match=r"pip install 'vectorplot\[molecules\]'"):
+        vp.read(written(tmp_path, "water.xyz", WATER))
+
+
+def test_bonds_turn_with_the_molecule_and_go_by_distance():
+    random = np.random.default_rng(3)
+    caffeine = read_molecule(ROOT / "data" / "caffeine.xyz")
+    turn, _ = np.linalg.qr(random.normal(size=(3, 3)))
+    from vectorplot.io.molecules.molecule import bonds_between
+
+    elements = elements_of(caffeine.symbols)
+    assert np.array_equal(bonds_between(elements, caffeine.places @ turn + 1e3), caffeine.bonds)
+    assert not len(bonds_between(elements, 3.0 * caffeine.places))
+
+
+def test_balls_and_rods_are_named_after_their_atoms_and_touch():
+    water = Molecule("water", ("O", "H", "H"), np.array([(0, 0, 0), (0.9, 0, 0), (0, 0.9, 0)]), np.array([(0, 1), (0, 2)]))
+    scene = molecule_scene(water)
+    assert [item.name for item in scene.items] == ["O1", "H2", "H3", "O1_H2", "O1_H3"]
+    assert [item.colour for item in scene.items] == ["red", "white", "white", "gray", "gray"]
+    ball, stick = scene.items[0].shape, scene.items[3].shape
+    u = np.linspace(0.0, 6.0, 7)
+    rim = stick.points(u, np.full(7, stick.domain.v_start))
+    assert (np.linalg.norm(rim, axis=1) < ball.radius).all()
+    filled = molecule_scene(water, "space-filling")
+    assert [item.shape.radius for item in filled.items] == [1.52, 1.2, 1.2]
+    with pytest.raises(vp.InputError, match="expected ball-and-stick or space-filling"):
+        molecule_scene(water, "ribbons")
+
+
+def test_every_verb_shows_a_molecule(tmp_path):
+    path = written(tmp_path, "water.xyz", WATER)
+    scene = vp.read(path)
+    drawing = vp.draw(scene, vp.Camera((3, -4, 9)))
+    assert {"contour", "intersection"} <= {layer.name for layer in drawing.layers}
+    assert vp.paint(scene, vp.Camera((3, -4, 9)), tolerance_mm=0.5).layers
+    assert vp.render(scene, vp.Camera((3, -4, 9)), size=(60, 40)).pixels.std() > 5.0

@@ -1,0 +1,1 @@
+"""Molecules: which atoms are where, and what is drawn for them."""
