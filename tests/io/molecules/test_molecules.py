@@ -16,7 +16,9 @@ from vectorplot.io.molecules.elements import elements_of
 WATER = "3\nwater\nO 0 0 0\nH 0.757 0.586 0\nH -0.757 0.586 0\n"
 
 
-def atom(serial: int, name: str, residue: str, place: tuple[float, float, float], element: str, other: str = " ") -> str:
+def atom(
+    serial: int, name: str, residue: str, place: tuple[float, float, float], element: str, other: str = " "
+) -> str:
     x, y, z = place
     kind = "HETATM" if residue in ("HOH", "LIG") else "ATOM  "
     return (
@@ -143,7 +145,9 @@ def test_bonds_turn_with_the_molecule_and_go_by_distance():
 
 
 def test_balls_and_rods_are_named_after_their_atoms_and_touch():
-    water = Molecule("water", ("O", "H", "H"), np.array([(0, 0, 0), (0.9, 0, 0), (0, 0.9, 0)]), np.array([(0, 1), (0, 2)]))
+    water = Molecule(
+        "water", ("O", "H", "H"), np.array([(0, 0, 0), (0.9, 0, 0), (0, 0.9, 0)]), np.array([(0, 1), (0, 2)])
+    )
     scene = molecule_scene(water)
     assert [item.name for item in scene.items] == ["O1", "H2", "H3", "O1_H2", "O1_H3"]
     assert [item.colour for item in scene.items] == ["red", "white", "white", "gray", "gray"]

@@ -70,4 +70,4 @@ def bonds_between(elements: Elements, places: Floats) -> Ints:
     hydrogen = elements.number == 1
     near &= ~(hydrogen[one] & hydrogen[two]) | (len(places) == 2)
     found = np.stack([one, two], axis=1)[near & (distance >= LEAST_BOND)]
-    return found[np.lexsort(found.T[::-1])]
+    return np.asarray(found[np.lexsort(found.T[::-1])], dtype=np.intp)
