@@ -20,6 +20,7 @@ from vectorplot.drawing.strokes.shared_kinds import with_shared_kinds
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.budget import Budget, budget_of
 from vectorplot.geometry.cameras.camera import Camera, Point
+from vectorplot.geometry.chunks import threads_of
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, normalize
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_draw
@@ -86,6 +87,7 @@ def draw(
     tolerance_mm: float = 0.02,
     longest_mm: float | None = None,
     budget: float = 1.0,
+    jobs: int | None = None,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
 ) -> Drawing:
@@ -124,6 +126,8 @@ def draw(
         Longer strokes leave in equal parts that are no longer, for plotters that stutter on them; 1 mm or more.
     budget : float
         How many times the usual work on smooth surfaces is allowed (see geometry.budget).
+    jobs : int, optional
+        On how many threads the stages that go over chunks work; where None, on all processors. The result is the same.
     progress : callable, optional
         progress(stage, fraction) is called while it works.
     explain : callable, optional
@@ -168,14 +172,14 @@ def draw(
     """
     _check_options(hidden, layers, curves, halo_mm, crease_angle_deg, tolerance_mm)
     _check_longest(longest_mm)
-    allowed = budget_of(budget)
+    allowed, threads = budget_of(budget), threads_of(jobs)
     _check_style(style, hidden=hidden != "none", halo_mm=halo_mm > 0.0, layers=layers != "kind")
     kinds = line_kinds((DRAWN if style == "plain" else WIRES) if lines is None else lines)
     scene = without_seams(scene)
     tell_what_is_cut_off(scene)
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
-    walk = Walk((*plan_cuts(camera), *plan_draw(scene, kinds, hidden, halo_mm, style)), explain, progress)
+    walk = Walk((*plan_cuts(camera), *plan_draw(scene, kinds, hidden, halo_mm, style)), explain, progress, threads)
     scene = seen_part(walk, scene, camera)
     view = walk.run("look", look, scene, camera)
     faces = walk.run("faces", project_faces, view)

@@ -17,6 +17,7 @@ from vectorplot.features.facets import Within
 from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
+from vectorplot.geometry.chunks import threads_of
 from vectorplot.painting.coloured import coloured
 from vectorplot.painting.erased import erased
 from vectorplot.painting.reports import tell_groups, tell_knots, tell_slices
@@ -60,6 +61,7 @@ def paint(
     crease_angle_deg: float = 25.0,
     tolerance_mm: float = 0.02,
     budget: float = 1.0,
+    jobs: int | None = None,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
 ) -> Drawing:
@@ -100,6 +102,8 @@ def paint(
         of 255 at 0.02 mm, and in proportion by one to eight.
     budget : float
         As of draw, for lines and triangles.
+    jobs : int, optional
+        As of draw.
     progress : callable, optional
         progress(stage, fraction) is called while it works.
     explain : callable, optional
@@ -136,12 +140,13 @@ def paint(
     """
     _check_options(shadows, aura_mm, palette, fills, crease_angle_deg, tolerance_mm)
     budget_of(budget)
+    threads = threads_of(jobs)
     scene = without_seams(scene if lights is None else replace(scene, lights=tuple(lights)))
     tell_what_is_cut_off(scene)
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
     kinds = line_kinds(lines)
-    walk = Walk((*plan_cuts(camera), *plan_paint(scene, shadows, fills, kinds)), explain, progress)
+    walk = Walk((*plan_cuts(camera), *plan_paint(scene, shadows, fills, kinds)), explain, progress, threads)
     scene = seen_part(walk, scene, camera)
     projection = projection_of(camera, scene.bounds)
     # Lines belong to each item, polygons to what is seen.

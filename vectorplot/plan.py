@@ -12,6 +12,7 @@ import numpy as np
 from vectorplot.errors import printable
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
+from vectorplot.geometry.chunks import threads
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.placement import box_corners, field_of_vision
 from vectorplot.scene.scene import Item, Page, Scene
@@ -179,7 +180,10 @@ class Walk:
         stages: Sequence[Stage],
         explain: Callable[[StageReport], None] | None,
         progress: Callable[[str, float], None] | None,
+        jobs: int | None = None,
     ) -> None:
+        """jobs: threads that chunks of stages are done on; where None those around it."""
+        self._jobs = jobs
         self._stages = {stage.name: stage for stage in stages}
         count = max(len(stages), 1)
         self._spans = {stage.name: (number / count, (number + 1) / count) for number, stage in enumerate(stages)}
@@ -194,7 +198,7 @@ class Walk:
         """The walk of one of some repetitions, the number-th of count, of stages that follow one another."""
         spans = [self._spans[name] for name in names if name in self._spans]
         first, whole = min(begin for begin, _ in spans), sum(end - begin for begin, end in spans)
-        walk = Walk(list(self._stages.values()), self._explain, self._progress)
+        walk = Walk(list(self._stages.values()), self._explain, self._progress, self._jobs)
         for name in walk._spans.keys() & set(names):
             begin, end = (first + (whole * number + place - first) / count for place in walk._spans[name])
             walk._spans[name] = (begin, end)
@@ -225,7 +229,7 @@ class Walk:
         stage = self._stages[name]
         self.fraction(name)(0.0)
         start = time.perf_counter()
-        with np.errstate(over="ignore"):
+        with np.errstate(over="ignore"), threads(self._jobs):
             result = function(*args, **kwargs)
         seconds = time.perf_counter() - start
         if self._explain is not None:

@@ -17,6 +17,7 @@ from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.projection import CoordinateSystem
 from vectorplot.geometry.cameras.unit_projection import projection_of
+from vectorplot.geometry.chunks import threads_of
 from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, dims_light, plan_cuts, plan_render
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Light, Page, Scene
@@ -91,6 +92,7 @@ def render(
     lines: str | Iterable[str] = (),
     background: str | None = None,
     budget: float = 1.0,
+    jobs: int | None = None,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
 ) -> Image:
@@ -132,6 +134,8 @@ def render(
         A palette, a plain colour or #rrggbb.
     budget : float
         As of draw, for lines and triangles.
+    jobs : int, optional
+        As of draw.
     progress : callable, optional
         progress(stage, fraction) is called while it works.
     explain : callable, optional
@@ -176,12 +180,13 @@ def render(
     _check(size, shadows, samples, crease_angle_deg)
     settings = MapSettings(shadow_size, shadow_bits, shadow_casters, shadow_focus)
     budget_of(budget)
+    threads = threads_of(jobs)
     scene = without_seams(scene if lights is None else replace(scene, lights=tuple(lights)))
     _check_lights(scene.lights)
     tell_what_is_cut_off(scene)
     camera = camera or scene.camera or default_camera(scene)
     how, why = chosen_shadows(scene, camera, size, fit) if shadows == "auto" else (shadows, "")
-    walk = Walk((*plan_cuts(camera), *plan_render(scene, how, bool(kinds), why)), explain, progress)
+    walk = Walk((*plan_cuts(camera), *plan_render(scene, how, bool(kinds), why)), explain, progress, threads)
     _tell_what_is_missing(walk, scene, kinds)
     scene = seen_part(walk, scene, camera)
     fine = (size[0] * samples, size[1] * samples)

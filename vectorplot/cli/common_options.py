@@ -47,6 +47,10 @@ BUDGET = click.option(
     "--budget", type=POSITIVE, default=1.0, metavar="FACTOR", help="Times the usual work on a surface."
 )
 
+JOBS = click.option(
+    "--jobs", type=click.IntRange(1), metavar="N", help="Threads to work on.  [default: as many as processors]"
+)
+
 EXPLAIN = click.option("--explain", is_flag=True, help="Print stages, times, counts and memory on stderr.")
 
 QUIET = click.option("-q", "--quiet", is_flag=True, help="No warnings, no progress bar.")
@@ -123,7 +127,7 @@ def picture_verb(
 
     def command_of(verb: Callable[..., Drawing | Image]) -> click.Command:
         @click.command(short_help=short_help, context_settings={"show_default": True})
-        @with_options(INPUT, OUT, format_option(formats), *CAMERA_OPTIONS, *options, BUDGET, EXPLAIN, QUIET)
+        @with_options(INPUT, OUT, format_option(formats), *CAMERA_OPTIONS, *options, BUDGET, JOBS, EXPLAIN, QUIET)
         @wraps(verb)
         def command(scene_file: str, out: str, format_: str | None, quiet: bool, explain: bool, **options: Any) -> None:
             told = Told.of(options)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.geometry.columns import cross
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_numbers import SINGLE_BOX_LEAST, SINGLE_BOX_SHARE
@@ -90,8 +91,12 @@ def project_faces(view: View) -> ProjectedFaces:
     x, y = view.image
     depth = view.depth
     stages = _triangles if view.is_triangular else _polygons
-    for low in range(0, count, CHUNK):
-        stages(view, faces, x, y, depth, low, min(low + CHUNK, count))
+
+    def project(block: slice) -> None:
+        stages(view, faces, x, y, depth, block.start, block.stop)
+
+    for _ in mapped(project, slices(count, CHUNK)):
+        pass
     _through_near_plane(view, faces)
     return faces
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.geometry.columns import cross
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.repair.winding import unbalanced_vertices
@@ -275,8 +277,8 @@ def _sharp_vertices(faces: Faces, angle_deg: float) -> Bools:
     sharp = np.zeros(len(chosen), dtype=np.bool_)
     limit = np.float32(np.cos(np.radians(angle_deg) / 2.0) + COSINE_OF_SINGLES)
     count = len(faces.offsets) - 1
-    blocks = [slice(low, min(low + BLOCK, count)) for low in range(0, count, BLOCK)]
-    normals = [_packed_normals(faces, block) for block in blocks]
+    blocks = slices(count, BLOCK)
+    normals = list(mapped(partial(_packed_normals, faces), blocks))
     for block, normal in zip(blocks, normals, strict=True):
         for corners, at_corner in _corner_runs(faces, block, normal):
             chosen[corners] = at_corner

@@ -9,7 +9,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.meshes.edges import Faces, unit_normals
 from vectorplot.geometry import ragged, records
-from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes
+from vectorplot.geometry.boxes import overlapping_boxes
+from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.geometry.columns import cross, dot
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.records import IN_COLUMNS
@@ -17,6 +18,9 @@ from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 SLIM_FACES, FEWEST_PAIRS = 12, 1024
 """Parts of so few faces are looked at more closely where so many pairs of boxes overlap."""
+
+FACES_AT_ONCE = 1 << 15
+"""Pairs of faces, or of slim parts, looked at at once: what is worked out about them stays in the processor's cache."""
 
 AXIS_SHIFT = 16.0
 """Coordinates stay below this; pairs of parts are kept apart on a sweep's axis by multiples of it."""
@@ -87,8 +91,8 @@ def face_intersections(faces: Faces, part: Ints, tolerance: float) -> Intersecti
     none = np.zeros((3, 0))
     found = [Intersections(none, none, np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
     one, two = _pairs_of_faces(faces, part, tolerance)
-    for first in range(0, len(one), PAIRS_AT_ONCE):
-        found.append(_meet(faces, one[first : first + PAIRS_AT_ONCE], two[first : first + PAIRS_AT_ONCE], tolerance))
+    chunks = slices(len(one), FACES_AT_ONCE)
+    found.extend(mapped(lambda some: _meet(faces, one[some], two[some], tolerance), chunks))
     whole = records.joined(found)
     return records.some(whole, _first_of_equal(whole.start, whole.end, tolerance))
 
@@ -134,13 +138,17 @@ def _may_meet(faces: Faces, part: Ints, one: Ints, two: Ints, tolerance: float) 
     offsets = np.searchsorted(part[slim[face]][order], np.arange(int(part.max()) + 2))
     along = _longest_edges(faces, part)
     kept = np.flatnonzero((np.diff(offsets)[one] > 0) & (np.diff(offsets)[two] > 0))
-    for first in range(0, len(kept), PAIRS_AT_ONCE):
-        pair = kept[first : first + PAIRS_AT_ONCE]
+
+    def apart(some: slice) -> Ints:
+        pair = kept[some]
         axis = cross(along[:, one[pair]], along[:, two[pair]])
         spans = [_spans(faces, corner, offsets, which[pair], axis) for which in (one, two)]
         gap = tolerance * np.sqrt((axis * axis).sum(axis=0))
-        apart = (spans[0][0] > spans[1][1] + gap) | (spans[1][0] > spans[0][1] + gap)
-        close[pair[apart]] = False
+        away = (spans[0][0] > spans[1][1] + gap) | (spans[1][0] > spans[0][1] + gap)
+        return np.asarray(pair[away], dtype=np.intp)
+
+    for pairs in mapped(apart, slices(len(kept), FACES_AT_ONCE)):
+        close[pairs] = False
     return close
 
 

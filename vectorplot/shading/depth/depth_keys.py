@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.shading.raster import coverage
 from vectorplot.shading.raster.coverage import Boxes, Fragments, Snapped
 
@@ -26,6 +27,9 @@ KEY_BITS = 62
 
 SETUP_AT_ONCE = 1 << 16
 """So many triangles are set up at a time."""
+
+SMALL_AT_ONCE = 1 << 13
+"""So many triangles are looked for small ones at once: their fragments are all held until it is their turn."""
 
 TILES_AT_ONCE = 1 << 11
 """So many pairs of a triangle and a tile are looked at before the tiles' depths are taken anew."""
@@ -131,12 +135,17 @@ def keys_before(task: Task, number: Ints, opaque: Keys) -> tuple[Ints, Keys]:
 def _cover(keys: Keys, task: Task, number: Ints, take: Take) -> None:
     """Offer the keys of the triangles with some numbers; keys: those that are in front so far."""
     others = [np.zeros(0, dtype=np.intp)]
-    for begin in range(0, len(number), SETUP_AT_ONCE):
-        planes = _planes(task, number[begin : begin + SETUP_AT_ONCE])
-        others.append(planes.number[~planes.box.small])
+
+    def small_ones(some: slice) -> tuple[Ints, list[tuple[Ints, Keys]]]:
+        planes = _planes(task, number[some])
         small = np.flatnonzero(planes.box.small)
-        for fragments in coverage.small_fragments(planes.triangles, planes.box, small, task.stride):
-            take(fragments.pixel, _keys(task, planes, fragments))
+        every = coverage.small_fragments(planes.triangles, planes.box, small, task.stride)
+        return planes.number[~planes.box.small], [(found.pixel, _keys(task, planes, found)) for found in every]
+
+    for larger, found in mapped(small_ones, slices(len(number), SMALL_AT_ONCE)):
+        others.append(larger)
+        for pixel, key in found:
+            take(pixel, key)
     _cover_by_tiles(keys, task, np.concatenate(others), take)
 
 

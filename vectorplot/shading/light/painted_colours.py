@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.geometry.columns import cross, dot
 from vectorplot.scene.scene import Item, Light
 from vectorplot.scene.view import View
@@ -76,13 +77,17 @@ def corner_shades_of(view: View, lighting: Lighting, points: Floats, offsets: In
     if not len(every):
         return found
     flat_normals, inside = face_normals(view), shows_inside(view)
-    for low in range(0, len(every), POINTS_AT_ONCE):
-        at = every[low : low + POINTS_AT_ONCE]
+
+    def shade(some: slice) -> None:
+        at = every[some]
         normals = _normals_on(view, lighting.normals, flat_normals[:, face[at]], points[:, at], face[at])
         turned = np.where(inside[face[at]], -normals, normals)
         own = point_shades(view, lighting.items, lighting.lights, points[:, at].T, turned.T, view.face_item[face[at]])
         found.shares[:, at], found.matt[:, at] = own.shares, own.matt
         found.backlit[:, at], found.cue[at] = own.backlit, own.cue
+
+    for _ in mapped(shade, slices(len(every), POINTS_AT_ONCE)):
+        pass
     return found
 
 

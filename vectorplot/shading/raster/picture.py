@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.cameras.projection import CoordinateSystem
+from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.shading.depth.coplanar import CoplanarFaces, ranked
 from vectorplot.shading.depth.depth_buffer import DepthBuffer, layers_before, strip
 from vectorplot.shading.light.lighting import Lighting, shaded_points
@@ -97,12 +98,15 @@ def shaded(picture: Picture, buffer: DepthBuffer) -> Colours:
     colours = np.empty((rows * columns, 3), dtype=np.float32)
     colours[:] = picture.background
     step = max(1, picture.shaded_at_once // columns)
-    for top in range(0, rows, step):
-        part = slice(top, top + step)
-        piece = replace(buffer, code=buffer.code[part], triangle=buffer.triangle[part], top=buffer.top + top)
+
+    def shade(part: slice) -> None:
+        piece = replace(buffer, code=buffer.code[part], triangle=buffer.triangle[part], top=buffer.top + part.start)
         found = visible_points(piece, picture.homogeneous, picture.triangles.corners)
         made = shaded_points(picture.triangles, found, picture.lighting)
-        colours[found.pixel + top * columns] = made.colours
+        colours[found.pixel + part.start * columns] = made.colours
+
+    for _ in mapped(shade, slices(rows, step)):
+        pass
     return colours.reshape(rows, columns, 3)
 
 

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.projection import CoordinateSystem
+from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.shading.depth.depth_buffer import depth_codes
 from vectorplot.shading.depth.depth_code import DepthCode
 from vectorplot.shading.raster.screen import HalfSpace, screen_triangles
@@ -232,9 +233,9 @@ def blocked(found: ShadowMap, points: ArrayLike, normals: ArrayLike) -> Bools:
     """
     p, n = (np.asarray(x, dtype=np.float64).reshape(-1, 3) for x in (points, normals))
     result = np.zeros(len(p), dtype=np.bool_)
-    for begin in range(0, len(p), POINTS_AT_ONCE):
-        part = slice(begin, begin + POINTS_AT_ONCE)
-        result[part] = _behind(found, p[part], n[part])
+    parts = slices(len(p), POINTS_AT_ONCE)
+    for part, behind in zip(parts, mapped(lambda part: _behind(found, p[part], n[part]), parts), strict=True):
+        result[part] = behind
     return result
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -12,16 +13,17 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.scene.twins import first_twins
 from vectorplot.scene.view import View
 from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra.cells import covered_cells, entered
-from vectorplot.visibility.polyhedra.grid import Floats32, Grid, Pieces
+from vectorplot.visibility.polyhedra.grid import Entries, Floats32, Grid, Pieces
 from vectorplot.visibility.polyhedra.occluders import Occluders, face_occluders, joined, solid_occluders
 from vectorplot.visibility.polyhedra.pairs import Hits, Segments, clip_pairs
 from vectorplot.visibility.projected_faces import CHUNK, ProjectedFaces
 
-PAIRS_AT_ONCE = 1 << 17
+PAIRS_AT_ONCE = 1 << 15
 """Pairs of a piece and an occluder handled at once."""
 
 MOST_SLABS, IN_SLAB = 24, 4000
@@ -242,11 +244,13 @@ def _occluders(view: View, faces: ProjectedFaces, solid: Bools, grid: Grid, deep
     """Everything that could hide a piece: convex solids as such, of other items the faces that reach a piece's cell."""
     hiding = view.occludes & ~solid
     kept = [np.zeros(0, dtype=np.intp)]
-    for low in range(0, view.face_count, CHUNK):
-        block = slice(low, low + CHUNK)
+
+    def reaching(block: slice) -> Ints:
         near = grids.reaching(grid, deepest, faces.box[:, block], faces.nearest[block])
         near &= (faces.facing[block] != 0) & hiding[view.face_item[block]]
-        kept.append(low + np.flatnonzero(near))
+        return np.asarray(block.start + np.flatnonzero(near), dtype=np.intp)
+
+    kept.extend(mapped(reaching, slices(view.face_count, CHUNK)))
     by_face = face_occluders(view, faces, np.concatenate(kept))
     if not solid.any():
         return by_face
@@ -272,6 +276,17 @@ def _all_hits(
     boxes = _packed(np.stack([left, -right, bottom, -top]))
     left, right, bottom, top = pieces.box
     piece_boxes = _packed(np.stack([right, -left, top, -bottom]))
+
+    def clipped(entries: Entries, pairs: tuple[Ints, Ints]) -> tuple[Ints, Hits, Ints]:
+        piece, occluder = pairs[0], entries.thing[pairs[1]]
+        close = np.flatnonzero(_overlapping(piece_boxes[piece], boxes[occluder]))
+        piece, occluder = piece[close], occluder[close]
+        close = np.flatnonzero(occluders.nearest[occluder] < pieces.farthest[piece])
+        piece, occluder = piece[close], occluder[close]
+        segment, low, high = pieces.segment[piece], pieces.low[piece], pieces.high[piece]
+        beyond = pieces.nearest[piece] > occluders.farthest[occluder]
+        return piece, clip_pairs(view, segments, occluders, segment, occluder, low, high, beyond), occluder
+
     bounds = np.linspace(0, len(order), slabs + 1).astype(np.intp)
     for begin, end in pairwise(bounds.tolist()):
         if begin == end:
@@ -281,15 +296,8 @@ def _all_hits(
         for level in entries.levels():
             which = np.flatnonzero(alive & (pieces.farthest > occluders.nearest[slab[0]]))
             at = grid.numbers(pieces.column[which] >> level, pieces.row[which] >> level, level)
-            for piece, entry in _expanded(*entries.of(at), which):
-                occluder = entries.thing[entry]
-                close = np.flatnonzero(_overlapping(piece_boxes[piece], boxes[occluder]))
-                piece, occluder = piece[close], occluder[close]
-                close = np.flatnonzero((occluders.nearest[occluder] < pieces.farthest[piece]) & alive[piece])
-                piece, occluder = piece[close], occluder[close]
-                segment, low, high = pieces.segment[piece], pieces.low[piece], pieces.high[piece]
-                beyond = pieces.nearest[piece] > occluders.farthest[occluder]
-                yield piece, clip_pairs(view, segments, occluders, segment, occluder, low, high, beyond), occluder
+            # A piece is in one block of a level only: whether it is still alive is the same for all of its pairs.
+            yield from mapped(partial(clipped, entries), _expanded(*entries.of(at), which))
         progress(float(end) / len(order))
 
 
