@@ -56,7 +56,7 @@ class ShadowBuffer:
     Parameters
     ----------
     maps : tuple of ShadowMap
-        None where there is nothing that casts shadows.
+        Empty where nothing casts shadows.
 
     Notes
     -----
