@@ -87,7 +87,18 @@ class Lines:
         return len(self.kind)
 
     def some(self, which: Ints | Bools) -> Lines:
-        """Some of the lines."""
+        """Some of the lines, in the order asked for.
+
+        Parameters
+        ----------
+        which : (k,) array of int, or (n,) array of bool
+            Their numbers, or whether each is wanted.
+
+        Returns
+        -------
+        Lines
+            With all that is said of them.
+        """
         return Lines(
             self.start[:, which],
             self.end[:, which],
@@ -100,9 +111,24 @@ class Lines:
         )
 
     def ends(self, view: View, which: Ints, low: Floats, high: Floats) -> tuple[Floats, Floats]:
-        """Both ends (3,k) of parts of lines, from low to high (k,) of those with the indices which (k,).
+        """Both ends of parts of lines.
 
-        Where a part goes on to an end of its line it is exactly that; inside of a chord it is on the curve.
+        Parameters
+        ----------
+        view : View
+            What the lines are lines of.
+        which : (k,) array of int
+            Of which line each is a part.
+        low, high : (k,) array of float
+            From where to where, 0 to 1.
+
+        Returns
+        -------
+        (3, k) array of float
+            The first ends. Where a part goes on to an end of its line it is exactly that; inside of a chord it is on
+            the curve.
+        (3, k) array of float
+            The second ends.
         """
         start, end = _divided(self.start[:, which], self.end[:, which], low, high)
         if self.chords:
@@ -110,7 +136,18 @@ class Lines:
         return start, end
 
     def cut(self, view: View, which: Ints, low: Floats, high: Floats) -> Lines:
-        """The same parts as lines."""
+        """Parts of lines as lines.
+
+        Parameters
+        ----------
+        view, which, low, high : View and array
+            As of ends.
+
+        Returns
+        -------
+        Lines
+            k of them.
+        """
         some = self.some(which)
         start, end = _divided(some.start, some.end, low, high)
         if not some.chords:
