@@ -1,6 +1,6 @@
 """Sizes of painted surfaces as files, for docs/paint.md: run with ``pytest tests/bench/bench_sizes.py -s``.
 
-Each surface alone, at the default tolerance on A4, in the default view, without lights of its own.
+Each surface alone, on A4, in the default view, without lights of its own, at several tolerances.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from vectorplot.save import write
 pytestmark = pytest.mark.bench
 
 FORMATS = ("svg", "pdf", "ps")
+TOLERANCES_MM = (0.02, 0.05, 0.2)
 SURFACES = {
     "sphere": "sphere 1",
     "torus": "torus 3 1",
@@ -25,22 +26,23 @@ SURFACES = {
 }
 
 
-def sizes(surface: str, folder: str) -> list[float]:
+def sizes(surface: str, folder: str, tolerance_mm: float) -> list[float]:
     """The sizes of a picture of a surface in kB, one a format, and the seconds that it takes without writing."""
     with open(f"{folder}/a.scene", "w", encoding="utf-8") as file:
         file.write(f"S gray surface {surface}\n")
     start = time.process_time()
-    drawing = vp.paint(vp.read(f"{folder}/a.scene"))
+    drawing = vp.paint(vp.read(f"{folder}/a.scene"), tolerance_mm=tolerance_mm)
     seconds = time.process_time() - start
     return [*(len(write(drawing, form)) / 1000.0 for form in FORMATS), seconds]
 
 
 def report(folder: str) -> str:
     """The sizes as a table of Markdown."""
-    rows = [f"| | {' | '.join(form.upper() for form in FORMATS)} | seconds |", "| --- " * 5 + "|"]
+    columns = [f"{form.upper()} at {size:g}" for size in TOLERANCES_MM for form in (*FORMATS, "seconds")]
+    rows = [f"| | {' | '.join(columns)} |", "| --- " * (len(columns) + 1) + "|"]
     for name, surface in SURFACES.items():
-        *found, seconds = sizes(surface, folder)
-        rows.append(f"| {name} | {' | '.join(f'{size:.0f}' for size in found)} | {seconds:.1f} |")
+        found = [sizes(surface, folder, size) for size in TOLERANCES_MM]
+        rows.append(f"| {name} | {' | '.join(f'{number:.3g}' for some in found for number in some)} |")
     return "\n".join(rows)
 
 

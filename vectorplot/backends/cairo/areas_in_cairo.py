@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.backends.cairo.mesh_borders import border_sides, last_of_sides, rings, skirts
+from vectorplot.backends.cairo.mesh_borders import border_sides, last_of_sides, outer_sides, rings, skirts
 from vectorplot.backends.page.areas import Areas
 from vectorplot.backends.page.underlaps import Underlaps, grown, underlaps
 from vectorplot.geometry import ragged
@@ -93,7 +93,7 @@ def _paint_mesh(
     context.save()
     if opacity == 1.0:
         sides = border_sides(corners)
-        seen = sides[last_of_sides(corners, sides)]
+        seen = outer_sides(corners, sides[last_of_sides(corners, sides)])
         _seams(context, place.of(corners[seen]), colours[seen].mean(axis=1), seam)
         _ground(context, place, corners, colours.reshape(-1, 3, 3).mean(axis=1))
         patches = np.concatenate((skirts(corners, seen), patches))

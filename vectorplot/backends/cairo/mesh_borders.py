@@ -9,6 +9,12 @@ from vectorplot.arrays import Floats, Ints
 REACH_MICRONS = 450.0
 """The width of skirts."""
 
+BESIDE_MICRONS = 40.0
+"""So far from sides it is looked for what is next to them: half of a line around opaque polygons, and less."""
+
+LOOKS = np.array((0.01, 0.15, 0.3, 0.5, 0.7, 0.85, 0.99))
+"""Where along sides."""
+
 
 def border_sides(corners: Ints) -> Ints:
     """(s,2) the sides that more triangles have in one direction than in the other, by the numbers of their ends.
@@ -37,6 +43,22 @@ def last_of_sides(corners: Ints, sides: Ints) -> Ints:
     place = places_of(corners)[sides]
     _, first = np.unique(place[::-1], axis=0, return_index=True)
     return np.sort(len(sides) - 1 - first)
+
+
+def outer_sides(corners: Ints, sides: Ints) -> Ints:
+    """Those of sides (s,2) of triangles (3 t, 2), counter-clockwise, with a place next to them, outside, that no
+    triangle covers: where a surface folds over before itself its border needs nothing around it."""
+    import shapely
+
+    start, end = corners[sides[:, 0]].astype(np.float64), corners[sides[:, 1]].astype(np.float64)
+    way = end - start
+    out = np.stack((way[:, 1], -way[:, 0]), axis=1) * (BESIDE_MICRONS / np.hypot(*way.T))[:, None]
+    places = start + LOOKS[:, None, None] * way + out
+    closed = corners.reshape(-1, 3, 2)[:, [0, 1, 2, 0]].astype(np.float64)
+    tree = shapely.STRtree(shapely.polygons(closed))
+    inside = np.zeros(places.shape[0] * len(sides), dtype=np.bool_)
+    inside[tree.query(shapely.points(places.reshape(-1, 2)), predicate="intersects")[0]] = True
+    return sides[~inside.reshape(len(LOOKS), -1).all(axis=0)]
 
 
 def places_of(corners: Ints) -> Ints:
