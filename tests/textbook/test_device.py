@@ -15,9 +15,10 @@ from vectorplot.geometry import clipping
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.projection import CoordinateSystem, PixelWindow
 from vectorplot.geometry.clipping import Box, Window
+from vectorplot.shading.light.depth_cueing import LEAST, depth_shades
 from vectorplot.testing.shapes import box
 from vectorplot.textbook import framebuffer
-from vectorplot.textbook.device import Device
+from vectorplot.textbook.device import DepthCueing, Device
 
 COLUMNS, ROWS = 60, 45
 
@@ -149,6 +150,41 @@ def test_a_pixel_by_exclusive_or_comes_back(below, number):
     once = device.moved((9, 9)).rubber_band((9, 9))
     assert once.pixel(9, 9) == below ^ number and once.pixel(8, 9) == below
     assert once.rubber_band((9, 9)).pixel(9, 9) == below
+
+
+@pytest.mark.capability("G4.4-hw-depthcue")
+@pytest.mark.parametrize("seed", range(12))
+def test_devices_with_depth_cueing_shade_lines_by_their_depths_while_it_is_on(seed):
+    rng = np.random.default_rng(seed)
+    start, end = rng.uniform((-10, -10, -3), (70, 55, 3), (2, 3))
+    cueing = DepthCueing(-1.5, 2.0, 16, 47)
+    plain = line(blank(), start, end)
+    shaded = line(blank().with_depth_cueing(cueing), start, end)
+    assert drawn_on(shaded) == drawn_on(plain), "the same pixels"
+    (x0, y0), (x1, y1) = np.rint(start[:2]), np.rint(end[:2])
+    for column, row in drawn_on(shaded):
+        share = (column - x0) / (x1 - x0) if abs(x1 - x0) >= abs(y1 - y0) else (row - y0) / (y1 - y0)
+        depth = start[2] + share * (end[2] - start[2])
+        # Linear within the range, and no further beyond it.
+        exact = 16 + 31 * min(max((depth + 1.5) / 3.5, 0.0), 1.0)
+        assert abs(shaded.pixel(column, row) - exact) <= 0.5 + 1e-9
+    # Off again: the colour counts, and depths do not.
+    assert drawn_on(line(shaded.with_depth_cueing(None), start, end)) == drawn_on(plain)
+    again = line(shaded.with_depth_cueing(None), start, end)
+    assert {again.pixel(*place) for place in drawn_on(plain)} <= {7}
+
+
+@pytest.mark.capability("G4.4-hw-depthcue")
+def test_depth_cueing_by_a_device_is_that_of_the_verb_to_half_a_shade():
+    """The nearest end has the top shade, the farthest a fifth, as in wireframes."""
+    cueing = DepthCueing(-3.0, 5.0, round(LEAST * 31), 31)
+    depth = np.linspace(-4.0, 6.0, 41)
+    assert np.abs(cueing.numbers(depth) - 31 * depth_shades(depth, -3.0, 5.0)).max() <= 0.75
+    for wrong in ((1.0, 1.0, 0, 9), (2.0, 1.0, 0, 9), (0.0, np.inf, 0, 9), (0.0, 1.0, -1, 9), (0.0, 1.0, 0, 256)):
+        with pytest.raises(InputError):
+            DepthCueing(*wrong)
+    with pytest.raises(InputError, match="depth"):
+        line(blank().with_depth_cueing(cueing), (1, 1), (5, 5, 0.0))
 
 
 def solid(device):

@@ -1,5 +1,5 @@
 from .depth_queries import depth_planes, points_visible, visible_line_pixels
-from .device import Device
+from .device import DepthCueing, Device
 from .erasing_faces import Erased, erasing_edges, interleaved
 from .framebuffer import (
     Framebuffer,
@@ -37,6 +37,7 @@ from .viewing_matrices import (
 )
 
 __all__ = [
+    "DepthCueing",
     "Device",
     "Erased",
     "Framebuffer",

@@ -10,11 +10,67 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.clipping import Polygons
+from vectorplot.shading.raster.pixel_lines import line_pixels
 from vectorplot.textbook import framebuffer
 from vectorplot.textbook.framebuffer import Framebuffer
+
+
+@dataclass(frozen=True)
+class DepthCueing:
+    """How a device shades lines by their depths, which grow towards the eye.
+
+    Parameters
+    ----------
+    farthest, nearest : float
+        The range of depths; beyond its ends nothing changes any more.
+    first, last : int
+        The colour numbers there, 0 to 255.
+
+    Raises
+    ------
+    InputError
+        For a range that is none, and for what is no colour number.
+
+    Notes
+    -----
+    Source: Glaeser, section 4.4 (devices with depth cueing of their own).
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import DepthCueing
+    >>> DepthCueing(-1.0, 1.0, 10, 20).numbers([-5.0, 0.0, 1.0]).tolist()
+    [10, 15, 20]
+    """
+
+    farthest: float
+    nearest: float
+    first: int
+    last: int
+
+    def __post_init__(self) -> None:
+        if not -np.inf < self.farthest < self.nearest < np.inf:
+            raise InputError(f"depths from {self.farthest:g} to {self.nearest:g}: expected a range of finite numbers")
+        for number in (self.first, self.last):
+            _check_number(number)
+
+    def numbers(self, depth: ArrayLike) -> Ints:
+        """The colour numbers of depths, linear between the limits.
+
+        Parameters
+        ----------
+        depth : (...) array_like of float
+            They grow towards the eye.
+
+        Returns
+        -------
+        (...) array of int
+            Of the nearest whole numbers.
+        """
+        near = np.interp(np.asarray(depth, dtype=np.float64), (self.farthest, self.nearest), (0.0, 1.0))
+        return np.rint(self.first + near * (self.last - self.first)).astype(np.intp)
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,19 +83,22 @@ class Device:
         None while it is closed.
     colour : int
         The number that is drawn with, 0 to 255.
-    position : (2,) array of float, optional
-        Where the next line starts, in pixels.
+    position : (2,) or (3,) array of float, optional
+        Where the next line starts, in pixels, and its depth.
     area : tuple of (2,) array of float
         The corners of the polygon that is being described, in pixels.
     keys : str
         Characters typed and not yet asked for.
     bells : int
         How often it has beeped.
+    cueing : DepthCueing, optional
+        Shades lines by their depths, in place of colour; None while that is off.
 
     Raises
     ------
     InputError
-        For drawing while the window is closed, for drawing on before a first move.
+        For drawing while the window is closed, for drawing on before a first move; while lines are shaded by depth for
+        ends of lines without one.
 
     Notes
     -----
@@ -61,6 +120,7 @@ class Device:
     area: tuple[Floats, ...] = ()
     keys: str = ""
     bells: int = 0
+    cueing: DepthCueing | None = None
 
     @property
     def frame(self) -> Framebuffer:
@@ -157,9 +217,23 @@ class Device:
         InputError
             For another number.
         """
-        if not 0 <= number <= 255:
-            raise InputError(f"colour number {number}: expected 0 to 255")
+        _check_number(number)
         return replace(self, colour=int(number))
+
+    def with_depth_cueing(self, cueing: DepthCueing | None) -> Device:
+        """The device shading lines by their depths from here on.
+
+        Parameters
+        ----------
+        cueing : DepthCueing, optional
+            The depths and their colour numbers; None: no longer.
+
+        Returns
+        -------
+        Device
+            After that.
+        """
+        return replace(self, cueing=cueing)
 
     def pixel(self, column: int, row: int) -> int:
         """The colour number of a pixel on the drawn page.
@@ -214,7 +288,7 @@ class Device:
         Device
             After that.
         """
-        return replace(self, position=_plane(point))
+        return replace(self, position=_place(point))
 
     def drawn(self, point: ArrayLike) -> Device:
         """The device with a line from the current position to a point, which is the next position.
@@ -222,7 +296,7 @@ class Device:
         Parameters
         ----------
         point : (2 or more,) array_like of float
-            Column and row, whole or not.
+            Column and row, whole or not, and a depth.
 
         Returns
         -------
@@ -232,9 +306,11 @@ class Device:
         Raises
         ------
         InputError
-            Without a window, and before a first move.
+            Without a window, and before a first move; for ends without a depth while lines are shaded by it.
         """
-        start, end = self._start(), _plane(point)
+        start, end = self._start(), _place(point)
+        if self.cueing is not None:
+            return replace(self, window=_with_shaded_line(self.frame, start, end, self.cueing), position=end)
         return replace(self, window=framebuffer.with_lines(self.frame, [start], [end], self.colour), position=end)
 
     def rubber_band(self, point: ArrayLike) -> Device:
@@ -255,7 +331,7 @@ class Device:
         InputError
             Without a window, and before a first move.
         """
-        start, end = self._start(), _plane(point)
+        start, end = self._start(), _place(point)
         return replace(
             self, window=framebuffer.with_rubber_bands(self.frame, [start], [end], self.colour), position=end
         )
@@ -318,9 +394,30 @@ class Device:
         return self.position
 
 
-def _plane(point: ArrayLike) -> Floats:
-    """(2,) the first two components of a point."""
+def _check_number(number: int) -> None:
+    if not 0 <= number <= 255:
+        raise InputError(f"colour number {number}: expected 0 to 255")
+
+
+def _place(point: ArrayLike) -> Floats:
+    """(2,) or (3,) the first two components of a point, and its depth if it has one."""
     p = np.asarray(point, dtype=np.float64)
     if p.ndim != 1 or len(p) < 2 or not np.isfinite(p).all():
         raise InputError("a point needs two finite numbers")
-    return np.asarray(p[:2])
+    return np.asarray(p[:3])
+
+
+def _plane(point: ArrayLike) -> Floats:
+    """(2,) the first two components of a point."""
+    return _place(point)[:2]
+
+
+def _with_shaded_line(frame: Framebuffer, start: Floats, end: Floats, cueing: DepthCueing) -> Framebuffer:
+    """With a line whose colour number follows its depth, pixel by pixel."""
+    if len(start) < 3 or len(end) < 3:
+        raise InputError("a line that is shaded by its depth needs a depth at both ends")
+    _, rows, columns, _ = frame.pages.shape
+    for pixels in line_pixels([start], [end], columns, rows):
+        numbers = cueing.numbers(start[2] + pixels.share * (end[2] - start[2]))
+        frame = framebuffer.with_pixels(frame, np.column_stack([pixels.column, pixels.row]), numbers[:, None])
+    return frame

@@ -151,6 +151,11 @@ def test_world_to_screen_and_back(p, ratio, parallel):
     camera = Camera(EYE, TARGET, twist_deg=20.0, parallel=parallel)
     screen = CoordinateSystem.of_screen(camera, PixelWindow(800, 600, ratio))
     assert np.allclose(screen.to_world(screen.from_world(p)), p, rtol=0, atol=1e-9)
+    # The same by one product of matrices, and one division.
+    *pixel, depth, weight = screen.homogeneous(p)
+    assert np.allclose(np.array(pixel) / weight, screen.from_world(p)[:2], rtol=0, atol=1e-8) and weight > 0.0
+    star = screen.rotated(p)[2] if parallel else pr.collineate(screen.rotated(p), screen.distance)[2]
+    assert depth / weight == pytest.approx(star, abs=1e-12)
 
 
 @pytest.mark.capability("G2.3-window")
