@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
-from vectorplot.visibility.quadrics.sight import Sight
+from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates
 from vectorplot.words import LineKind
 
 
@@ -46,7 +46,7 @@ class Arcs:
         slopes = np.where(straight, first, cosine * second - sine * first)
         return points, slopes, np.where(straight, 0.0, -along)
 
-    def in_view(self, sight: Sight) -> Arcs:
+    def in_view(self, sight: EyeCoordinates) -> Arcs:
         """The arcs in the coordinates of the view."""
         first, second = sight.vectors(self.first), sight.vectors(self.second)
         return replace(self, middle=sight.points_of_view(self.middle), first=first, second=second)
@@ -95,7 +95,7 @@ def joined_arcs(parts: Sequence[tuple[Arcs, OwnSides]]) -> tuple[Arcs, OwnSides]
     return records.joined(arcs), records.joined(sides)
 
 
-def beyond_near(sight: Sight, arcs: Arcs, sides: OwnSides) -> tuple[Arcs, OwnSides]:
+def beyond_near(sight: EyeCoordinates, arcs: Arcs, sides: OwnSides) -> tuple[Arcs, OwnSides]:
     """The parts of arcs of conics that are no nearer to the eye than the near plane."""
     if not sight.central:
         return arcs, sides

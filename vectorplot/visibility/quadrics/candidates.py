@@ -10,7 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra.grid import Floats32, Grid
-from vectorplot.visibility.quadrics.covers import Covers
+from vectorplot.visibility.quadrics.bodies.covers import Covers
 from vectorplot.visibility.quadrics.pieces import Pieces
 
 FINEST = 1024.0

@@ -22,15 +22,15 @@ from vectorplot.tolerances.of_values import HOMOTHETIC
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines, kinds_of
 from vectorplot.visibility.quadrics.arcs import Arcs, OwnSides, beyond_near, joined_arcs
-from vectorplot.visibility.quadrics.ball_arcs import ball_arcs
-from vectorplot.visibility.quadrics.ball_meetings import (
+from vectorplot.visibility.quadrics.bodies.balls import Balls, balls_of
+from vectorplot.visibility.quadrics.conic_curves import ConicArcs
+from vectorplot.visibility.quadrics.lines.ball_arcs import ball_arcs
+from vectorplot.visibility.quadrics.lines.ball_meetings import (
     are_homothetic,
     balls_with_balls,
     balls_with_faces,
     overlapping_balls,
 )
-from vectorplot.visibility.quadrics.balls import Balls, balls_of
-from vectorplot.visibility.quadrics.conic_curves import ConicArcs
 from vectorplot.words import LineKind
 
 Seen = Callable[[Balls, Arcs, OwnSides], Visibility]

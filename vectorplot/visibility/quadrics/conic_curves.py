@@ -12,7 +12,7 @@ from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import WHOLE_TURN
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.visibility.quadrics.arcs import Arcs
-from vectorplot.visibility.quadrics.sight import Sight
+from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates, eye_coordinates
 from vectorplot.visibility.smooth.sheets.family import Along, Chords
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
@@ -47,7 +47,7 @@ class ConicArcs:
 
 def conic_curves(view: View, arcs: Arcs, behind: Ints, tolerance: float) -> Curves:
     """Arcs, hidden by behind (n,) items already, with chords off them by no more than the tolerance in the image."""
-    sight = Sight(view)
+    sight = eye_coordinates(view)
     count = np.clip(np.ceil(_bends(sight, view.focus, arcs) / np.sqrt(8.0 * tolerance)), FEWEST, MOST).astype(np.intp)
     arc, step = ragged.owner(count + 1), ragged.place(count + 1)
     t = arcs.low[arc] + (arcs.high - arcs.low)[arc] * step / count[arc]
@@ -74,7 +74,7 @@ def conic_curves(view: View, arcs: Arcs, behind: Ints, tolerance: float) -> Curv
     )
 
 
-def _bends(sight: Sight, focus: float, arcs: Arcs) -> Floats:
+def _bends(sight: EyeCoordinates, focus: float, arcs: Arcs) -> Floats:
     """(n,) the length of each arc's way times the root of the largest second derivative of its image: with that many
     chords, times the root of an eighth, they are a unit off."""
     span = arcs.high - arcs.low

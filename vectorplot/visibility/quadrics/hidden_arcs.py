@@ -14,10 +14,10 @@ from vectorplot.geometry import ragged, records
 from vectorplot.geometry.vectors import dot
 from vectorplot.visibility.polyhedra.hidden_lines import SLIVER, Progress, Visibility
 from vectorplot.visibility.quadrics.arcs import Arcs, OwnSides
-from vectorplot.visibility.quadrics.balls import Balls
+from vectorplot.visibility.quadrics.bodies.balls import Balls
+from vectorplot.visibility.quadrics.bodies.covers import Covers, ball_covers
 from vectorplot.visibility.quadrics.candidates import close_pairs, grid_of, typical_size
 from vectorplot.visibility.quadrics.clip import hidden_zones
-from vectorplot.visibility.quadrics.covers import Covers, ball_covers
 from vectorplot.visibility.quadrics.pieces import Pieces, cut_arcs, packed_box
 
 IN_SLAB, FEWEST_SLABS, MOST_SLABS = 1500, 4, 24

@@ -11,7 +11,7 @@ from vectorplot.geometry import ragged, records
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.visibility.polyhedra.grid import Floats32
 from vectorplot.visibility.quadrics.arcs import Arcs
-from vectorplot.visibility.quadrics.sight import Sight
+from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates
 
 IN_A_TURN = 8
 """Pieces of a whole turn: fewer have larger boxes, which more things overlap; more cost more."""
@@ -52,7 +52,7 @@ class Pieces:
         return np.where(t <= 0.0, middle - half, np.where(t >= 1.0, middle + half, middle + turned))
 
 
-def cut_arcs(sight: Sight, arcs: Arcs, typical: float) -> Pieces:
+def cut_arcs(sight: EyeCoordinates, arcs: Arcs, typical: float) -> Pieces:
     """The arcs in pieces; typical: the size of what hides, in the image."""
     reach = np.sqrt(arcs.first * arcs.first + arcs.second * arcs.second)
     size = reach.max(axis=1, initial=0.0)

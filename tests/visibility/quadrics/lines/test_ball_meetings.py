@@ -11,13 +11,13 @@ from vectorplot.scene.view import look
 from vectorplot.surfaces.balls import ball_of
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.testing.shapes import box, prism
-from vectorplot.visibility.quadrics.ball_meetings import (
+from vectorplot.visibility.quadrics.bodies.balls import balls_of
+from vectorplot.visibility.quadrics.lines.ball_meetings import (
     are_homothetic,
     balls_with_balls,
     balls_with_faces,
     overlapping_balls,
 )
-from vectorplot.visibility.quadrics.balls import balls_of
 
 
 def setup(shapes, meshes=(), eye=(20, -14, 9)):

@@ -8,9 +8,9 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.visibility.polyhedra.grid import Floats32
-from vectorplot.visibility.quadrics.balls import Balls
+from vectorplot.visibility.quadrics.bodies.balls import Balls
+from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates
 from vectorplot.visibility.quadrics.pieces import packed_box
-from vectorplot.visibility.quadrics.sight import Sight
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +77,7 @@ def _inside(balls: Balls, which: Ints, box: Floats32) -> Covers:
     return Covers(none, squares, _slack(balls, which), which, item, box, depth - reach, depth + reach)
 
 
-def _seen(sight: Sight, part: Floats, weight: float) -> Floats:
+def _seen(sight: EyeCoordinates, part: Floats, weight: float) -> Floats:
     """(n,3) what is seen of points or vectors (n,3)."""
     return np.concatenate([part, np.full((len(part), 1), weight)], axis=1)[:, sight.seen]
 
@@ -87,7 +87,7 @@ def _slack(balls: Balls, which: Ints) -> Floats:
     return np.asarray(2.0 * balls.tolerance / balls.reach[which].min(axis=1, initial=np.inf))
 
 
-def disc_boxes(sight: Sight, middle: Floats, first: Floats, second: Floats) -> tuple[Floats, Floats]:
+def disc_boxes(sight: EyeCoordinates, middle: Floats, first: Floats, second: Floats) -> tuple[Floats, Floats]:
     """Lower left and upper right corners (2,n) of the images of elliptic discs with these middles and conjugate radii
     (n,3); NaN where a disc comes before the near plane."""
     if not sight.central:

@@ -13,7 +13,7 @@ from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.quadrics.arcs import Arcs, OwnSides, arcs_on
-from vectorplot.visibility.quadrics.balls import Balls
+from vectorplot.visibility.quadrics.bodies.balls import Balls
 from vectorplot.words import LineKind
 
 Found = tuple[Arcs, OwnSides]

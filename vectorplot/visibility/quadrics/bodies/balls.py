@@ -14,7 +14,7 @@ from vectorplot.geometry.vectors import dot
 from vectorplot.scene.scene import Item
 from vectorplot.scene.view import View
 from vectorplot.surfaces.balls import Ball
-from vectorplot.visibility.quadrics.sight import Sight
+from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates, eye_coordinates
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,7 +22,7 @@ class Balls:
     """Images of the unit sphere in the coordinates of sight: the points centre + s @ frame; centre (n,3),
     frame (n,3,3), item (n,); hides (n,); tolerance: what counts as distance zero."""
 
-    sight: Sight
+    sight: EyeCoordinates
     centre: Floats
     frame: Floats
     item: Ints
@@ -99,7 +99,7 @@ class Balls:
 
 def balls_of(view: View, items: Sequence[Item], which: Ints, balls: Sequence[Ball]) -> Balls:
     """Balls of the world, those of the items which (n,), as the eye of a view sees them."""
-    sight = Sight(view)
+    sight = eye_coordinates(view)
     centre = np.array([ball.centre for ball in balls]).reshape(-1, 3)
     frame = np.array([ball.frame for ball in balls]).reshape(-1, 3, 3)
     turned = view.axes.T / view.scale

@@ -16,9 +16,9 @@ from vectorplot.tolerances.of_values import HOMOTHETIC
 from vectorplot.visibility.polyhedra.hidden_lines import SLIVER
 from vectorplot.visibility.projected_faces import newell
 from vectorplot.visibility.quadrics.arcs import arcs_on
-from vectorplot.visibility.quadrics.ball_arcs import Found, on_balls, own_sides, plane_circles, unit_planes
-from vectorplot.visibility.quadrics.balls import Balls
-from vectorplot.visibility.quadrics.sight import Sight
+from vectorplot.visibility.quadrics.bodies.balls import Balls
+from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates
+from vectorplot.visibility.quadrics.lines.ball_arcs import Found, on_balls, own_sides, plane_circles, unit_planes
 from vectorplot.words import LineKind
 
 
@@ -111,7 +111,7 @@ def balls_with_faces(view: View, balls: Balls, wants: Bools) -> Found:
     return _within_faces(view, points, balls, (middle, first, second), ball, face, normal, wants)
 
 
-def _planes(view: View, sight: Sight, face: Ints) -> tuple[Floats, Floats]:
+def _planes(view: View, sight: EyeCoordinates, face: Ints) -> tuple[Floats, Floats]:
     """Unit normals (n,3) of faces (n,) in the coordinates of sight, zero where there are none, and a corner of each."""
     which, number = np.unique(face, return_inverse=True)
     area, _, first = newell(view, which)

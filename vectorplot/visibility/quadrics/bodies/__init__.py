@@ -1,0 +1,1 @@
+"""Convex bodies of quadrics as the eye sees them, and what they hide."""

@@ -1,0 +1,1 @@
+"""The lines on bodies, and those in which they meet each other and polyhedra."""
