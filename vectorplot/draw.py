@@ -340,7 +340,7 @@ def _seen_among_balls(walk: Walk, stage: str, view: View) -> Seen:
     from vectorplot.visibility.quadrics import hidden_arcs
 
     if walk.calls_for("all lines"):
-        return hidden_arcs.whole_arcs
+        return lambda bodies, arcs, sides: hidden_arcs.whole_arcs(arcs)
     done = walk.fraction(stage)
     if walk.calls_for("visible lines"):
         return partial(hidden_arcs.visible_arcs, progress=done)

@@ -17,6 +17,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.placement import box_corners, field_of_vision
 from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.surfaces.balls import ball_of
+from vectorplot.surfaces.capped_quadrics import capped_quadric_of
 from vectorplot.words import LineKind
 
 P = ParamSpec("P")
@@ -81,16 +82,16 @@ def plan_draw(
         stages.append(Stage("patterns", "faces carry patterns"))
     if wanted & {LineKind.ISOPHOTE, LineKind.SECTION} and any(map(_has_mesh_lines, scene.items)):
         stages.append(Stage("lines on meshes", "polyhedra carry isophotes or sections"))
-    balls = any(ball_of(item.shape) is not None for item in scene.items)
+    balls = any(ball_of(item.shape) or capped_quadric_of(item.shape) for item in scene.items)
     if balls:
-        stages.append(Stage("balls", "spheres and ellipsoids, and the conics on them"))
+        stages.append(Stage("balls", "spheres, ellipsoids and capped bodies, and the conics on them"))
     if any(not isinstance(item.shape, Mesh) for item in scene.items):
         stages.append(Stage("curves", "items are smooth surfaces"))
         if style == "plain":
             stages.append(Stage("smooth surfaces", "they hide curves and lines"))
     stages.append(Stage("frame", "what is in front of the eye and inside the picture"))
     if balls and style == "plain":
-        stages.append(Stage("behind balls", "spheres and ellipsoids hide lines"))
+        stages.append(Stage("behind balls", "spheres, ellipsoids and capped bodies hide lines"))
     if style != "plain":
         stages.append(Stage("all lines", f"nothing hides anything in the style {style}"))
     elif hidden == "none":

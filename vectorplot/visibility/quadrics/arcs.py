@@ -59,11 +59,11 @@ class Arcs:
 @dataclass(frozen=True, eq=False)
 class OwnSides:
     """What bodies hide of curves on themselves: where the linear form (k,4) is negative, arc (k,) is turned away on the
-    ball (k,), and on those that are equal to it."""
+    body (k,), and on those that are equal to it."""
 
     arc: Ints
     form: Floats
-    ball: Ints
+    body: Ints
 
 
 def arcs_on(
@@ -81,6 +81,13 @@ def arcs_on(
     return Arcs(*circles, *span, straight, np.full(count, int(kind)), item, own, sides)
 
 
+def lines_on(start: Floats, way: Floats, kind: LineKind, item: Ints, own: Ints, side: Ints | None = None) -> Arcs:
+    """Straight lines of one kind from start (n,3) all their way (n,3)."""
+    count = len(item)
+    arcs = arcs_on((start, way, np.zeros_like(way)), (np.zeros(count), np.ones(count)), kind, item, own, side)
+    return replace(arcs, straight=np.ones(count, dtype=np.bool_))
+
+
 def joined_arcs(parts: Sequence[tuple[Arcs, OwnSides]]) -> tuple[Arcs, OwnSides]:
     """All arcs of all parts, and what their own bodies hide of them."""
     none, number = np.zeros((0, 3)), np.zeros(0)
@@ -96,11 +103,12 @@ def joined_arcs(parts: Sequence[tuple[Arcs, OwnSides]]) -> tuple[Arcs, OwnSides]
 
 
 def beyond_near(sight: EyeCoordinates, arcs: Arcs, sides: OwnSides) -> tuple[Arcs, OwnSides]:
-    """The parts of arcs of conics that are no nearer to the eye than the near plane."""
+    """The parts of arcs that are no nearer to the eye than the near plane."""
     if not sight.central:
         return arcs, sides
     # Depth is base + reach cos(t - turn): no less than near within half of turn.
     base, reach = arcs.middle[:, 2], np.hypot(arcs.first[:, 2], arcs.second[:, 2])
+    reach = np.where(arcs.straight, np.abs(arcs.first[:, 2]) * np.maximum(np.abs(arcs.low), np.abs(arcs.high)), reach)
     doubtful = base - reach < sight.near
     if not doubtful.any():
         return arcs, sides
@@ -109,7 +117,12 @@ def beyond_near(sight: EyeCoordinates, arcs: Arcs, sides: OwnSides) -> tuple[Arc
         half = np.arccos(np.clip((sight.near - base) / reach, -1.0, 1.0))
     half = np.where(base + reach < sight.near, -1.0, np.where(reach > 0.0, half, np.pi))
     which, low, high = [np.flatnonzero(~doubtful)], [arcs.low[~doubtful]], [arcs.high[~doubtful]]
-    some = np.flatnonzero(doubtful)
+    some = np.flatnonzero(doubtful & arcs.straight)
+    begin, end = _beyond(sight.near - base[some], arcs.first[some, 2], arcs.low[some], arcs.high[some])
+    which.append(some[begin < end])
+    low.append(begin[begin < end])
+    high.append(end[begin < end])
+    some = np.flatnonzero(doubtful & ~arcs.straight)
     for turns in (-1.0, 0.0, 1.0):
         middle = turn[some] + 2.0 * np.pi * turns
         begin, end = np.maximum(middle - half[some], arcs.low[some]), np.minimum(middle + half[some], arcs.high[some])
@@ -123,4 +136,13 @@ def beyond_near(sight: EyeCoordinates, arcs: Arcs, sides: OwnSides) -> tuple[Arc
     first = np.searchsorted(sides.arc[order], np.arange(len(arcs) + 1))
     count = np.diff(first)[chosen]
     index = order[ragged.ranges(first[chosen], count)]
-    return cut, OwnSides(ragged.owner(count), sides.form[index], sides.ball[index])
+    return cut, OwnSides(ragged.owner(count), sides.form[index], sides.body[index])
+
+
+def _beyond(least: Floats, slope: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
+    """From where to where (n,), between low and high, t times the slope is at least so much."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at = least / slope
+    begin = np.where(slope > 0.0, np.maximum(low, at), low)
+    end = np.where(slope < 0.0, np.minimum(high, at), high)
+    return begin, np.where((slope == 0.0) & (least > 0.0), low, end)

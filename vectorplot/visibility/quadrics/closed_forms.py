@@ -18,11 +18,14 @@ from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.balls import Ball, ball_of
+from vectorplot.surfaces.capped_quadrics import capped_quadric_of
 from vectorplot.tolerances.of_values import HOMOTHETIC
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines, kinds_of
 from vectorplot.visibility.quadrics.arcs import Arcs, OwnSides, beyond_near, joined_arcs
-from vectorplot.visibility.quadrics.bodies.balls import Balls, balls_of
+from vectorplot.visibility.quadrics.bodies.balls import balls_of
+from vectorplot.visibility.quadrics.bodies.bodies import Bodies
+from vectorplot.visibility.quadrics.bodies.capped import capped_bodies_of
 from vectorplot.visibility.quadrics.conic_curves import ConicArcs
 from vectorplot.visibility.quadrics.lines.ball_arcs import ball_arcs
 from vectorplot.visibility.quadrics.lines.ball_meetings import (
@@ -31,18 +34,25 @@ from vectorplot.visibility.quadrics.lines.ball_meetings import (
     balls_with_faces,
     overlapping_balls,
 )
+from vectorplot.visibility.quadrics.lines.body_meetings import (
+    capped_at_faces,
+    circles_on_one_axis,
+    on_one_axis,
+    overlapping_capped,
+)
+from vectorplot.visibility.quadrics.lines.capped_arcs import capped_arcs
 from vectorplot.words import LineKind
 
-Seen = Callable[[Balls, Arcs, OwnSides], Visibility]
+Seen = Callable[[Bodies, Arcs, OwnSides], Visibility]
 """What becomes of arcs: the visible parts, or all of them counted."""
 
 
 @dataclass(frozen=True, eq=False)
 class ClosedForms:
-    """The balls of a scene, and the parts of arcs on them that are seen among them; behind (n,): by how many items each
-    is hidden."""
+    """The bodies of a scene, and the parts of arcs on them that are seen among them; behind (n,): by how many items
+    each is hidden."""
 
-    balls: Balls
+    bodies: Bodies
     arcs: Arcs
     behind: Ints
 
@@ -52,14 +62,14 @@ class ClosedForms:
     @property
     def items(self) -> frozenset[int]:
         """The items that are drawn in closed form."""
-        return frozenset(self.balls.item.tolist())
+        return frozenset(self.bodies.item.tolist())
 
     @property
     def reached(self) -> Floats:
-        """(3,k) points of the view that enclose the balls."""
-        balls = self.balls
-        corners = [balls.centre + balls.reach * sign for sign in _CORNERS]
-        return np.concatenate([balls.sight.points_of_view(some).T for some in corners], axis=1)
+        """(3,k) points of the view that enclose the bodies."""
+        low, high = self.bodies.reach[:, 0], self.bodies.reach[:, 1]
+        corners = [np.where(pick, high, low) for pick in _CORNERS]
+        return np.concatenate([self.bodies.sight.points_of_view(some).T for some in corners], axis=1)
 
 
 CURVE_PIECES = 256
@@ -68,38 +78,41 @@ CURVE_PIECES = 256
 BOX_SLACK = 0.01
 """Boxes are made larger by this part on every side: a curve may bulge between the points looked at."""
 
-_CORNERS = np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, 1.0, -1.0)
+_CORNERS = np.array(list(np.ndindex(2, 2, 2)), dtype=np.bool_)
 
 
 def closed_forms(scene: Scene, view: View, kinds: frozenset[LineKind], seen: Seen) -> ClosedForms:
-    """The spheres and ellipsoids of a scene of which all lines that are asked for are conics, and these lines.
+    """The bodies of a scene of which all lines that are asked for are conics and straight, and these lines.
 
-    The others are smooth surfaces like any other: those with the eye inside, with curves of their own, isophotes of
-    ellipsoids and of lamps inside, ellipsoids that meet others of another form, and all that meet surfaces which are no
-    balls themselves.
+    Bodies are spheres and ellipsoids, and frusta and parts of balls between caps. The others are smooth surfaces like
+    any other: those with the eye inside, with curves of their own, isophotes of all but spheres and of lamps inside,
+    sections of capped bodies, ellipsoids that meet others of another form, capped bodies that meet anything but a ball
+    on their axis, and all that meet surfaces which are no bodies themselves.
     """
-    balls = _balls(scene, view, kinds)
+    bodies = _bodies(scene, view, kinds)
     wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
-    one, two = overlapping_balls(balls)
-    balls, one, two = _apart(scene, view, balls, one, two, wants)
+    bodies, balls, mixed = _apart(scene, view, bodies, wants)
 
     def asked(item: Item, kind: LineKind) -> bool:
         return kind in kinds_of(item, kinds)
 
-    parts = ball_arcs(scene, view, balls, asked)
-    parts.append(balls_with_balls(balls, one, two, wants[balls.item]))
-    parts.append(balls_with_faces(view, balls, wants))
-    arcs, sides = beyond_near(balls.sight, *joined_arcs(parts))
-    found = seen(balls, arcs, sides)
+    wanting = wants[bodies.item]
+    parts = ball_arcs(scene, view, bodies.balls, asked)
+    parts.append(balls_with_balls(bodies.balls, *balls, wanting[: len(bodies.balls)]))
+    parts.append(balls_with_faces(view, bodies.balls, wants))
+    parts += capped_arcs(scene, bodies.capped, len(bodies.balls), asked)
+    parts.append(circles_on_one_axis(bodies, *mixed, wanting))
+    arcs, sides = beyond_near(bodies.sight, *joined_arcs(parts))
+    found = seen(bodies, arcs, sides)
     chosen = arcs.some(found.segment)
     span = chosen.high - chosen.low
     low, high = chosen.low + found.low * span, np.where(found.high < 1.0, chosen.low + found.high * span, chosen.high)
-    return ClosedForms(balls, replace(chosen, low=low, high=high), found.hidden_by)
+    return ClosedForms(bodies, replace(chosen, low=low, high=high), found.hidden_by)
 
 
 def lines_behind(view: View, forms: ClosedForms, lines: Lines, seen: Seen) -> Lines:
-    """Lines beyond the near plane, cut where balls begin or end to hide them, and what is seen of them; the arcs on the
-    balls themselves as they are."""
+    """Lines beyond the near plane, cut where bodies begin or end to hide them, and what is seen of them; the arcs on
+    the bodies themselves as they are."""
     own = np.zeros(len(lines), dtype=np.bool_)
     if lines.chords is not None:
         curves = lines.chords.curves
@@ -107,7 +120,7 @@ def lines_behind(view: View, forms: ClosedForms, lines: Lines, seen: Seen) -> Li
         chord = lines.chords.chord
         own[chord >= 0] = conic[curves.family[curves.owner[chord[chord >= 0]]]]
     others = np.flatnonzero(~own)
-    sight = forms.balls.sight
+    sight = forms.bodies.sight
     start, end = sight.points(lines.start[:, others].T), sight.points(lines.end[:, others].T)
     count = len(others)
     arcs = Arcs(
@@ -123,7 +136,7 @@ def lines_behind(view: View, forms: ClosedForms, lines: Lines, seen: Seen) -> Li
         lines.side[others],
     )
     none = np.zeros(0, dtype=np.intp)
-    found = seen(forms.balls, arcs, OwnSides(none, np.zeros((0, 4)), none))
+    found = seen(forms.bodies, arcs, OwnSides(none, np.zeros((0, 4)), none))
     kept = np.flatnonzero(own)
     which = np.concatenate([kept, others[found.segment]])
     low = np.concatenate([np.zeros(len(kept)), found.low])
@@ -133,7 +146,7 @@ def lines_behind(view: View, forms: ClosedForms, lines: Lines, seen: Seen) -> Li
     return replace(cut, behind=cut.behind + hidden)
 
 
-def _balls(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Balls:
+def _bodies(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Bodies:
     """The items of which all that is wanted has a closed form, by themselves."""
     found = [(number, ball) for number, item in enumerate(scene.items) if (ball := ball_of(item.shape))]
     which = np.array([number for number, _ in found], dtype=np.intp)
@@ -145,7 +158,19 @@ def _balls(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Balls:
     usual = np.array(
         [_is_conic(scene, view, scene.items[number], ball, kinds) for number, ball in found], dtype=np.bool_
     )
-    return balls.some(np.flatnonzero(outside & usual))
+    balls = balls.some(np.flatnonzero(outside & usual))
+    ends = [(number, body) for number, item in enumerate(scene.items) if (body := capped_quadric_of(item.shape))]
+    simple = [(number, body) for number, body in ends if _has_simple_lines(scene.items[number], kinds)]
+    which = np.array([number for number, _ in simple], dtype=np.intp)
+    capped = capped_bodies_of(view, scene.items, which, [body for _, body in simple])
+    return Bodies(balls, capped.some(~capped.has_eye_inside))
+
+
+def _has_simple_lines(item: Item, kinds: frozenset[LineKind]) -> bool:
+    """Whether an item asks for lines that are straight or conics on any capped body."""
+    lines, wanted = item.curves, kinds_of(item, kinds)
+    curved = (lines.paths, LineKind.CURVE), (lines.isophotes, LineKind.ISOPHOTE), (lines.sections, LineKind.SECTION)
+    return not any(asked and kind in wanted for asked, kind in curved)
 
 
 def _is_conic(scene: Scene, view: View, item: Item, ball: Ball, kinds: frozenset[LineKind]) -> bool:
@@ -166,46 +191,83 @@ def _is_conic(scene: Scene, view: View, item: Item, ball: Ball, kinds: frozenset
     return light.parallel or float(np.sum((np.asarray(light.position) - ball.centre) ** 2)) > square
 
 
-def _apart(scene: Scene, view: View, balls: Balls, one: Ints, two: Ints, wants: Bools) -> tuple[Balls, Ints, Ints]:
-    """The balls of which all intersections that are wanted are conics, and the pairs of these that overlap."""
-    asked = wants[balls.item]
-    pairs = np.flatnonzero(asked[one] | asked[two])
-    meeting = _meets_others(scene, view, balls, wants)
-    meeting[one[pairs]] |= (odd := ~are_homothetic(balls, one[pairs], two[pairs])[0])
-    meeting[two[pairs]] |= odd
+Pairs = tuple[Ints, Ints]
+
+
+def _apart(scene: Scene, view: View, bodies: Bodies, wants: Bools) -> tuple[Bodies, Pairs, Pairs]:
+    """The bodies of which all intersections that are wanted have closed forms; the pairs of balls that overlap, and of
+    balls and capped bodies that meet."""
+    count, asked = len(bodies.balls), wants[bodies.item]
+    one, two = overlapping_balls(bodies.balls)
+    first, second = overlapping_capped(bodies)
+    both = asked[first] | asked[second]
+    first, second = first[both], second[both]
+    mixed = first < count
+    meeting = _meets_others(scene, view, bodies, wants)
+    body, face = capped_at_faces(view, bodies.capped)
+    meeting[count + body[asked[count + body] | wants[view.face_item[face]]]] = True
+    balls = np.flatnonzero(asked[one] | asked[two])
+    pairs = np.concatenate([np.stack([one[balls], two[balls]]), np.stack([first, second])], axis=1)
+    closed = np.concatenate([are_homothetic(bodies.balls, one[balls], two[balls])[0], np.zeros(len(first), np.bool_)])
+    closed[len(balls) :][mixed] = on_one_axis(bodies, first[mixed], second[mixed] - count)
+    meeting[pairs[:, ~closed]] = True
     while True:
-        # What meets such a ball is one too: their curve is traced on both.
-        joined = pairs[meeting[one[pairs]] != meeting[two[pairs]]]
-        if not len(joined):
+        # What meets such a body is one too: their curve is traced on both.
+        linked = pairs[:, meeting[pairs[0]] != meeting[pairs[1]]]
+        if not linked.size:
             break
-        meeting[one[joined]] = meeting[two[joined]] = True
+        meeting[linked] = True
     number = np.cumsum(~meeting) - 1
-    both = ~meeting[one] & ~meeting[two]
-    return balls.some(np.flatnonzero(~meeting)), number[one[both]], number[two[both]]
+    left = int((~meeting[:count]).sum())
+    kept = ~meeting[one] & ~meeting[two]
+    inner = mixed & ~meeting[first] & ~meeting[second]
+    mixed_pairs = number[first[inner]], number[second[inner]] - left
+    return bodies.some(~meeting), (number[one[kept]], number[two[kept]]), mixed_pairs
 
 
-def _meets_others(scene: Scene, view: View, balls: Balls, wants: Bools) -> Bools:
-    """(n,) which balls may have an intersection that is wanted with a smooth surface that is not among them, or carry
-    a curve that is an item: chords of one that lies on a ball are inside of it."""
-    mine = frozenset(balls.item.tolist())
+def _meets_others(scene: Scene, view: View, bodies: Bodies, wants: Bools) -> Bools:
+    """(n,) which bodies may have an intersection that is wanted with a smooth surface that is not among them, or carry
+    a curve that is an item: chords of one that lies on a body are inside of it."""
+    mine = frozenset(bodies.item.tolist())
     others = [number for number, item in enumerate(scene.items) if number not in mine and _is_smooth(item)]
-    result = np.zeros(len(balls), dtype=np.bool_)
-    if not others or not len(balls):
+    result = np.zeros(len(bodies), dtype=np.bool_)
+    if not others or not len(bodies):
         return result
     boxes = [_boxes(scene.items[number]) for number in others]
     low, high = (np.concatenate(column, axis=1) for column in zip(*boxes, strict=True))
     owner = np.repeat(np.array(others, dtype=np.intp), [box[0].shape[1] for box in boxes])
-    turned = view.axes * view.scale
-    centre = balls.sight.points_of_view(balls.centre) @ turned + view.centre
-    frame = balls.sight.vectors(balls.frame) @ turned
-    reach = np.sqrt((frame * frame).sum(axis=1))
-    ball, box = overlapping_boxes((centre - reach).T, (centre + reach).T, low, high)
-    beside = np.maximum(np.maximum(low[:, box].T - centre[ball], centre[ball] - high[:, box].T), 0.0)
-    near = np.sqrt(dot(beside, beside)) <= np.linalg.norm(frame[ball], ord=2, axis=(1, 2))
-    ball, box = ball[near], box[near]
+    own_low, own_high, longest = _world_boxes(view, bodies)
+    body, box = overlapping_boxes(own_low.T, own_high.T, low, high)
+    centre = 0.5 * (own_low + own_high)
+    beside = np.maximum(np.maximum(low[:, box].T - centre[body], centre[body] - high[:, box].T), 0.0)
+    near = np.sqrt(dot(beside, beside)) <= longest[body]
+    body, box = body[near], box[near]
     carries = np.array([is_curve(item.shape) for item in scene.items], dtype=np.bool_)
-    result[ball[carries[owner[box]] | wants[owner[box]] | wants[balls.item[ball]]]] = True
+    result[body[carries[owner[box]] | wants[owner[box]] | wants[bodies.item[body]]]] = True
     return result
+
+
+def _world_boxes(view: View, bodies: Bodies) -> tuple[Floats, Floats, Floats]:
+    """Smallest and largest coordinates (n,3) of bodies in the world, and (n,) how far they reach from the middle of
+    these at most."""
+    turned = view.axes * view.scale
+    centre = bodies.sight.points_of_view(bodies.balls.centre) @ turned + view.centre
+    frame = bodies.sight.vectors(bodies.balls.frame) @ turned
+    reach = np.sqrt((frame * frame).sum(axis=1))
+    farthest = np.linalg.norm(frame, ord=2, axis=(1, 2)) if len(frame) else np.zeros(0)
+    capped, every = bodies.capped, np.arange(len(bodies.capped))
+    sides = []
+    for axis in np.concatenate([-np.eye(3), np.eye(3)]):
+        direction = np.broadcast_to(bodies.sight.vectors(axis @ view.axes.T), (len(capped), 3))
+        points = bodies.sight.points_of_view(capped.farthest(every, direction)) @ turned + view.centre
+        sides.append(points @ np.abs(axis))
+    low, high = np.stack(sides[:3], axis=1), np.stack(sides[3:], axis=1)
+    diagonal = 0.5 * np.sqrt(dot(high - low, high - low))
+    return (
+        np.concatenate([centre - reach, low]),
+        np.concatenate([centre + reach, high]),
+        np.concatenate([farthest, diagonal]),
+    )
 
 
 def _is_smooth(item: Item) -> bool:

@@ -49,6 +49,7 @@ def conic_curves(view: View, arcs: Arcs, behind: Ints, tolerance: float) -> Curv
     """Arcs, hidden by behind (n,) items already, with chords off them by no more than the tolerance in the image."""
     sight = eye_coordinates(view)
     count = np.clip(np.ceil(_bends(sight, view.focus, arcs) / np.sqrt(8.0 * tolerance)), FEWEST, MOST).astype(np.intp)
+    count[arcs.straight] = 1
     arc, step = ragged.owner(count + 1), ragged.place(count + 1)
     t = arcs.low[arc] + (arcs.high - arcs.low)[arc] * step / count[arc]
     last = step == count[arc]

@@ -14,8 +14,8 @@ from vectorplot.geometry import ragged, records
 from vectorplot.geometry.vectors import dot
 from vectorplot.visibility.polyhedra.hidden_lines import SLIVER, Progress, Visibility
 from vectorplot.visibility.quadrics.arcs import Arcs, OwnSides
-from vectorplot.visibility.quadrics.bodies.balls import Balls
-from vectorplot.visibility.quadrics.bodies.covers import Covers, ball_covers
+from vectorplot.visibility.quadrics.bodies.bodies import Bodies
+from vectorplot.visibility.quadrics.bodies.covers import Covers
 from vectorplot.visibility.quadrics.candidates import close_pairs, grid_of, typical_size
 from vectorplot.visibility.quadrics.clip import hidden_zones
 from vectorplot.visibility.quadrics.pieces import Pieces, cut_arcs, packed_box
@@ -40,47 +40,47 @@ class _Hidden:
     whole: Bools
 
 
-def whole_arcs(balls: Balls, arcs: Arcs, sides: OwnSides) -> Visibility:
+def whole_arcs(arcs: Arcs) -> Visibility:
     """All of every arc, as if nothing hid it."""
     count = len(arcs)
     return Visibility(np.arange(count), np.zeros(count), np.ones(count), np.zeros(count, dtype=np.intp))
 
 
-def visible_arcs(balls: Balls, arcs: Arcs, sides: OwnSides, progress: Progress) -> Visibility:
-    """The visible parts of arcs among balls, as parts of their way from low to high.
+def visible_arcs(bodies: Bodies, arcs: Arcs, sides: OwnSides, progress: Progress) -> Visibility:
+    """The visible parts of arcs among bodies, as parts of their way from low to high.
 
     What lies on a contour is visible. Parts below ten tolerances are left out.
     Source: as hidden_lines; the forms along rational arcs are this package's own.
     """
-    # Of equal balls one hides what all of them do.
-    hiding = np.flatnonzero(balls.hides)
-    _, first = np.unique(balls.same[hiding], return_index=True)
-    covers = ball_covers(balls, hiding[first])
-    pieces = cut_arcs(balls.sight, arcs, typical_size(covers))
+    # Of equal bodies one hides what all of them do.
+    hiding = np.flatnonzero(bodies.hides)
+    _, first = np.unique(bodies.same[hiding], return_index=True)
+    covers = bodies.covers(hiding[first])
+    pieces = cut_arcs(bodies.sight, arcs, typical_size(covers))
     alive = np.ones(len(pieces), dtype=np.bool_)
     found = []
-    for hidden in _hidden_zones(balls, covers, pieces, alive, arcs, sides, MOST_SLABS, progress):
+    for hidden in _hidden_zones(bodies, covers, pieces, alive, arcs, sides, MOST_SLABS, progress):
         alive[hidden.piece[hidden.whole]] = False
         found.append(hidden)
     zones = records.joined(found)
-    gap = _gaps(arcs, balls.tolerance)
+    gap = _gaps(arcs, bodies.tolerance)
     union = intervals.union(zones.arc, zones.low, zones.high, gap)
     owner, low, high = intervals.complement(len(arcs), *union, gap)
     return Visibility(owner, low, high, np.zeros(len(owner), dtype=np.intp))
 
 
-def counted_arcs(balls: Balls, arcs: Arcs, sides: OwnSides, items: int, progress: Progress) -> Visibility:
+def counted_arcs(bodies: Bodies, arcs: Arcs, sides: OwnSides, items: int, progress: Progress) -> Visibility:
     """All parts of arcs with the number of items, of so many in all, that hide each.
 
     The visible parts are those of visible_arcs.
     """
-    covers = ball_covers(balls, np.flatnonzero(balls.hides))
-    side, ball = balls.hiding_alike(sides.ball)
-    sides = OwnSides(sides.arc[side], sides.form[side], ball)
-    pieces = cut_arcs(balls.sight, arcs, typical_size(covers))
+    covers = bodies.covers(np.flatnonzero(bodies.hides))
+    side, body = bodies.hiding_alike(sides.body)
+    sides = OwnSides(sides.arc[side], sides.form[side], body)
+    pieces = cut_arcs(bodies.sight, arcs, typical_size(covers))
     alive = np.ones(len(pieces), dtype=np.bool_)
-    zones = records.joined(list(_hidden_zones(balls, covers, pieces, alive, arcs, sides, 1, progress)))
-    gap = _gaps(arcs, balls.tolerance)
+    zones = records.joined(list(_hidden_zones(bodies, covers, pieces, alive, arcs, sides, 1, progress)))
+    gap = _gaps(arcs, bodies.tolerance)
     key, owner = np.unique(zones.arc * items + zones.item, return_inverse=True)
     of, low, high = intervals.union(owner.reshape(-1), zones.low, zones.high, gap[key // items])
     arc = key[of] // items
@@ -102,7 +102,7 @@ def _gaps(arcs: Arcs, tolerance: float) -> Floats:
 
 
 def _hidden_zones(
-    balls: Balls,
+    bodies: Bodies,
     covers: tuple[Covers, ...],
     pieces: Pieces,
     alive: Bools,
@@ -111,23 +111,23 @@ def _hidden_zones(
     slabs: int,
     progress: Progress,
 ) -> Iterator[_Hidden]:
-    """What balls hide of the pieces of arcs that are alive, front to back; first what they hide of themselves."""
-    for turned, piece, side in _own_pairs(balls, pieces, sides, len(arcs)):
-        yield _zones(pieces, arcs, turned, piece, side, balls.tolerance)
+    """What bodies hide of the pieces of arcs that are alive, front to back; first what they hide of themselves."""
+    for turned, piece, side in _own_pairs(bodies, pieces, sides, len(arcs)):
+        yield _zones(pieces, arcs, turned, piece, side, bodies.tolerance)
     grid = grid_of(pieces, typical_size(covers))
-    own = np.where(arcs.own >= 0, balls.same[arcs.own] if len(balls) else -1, -1)
+    own = np.where(arcs.own >= 0, bodies.same[arcs.own] if len(bodies) else -1, -1)
     steps = list(_slabs(covers, slabs))
     for number, (some, slab) in enumerate(steps):
         for piece, cover in close_pairs(grid, pieces, alive, some, slab):
-            body = balls.same[some.body[cover]]
+            body = bodies.same[some.body[cover]]
             other = (own[pieces.arc[piece]] != body[:, None]).all(axis=1)
-            yield _zones(pieces, arcs, some, piece[other], cover[other], balls.tolerance)
+            yield _zones(pieces, arcs, some, piece[other], cover[other], bodies.tolerance)
         progress((number + 1.0) / len(steps))
 
 
 def _slabs(covers: tuple[Covers, ...], most: int) -> Iterator[tuple[Covers, Ints]]:
     """The covers of all kinds front to back, slab by slab."""
-    nearest = np.concatenate([some.nearest for some in covers])
+    nearest = np.concatenate([np.zeros(0), *(some.nearest for some in covers)])
     if not len(nearest):
         return
     count = min(max(len(nearest) // IN_SLAB, FEWEST_SLABS), most)
@@ -141,16 +141,16 @@ def _slabs(covers: tuple[Covers, ...], most: int) -> Iterator[tuple[Covers, Ints
                 yield some, order[begin:end]
 
 
-def _own_pairs(balls: Balls, pieces: Pieces, sides: OwnSides, arcs: int) -> Iterator[tuple[Covers, Ints, Ints]]:
+def _own_pairs(bodies: Bodies, pieces: Pieces, sides: OwnSides, arcs: int) -> Iterator[tuple[Covers, Ints, Ints]]:
     """Blocks (covers, piece, cover) of what bodies hide of arcs on themselves."""
     offsets = np.searchsorted(pieces.arc, np.arange(arcs + 1))
     for low in range(0, max(len(sides.arc), 1), OWN_AT_ONCE):
         block = slice(low, low + OWN_AT_ONCE)
-        arc, form, ball = sides.arc[block], sides.form[block], sides.ball[block]
+        arc, form, body = sides.arc[block], sides.form[block], sides.body[block]
         size = offsets[arc + 1] - offsets[arc]
         none = np.zeros(len(arc))
         nowhere = packed_box(np.zeros((2, len(arc))), np.zeros((2, len(arc))))
-        turned = Covers(-form.T[None], np.zeros((0, 4, len(arc))), none, ball, balls.item[ball], nowhere, none, none)
+        turned = Covers(-form.T[None], np.zeros((0, 4, len(arc))), none, body, bodies.item[body], nowhere, none, none)
         yield turned, ragged.ranges(offsets[arc], size), ragged.owner(size)
 
 

@@ -9,7 +9,6 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.scene import Item
 from vectorplot.scene.view import View
@@ -56,16 +55,14 @@ class Balls:
         shape = np.einsum("nki,nkj->nij", self.frame, self.frame).reshape(-1, 9)
         size = self.reach.max(axis=1, initial=0.0, keepdims=True)
         numbers = np.concatenate([self.centre, shape / np.where(size > 0.0, size, 1.0)], axis=1)
-        key = np.round(numbers / (4.0 * self.tolerance)).astype(np.int64)
-        _, first, group = np.unique(key, axis=0, return_index=True, return_inverse=True)
-        return np.asarray(first[group.reshape(-1)])
+        return same_numbers(numbers, self.tolerance)
 
-    def hiding_alike(self, which: Ints) -> tuple[Ints, Ints]:
-        """The balls that hide and are equal to balls which (k,), these included: index into which, and ball (n,)."""
-        hiding = np.flatnonzero(self.hides)
-        hiding = hiding[np.argsort(self.same[hiding], kind="stable")]
-        first, last = (np.searchsorted(self.same[hiding], self.same[which], side) for side in ("left", "right"))
-        return ragged.owner(last - first), hiding[ragged.ranges(first, last - first)]
+    def farthest(self, which: Ints, directions: Floats) -> Floats:
+        """(k,3) points of balls which (k,) that reach as far in directions (k,3) as they do."""
+        s = np.einsum("nij,nj->ni", self.frame[which], directions)
+        size = np.sqrt(dot(s, s))
+        s /= np.where(size > 0.0, size, 1.0)[:, None]
+        return np.asarray(self.centre[which] + np.einsum("ni,nij->nj", s, self.frame[which]))
 
     def polar_planes(self, which: Ints) -> Floats:
         """(k,4) linear forms, of unit gradient, positive on the eye's side of the polar plane: where a ball shows."""
@@ -106,6 +103,13 @@ def balls_of(view: View, items: Sequence[Item], which: Ints, balls: Sequence[Bal
     hides = np.array([items[k].hides for k in which.tolist()], dtype=np.bool_)
     in_view = (centre - view.centre) @ turned
     return Balls(sight, sight.points(in_view), sight.vectors(frame @ turned), which, hides, view.tolerance)
+
+
+def same_numbers(numbers: Floats, tolerance: float) -> Ints:
+    """(n,) the first of the rows (n,k) that are equal to each, but for the tolerance."""
+    key = np.round(numbers / (4.0 * tolerance)).astype(np.int64)
+    _, first, group = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    return np.asarray(first[group.reshape(-1)])
 
 
 def across(directions: Floats) -> tuple[Floats, Floats]:

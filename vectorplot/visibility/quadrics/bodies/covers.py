@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.visibility.polyhedra.grid import Floats32
 from vectorplot.visibility.quadrics.bodies.balls import Balls
 from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates
@@ -23,12 +24,12 @@ class Covers:
     body (n,): the ball; item (n,); box (4,n) left, right, bottom, top in the image; nearest, farthest (n,) depth.
     """
 
-    linear: Floats
-    squares: Floats
+    linear: Floats = field(metadata=IN_COLUMNS)
+    squares: Floats = field(metadata=IN_COLUMNS)
     slack: Floats
     body: Ints
     item: Ints
-    box: Floats32
+    box: Floats32 = field(metadata=IN_COLUMNS)
     nearest: Floats
     farthest: Floats
 
@@ -47,15 +48,10 @@ def ball_covers(balls: Balls, which: Ints) -> tuple[Covers, Covers]:
 
 
 def _behind(balls: Balls, which: Ints, contours: tuple[Floats, Floats, Floats], box: Floats32) -> Covers:
-    m, p, q = (_seen(balls.sight, part, w) for part, w in zip(contours, (1.0, 0.0, 0.0), strict=True))
-    rows = np.stack([np.cross(p, q), np.cross(q, m), np.cross(m, p)], axis=1)
-    volume = (rows[:, 0] * m).sum(axis=1)
-    squares = np.zeros((3, 4, len(which)))
-    squares[:, balls.sight.seen] = (rows / volume[:, None, None]).transpose(1, 2, 0)
     middle, first, second = contours
     return Covers(
         -balls.polar_planes(which).T[None],
-        squares,
+        outlines(balls.sight, contours),
         _slack(balls, which),
         which,
         balls.item[which],
@@ -63,6 +59,18 @@ def _behind(balls: Balls, which: Ints, contours: tuple[Floats, Floats, Floats], 
         middle[:, 2] - np.hypot(first[:, 2], second[:, 2]),
         np.full(len(which), np.inf),
     )
+
+
+def outlines(sight: EyeCoordinates, discs: tuple[Floats, Floats, Floats]) -> Floats:
+    """(3,4,n) forms, as the squares of covers, of what lies in the same direction as elliptic discs with these middles
+    and conjugate radii (n,3)."""
+    m, p, q = (_seen(sight, part, w) for part, w in zip(discs, (1.0, 0.0, 0.0), strict=True))
+    rows = np.stack([np.cross(p, q), np.cross(q, m), np.cross(m, p)], axis=1)
+    volume = (rows[:, 0] * m).sum(axis=1)
+    squares = np.zeros((3, 4, len(m)))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        squares[:, sight.seen] = (rows / volume[:, None, None]).transpose(1, 2, 0)
+    return squares
 
 
 def _inside(balls: Balls, which: Ints, box: Floats32) -> Covers:

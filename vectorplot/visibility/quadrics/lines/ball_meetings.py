@@ -5,20 +5,18 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes
 from vectorplot.geometry.records import joined
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.scene.view import View
-from vectorplot.tolerances.of_lengths import UNION_OF_SEGMENT
 from vectorplot.tolerances.of_values import HOMOTHETIC
-from vectorplot.visibility.polyhedra.hidden_lines import SLIVER
 from vectorplot.visibility.projected_faces import newell
 from vectorplot.visibility.quadrics.arcs import arcs_on
 from vectorplot.visibility.quadrics.bodies.balls import Balls
 from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates
 from vectorplot.visibility.quadrics.lines.ball_arcs import Found, on_balls, own_sides, plane_circles, unit_planes
+from vectorplot.visibility.quadrics.lines.parts_of_circles import parts_inside
 from vectorplot.words import LineKind
 
 
@@ -143,25 +141,8 @@ def _within_faces(
     inward = cross(normal[circle], along)
     with np.errstate(divide="ignore", invalid="ignore"):
         inward /= np.sqrt(dot(inward, inward))[:, None]
-    # Outside of the edge where base + reach cos(t - turn) < 0.
-    base = dot(middle[circle] - start, inward)
-    x, y = dot(first[circle], inward), dot(second[circle], inward)
-    reach, turn = np.hypot(x, y), np.arctan2(y, x)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        half = np.arccos(np.clip(base / reach, -1.0, 1.0))
-    out = np.isfinite(base) & (base < reach)
-    circle, turn, half = circle[out], turn[out], np.where(base[out] <= -reach[out], np.pi, half[out])
-    low = np.mod(turn + np.pi - half, 2.0 * np.pi) / (2.0 * np.pi)
-    high = low + half / np.pi
-    round_ = high > 1.0
-    owner = np.concatenate([circle, circle[round_]])
-    low, high = np.concatenate([low, np.zeros(round_.sum())]), np.concatenate([np.minimum(high, 1.0), high[round_] - 1])
-    gap = np.full(len(ball), UNION_OF_SEGMENT)
-    zones = intervals.union(owner, low, high, gap)
-    of, low, high = intervals.complement(len(ball), *zones, gap)
-    radius = np.sqrt(np.maximum(dot(first, first), dot(second, second)))[of]
-    long = (high - low) * 2.0 * np.pi * radius > SLIVER * balls.tolerance
-    of, low, high = of[long], low[long] * 2.0 * np.pi, high[long] * 2.0 * np.pi
+    forms = np.concatenate([inward, -dot(start, inward)[:, None]], axis=1)
+    of, low, high = parts_inside(circles, circle, forms, balls.tolerance)
     item, other = balls.item[ball[of]], view.face_item[face[of]]
     item = np.where(wants[item] & (~wants[other] | (item < other)), item, other)
     own = np.stack([ball[of], np.full_like(of, -1)], axis=1)
