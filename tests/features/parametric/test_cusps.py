@@ -118,3 +118,11 @@ def test_the_cusp_of_a_cubic_fold():
     curves = parallel_contour(folded, d)
     cusps = contour_cusps(ParallelContour(folded, d), curves)
     assert len(cusps.u) == 1 and abs(cusps.u[0]) < 1e-12 and abs(cusps.v[0] - 0.3) < 1e-12
+
+
+def test_the_curvature_along_the_sight_is_none_in_holes_and_where_the_eye_is():
+    torn = graph(lambda x, y: np.sqrt(x * y), Domain(-2.0, 2.0, 0.0, 2.0))
+    condition = CentralContour(torn, (1.0, 1.0, 1.0))
+    u, v = np.array([-1.0, 1.0, 1.5]), np.array([1.0, 1.0, 1.0])
+    with np.errstate(invalid="ignore"):
+        assert np.isfinite(sight_curvatures(condition, u, v)).tolist() == [False, False, True]

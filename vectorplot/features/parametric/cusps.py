@@ -11,7 +11,7 @@ from vectorplot.features.parametric.conditions import Contour
 from vectorplot.features.parametric.curve_tracing import wrapped
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, with_points
 from vectorplot.geometry import records
-from vectorplot.geometry.vectors import dot, normalize
+from vectorplot.geometry.vectors import dot, length
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_lengths import BESIDE_POLE, BEYOND_END
@@ -61,13 +61,15 @@ def sight_curvatures(contour: Contour, u: Floats, v: Floats) -> Floats:
     normal.
 
     On the contour the sight is tangential. Zero: it is an asymptotic direction there.
-    Degenerate: NaN at poles.
+    Degenerate: NaN at poles, in holes, and where the eye is on the surface.
     """
     surface = contour.surface
     along_u, along_v = surface.partials(u, v)
     uu, uv, vv = surface.second_partials(u, v)
     normal = unit_normals(surface, u, v)
-    sight = normalize(contour.sights(u, v))
+    sight = contour.sights(u, v)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        sight = sight / length(sight)[..., None]
     e, f, g = dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)
     p, q = dot(sight, along_u), dot(sight, along_v)
     # Close to a pole the partials say as little as in it.
@@ -290,7 +292,7 @@ def _by_newton(contour: Contour, pieces: _Pieces) -> tuple[Floats, Bools]:
     with np.errstate(invalid="ignore", divide="ignore"):
         part = (pieces.low / (pieces.low - pieces.high))[:, None]
     start = pieces.start + np.where(np.isfinite(part), part, 0.5) * (pieces.end - pieces.start)
-    at, length = start.copy(), np.full(len(start), np.inf)
+    at, travel = start.copy(), np.full(len(start), np.inf)
     for _ in range(12 if len(start) else 0):
         u, v = wrapped(domain, at[:, 0], at[:, 1])
         f, g = contour.values(u, v), _curvatures(contour, at)
@@ -300,9 +302,9 @@ def _by_newton(contour: Contour, pieces: _Pieces) -> tuple[Floats, Bools]:
             det = f_u * g_v - f_v * g_u
             step = np.stack([(g_v * f - f_v * g) / det, (f_u * g - g_u * f) / det], axis=1)
         step = np.where(np.isfinite(step), step, 0.0)
-        length = np.where(np.isfinite(det) & (det != 0.0), np.abs(step).max(axis=1), np.inf)
+        travel = np.where(np.isfinite(det) & (det != 0.0), np.abs(step).max(axis=1), np.inf)
         at = _inside(domain, at - step * size)
-        if (length <= CUSP_SETTLED).all():
+        if (travel <= CUSP_SETTLED).all():
             break
     # The root beside a piece is that of its neighbour.
     way = (pieces.end - pieces.start) / size
@@ -313,7 +315,7 @@ def _by_newton(contour: Contour, pieces: _Pieces) -> tuple[Floats, Bools]:
         np.abs((at - start) / size).max(axis=1, initial=0.0)
         <= np.abs(way).max(axis=1, initial=0.0) + ROUNDING_OF_DOMAIN
     )
-    return at, np.asarray((length <= CUSP_FOUND) & own & near, dtype=np.bool_)
+    return at, np.asarray((travel <= CUSP_FOUND) & own & near, dtype=np.bool_)
 
 
 def _curvature_slopes(contour: Contour, at: Floats) -> tuple[Floats, Floats]:
