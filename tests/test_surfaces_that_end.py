@@ -63,6 +63,17 @@ def test_graphs_with_poles_of_higher_order_end(text: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("text", ["x^y", "1/sin(x*y)"])
+def test_curves_beside_poles_and_holes_end_where_the_surface_does(text: str) -> None:
+    scene = vp.Scene((vp.Item("S", graph_of(text)),))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InputWarning)
+        drawing = vp.draw(scene, vp.Camera((5.0, -7.0, 4.0)), page=PAGE)
+    strokes = [paths.points for layer in drawing.layers for paths in layer.strokes]
+    assert strokes and all(np.isfinite(points).all() for points in strokes)
+
+
+@pytest.mark.slow
 def test_a_graph_with_a_jump_has_no_wall() -> None:
     scene, camera, drawing, _ = drawn(graph_of("atan2(y,x)"))
     found = stroke_points(drawing, scene, camera, 4000, 0).points

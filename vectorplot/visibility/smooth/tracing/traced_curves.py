@@ -79,7 +79,8 @@ class Curves:
     def at(self, chord: Ints, part: Floats) -> Along:
         """The curves between two of their points: at the part (k,) of the chords that begin at the points chord (k,).
 
-        A part a little below 0 or above 1 lies on the curve too, beyond the ends of the chord.
+        A part a little below 0 or above 1 lies on the curve too, beyond the ends of the chord. Degenerate: over a hole
+        of its surface, which may reach between two points of a curve, it is its chord.
         """
         return self._between(self._chords(chord), self.family[self.owner[chord]], part)
 
@@ -115,6 +116,10 @@ class Curves:
             places[which], points[which], slopes[which] = found.places, found.points, found.slopes
             if self.families[number].second >= 0:
                 second[which] = found.second_places
+        lost = np.flatnonzero(~np.isfinite(points + slopes).all(axis=1))
+        if len(lost):
+            start, end = (ends[lost] for ends in chords.points)
+            points[lost], slopes[lost] = start + part[lost, None] * (end - start), end - start
         return Along(places, points, slopes, second)
 
     def _chords(self, begin: Ints) -> Chords:

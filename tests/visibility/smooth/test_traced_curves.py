@@ -1,0 +1,33 @@
+"""Curves between the points at which they are known."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from support.smooth_parts import polylines
+
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.view import look
+from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.surface import Domain
+from vectorplot.visibility.smooth.sheets.family import ParameterCurves
+from vectorplot.visibility.smooth.tracing.parametric_items import sheet_of_parametrised
+
+
+def test_over_a_hole_between_two_of_its_points_a_curve_is_its_chord() -> None:
+    torn = graph(lambda x, y: np.sqrt(x * x - 0.3) + 0.2 * y * y, Domain(-2.0, 2.0, -2.0, 2.0))
+    view = look(Scene((Item("torn", torn),)), Camera((5.0, -7.0, 9.0)))
+    with np.errstate(invalid="ignore"):
+        sheet = sheet_of_parametrised(view, torn, 0, True)
+        places = np.array([[-1.0, 0.5, 0.0], [1.0, 0.5, 0.0]])
+        line = replace(polylines(sheet.points(places)), places=places, families=(ParameterCurves(sheet, 0),))
+        part = np.array([0.0, 0.1, 0.5, 0.6, 1.0])
+        found = line.at(np.zeros(5, dtype=np.intp), part)
+    start, end = line.points
+    over = np.array([False, False, True, True, False])
+    assert np.allclose(found.points[over], start + part[over, None] * (end - start), atol=1e-15)
+    assert (found.slopes[over] == end - start).all()
+    assert np.allclose(found.points[~over], sheet.points(found.places[~over]), atol=1e-15)
+    assert np.linalg.norm(found.points[1] - start - part[1] * (end - start)) > 1e-2
