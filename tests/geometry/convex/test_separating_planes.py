@@ -151,6 +151,25 @@ def test_no_plane_where_there_is_none_and_one_where_shapes_touch():
     assert touching.nearer((1, 0, 0, 0)).tolist() == [-1]
 
 
+@pytest.mark.capability("G5.8-sepplane")
+@pytest.mark.parametrize("offset", [0.0, 7.0, -1e4])
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_where_boxes_and_spheres_overlap_a_face_of_a_convex_shape_keeps_apart(offset, size):
+    # Only the slanted side x + y = 2 of the wedge lies between it and the cube.
+    wedge, cube = prism([(0, 0), (2, 0), (0, 2)], 0.0, 1.0), box((1.05, 1.05, 0.1), (1.9, 1.9, 0.9))
+    ell = prism([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], 0.0, 1.0)
+    place = np.diag([size, size, size, 1.0])
+    place[:3, 3] = offset * size
+    shapes = [shape.transformed(place) for shape in (wedge, cube, ell)]
+    found = separations(Surroundings.of(shapes), np.array([0, 1, 2]), np.array([1, 0, 1]))
+    assert found.info.tolist() == [FIRST_BELOW, FIRST_ABOVE, NOT_FOUND], "faces of convex shapes only"
+    normal, constant = found.planes[0, :3], found.planes[0, 3]
+    assert np.allclose(normal, (np.sqrt(0.5), np.sqrt(0.5), 0.0))
+    assert constant == pytest.approx(normal @ (np.array([2.0, 0.0, 0.0]) + offset) * size)
+    eye = size * (np.array([5.0, 5.0, 0.5]) + offset)
+    assert found.nearer(tuple(eye)).tolist() == [-1, 1, 0]
+
+
 @pytest.mark.capability("G5.8-bbox", "G5.8-sepplane")
 def test_a_turned_box_fits_closer_than_one_taken_later():
     turn = np.eye(4)
