@@ -194,6 +194,14 @@ def ball(count: int) -> Mesh:
 
 
 @pytest.mark.capability("G4.5-face-shades")
+def test_shades_of_triangles_and_of_polygons_are_those_at_their_barycentres():
+    for mesh in (torus_mesh(9, 6), box((1, 2, 3))):
+        view, _, _ = shaded(Scene((Item("body", mesh),), LIGHTS))
+        means = np.array([mesh.vertices[polygon].mean(axis=0) for polygon in mesh.polygons()])
+        assert np.allclose(view.world_of(fs.face_middles(view)), means, atol=1e-12)
+
+
+@pytest.mark.capability("G4.5-face-shades")
 @pytest.mark.parametrize("word", ["normal", "plastic", "metallic"])
 def test_corners_of_a_sphere_have_the_shades_of_the_sphere(word):
     sphere = Scene((Item("ball", ball(24), "gray", Material(word)),), (Light((4.0, 2.0, 6.0)),))
@@ -246,6 +254,8 @@ def test_light_of_lamps_fades_and_parallel_light_does_not():
     far = np.linalg.norm(view.world_of(points) - lamp, axis=1)
     expected = np.minimum(1.0, max(nearest, 0.25 * farthest) / far) ** 2
     assert np.allclose(faded.shares[0], found.shares[0] * expected, rtol=1e-9) and (expected < 1.0).any()
+    # With it what is matt of it, which shadows leave.
+    assert np.allclose(faded.matt[0], found.matt[0] * expected, rtol=1e-9)
 
 
 @pytest.mark.capability("G4.5-distance")
