@@ -45,7 +45,7 @@ def test_a_prism_over_a_letter_is_three_convex_prisms():
     check(parts, body_record(prism(LETTER, [0.5, 0, 2])).volume)
     # Wherever it stands.
     for part, moved in zip(parts, convex_prism_parts(np.add(LETTER, (5, -7, 3)), [0.5, 0, 2]), strict=True):
-        assert np.allclose(moved.vertices, part.vertices + (5, -7, 3), atol=1e-12)
+        assert np.allclose(moved.vertices, np.add(part.vertices, (5, -7, 3)), atol=1e-12)
 
 
 @pytest.mark.capability("G3.5-split")

@@ -195,7 +195,7 @@ def ball(count: int) -> Mesh:
 
 @pytest.mark.capability("G4.5-face-shades")
 def test_shades_of_triangles_and_of_polygons_are_those_at_their_barycentres():
-    for mesh in (torus_mesh(9, 6), box((1, 2, 3))):
+    for mesh in (torus_mesh(9, 6), box((0, 0, 0), (1, 2, 3))):
         view, _, _ = shaded(Scene((Item("body", mesh),), LIGHTS))
         means = np.array([mesh.vertices[polygon].mean(axis=0) for polygon in mesh.polygons()])
         assert np.allclose(view.world_of(fs.face_middles(view)), means, atol=1e-12)
