@@ -10,7 +10,7 @@ from vectorplot.scene.view import View, look
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.visibility.smooth.sheets.family import StraightLines
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
-from vectorplot.visibility.smooth.tracing.parametric_items import sheet_of_parametrised
+from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.words import LineKind
 
@@ -21,7 +21,7 @@ def ball_from_above() -> tuple[View, ParametricSheet, float]:
     view = look(
         Scene((Item("ball", shape),)), Camera((0.0, 0.0, 9.0), (0.0, 0.0, 0.0), up=(0.0, 1.0, 0.0), parallel=True)
     )
-    return view, sheet_of_parametrised(view, shape, 0, True), 1.0 / view.scale
+    return view, sheets_of_parametrised(view, shape, 0, True)[0], 1.0 / view.scale
 
 
 def polylines(*lines: object, closed: bool = False, kind: LineKind = LineKind.CURVE) -> Curves:

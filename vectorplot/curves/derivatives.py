@@ -86,6 +86,40 @@ class NumericFunction:
         """(..., k) derivatives by one parameter."""
         return self._shaped(lambda flat: self._slopes(axis, flat), parameters)
 
+    def gradient(self, *parameters: Floats) -> tuple[Floats, ...]:
+        """(..., k) derivatives by each parameter: the function is called as seldom as can be."""
+        if not self.by_complex_step:
+            return tuple(self.derivatives(axis, *parameters) for axis in range(len(self.ranges)))
+
+        def evaluate(flat: list[Floats]) -> Floats:
+            return np.concatenate(self._by_complex_step([(axis, flat) for axis in range(len(self.ranges))]), axis=-1)
+
+        return self._each(evaluate, parameters, len(self.ranges))
+
+    def hessian(self, *parameters: Floats) -> tuple[Floats, ...]:
+        """(..., k) second derivatives by each pair of parameters, (0, 0), (0, 1), ..., (1, 1), ...: the function is
+        called as seldom as can be."""
+        count = len(self.ranges)
+        pairs = [(axis, other) for axis in range(count) for other in range(axis, count)]
+        if not self.by_complex_step:
+            return tuple(self.second_derivatives(*pair, *parameters) for pair in pairs)
+
+        def evaluate(flat: list[Floats]) -> Floats:
+            steps = [self.steps[other] for _, other in pairs]
+            stencils = [
+                _Stencil.around(other, flat, self.ranges[other].centres(flat[other], step), step)
+                for (_, other), step in zip(pairs, steps, strict=True)
+            ]
+            slopes = self._by_complex_step([(axis, at.nodes) for (axis, _), at in zip(pairs, stencils, strict=True)])
+            found = [at.slopes(values) for at, values in zip(stencils, slopes, strict=True)]
+            for (axis, other), one in zip(pairs, found, strict=True):
+                lost = ~np.isfinite(one).all(axis=-1)
+                if lost.any():
+                    one[lost] = self._differences(self._complex(axis), other, [p[lost] for p in flat])
+            return np.concatenate(found, axis=-1)
+
+        return self._each(evaluate, parameters, len(pairs))
+
     def second_derivatives(self, axis: int, other: int, *parameters: Floats) -> Floats:
         """(..., k) derivatives by one parameter and by the same or another."""
         if self.by_complex_step:
@@ -113,13 +147,22 @@ class NumericFunction:
         of = self._complex if self.by_complex_step else self._plain
         return tuple(self._best_step(of(axis), axis)[0] for axis in range(len(self.ranges)))
 
-    def _shaped(self, evaluate: Callable[[list[Floats]], Floats], parameters: Sequence[Floats]) -> Floats:
+    def _each(
+        self, evaluate: Callable[[list[Floats]], Floats], parameters: Sequence[Floats], count: int
+    ) -> tuple[Floats, ...]:
+        """So many arrays (..., k), which evaluate gives side by side."""
+        whole = self._shaped(evaluate, parameters, count)
+        return tuple(np.ascontiguousarray(part) for part in np.split(whole, count, axis=-1))
+
+    def _shaped(
+        self, evaluate: Callable[[list[Floats]], Floats], parameters: Sequence[Floats], count: int = 1
+    ) -> Floats:
         arrays = [np.asarray(p, dtype=np.float64) for p in parameters]
         if any(a.shape != arrays[0].shape for a in arrays):
             arrays = list(np.broadcast_arrays(*arrays))
         # Infinite parameters are as good as none, and no arithmetic warns of them.
         flat = [np.where(np.isfinite(a), a, np.nan).ravel() for a in arrays]
-        return evaluate(flat).reshape(*arrays[0].shape, self.function.components)
+        return evaluate(flat).reshape(*arrays[0].shape, count * self.function.components)
 
     def _asked(self, parameters: Sequence[Numbers]) -> Numbers:
         """(n, k) what the function says at finite parameters inside, NaN elsewhere."""
@@ -151,17 +194,31 @@ class NumericFunction:
 
     def _complex(self, axis: int) -> Callable[[list[Floats]], Floats]:
         """The derivative Im f(t + ih) / h, which no subtraction spoils."""
-        height = COMPLEX_STEP * self.ranges[axis].length
+        return lambda parameters: self._by_complex_step([(axis, parameters)])[0]
 
-        def slopes(parameters: list[Floats]) -> Floats:
-            lifted: list[Numbers] = list(parameters)
-            lifted[axis] = parameters[axis] + 1j * height
-            answers = self._asked(lifted)
-            # A root of a negative number is imaginary there, and a hole here.
-            real = np.isfinite(self._values(parameters)) & np.isfinite(answers)
-            return np.where(real.all(axis=-1, keepdims=True), answers.imag / height, np.nan)
-
-        return slopes
+    def _by_complex_step(self, asked: Sequence[tuple[int, list[Floats]]]) -> list[Floats]:
+        """(n, k) derivatives by axes at parameters, (axis, parameters) each: in one call, and one for where the
+        function has values at all."""
+        heights = [COMPLEX_STEP * self.ranges[axis].length for axis, _ in asked]
+        lifted: list[list[Numbers]] = []
+        for (axis, parameters), height in zip(asked, heights, strict=True):
+            lifted.append(list(parameters))
+            lifted[-1][axis] = parameters[axis] + 1j * height
+        places = {id(parameters): parameters for _, parameters in asked}
+        if len(asked) == 1:
+            answers, values = self._asked(lifted[0]), self._values(asked[0][1])
+        else:
+            answers = self._asked([np.concatenate(column) for column in zip(*lifted, strict=True)])
+            values = self._values([np.concatenate(column) for column in zip(*places.values(), strict=True)])
+        # A root of a negative number is imaginary there, and a hole here.
+        sizes = [len(parameters[0]) for parameters in places.values()]
+        known = dict(zip(places, np.split(np.isfinite(values), np.cumsum(sizes)[:-1]), strict=True))
+        each = np.split(answers, np.cumsum([len(parameters[0]) for _, parameters in asked])[:-1])
+        found: list[Floats] = []
+        for (_, parameters), height, answer in zip(asked, heights, each, strict=True):
+            real = known[id(parameters)] & np.isfinite(answer)
+            found.append(np.where(real.all(axis=-1, keepdims=True), answer.imag / height, np.nan))
+        return found
 
     def _by_differences(self, axis: int, step: float) -> Callable[[list[Floats]], Floats]:
         return lambda parameters: self._differences(self._values, axis, parameters, step)
@@ -226,15 +283,32 @@ def _five_points(
     function: Callable[[list[Floats]], Floats], axis: int, parameters: list[Floats], centres: Floats, step: float
 ) -> Floats:
     """(n, k) derivatives of the quartics through the values at five nodes around the centres (n,)."""
-    s = (parameters[axis] - centres) / step
-    third, second, first, constant = _SLOPES.T[:, :, None]
-    weights = ((third * s + second) * s + first) * s + constant
-    nodes = [np.concatenate([p] * len(_NODES)) for p in parameters]
-    nodes[axis] = (centres + step * _NODES[:, None]).ravel()
-    values = function(nodes)
-    values = values.reshape(5, len(s), values.shape[-1])
-    # From the middle value, so that a large constant costs no digits.
-    return np.asarray(np.einsum("jn,jnk->nk", weights, values - values[2]) / step)
+    stencil = _Stencil.around(axis, parameters, centres, step)
+    return stencil.slopes(function(stencil.nodes))
+
+
+@dataclass(frozen=True, eq=False)
+class _Stencil:
+    """Five nodes (5n,) for each of n places, node after node, what each node's value counts (5, n), and the step."""
+
+    nodes: list[Floats]
+    weights: Floats
+    step: float
+
+    @classmethod
+    def around(cls, axis: int, parameters: list[Floats], centres: Floats, step: float) -> _Stencil:
+        """The nodes along an axis around centres (n,), for derivatives at the parameters."""
+        s = (parameters[axis] - centres) / step
+        third, second, first, constant = _SLOPES.T[:, :, None]
+        nodes = [np.concatenate([p] * len(_NODES)) for p in parameters]
+        nodes[axis] = (centres + step * _NODES[:, None]).ravel()
+        return cls(nodes, ((third * s + second) * s + first) * s + constant, step)
+
+    def slopes(self, values: Floats) -> Floats:
+        """(n, k) derivatives of the quartics through values (5n, k) at the nodes."""
+        at = values.reshape(5, self.weights.shape[1], values.shape[-1])
+        # From the middle value, so that a large constant costs no digits.
+        return np.asarray(np.einsum("jn,jnk->nk", self.weights, at - at[2]) / self.step)
 
 
 def numeric_function(

@@ -1,4 +1,4 @@
-"""Whether a surface is known to meet itself nowhere."""
+"""Whether a surface is known to be embedded: it meets itself nowhere, and has a tangent plane everywhere."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ from vectorplot.surfaces.trimmed import TrimmedSurface
 
 
 def is_embedded(shape: object) -> bool:
-    """Whether a parametrised surface is known never to meet itself: a graph, one whose family says so (its attribute
-    `embedded`), or such a one that was moved, turned, scaled, inverted or trimmed.
+    """Whether a parametrised surface is known never to meet itself, and to have a tangent plane everywhere but in poles
+    at its border: a graph, one whose family says so (its attribute `embedded`), or such a one that was moved, turned,
+    scaled, inverted or trimmed.
 
     Of others nothing is known: they may.
     """

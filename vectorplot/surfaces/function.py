@@ -67,7 +67,8 @@ class FunctionSurface:
         """(..., 3) derivatives by u and by v."""
         if self.first:
             return self.first[0].values(u, v), self.first[1].values(u, v)
-        return self.function.derivatives(0, u, v), self.function.derivatives(1, u, v)
+        by_u, by_v = self.function.gradient(u, v)
+        return by_u, by_v
 
     def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
         """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
@@ -77,8 +78,8 @@ class FunctionSurface:
         if self.first:
             by_u, by_v = self.first
             return by_u.derivatives(0, u, v), by_u.derivatives(1, u, v), by_v.derivatives(1, u, v)
-        f = self.function
-        return f.second_derivatives(0, 0, u, v), f.second_derivatives(0, 1, u, v), f.second_derivatives(1, 1, u, v)
+        by_uu, by_uv, by_vv = self.function.hessian(u, v)
+        return by_uu, by_uv, by_vv
 
 
 def surface_of_function(

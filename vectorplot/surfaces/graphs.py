@@ -54,22 +54,24 @@ class Graph:
 
     def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
         """(..., 3) derivatives by u and by v."""
-        first = self._slope(0, u, v), self._slope(1, u, v)
+        first = self._slopes(u, v)
         return _with_holes(1.0, 0.0, first[0]), _with_holes(0.0, 1.0, first[1])
 
     def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
         """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
-        uu, uv, vv = (self._bend(i, j, u, v) for i, j in ((0, 0), (0, 1), (1, 1)))
+        uu, uv, vv = self._bends(u, v)
         return _with_holes(0.0, 0.0, uu), _with_holes(0.0, 0.0, uv), _with_holes(0.0, 0.0, vv)
 
-    def _slope(self, axis: int, u: Floats, v: Floats) -> Floats:
-        slopes = self.slopes[axis].values(u, v) if self.slopes else self.heights.derivatives(axis, u, v)
-        return np.asarray(slopes[..., 0])
+    def _slopes(self, u: Floats, v: Floats) -> tuple[Floats, ...]:
+        given = [slope.values(u, v) for slope in self.slopes] if self.slopes else self.heights.gradient(u, v)
+        return tuple(np.asarray(slope[..., 0]) for slope in given)
 
-    def _bend(self, axis: int, other: int, u: Floats, v: Floats) -> Floats:
+    def _bends(self, u: Floats, v: Floats) -> tuple[Floats, ...]:
         if self.slopes:
-            return np.asarray(self.slopes[axis].derivatives(other, u, v)[..., 0])
-        return np.asarray(self.heights.second_derivatives(axis, other, u, v)[..., 0])
+            by_u, by_v = self.slopes
+            found = (by_u.derivatives(0, u, v), by_u.derivatives(1, u, v), by_v.derivatives(1, u, v))
+            return tuple(np.asarray(bend[..., 0]) for bend in found)
+        return tuple(np.asarray(bend[..., 0]) for bend in self.heights.hessian(u, v))
 
 
 def graph(

@@ -6,6 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.geometry.vectors import cross, largest_component, norm
+from vectorplot.surfaces.stacked import of_some
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_parameters import ASIDE_OF_POLE
 from vectorplot.tolerances.of_values import SINGULAR_PRODUCT, SUSPECT_PRODUCT
@@ -53,7 +54,7 @@ def _unit(surface: Surface, u: Floats, v: Floats, partials: tuple[Floats, Floats
     product = cross(*partials)
     suspect = _small(product, *partials, surface.domain)
     if suspect.any():
-        product[suspect] = _with_limits(surface, u[suspect], v[suspect], product[suspect])
+        product[suspect] = _with_limits(of_some(surface, suspect), u[suspect], v[suspect], product[suspect])
     # Divided by the largest component first: a product of tiny partials has a square that underflows.
     with np.errstate(divide="ignore", invalid="ignore"):
         product /= largest_component(product)[..., None]
@@ -72,16 +73,13 @@ def normal_partials(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Flo
     unit = _unit(surface, u, v, partials)
     by_u, by_v, vanished = _turning(surface, u, v, partials, unit)
     if vanished.any():
-        domain = surface.domain
-        inner_u = (
-            u[vanished] + _inwards(u[vanished], domain.u_start, domain.u_end)[:, 0] * ASIDE_OF_POLE * domain.size[0]
-        )
-        inner_v = (
-            v[vanished] + _inwards(v[vanished], domain.v_start, domain.v_end)[:, 0] * ASIDE_OF_POLE * domain.size[1]
-        )
-        inner = surface.partials(inner_u, inner_v)
-        inside = _unit(surface, inner_u, inner_v, inner)
-        by_u[vanished], by_v[vanished], _ = _turning(surface, inner_u, inner_v, inner, inside)
+        own = of_some(surface, vanished)
+        domain, u, v = own.domain, u[vanished], v[vanished]
+        inner_u = u + _inwards(u, domain.u_start, domain.u_end) * ASIDE_OF_POLE * domain.size[0]
+        inner_v = v + _inwards(v, domain.v_start, domain.v_end) * ASIDE_OF_POLE * domain.size[1]
+        inner = own.partials(inner_u, inner_v)
+        inside = _unit(own, inner_u, inner_v, inner)
+        by_u[vanished], by_v[vanished], _ = _turning(own, inner_u, inner_v, inner, inside)
     return unit, by_u, by_v
 
 
@@ -116,9 +114,9 @@ def _with_limits(surface: Surface, u: Floats, v: Floats, product: Floats) -> Flo
     uu, uv, vv = surface.second_partials(u, v)
     domain = surface.domain
     width, height = domain.size
-    a = _inwards(u, domain.u_start, domain.u_end)
-    b = _inwards(v, domain.v_start, domain.v_end)
-    towards_u, towards_v = a * width * uu + b * height * uv, a * width * uv + b * height * vv
+    a = (_inwards(u, domain.u_start, domain.u_end) * width)[:, None]
+    b = (_inwards(v, domain.v_start, domain.v_end) * height)[:, None]
+    towards_u, towards_v = a * uu + b * uv, a * uv + b * vv
     limit = cross(towards_u, along_v) + cross(along_u, towards_v)
     bound = _bound(domain, (along_u, along_v), (uu, uv, vv))
     vanished = norm(product) <= SINGULAR_PRODUCT * bound
@@ -136,5 +134,5 @@ def _bound(domain: Domain, first: tuple[Floats, Floats], second: tuple[Floats, F
 
 
 def _inwards(t: Floats, start: float, end: float) -> Floats:
-    """(n, 1) the sign of the way to the middle. The way along the line of a pole itself does not count: it stands."""
-    return np.where(t <= 0.5 * (start + end), 1.0, -1.0)[:, None]
+    """(n,) the sign of the way to the middle. The way along the line of a pole itself does not count: it stands."""
+    return np.where(t <= 0.5 * (start + end), 1.0, -1.0)

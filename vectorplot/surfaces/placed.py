@@ -46,7 +46,7 @@ class PlacedSurface(Placed):
     matrix: ArrayLike
     shift: ArrayLike = (0.0, 0.0, 0.0)
 
-    @property
+    @cached_property
     def domain(self) -> Domain:
         """That of the surface."""
         return self.surface.domain

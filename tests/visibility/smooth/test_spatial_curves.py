@@ -15,7 +15,7 @@ from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.visibility.smooth.sheets.family import Chords, NearChords, SpatialCurves
 from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet, implicit_sheet
 from vectorplot.visibility.smooth.tracing.implicit_meetings import implicit_with_implicit, parametrised_with_implicit
-from vectorplot.visibility.smooth.tracing.parametric_items import sheet_of_parametrised
+from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised
 
 FINE = Tracing(tolerance=1e-4)
 
@@ -117,7 +117,7 @@ def assert_cut(view: View, points: np.ndarray, offsets: np.ndarray, closed: np.n
 
 def test_a_parametrised_sphere_meets_what_is_in_the_box_of_an_implicit_one() -> None:
     view = view_of(CUT)
-    one, two = sheet_of_parametrised(view, OTHER, 0, True), implicit_sheet(view, CUT, 1, True)
+    one, two = sheets_of_parametrised(view, OTHER, 0, True)[0], implicit_sheet(view, CUT, 1, True)
     found, doubts = parametrised_with_implicit(one, 0, two, 1, 0, FINE)
     assert doubts == ()
     assert_cut(view, found.points, found.offsets, found.closed)

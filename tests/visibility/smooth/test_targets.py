@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from support.smooth_parts import ball_from_above
 
-from vectorplot.visibility.smooth.targets import distance_to, inside, target, weights
+from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.targets import distance_to, inside, targets_of, weights
 
 TRIANGLE = np.array([[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]])
 
@@ -25,7 +26,7 @@ def test_a_triangle_seen_edge_on_has_its_middle() -> None:
 
 def test_boxes_meet_the_triangles_of_a_sphere_and_nothing_beside_it() -> None:
     view, sheet, radius = ball_from_above()
-    seen = target(view, sheet)
+    seen = targets_of(view, Sheets((sheet,)))
     at = radius * np.array([[0.3, 0.2], [0.9, 0.9]])
     box, triangle = seen.near_boxes(at, at)
     assert set(box.tolist()) == {0}

@@ -5,13 +5,14 @@ Tracers follow these curves, and visibility is decided by the same functions.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Protocol
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, replace
+from typing import Any, Protocol, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.parameters import number, vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import dot, normalize
@@ -34,8 +35,46 @@ class Condition(Protocol):
         ...
 
 
+class SurfaceCondition(Condition, Protocol):
+    """A condition that says of which surface it is."""
+
+    @property
+    def surface(self) -> Surface:
+        """The surface."""
+        ...
+
+    def on(self, surface: Surface, which: Ints) -> Self:
+        """The same on another surface, which is asked for what the condition was asked for at the indices which."""
+        ...
+
+    def values_and_slopes(self, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
+        """Both at once."""
+        ...
+
+
+class _Alike(ABC):
+    """A condition, a dataclass, that is the same for all parameters that it is asked for."""
+
+    def on(self, surface: Surface, which: Ints) -> Self:
+        """The same on another surface, whatever it is asked for."""
+        changes: Any = {"surface": surface}
+        return replace(self, **changes)  # type: ignore[type-var]
+
+    @abstractmethod
+    def values(self, u: Floats, v: Floats) -> Floats:
+        """(...,) f."""
+
+    @abstractmethod
+    def slopes(self, u: Floats, v: Floats) -> Slopes:
+        """(...,) derivatives by u and by v."""
+
+    def values_and_slopes(self, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
+        """Both at once."""
+        return self.values(u, v), self.slopes(u, v)
+
+
 @dataclass(frozen=True, eq=False)
-class CentralContour:
+class CentralContour(_Alike):
     """The condition f = N.(x - eye) = 0 of a contour: the surface turns away from the eye.
 
     Parameters
@@ -78,9 +117,13 @@ class CentralContour:
 
     def slopes(self, u: Floats, v: Floats) -> Slopes:
         """(...,) derivatives by u and by v."""
+        return self.values_and_slopes(u, v)[1]
+
+    def values_and_slopes(self, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
+        """Both at once."""
         way = self.surface.points(u, v) - np.asarray(self.eye)
-        _, by_u, by_v = normal_partials(self.surface, u, v)
-        return dot(way, by_u), dot(way, by_v)
+        unit, by_u, by_v = normal_partials(self.surface, u, v)
+        return dot(way, unit), (dot(way, by_u), dot(way, by_v))
 
     def sights(self, u: Floats, v: Floats) -> Floats:
         """(..., 3) vectors from the surface to the eye."""
@@ -88,7 +131,7 @@ class CentralContour:
 
 
 @dataclass(frozen=True, eq=False)
-class ParallelContour:
+class ParallelContour(_Alike):
     """The condition f = N.d = 0 of a contour for an eye at infinity: seen along d the surface turns away.
 
     Parameters
@@ -130,6 +173,10 @@ class ParallelContour:
 
     def slopes(self, u: Floats, v: Floats) -> Slopes:
         """(...,) derivatives by u and by v."""
+        return self.values_and_slopes(u, v)[1]
+
+    def values_and_slopes(self, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
+        """Both at once."""
         return _turning_towards(self.surface, np.asarray(self.direction), u, v)
 
     def sights(self, u: Floats, v: Floats) -> Floats:
@@ -141,7 +188,7 @@ Contour = CentralContour | ParallelContour
 
 
 @dataclass(frozen=True, eq=False)
-class Isophote:
+class Isophote(_Alike):
     """f = N.l - c: parallel light l (3,), of any length, kept as a unit vector, meets the surface at the cosine c.
 
     Errors: InputError for a light without length, a cosine not within -1 and 1.
@@ -162,11 +209,16 @@ class Isophote:
 
     def slopes(self, u: Floats, v: Floats) -> Slopes:
         """(...,) derivatives by u and by v."""
-        return _turning_towards(self.surface, np.asarray(self.light), u, v)
+        return self.values_and_slopes(u, v)[1]
+
+    def values_and_slopes(self, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
+        """Both at once."""
+        values, slopes = _turning_towards(self.surface, np.asarray(self.light), u, v)
+        return values - self.cosine, slopes
 
 
 @dataclass(frozen=True, eq=False)
-class PointIsophote:
+class PointIsophote(_Alike):
     """f = N.w / |w| - c, w = light - x: the light of a point (3,) meets the surface at the cosine c.
 
     The slopes are N_u.w / |w| + (N.w) (x_u.w) / |w|^3, and so by v.
@@ -208,7 +260,7 @@ class PointIsophote:
 
 
 @dataclass(frozen=True, eq=False)
-class ImplicitSection:
+class ImplicitSection(_Alike):
     """f = F(x(u, v)): the surface meets the implicit surface F = 0.
 
     Source: Glaeser, section 8.4, equation 29.
@@ -229,7 +281,7 @@ class ImplicitSection:
 
 
 @dataclass(frozen=True, eq=False)
-class PlaneSection:
+class PlaneSection(_Alike):
     """f = n.x - d: the surface meets the plane of the normal n (3,), of any length, kept as a unit vector, at the
     offset d.
 
@@ -279,10 +331,10 @@ class ParameterCondition:
         return (one, zero) if self.axis == 0 else (zero, one)
 
 
-def _turning_towards(surface: Surface, direction: Floats, u: Floats, v: Floats) -> Slopes:
-    """(...,) derivatives of N.d by u and by v."""
-    _, by_u, by_v = normal_partials(surface, u, v)
-    return np.asarray(by_u @ direction), np.asarray(by_v @ direction)
+def _turning_towards(surface: Surface, direction: Floats, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
+    """(...,) N.d, and its derivatives by u and by v."""
+    unit, by_u, by_v = normal_partials(surface, u, v)
+    return np.asarray(unit @ direction), (np.asarray(by_u @ direction), np.asarray(by_v @ direction))
 
 
 def _check_cosine(cosine: float) -> None:

@@ -293,19 +293,22 @@ def _by_newton(contour: Contour, pieces: _Pieces) -> tuple[Floats, Bools]:
         part = (pieces.low / (pieces.low - pieces.high))[:, None]
     start = pieces.start + np.where(np.isfinite(part), part, 0.5) * (pieces.end - pieces.start)
     at, travel = start.copy(), np.full(len(start), np.inf)
-    for _ in range(12 if len(start) else 0):
-        u, v = wrapped(domain, at[:, 0], at[:, 1])
-        f, g = contour.values(u, v), _curvatures(contour, at)
+    active = np.arange(len(start))
+    for _ in range(12):
+        if not len(active):
+            break
+        here = at[active]
+        u, v = wrapped(domain, here[:, 0], here[:, 1])
+        f = contour.values(u, v)
         f_u, f_v = (slope * side for slope, side in zip(contour.slopes(u, v), size, strict=True))
-        g_u, g_v = _curvature_slopes(contour, at)
+        g, g_u, g_v = _curvatures_and_slopes(contour, here)
         with np.errstate(invalid="ignore", divide="ignore"):
             det = f_u * g_v - f_v * g_u
             step = np.stack([(g_v * f - f_v * g) / det, (f_u * g - g_u * f) / det], axis=1)
         step = np.where(np.isfinite(step), step, 0.0)
-        travel = np.where(np.isfinite(det) & (det != 0.0), np.abs(step).max(axis=1), np.inf)
-        at = _inside(domain, at - step * size)
-        if (travel <= CUSP_SETTLED).all():
-            break
+        travel[active] = np.where(np.isfinite(det) & (det != 0.0), np.abs(step).max(axis=1), np.inf)
+        at[active] = _inside(domain, here - step * size)
+        active = active[travel[active] > CUSP_SETTLED]
     # The root beside a piece is that of its neighbour.
     way = (pieces.end - pieces.start) / size
     square = (way * way).sum(axis=1)
@@ -318,14 +321,15 @@ def _by_newton(contour: Contour, pieces: _Pieces) -> tuple[Floats, Bools]:
     return at, np.asarray((travel <= CUSP_FOUND) & own & near, dtype=np.bool_)
 
 
-def _curvature_slopes(contour: Contour, at: Floats) -> tuple[Floats, Floats]:
-    """(k,) derivatives of the curvature along the sight, for parameters of which the domain spans one."""
-    domain, slopes = contour.surface.domain, []
-    for step in np.diag(CURVATURE_DIFFERENCE * np.array(domain.size)):
-        low, high = _inside(domain, at - step), _inside(domain, at + step)
-        span = ((high - low) / np.array(domain.size)).sum(axis=1)
-        slopes.append((_curvatures(contour, high) - _curvatures(contour, low)) / span)
-    return slopes[0], slopes[1]
+def _curvatures_and_slopes(contour: Contour, at: Floats) -> tuple[Floats, Floats, Floats]:
+    """(k,) curvatures along the sight, and their derivatives for parameters of which the domain spans one."""
+    domain = contour.surface.domain
+    steps = np.diag(CURVATURE_DIFFERENCE * np.array(domain.size))
+    ends = [_inside(domain, at + side * step) for step in steps for side in (-1.0, 1.0)]
+    # All of them at once: a user's function takes longer to call than to compute.
+    here, low_u, high_u, low_v, high_v = _curvatures(contour, np.concatenate([at, *ends])).reshape(5, -1)
+    span_u, span_v = (((b - a) / np.array(domain.size)).sum(axis=1) for a, b in zip(ends[::2], ends[1::2], strict=True))
+    return here, (high_u - low_u) / span_u, (high_v - low_v) / span_v
 
 
 def _by_bisection(contour: Contour, pieces: _Pieces) -> Floats:

@@ -86,7 +86,7 @@ class Capped(EllipticSections):
             raise InputError("capped: the surface is closed, there is nothing to cap")
 
     @property
-    def semi_axes(self) -> tuple[float, float]:
+    def semi_axes(self) -> tuple[float | Floats, float | Floats]:
         """Those of the ellipses along x and y, of which the ends have a part as their radius."""
         return self._ellipse()
 
@@ -142,7 +142,7 @@ class Capped(EllipticSections):
         zero = np.zeros_like(v)
         return (radius + slope * (v - rim), zero + height), (zero + slope, zero), (zero, zero)
 
-    def _ellipse(self) -> tuple[float, float]:
+    def _ellipse(self) -> tuple[float | Floats, float | Floats]:
         return self.surface._ellipse()
 
     def _middle(self) -> Floats:
@@ -209,7 +209,7 @@ class CappedPart(EllipticSections):
         """The same part with the centre of the body in the origin."""
         return CappedPart(self.body.about_origin(), self.part, self.v)
 
-    def _ellipse(self) -> tuple[float, float]:
+    def _ellipse(self) -> tuple[float | Floats, float | Floats]:
         return self.body._ellipse()
 
     def _middle(self) -> Floats:
@@ -260,6 +260,11 @@ class Frustum(EllipticSections):
             raise InputError("frustum: radii must not be negative")
         positive("frustum: the larger radius", max(self.radius, self.top_radius))
         object.__setattr__(self, "centre", vector("frustum: centre", self.centre))
+
+    @property
+    def dimensions(self) -> tuple[str, ...]:
+        """The names of the fields on which points depend."""
+        return ("radius", "top_radius", "height", "centre")
 
     @property
     def domain(self) -> Domain:

@@ -61,6 +61,11 @@ class Cylinder(EllipticSections):
         object.__setattr__(self, "centre", vector("cylinder: centre", self.centre))
 
     @property
+    def dimensions(self) -> tuple[str, ...]:
+        """The names of the fields on which points depend."""
+        return ("radius", "depth", "centre")
+
+    @property
     def domain(self) -> Domain:
         """Angle and height."""
         return Domain(0.0, 2.0 * np.pi, self.bottom, self.top, closed_u=True)
@@ -130,6 +135,11 @@ class Cone(EllipticSections):
             raise InputError("cone: a height of 0")
         apex = vector("cone: centre", centre) + np.array([0.0, 0.0, tall])
         return cls(positive("cone: radius", radius) / abs(tall), min(-tall, 0.0), max(-tall, 0.0), apex)
+
+    @property
+    def dimensions(self) -> tuple[str, ...]:
+        """The names of the fields on which points depend."""
+        return ("slope", "depth_slope", "centre")
 
     @property
     def domain(self) -> Domain:

@@ -53,19 +53,24 @@ class Ellipsoid(EllipticSections):
         object.__setattr__(self, "centre", vector("ellipsoid: centre", self.centre))
 
     @property
+    def dimensions(self) -> tuple[str, ...]:
+        """The names of the fields on which points depend."""
+        return ("semi_axes", "centre")
+
+    @property
     def domain(self) -> Domain:
         """Longitude and latitude."""
         return Domain(0.0, 2.0 * np.pi, -0.5 * np.pi, 0.5 * np.pi, closed_u=True)
 
-    def _ellipse(self) -> tuple[float, float]:
-        a, b, _ = np.asarray(self.semi_axes)
-        return float(a), float(b)
+    def _ellipse(self) -> tuple[float | Floats, float | Floats]:
+        axes = np.asarray(self.semi_axes)
+        return axes[..., 0], axes[..., 1]
 
     def _middle(self) -> Floats:
         return np.asarray(self.centre)
 
     def _profile(self, v: Floats) -> Profile:
-        c = float(np.asarray(self.semi_axes)[2])
+        c = np.asarray(self.semi_axes)[..., 2]
         cosine, sine = np.cos(v), np.sin(v)
         return (cosine, c * sine), (-sine, c * cosine), (-cosine, -c * sine)
 
@@ -107,11 +112,16 @@ class Sphere(EllipticSections):
         object.__setattr__(self, "centre", vector("sphere: centre", self.centre))
 
     @property
+    def dimensions(self) -> tuple[str, ...]:
+        """The names of the fields on which points depend."""
+        return ("radius", "centre")
+
+    @property
     def domain(self) -> Domain:
         """Longitude and latitude."""
         return Domain(0.0, 2.0 * np.pi, -0.5 * np.pi, 0.5 * np.pi, closed_u=True)
 
-    def _ellipse(self) -> tuple[float, float]:
+    def _ellipse(self) -> tuple[float | Floats, float | Floats]:
         return self.radius, self.radius
 
     def _middle(self) -> Floats:

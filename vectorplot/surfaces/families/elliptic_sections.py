@@ -28,7 +28,7 @@ class EllipticSections(ABC):
         """Angle and v."""
 
     @abstractmethod
-    def _ellipse(self) -> tuple[float, float]:
+    def _ellipse(self) -> tuple[float | Floats, float | Floats]:
         """Semi-axes a, b of the ellipse."""
 
     @abstractmethod
@@ -38,6 +38,11 @@ class EllipticSections(ABC):
     @abstractmethod
     def _profile(self, v: Floats) -> Profile:
         """(p, q), their first and their second derivatives by v."""
+
+    @property
+    def dimensions(self) -> tuple[str, ...]:
+        """The names of the fields on which points depend, if each of them may be a column, one value or row a point."""
+        return ()
 
     @property
     def embedded(self) -> bool:

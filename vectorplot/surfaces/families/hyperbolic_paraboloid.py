@@ -57,6 +57,11 @@ class HyperbolicParaboloid:
         object.__setattr__(self, "centre", vector("hyperbolic paraboloid: centre", self.centre))
 
     @property
+    def dimensions(self) -> tuple[str, ...]:
+        """The names of the fields on which points depend."""
+        return ("a", "b", "centre")
+
+    @property
     def domain(self) -> Domain:
         """The rectangle."""
         return Domain(-self.width, self.width, -self.depth, self.depth)

@@ -64,6 +64,11 @@ class Hyperboloid(EllipticSections):
         parameter_range("hyperboloid", self.bottom, self.top)
 
     @property
+    def dimensions(self) -> tuple[str, ...]:
+        """The names of the fields on which points depend."""
+        return ("semi_axes", "centre")
+
+    @property
     def domain(self) -> Domain:
         """Angle, and v where the height is c sinh v."""
         c = np.asarray(self.semi_axes)[2]
@@ -71,15 +76,15 @@ class Hyperboloid(EllipticSections):
             0.0, 2.0 * np.pi, float(np.arcsinh(self.bottom / c)), float(np.arcsinh(self.top / c)), closed_u=True
         )
 
-    def _ellipse(self) -> tuple[float, float]:
-        a, b, _ = np.asarray(self.semi_axes)
-        return float(a), float(b)
+    def _ellipse(self) -> tuple[float | Floats, float | Floats]:
+        axes = np.asarray(self.semi_axes)
+        return axes[..., 0], axes[..., 1]
 
     def _middle(self) -> Floats:
         return np.asarray(self.centre)
 
     def _profile(self, v: Floats) -> Profile:
-        c = float(np.asarray(self.semi_axes)[2])
+        c = np.asarray(self.semi_axes)[..., 2]
         cosh, sinh = np.cosh(v), np.sinh(v)
         return (cosh, c * sinh), (sinh, c * cosh), (cosh, c * sinh)
 
@@ -126,20 +131,25 @@ class HyperboloidSheet(EllipticSections):
             raise InputError("hyperboloid: the top must be above the vertex")
 
     @property
+    def dimensions(self) -> tuple[str, ...]:
+        """The names of the fields on which points depend."""
+        return ("semi_axes", "centre")
+
+    @property
     def domain(self) -> Domain:
         """Angle, and v where the height is c cosh v."""
         c = np.asarray(self.semi_axes)[2]
         return Domain(0.0, 2.0 * np.pi, 0.0, float(np.arccosh(self.top / c)), closed_u=True)
 
-    def _ellipse(self) -> tuple[float, float]:
-        a, b, _ = np.asarray(self.semi_axes)
-        return float(a), float(b)
+    def _ellipse(self) -> tuple[float | Floats, float | Floats]:
+        axes = np.asarray(self.semi_axes)
+        return axes[..., 0], axes[..., 1]
 
     def _middle(self) -> Floats:
         return np.asarray(self.centre)
 
     def _profile(self, v: Floats) -> Profile:
-        c = float(np.asarray(self.semi_axes)[2])
+        c = np.asarray(self.semi_axes)[..., 2]
         cosh, sinh = np.cosh(v), np.sinh(v)
         return (sinh, c * cosh), (cosh, c * sinh), (sinh, c * cosh)
 
@@ -187,11 +197,16 @@ class Paraboloid(EllipticSections):
         object.__setattr__(self, "centre", vector("paraboloid: centre", self.centre))
 
     @property
+    def dimensions(self) -> tuple[str, ...]:
+        """The names of the fields on which points depend."""
+        return ("a", "b", "centre")
+
+    @property
     def domain(self) -> Domain:
         """Angle, and the root of the height."""
         return Domain(0.0, 2.0 * np.pi, 0.0, float(np.sqrt(self.top)), closed_u=True)
 
-    def _ellipse(self) -> tuple[float, float]:
+    def _ellipse(self) -> tuple[float | Floats, float | Floats]:
         return self.a, self.b
 
     def _middle(self) -> Floats:

@@ -56,6 +56,11 @@ class Torus(EllipticSections):
         object.__setattr__(self, "centre", vector("torus: centre", self.centre))
 
     @property
+    def dimensions(self) -> tuple[str, ...]:
+        """The names of the fields on which points depend."""
+        return ("major", "minor", "centre")
+
+    @property
     def domain(self) -> Domain:
         """Two angles."""
         return Domain(0.0, 2.0 * np.pi, 0.0, 2.0 * np.pi, closed_u=True, closed_v=True)

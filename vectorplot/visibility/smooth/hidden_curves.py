@@ -19,7 +19,7 @@ from vectorplot.visibility.smooth.events.own_events import edge_on_curves, own_e
 from vectorplot.visibility.smooth.events.piercings import piercings
 from vectorplot.visibility.smooth.pieces import Pieces, carried, counted, cut
 from vectorplot.visibility.smooth.runs import without_short_runs
-from vectorplot.visibility.smooth.targets import target
+from vectorplot.visibility.smooth.targets import targets_of
 from vectorplot.visibility.smooth.tracing.traced import TracedScene
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
@@ -54,22 +54,22 @@ def hidden_curves(
     Source: Glaeser, section 8.4 and figure 13 for what is drawn; the decisions are this package's own.
     """
     sheets, edges = traced.sheets, traced.edges
-    targets = tuple(target(view, sheet) for sheet in sheets)
+    targets = targets_of(view, sheets)
     edge_on = edge_on_curves(view, sheets, curves)
     own = own_events(view, sheets, curves, edge_on)
     done(0.2)
     crossed, short_of_crossings = crossings(view, sheets, curves, edges, edge_on, tolerance, budget.pairs)
     done(0.4)
-    pierced, short_of_piercings = piercings(view, targets, curves, traced.meets_itself, budget.pairs)
+    pierced, short_of_piercings = piercings(view, sheets, targets, curves, traced.meets_itself, budget.pairs)
     done(0.6)
     events = all_events([own, crossed, pierced])
     pieces = cut(curves, events, items)
-    counts = counted(view, targets, curves, edges, edge_on, pieces, items, budget.pairs)
+    counts = counted(view, sheets, targets, curves, edges, edge_on, pieces, items, budget.pairs)
     done(0.8)
-    more, short_of_halvings = missed_events(view, targets, curves, edge_on, pieces, counts, items, budget.pairs)
+    more, short_of_halvings = missed_events(view, sheets, targets, curves, edge_on, pieces, counts, items, budget.pairs)
     if len(more):
         pieces = cut(curves, all_events([events, more]), items)
-        counts = counted(view, targets, curves, edges, edge_on, pieces, items, budget.pairs)
+        counts = counted(view, sheets, targets, curves, edges, edge_on, pieces, items, budget.pairs)
     short = {*short_of_crossings, *short_of_piercings, *short_of_halvings}
     short |= set(np.flatnonzero(counts.unlooked).tolist())
     hidden_by = np.asarray((carried(pieces, counts) > 0).sum(axis=1))

@@ -12,7 +12,8 @@ from vectorplot.tolerances.of_extent import SAFE_IN_IMAGE
 from vectorplot.visibility.smooth.events.events import Events
 from vectorplot.visibility.smooth.rays import Samples, counts_in_front
 from vectorplot.visibility.smooth.sheets import projection
-from vectorplot.visibility.smooth.targets import Target
+from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.targets import Targets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 CANDIDATES = (0.5, 0.3, 0.7, 0.12, 0.88)
@@ -78,7 +79,8 @@ class Counts:
 
 def counted(
     view: View,
-    targets: tuple[Target, ...],
+    sheets: Sheets,
+    targets: Targets,
     curves: Curves,
     edges: Curves,
     edge_on: Bools,
@@ -92,7 +94,7 @@ def counted(
     pairs: what the budget has for all sight lines together.
     """
     samples, clearance = _safest(view, curves, edges, edge_on, pieces)
-    in_front, looked = counts_in_front(view, targets, samples, items, pairs)
+    in_front, looked = counts_in_front(view, sheets, targets, samples, items, pairs)
     unlooked = np.asarray((~looked).any(axis=0), dtype=np.bool_)
     return Counts(in_front, np.asarray((clearance > SAFE_IN_IMAGE) & looked.all(axis=1)), unlooked)
 

@@ -22,13 +22,16 @@ from vectorplot.tolerances.of_extent import (
 from vectorplot.tolerances.of_parameters import CONTACT_PLACES, ONE_MEETING_PLACES
 from vectorplot.visibility.smooth.blocks import Block, in_blocks
 from vectorplot.visibility.smooth.sheets import projection
-from vectorplot.visibility.smooth.sheets.sheet import Sheet
-from vectorplot.visibility.smooth.targets import Target, distance_to, inside, weights
+from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.targets import Targets, distance_to, inside, weights
 
 ROUNDS = 12
 
 ULPS = 16.0
 """Below the one there is nothing to gain; so many times the rounding of points is met too."""
+
+_Found = tuple[Ints, Ints, Ints]
+"""Samples, and the sheets in front of them; and how many pairs with triangles of each sheet were looked at."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,88 +55,103 @@ class Samples:
 
 
 def counts_in_front(
-    view: View, targets: tuple[Target, ...], samples: Samples, items: int, pairs: int
+    view: View, sheets: Sheets, targets: Targets, samples: Samples, items: int, pairs: int
 ) -> tuple[Ints, Bools]:
     """(k, items) the number of sheets of each item between the samples and the eye; and (k, items) whether the
-    budget's pairs did for them: other samples see nothing of its sheets."""
+    budget's pairs, so many for each sheet, did for them: other samples see nothing of its sheets."""
     counts = np.zeros((len(samples), items), dtype=np.intp)
     looked = np.ones((len(samples), items), dtype=np.bool_)
     image = projection.image(view, samples.points)
-    for number, target in enumerate(targets):
-        own = (samples.sheet == number) | (samples.second == number)
-        which = np.flatnonzero(own | target.may_reach(image, image))
-        if not len(which) or not len(target.corners):
-            continue
+    rows = np.arange(len(samples))
+    spent = np.zeros(len(sheets), dtype=np.intp)
+    while len(rows) and len(targets):
 
-        def look(rows: Ints, target: Target = target, number: int = number) -> Block[Ints]:
-            close = target.near_boxes(image[rows], image[rows])
-            return Block(_in_front(view, target, number, samples.some(rows), close), len(close[0]), len(close[0]))
+        def look(rows: Ints, targets: Targets = targets) -> Block[_Found]:
+            sample, triangle = targets.near_boxes(image[rows], image[rows])
+            close = np.bincount(targets.sheet[triangle], minlength=len(sheets))
+            found = _in_front(view, sheets, targets, samples.some(rows), (sample, triangle))
+            return Block((rows[found[0]], found[1], close), len(sample), int(close.max(initial=0)))
 
-        found, done = in_blocks(which, pairs, look)
-        counts[which[:done], target.sheet.item] += np.concatenate(found)
-        looked[which[done:], target.sheet.item] = False
+        found, done = in_blocks(rows, pairs, look)
+        for sample, sheet, close in found:
+            np.add.at(counts, (sample, sheets.item[sheet]), 1)
+            spent += close
+        rows = rows[done:]
+        for number in np.flatnonzero(spent > pairs).tolist() if len(rows) else ():
+            own = targets.of_sheet(number)
+            mine = (samples.sheet[rows] == number) | (samples.second[rows] == number)
+            looked[rows[mine | own.may_reach(image[rows], image[rows])], sheets.item[number]] = False
+            targets = targets.some(targets.sheet != number)
     return counts, looked
 
 
-def _in_front(view: View, target: Target, number: int, samples: Samples, pairs: tuple[Ints, Ints]) -> Ints:
-    """(k,) the number of times that the sheet of this number lies between the samples and the eye; pairs: of a sample
-    and a triangle that its sight line may meet."""
+def _in_front(
+    view: View, sheets: Sheets, targets: Targets, samples: Samples, pairs: tuple[Ints, Ints]
+) -> tuple[Ints, Ints]:
+    """Samples (c,) and the sheets (c,) that lie between them and the eye, as often as they do; pairs: of a sample and a
+    triangle that its sight line may meet."""
     way = projection.sight(view, samples.points)
     long = np.linalg.norm(way, axis=1)
-    sample, meeting, places = _meetings(view, target, samples, way, number, pairs)
+    sample, number, meeting, places = _meetings(view, sheets, targets, samples, way, pairs)
     distance = meeting * long[sample]
-    grazing = np.abs(dot(target.sheet.normals(places), way[sample])) <= GRAZING_ANGLE * long[sample]
+    grazing = np.abs(dot(sheets.normals(number, places), way[sample])) <= GRAZING_ANGLE * long[sample]
     front = (distance > TOUCHING_OF_EXTENT) & ~grazing
     if view.eye is not None:
         front &= meeting < 1.0
-    count = np.zeros(len(samples), dtype=np.intp)
+    looked_at = np.append(np.bincount(targets.sheet, minlength=len(sheets)) > 0, False)
+    again_at: list[Ints] = []
     for own, own_places, contour in (
         (samples.sheet, samples.places, samples.contour),
         (samples.second, samples.second_places, np.zeros(len(samples), dtype=np.bool_)),
     ):
-        mine = own[sample] == number
-        edge = mine & contour[sample]
-        apart = target.sheet.apart(places, own_places[sample])
-        front &= ~(edge & ((distance < CONTACT_MEETING) | (apart < CONTACT_PLACES)))
-        local = mine & ~contour[sample]
+        mine = np.flatnonzero(own[sample] == number)
+        apart = sheets.apart(number[mine], places[mine], own_places[sample[mine]])
+        edge, near = contour[sample[mine]], distance[mine]
+        front[mine] &= ~(edge & ((near < CONTACT_MEETING) | (apart < CONTACT_PLACES)))
         # The sheet itself and its second meeting nearby: the one is no meeting, the other is told below.
-        here = np.flatnonzero((own == number) & ~contour)
+        here = np.flatnonzero(looked_at[own] & ~contour)
         again = np.full(len(samples), np.inf)
-        again[here] = _second_meeting(target.sheet, way[here], own_places[here]) * long[here]
+        again[here] = _second_meeting(sheets, own[here], way[here], own_places[here]) * long[here]
         nearby = np.abs(again) < LOCAL_MEETING
         reach = np.where(nearby, 2.0, 0.5) * LOCAL_MEETING
-        front &= ~(local & (np.abs(distance) < reach[sample]) & (apart < 0.05))
-        into = dot(target.sheet.inwards(own_places[here]), way[here]) >= 0.0
-        count[here] += nearby[here] & (again[here] > 0.0) & into
-    return np.asarray(count + np.bincount(sample[front], minlength=len(samples)))
+        front[mine] &= ~(~edge & (np.abs(near) < reach[sample[mine]]) & (apart < 0.05))
+        here = here[nearby[here] & (again[here] > 0.0)]
+        into = dot(sheets.inwards(own[here], own_places[here]), way[here]) >= 0.0
+        again_at += [here[into], own[here[into]]]
+    in_front = np.concatenate([sample[front], *again_at[::2]])
+    return in_front, np.concatenate([number[front], *again_at[1::2]])
 
 
-def _second_meeting(sheet: Sheet, way: Floats, places: Floats) -> Floats:
+def _second_meeting(sheets: Sheets, number: Ints, way: Floats, places: Floats) -> Floats:
     """(k,) where the sight line meets the sheet again, to second order; in parts of the sight line."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(2.0 * dot(sheet.normals(places), way) / sheet.bends(places, way))
+        return np.asarray(2.0 * dot(sheets.normals(number, places), way) / sheets.bends(number, places, way))
 
 
 def _meetings(
-    view: View, target: Target, samples: Samples, way: Floats, number: int, pairs: tuple[Ints, Ints]
-) -> tuple[Ints, Floats, Floats]:
-    """All meetings of the sight lines with a sheet, each once: the sample, the part of the sight line, the place."""
+    view: View, sheets: Sheets, targets: Targets, samples: Samples, way: Floats, pairs: tuple[Ints, Ints]
+) -> tuple[Ints, Ints, Floats, Floats]:
+    """All meetings of the sight lines with sheets, each once: the sample, the sheet, the part of the sight line, the
+    place."""
     image = projection.image(view, samples.points)
     sample, triangle = pairs
-    weight = weights(target.image[triangle], image[sample])
-    spread = np.ptp(target.image[triangle], axis=1).max(axis=1)
-    near = distance_to(target.image[triangle], weight, image[sample]) <= target.margin[triangle] + 0.02 * spread
+    weight = weights(targets.image[triangle], image[sample])
+    spread = np.ptp(targets.image[triangle], axis=1).max(axis=1)
+    near = distance_to(targets.image[triangle], weight, image[sample]) <= targets.margin[triangle] + 0.02 * spread
     sample, triangle, weight = sample[near], triangle[near], inside(weight[near])
-    corners = target.corners[triangle]
-    places = np.einsum("ij,ijk->ik", weight, target.sheet.vertex_places[corners])
+    places, number = np.einsum("ij,ijk->ik", weight, targets.places[triangle]), targets.sheet[triangle]
     # Another start where curvature says that the own sheet is met again.
-    mine = np.flatnonzero((samples.sheet == number) & ~samples.contour)
-    again = _second_meeting(target.sheet, way[mine], samples.places[mine])
+    looked_at = np.append(np.bincount(targets.sheet, minlength=len(sheets)) > 0, False)
+    mine = np.flatnonzero(looked_at[samples.sheet] & ~samples.contour)
+    own = samples.sheet[mine]
+    again = _second_meeting(sheets, own, way[mine], samples.places[mine])
     close = np.isfinite(again) & (np.abs(again) * np.linalg.norm(way[mine], axis=1) < 0.5)
-    mine, again = mine[close], again[close]
-    there = target.sheet.moved(samples.places[mine], again[:, None] * way[mine])
+    mine, own, again = mine[close], own[close], again[close]
+    there = sheets.moved(own, samples.places[mine], again[:, None] * way[mine])
     good = np.isfinite(there).all(axis=1)
-    sample, places = np.concatenate([sample, mine[good]]), np.concatenate([places, there[good]])
+    sample, number, places = (
+        np.concatenate(pair) for pair in ((sample, mine[good]), (number, own[good]), (places, there[good]))
+    )
     t = np.zeros(len(sample))
     points, ways = samples.points[sample], way[sample]
     off = np.full(len(sample), np.inf)
@@ -141,24 +159,27 @@ def _meetings(
     for _ in range(ROUNDS):
         if not len(active):
             break
-        t[active], places[active] = target.sheet.missed(points[active], ways[active], places[active])
-        away = points[active] + t[active, None] * ways[active] - target.sheet.points(places[active])
+        of = number[active]
+        t[active], places[active] = sheets.missed(of, points[active], ways[active], places[active])
+        away = points[active] + t[active, None] * ways[active] - sheets.points(of, places[active])
         off[active] = np.sqrt(dot(away, away))
         active = active[(off[active] > SETTLED_OF_EXTENT) & np.isfinite(off[active])]
-    met = (off <= max(MET_OF_EXTENT, ULPS * projection.rounding(view))) & target.sheet.on_sheet(places)
-    sample, t, places = sample[met], t[met], places[met]
-    return _different(target.sheet, sample, t * np.linalg.norm(ways[met], axis=1), t, places)
+    met = (off <= max(MET_OF_EXTENT, ULPS * projection.rounding(view))) & sheets.on_sheet(number, places)
+    sample, number, t, places = sample[met], number[met], t[met], places[met]
+    return _different(sheets, sample, number, t * np.linalg.norm(ways[met], axis=1), t, places)
 
 
-def _different(sheet: Sheet, sample: Ints, distance: Floats, t: Floats, places: Floats) -> tuple[Ints, Floats, Floats]:
+def _different(
+    sheets: Sheets, sample: Ints, number: Ints, distance: Floats, t: Floats, places: Floats
+) -> tuple[Ints, Ints, Floats, Floats]:
     """The meetings without repetitions."""
-    order = np.lexsort((distance, sample))
-    sample, distance, t, places = sample[order], distance[order], t[order], places[order]
+    order = np.lexsort((distance, number, sample))
     for _ in range(3):
-        if len(sample) < 2:
+        s, n, d, at = sample[order], number[order], distance[order], places[order]
+        if len(order) < 2:
             break
-        same = (sample[1:] == sample[:-1]) & (distance[1:] - distance[:-1] < ONE_MEETING)
-        same &= sheet.apart(places[1:], places[:-1]) < ONE_MEETING_PLACES
-        kept = np.concatenate([[True], ~same])
-        sample, distance, t, places = sample[kept], distance[kept], t[kept], places[kept]
-    return sample, t, places
+        same = (s[1:] == s[:-1]) & (n[1:] == n[:-1]) & (d[1:] - d[:-1] < ONE_MEETING)
+        pair = np.flatnonzero(same)
+        same[pair] = sheets.apart(n[pair], at[pair + 1], at[pair]) < ONE_MEETING_PLACES
+        order = order[np.concatenate([[True], ~same])]
+    return sample[order], number[order], t[order], places[order]

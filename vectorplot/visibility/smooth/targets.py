@@ -9,26 +9,45 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import records
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.sheets import projection
 from vectorplot.visibility.smooth.sheets.sheet import Sheet
+from vectorplot.visibility.smooth.sheets.sheets import Sheets
 
 if TYPE_CHECKING:
     import shapely
 
 
 @dataclass(frozen=True, eq=False)
-class Target:
-    """A sheet and its triangles (t,) in front of the eye: their corners' images (t,3,2) and depths (t,3); margin (t,):
-    how far the image of the sheet may be off theirs; off (t,): how far the sheet is in space."""
+class Targets:
+    """The triangles (t,) of sheets that hide, sheet after sheet, as far as they are in front of the eye.
 
-    sheet: Sheet
-    corners: Ints
+    sheet (t,): the sheet of each; corners (t,3) and places (t,3,3): their corners in space and on the sheet; image
+    (t,3,2) and depth (t,3) of the corners; margin (t,): how far the image of the sheet may be off theirs; off (t,): how
+    far the sheet is in space.
+    """
+
+    sheet: Ints
+    corners: Floats
+    places: Floats
     image: Floats
     depth: Floats
     margin: Floats
     off: Floats
+
+    def __len__(self) -> int:
+        return len(self.sheet)
+
+    def some(self, which: Ints | Bools) -> Targets:
+        """Some of the triangles, in their order."""
+        return records.some(self, which)
+
+    def of_sheet(self, number: int) -> Targets:
+        """The triangles of one sheet."""
+        first, last = np.searchsorted(self.sheet, [number, number + 1])
+        return self.some(np.arange(first, last))
 
     @cached_property
     def tree(self) -> shapely.STRtree:
@@ -51,28 +70,41 @@ class Target:
         return self.image.min(axis=1) - margin, self.image.max(axis=1) + margin
 
     def may_reach(self, low: Floats, high: Floats) -> Bools:
-        """(k,) which boxes (k,2), from low to high, overlap the one around the whole sheet."""
+        """(k,) which boxes (k,2), from low to high, overlap the one around all of them."""
         return np.asarray(((low <= self.box[1]) & (high >= self.box[0])).all(axis=1))
 
     def near_boxes(self, low: Floats, high: Floats) -> tuple[Ints, Ints]:
         """Pairs of a box (k,2), from low to high, and a triangle whose box, enlarged by its margin, overlaps it."""
         import shapely
 
-        # Most boxes are beside the whole sheet, where a scene has many.
         close = np.flatnonzero(self.may_reach(low, high))
         low, high = low[close], high[close]
         box, triangle = self.tree.query(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
         return close[box], np.asarray(triangle)
 
 
-def target(view: View, sheet: Sheet) -> Target:
-    """The sheet as seen in a view; triangles that reach before the near plane are left out, and those of a sheet that
+def targets_of(view: View, sheets: Sheets) -> Targets:
+    """The sheets as seen in a view; triangles that reach before the near plane are left out, and those of a sheet that
     hides nothing."""
+    hiding = [number for number, sheet in enumerate(sheets) if sheet.hides]
+    return records.joined([_none(), *(_targets(view, sheets[number], number) for number in hiding)])
+
+
+def _targets(view: View, sheet: Sheet, number: int) -> Targets:
+    """The triangles of the sheet of this number."""
     image, depth = projection.image(view, sheet.vertices), projection.depth(view, sheet.vertices)
-    kept = np.flatnonzero((depth[sheet.corners] > view.near).all(axis=1) & sheet.hides)
+    kept = np.flatnonzero((depth[sheet.corners] > view.near).all(axis=1))
     corners, off = sheet.corners[kept], 2.0 * sheet.sags[kept]
     scale = 1.0 if view.eye is None else view.focus / np.maximum(depth[corners].min(axis=1), view.near)
-    return Target(sheet, corners, image[corners], depth[corners], off * scale, off)
+    own = np.full(len(kept), number)
+    places = sheet.vertex_places[corners]
+    return Targets(own, sheet.vertices[corners], places, image[corners], depth[corners], off * scale, off)
+
+
+def _none() -> Targets:
+    """No triangle at all."""
+    none, zero = np.zeros((0, 3, 3)), np.zeros(0)
+    return Targets(np.zeros(0, dtype=np.intp), none, none, none[:, :, :2], none[:, :, 0], zero, zero)
 
 
 def weights(triangle: Floats, points: Floats) -> Floats:

@@ -10,6 +10,7 @@ from support.smooth_parts import around, ball_from_above, polylines
 from vectorplot.geometry.budget import USUAL
 from vectorplot.visibility.smooth.events.crossings import crossings
 from vectorplot.visibility.smooth.sheets.family import ParameterCurves
+from vectorplot.visibility.smooth.sheets.sheets import Sheets
 from vectorplot.words import LineKind
 
 
@@ -21,9 +22,10 @@ def behind(line):
         polylines(around(64, radius), closed=True, kind=LineKind.CONTOUR),
         places=places,
         families=(ParameterCurves(sheet, 0),),
+        sheet=np.zeros(1, dtype=np.intp),
     )
     lines = polylines(radius * np.asarray(line))
-    return crossings(view, (sheet,), lines, equator, np.zeros(1, dtype=np.bool_), 1e-3, USUAL.pairs)[0]
+    return crossings(view, Sheets((sheet,)), lines, equator, np.zeros(1, dtype=np.bool_), 1e-3, USUAL.pairs)[0]
 
 
 def test_behind_a_sphere_there_are_two_sheets_more() -> None:

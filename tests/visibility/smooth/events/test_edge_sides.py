@@ -6,6 +6,7 @@ import numpy as np
 from support.smooth_parts import ball_from_above
 
 from vectorplot.visibility.smooth.events.edge_sides import covered_sides, turn
+from vectorplot.visibility.smooth.sheets.sheets import Sheets
 from vectorplot.words import LineKind
 
 
@@ -21,5 +22,5 @@ def test_a_sphere_lies_inside_of_its_equator() -> None:
     # Against the clock the inside is to the left.
     way = np.stack([-points[:, 1], points[:, 0], np.zeros(5)], axis=1)
     kind, number = np.full(5, int(LineKind.CONTOUR)), np.zeros(5, dtype=np.intp)
-    assert covered_sides(view, (sheet,), number, kind, points, places, way).tolist() == [1] * 5
-    assert covered_sides(view, (sheet,), number, kind, points, places, -way).tolist() == [-1] * 5
+    assert covered_sides(view, Sheets((sheet,)), number, kind, points, places, way).tolist() == [1] * 5
+    assert covered_sides(view, Sheets((sheet,)), number, kind, points, places, -way).tolist() == [-1] * 5

@@ -12,7 +12,7 @@ from vectorplot.surfaces.families.quadric import Quadric, implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.placed import PlacedImplicit
 from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet, implicit_sheet, placed_in_view
-from vectorplot.visibility.smooth.tracing.parametric_items import sheet_of_parametrised
+from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised
 
 CUT = Quadric([1.0, 1.0, 1.0, *[0.0] * 6, -1.0], np.array([[-1.2, -0.7, -1.2], [0.8, 1.2, 0.6]]))
 
@@ -36,7 +36,7 @@ def test_the_tessellation_lies_on_the_sheet() -> None:
 @pytest.mark.parametrize("seed", range(3))
 def test_normals_and_bends_are_those_of_the_parametrised_form(seed: int) -> None:
     view = view_of(ImplicitTorus(3.0, 1.0))
-    one = sheet_of_parametrised(view, Torus(3.0, 1.0), 0, True)
+    one = sheets_of_parametrised(view, Torus(3.0, 1.0), 0, True)[0]
     two = implicit_sheet(view, ImplicitTorus(3.0, 1.0), 0, True)
     random = np.random.default_rng(seed)
     places = np.concatenate([random.uniform(0.0, 2.0 * np.pi, (40, 2)), np.zeros((40, 1))], axis=1)

@@ -21,7 +21,7 @@ from vectorplot.visibility.smooth.events.cubics import cubics
 from vectorplot.visibility.smooth.events.edge_sides import covered_sides, turn
 from vectorplot.visibility.smooth.events.events import Events, hopped, on_chord, once
 from vectorplot.visibility.smooth.sheets import projection
-from vectorplot.visibility.smooth.sheets.sheet import Sheet
+from vectorplot.visibility.smooth.sheets.sheets import Sheets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.words import LineKind
 
@@ -60,7 +60,7 @@ class Pairs:
 
 def crossings(
     view: View,
-    sheets: tuple[Sheet, ...],
+    sheets: Sheets,
     curves: Curves,
     edges: Curves,
     edge_on: Bools,
@@ -76,14 +76,18 @@ def crossings(
     """
     close, short = _close_pairs(view, sheets, curves, edges, tolerance, allowed)
     pairs = _roughly_met(view, curves, edges, close)
-    for _ in range(HOPS):
+    settled: list[Pairs] = []
+    for hop in range(HOPS):
         pairs = _met(view, curves, edges, pairs)
         chord, part = hopped(curves, pairs.chord, pairs.part)
         edge, edge_part = hopped(edges, pairs.edge, pairs.edge_part)
         moved = (chord != pairs.chord) | (edge != pairs.edge)
         pairs = Pairs(chord, part, edge, edge_part)
-        if not moved.any():
-            break
+        if hop < HOPS - 1:
+            # Those that went over to a neighbour are looked for there.
+            settled.append(pairs.some(~moved))
+            pairs = pairs.some(moved)
+    pairs = records.joined((*settled, pairs))
     inside, part = on_chord(pairs.part)
     edge_inside, edge_part = on_chord(pairs.edge_part)
     pairs = Pairs(pairs.chord, part, pairs.edge, edge_part).some(inside & edge_inside)
@@ -92,7 +96,7 @@ def crossings(
 
 
 def _close_pairs(
-    view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, tolerance: float, pairs: int
+    view: View, sheets: Sheets, curves: Curves, edges: Curves, tolerance: float, pairs: int
 ) -> tuple[Pairs, tuple[int, ...]]:
     """The pairs of chords that come close to each other in the image, the edge not behind, and where they do; and the
     items of chords for which the budget's pairs did not do."""
@@ -124,15 +128,15 @@ def _close(one: _Boxes, two: _Boxes, rows: Ints, margin: float) -> Block[tuple[I
     return Block((near[close], far[close], part[close], edge_part[close]), looked, len(close))
 
 
-def _near_cusps(view: View, sheets: tuple[Sheet, ...], edges: Curves) -> Bools:
+def _near_cusps(view: View, sheets: Sheets, edges: Curves) -> Bools:
     """(n,) the points of folds at which the sheet bends little along the sight line."""
     bend = np.full(len(edges.points), np.inf)
-    fold = edges.kind[edges.owner] == LineKind.CONTOUR
-    for number, sheet in enumerate(sheets):
-        at = np.flatnonzero(fold & (edges.sheet[edges.owner] == number))
-        bend[at] = np.abs(sheet.bends(edges.places[at], projection.sight(view, edges.points[at])))
-        if len(at):
-            bend[at] /= max(float(bend[at].max()), LEAST_DIVISOR)
+    at = np.flatnonzero(edges.kind[edges.owner] == LineKind.CONTOUR)
+    number = edges.sheet[edges.owner[at]]
+    bend[at] = np.abs(sheets.bends(number, edges.places[at], projection.sight(view, edges.points[at])))
+    largest = np.zeros(len(sheets))
+    np.maximum.at(largest, number, bend[at])
+    bend[at] /= np.maximum(largest, LEAST_DIVISOR)[number]
     little = bend < NEAR_CUSPS
     return np.asarray(little | np.append(little[1:], False))
 
@@ -226,6 +230,7 @@ def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
     part, edge_part = pairs.part.copy(), pairs.edge_part.copy()
     off = np.full(len(part), np.inf)
     active = np.arange(len(part))
+    rounding = ULPS * projection.rounding(view)
     for _ in range(ROUNDS):
         if not len(active):
             break
@@ -236,16 +241,16 @@ def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
         s, t = _step(gap, a, b)
         part[active] = np.clip(part[active] + s, -1.5, 2.5)
         edge_part[active] = np.clip(edge_part[active] + t, -1.5, 2.5)
-        active = active[(np.abs(s) > CROSSING_SETTLED) | (np.abs(t) > CROSSING_SETTLED)]
+        far = (np.abs(s) > CROSSING_SETTLED) | (np.abs(t) > CROSSING_SETTLED)
+        # A long way along chords may be a short one in the image, on which there is nothing but rounding.
+        active = active[far & (off[active] > rounding)]
     # Beyond the chords' ends the search goes on with the neighbours, whatever the residual.
     beyond = (part < 0.0) | (part > 1.0) | (edge_part < 0.0) | (edge_part > 1.0)
-    kept = (off <= 100.0 * max(CROSSING_RESIDUAL, ULPS * projection.rounding(view))) | (beyond & (off < np.inf))
+    kept = (off <= 100.0 * max(CROSSING_RESIDUAL, rounding)) | (beyond & (off < np.inf))
     return Pairs(pairs.chord, part, pairs.edge, edge_part).some(kept)
 
 
-def _events(
-    view: View, sheets: tuple[Sheet, ...], curves: Curves, edges: Curves, edge_on: Bools, pairs: Pairs
-) -> Events:
+def _events(view: View, sheets: Sheets, curves: Curves, edges: Curves, edge_on: Bools, pairs: Pairs) -> Events:
     """The crossings of the pairs that really are behind an edge."""
     one, two = curves.at(pairs.chord, pairs.part), edges.at(pairs.edge, pairs.edge_part)
     away = projection.image(view, two.points) - projection.image(view, one.points)

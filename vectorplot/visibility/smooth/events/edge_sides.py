@@ -7,12 +7,12 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.sheets import projection
-from vectorplot.visibility.smooth.sheets.sheet import Sheet
+from vectorplot.visibility.smooth.sheets.sheets import Sheets
 from vectorplot.words import LineKind
 
 
 def covered_sides(
-    view: View, sheets: tuple[Sheet, ...], number: Ints, kind: Ints, points: Floats, places: Floats, slopes: Floats
+    view: View, sheets: Sheets, number: Ints, kind: Ints, points: Floats, places: Floats, slopes: Floats
 ) -> Ints:
     """(k,) 1 where the image of a sheet lies to the left of its edge, -1 where to the right, 0 where neither is told.
 
@@ -22,14 +22,13 @@ def covered_sides(
     """
     covered = np.zeros_like(points)
     way = projection.sight(view, points)
-    for one in np.unique(number).tolist():
-        sheet, own = sheets[one], number == one
-        fold = np.flatnonzero(own & (kind == LineKind.CONTOUR))
-        covered[fold] = np.sign(sheet.bends(places[fold], way[fold]))[:, None] * sheet.normals(places[fold])
-        border = np.flatnonzero(own & (kind == LineKind.BOUNDARY))
-        covered[border] = sheet.inwards(places[border])
-        cuspidal = np.flatnonzero(own & (kind == LineKind.CREASE))
-        covered[cuspidal] = sheet.turnings(places[cuspidal])
+    at = np.flatnonzero(kind == LineKind.CONTOUR)
+    bends, normals = sheets.bends(number[at], places[at], way[at]), sheets.normals(number[at], places[at])
+    covered[at] = np.sign(bends)[:, None] * normals
+    at = np.flatnonzero(kind == LineKind.BOUNDARY)
+    covered[at] = sheets.inwards(number[at], places[at])
+    at = np.flatnonzero(kind == LineKind.CREASE)
+    covered[at] = sheets.turnings(number[at], places[at])
     side = turn(projection.image_slopes(view, points, slopes), projection.image_slopes(view, points, covered))
     return np.where(np.isfinite(side), np.sign(side), 0.0).astype(np.intp)
 

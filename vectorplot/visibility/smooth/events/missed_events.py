@@ -9,7 +9,8 @@ from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.events.events import Events
 from vectorplot.visibility.smooth.pieces import Counts, Pieces, samples_at
 from vectorplot.visibility.smooth.rays import counts_in_front
-from vectorplot.visibility.smooth.targets import Target
+from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.targets import Targets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 LOOKS = 16
@@ -23,7 +24,8 @@ SHARE = 8
 
 def missed_events(
     view: View,
-    targets: tuple[Target, ...],
+    sheets: Sheets,
+    targets: Targets,
     curves: Curves,
     edge_on: Bools,
     pieces: Pieces,
@@ -43,7 +45,7 @@ def missed_events(
     shares = (np.arange(LOOKS) + 0.5) / LOOKS
     at = (begin[:, None] + shares * (end - begin)[:, None]).ravel()
     last = np.repeat(pieces.end_chord[suspects], LOOKS)
-    found, looked = _counts(view, targets, curves, edge_on, at, last, items, max(1, pairs // SHARE))
+    found, looked = _counts(view, sheets, targets, curves, edge_on, at, last, items, max(1, pairs // SHARE))
     short = ~looked.all(axis=0)
     found = found.reshape(len(suspects), LOOKS, items)
     seen = looked.all(axis=1).reshape(len(suspects), LOOKS)
@@ -57,7 +59,7 @@ def missed_events(
             break
         middle = 0.5 * (low[row] + high[row])
         counts_there, looked = _counts(
-            view, targets, curves, edge_on, middle, last[row], items, max(1, pairs // SHARE // HALVINGS)
+            view, sheets, targets, curves, edge_on, middle, last[row], items, max(1, pairs // SHARE // HALVINGS)
         )
         short |= ~looked.all(axis=0)
         # What the budget does not do for stays where it is.
@@ -85,7 +87,8 @@ def _suspects(pieces: Pieces, counts: Counts) -> Ints:
 
 def _counts(
     view: View,
-    targets: tuple[Target, ...],
+    sheets: Sheets,
+    targets: Targets,
     curves: Curves,
     edge_on: Bools,
     at: Floats,
@@ -96,4 +99,4 @@ def _counts(
     """(k, items) sheets in front of places at (k,): the number of the chord and the part of it; and (k, items) whether
     the budget's pairs did for them. last (k,): the last chord of the piece."""
     chord = np.minimum(at.astype(np.intp), last)
-    return counts_in_front(view, targets, samples_at(curves, edge_on, chord, at - chord), items, pairs)
+    return counts_in_front(view, sheets, targets, samples_at(curves, edge_on, chord, at - chord), items, pairs)

@@ -14,54 +14,45 @@ from vectorplot.visibility.smooth.events.events import Events, all_events
 from vectorplot.visibility.smooth.events.roots import roots_along
 from vectorplot.visibility.smooth.sheets import projection
 from vectorplot.visibility.smooth.sheets.family import Along
-from vectorplot.visibility.smooth.sheets.sheet import Sheet
+from vectorplot.visibility.smooth.sheets.sheets import Sheets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.words import LineKind
 
 
-def edge_on_curves(view: View, sheets: tuple[Sheet, ...], curves: Curves) -> Bools:
+def edge_on_curves(view: View, sheets: Sheets, curves: Curves) -> Bools:
     """(m,) the curves that lie on the contour of their own sheet all along.
 
     Contours do, whatever rounding makes of normals close to singular points.
     """
     contour = (curves.kind == LineKind.CONTOUR) & (curves.sheet >= 0)
-    return np.asarray(contour | ~np.isin(np.arange(len(curves)), curves.owner[~_is_edge_on(view, sheets, curves)]))
-
-
-def _is_edge_on(view: View, sheets: tuple[Sheet, ...], curves: Curves) -> Bools:
-    """(n,) the points at which the sheet is seen edge-on."""
     facing = np.full(len(curves.points), np.inf)
-    own = curves.sheet[curves.owner]
-    for number in np.unique(own[own >= 0]).tolist():
-        at = np.flatnonzero(own == number)
-        facing[at] = _facing(view, sheets[number], curves.points[at], curves.places[at])
-    return np.asarray(~(np.abs(facing) > EDGE_ON_SINE))
+    number = curves.sheet[curves.owner]
+    at = np.flatnonzero(number >= 0)
+    facing[at] = _facing(view, sheets, number[at], curves.points[at], curves.places[at])
+    turned = np.abs(facing) > EDGE_ON_SINE
+    return np.asarray(contour | ~np.isin(np.arange(len(curves)), curves.owner[turned]))
 
 
-def _facing(view: View, sheet: Sheet, points: Floats, places: Floats) -> Floats:
+def _facing(view: View, sheets: Sheets, number: Ints, points: Floats, places: Floats) -> Floats:
     """(k,) cosines of the angles between normals and sight lines."""
     way = projection.sight(view, points)
-    return np.asarray(dot(sheet.normals(places), way) / np.linalg.norm(way, axis=1))
+    return np.asarray(dot(sheets.normals(number, places), way) / np.linalg.norm(way, axis=1))
 
 
-def own_events(view: View, sheets: tuple[Sheet, ...], curves: Curves, edge_on: Bools) -> Events:
+def own_events(view: View, sheets: Sheets, curves: Curves, edge_on: Bools) -> Events:
     """The events where curves pass the contours of their own sheets, and cusps of curves that are contours.
 
     edge_on (m,): as edge_on_curves tells.
     """
-    parts = []
-    for number, sheet in enumerate(sheets):
-        if not sheet.hides:
-            continue
-        first = (curves.sheet == number) & ~edge_on
-        numbers = np.flatnonzero(first)
-        parts.append(_passings(view, sheet, curves.some(numbers), numbers, curves, _first_places))
-        contours = (curves.sheet == number) & edge_on
-        parts.append(_cusps(view, sheet, curves.some(np.flatnonzero(contours)), np.flatnonzero(contours), curves))
-        second = curves.second_sheet == number
-        numbers = np.flatnonzero(second)
-        parts.append(_passings(view, sheet, curves.some(numbers), numbers, curves, _second_places))
-    return all_events(parts)
+    hides = np.append(sheets.hides, False)
+    first, second = hides[curves.sheet], hides[curves.second_sheet]
+    return all_events(
+        [
+            _passings(view, sheets, curves, np.flatnonzero(first & ~edge_on), curves.sheet, _first_places),
+            _cusps(view, sheets, curves, np.flatnonzero(first & edge_on)),
+            _passings(view, sheets, curves, np.flatnonzero(second), curves.second_sheet, _second_places),
+        ]
+    )
 
 
 def _first_places(of: Curves | Along) -> Floats:
@@ -74,24 +65,27 @@ def _second_places(of: Curves | Along) -> Floats:
 
 def _passings(
     view: View,
-    sheet: Sheet,
-    own: Curves,
-    numbers: Ints,
+    sheets: Sheets,
     curves: Curves,
+    numbers: Ints,
+    sheet: Ints,
     places: Callable[[Curves | Along], Floats],
 ) -> Events:
-    """Where a curve goes over from a part of a sheet that it sees to one that the sheet itself hides, or back.
+    """Where some of the curves, by their numbers, go over from a part of a sheet that they see to one that the sheet
+    itself hides, or back.
 
-    places: of curves on that sheet.
+    sheet (m,): the sheets of all curves, and places of curves on them.
     """
+    own = curves.some(numbers)
 
-    def facing(_: Ints, at: Along) -> Floats:
-        return _facing(view, sheet, at.points, places(at))
+    def facing(curve: Ints, at: Along) -> Floats:
+        return _facing(view, sheets, sheet[numbers[curve]], at.points, places(at))
 
-    roots = roots_along(own, facing, _facing(view, sheet, own.points, places(own)))
-    at = own.at(roots.chord, roots.part)
+    values = _facing(view, sheets, sheet[numbers[own.owner]], own.points, places(own))
+    roots = roots_along(own, facing, values)
+    at, passed = own.at(roots.chord, roots.part), sheet[numbers[own.owner[roots.chord]]]
     chord = _chords(own, numbers, curves, roots.chord)
-    return _passed(view, sheet, at.points, places(at), roots.falls, chord, roots.part)
+    return _passed(view, sheets, passed, at.points, places(at), roots.falls, chord, roots.part)
 
 
 def _chords(own: Curves, numbers: Ints, curves: Curves, chord: Ints) -> Ints:
@@ -101,27 +95,28 @@ def _chords(own: Curves, numbers: Ints, curves: Curves, chord: Ints) -> Ints:
 
 
 def _passed(
-    view: View, sheet: Sheet, points: Floats, places: Floats, falls: Bools, chord: Ints, part: Floats
+    view: View, sheets: Sheets, number: Ints, points: Floats, places: Floats, falls: Bools, chord: Ints, part: Floats
 ) -> Events:
     """Near the contour the sight line meets the sheet once more, at twice facing by bend: in front of the curve where
     that is positive; unless the sheet ends there."""
     way = projection.sight(view, points)
-    bend = sheet.bends(places, way)
+    bend = sheets.bends(number, places, way)
     change = np.where(falls, -1, 1) * np.sign(bend).astype(np.intp)
-    change[dot(sheet.inwards(places), way) < 0.0] = 0
-    return Events(chord, part, np.full(len(chord), sheet.item), change)
+    change[dot(sheets.inwards(number, places), way) < 0.0] = 0
+    return Events(chord, part, sheets.item[number], change)
 
 
-def _cusps(view: View, sheet: Sheet, own: Curves, numbers: Ints, curves: Curves) -> Events:
+def _cusps(view: View, sheets: Sheets, curves: Curves, numbers: Ints) -> Events:
     """Where the sight line is an asymptotic direction: the image of the contour has a cusp, its visibility ends."""
+    own = curves.some(numbers)
 
-    def bending(_: Ints, at: Along) -> Floats:
-        return sheet.bends(at.places, projection.sight(view, at.points))
+    def bending(curve: Ints, at: Along) -> Floats:
+        return sheets.bends(own.sheet[curve], at.places, projection.sight(view, at.points))
 
-    values = sheet.bends(own.places, projection.sight(view, own.points))
+    values = sheets.bends(own.sheet[own.owner], own.places, projection.sight(view, own.points))
     roots = roots_along(own, bending, values)
     at = own.at(roots.chord, roots.part)
     leaving = dot(at.slopes, projection.sight(view, at.points)) > 0.0
     change = np.where(leaving, -1, 1)
     chord = _chords(own, numbers, curves, roots.chord)
-    return Events(chord, roots.part, np.full(len(chord), sheet.item), change)
+    return Events(chord, roots.part, sheets.item[own.sheet[own.owner[roots.chord]]], change)

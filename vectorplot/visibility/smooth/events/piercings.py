@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged, records
+from vectorplot.geometry.boxes import overlapping_boxes
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import ALONG_SHEET_SINE
@@ -15,8 +19,8 @@ from vectorplot.visibility.smooth.blocks import Block, in_blocks
 from vectorplot.visibility.smooth.events.events import Events, all_events, hopped, on_chord, once
 from vectorplot.visibility.smooth.events.unmet import unmet_stretches
 from vectorplot.visibility.smooth.sheets import projection
-from vectorplot.visibility.smooth.sheets.sheet import Sheet
-from vectorplot.visibility.smooth.targets import Target, inside, weights
+from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.targets import Targets, inside, weights
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 ROUNDS, HOPS = 10, 3
@@ -33,13 +37,24 @@ SHARPEST = 1e3
 """Where a sheet bends more strongly, in a scene about 1 large, its normal tells nothing about the sides of it: it is at
 an apex, a pinch point or a cuspidal edge, or as good as there."""
 
-_Found = tuple[Ints, Floats, Floats, Ints, Floats, Floats]
-"""Chords that come close to a sheet, the parts of them where they do, and within how far; and chords that meet it, the
-parts of them where they do, and the places there."""
+NEAR = 0.25
+"""A chord that is no farther from a triangle than this part of its longest side may meet the sheet there."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Close:
+    """Chords (k,) that come close to sheets of these numbers (k,), the parts of them where they do, the places there,
+    and within how far."""
+
+    chord: Ints
+    number: Ints
+    part: Floats
+    places: Floats
+    reach: Floats
 
 
 def piercings(
-    view: View, targets: tuple[Target, ...], curves: Curves, meets_itself: Bools, pairs: int
+    view: View, sheets: Sheets, targets: Targets, curves: Curves, meets_itself: Bools, pairs: int
 ) -> tuple[Events, tuple[int, ...]]:
     """The events where curves pierce sheets, behind which there is one more in front; and the items for which the
     budget's pairs did not do. Where curves come close to a sheet and no such event is found they are cut, with no
@@ -47,51 +62,84 @@ def piercings(
 
     meets_itself (s,): sheets that may be pierced by curves that lie on them.
     """
+    near, short = _close(view, sheets, targets, curves, meets_itself, pairs)
+    if not len(near.chord):
+        return all_events([]), short
+    number, chord, part, places = _met(view, sheets, curves, near)
+    kept = _elsewhere(sheets, number, curves, chord, part, places, APART_OF_DOMAIN)
+    number, chord, part, places = number[kept], chord[kept], part[kept], places[kept]
+    each = once(curves, chord, part, number.astype(np.float64))
+    met = number[each]
+    found = _pierced(view, sheets, met, curves, chord[each], part[each], places[each])
+    unmet = unmet_stretches(curves, sheets, near.number, near.chord, near.part, near.reach, met, found)
+    return all_events([found, unmet]), short
+
+
+def _close(
+    view: View, sheets: Sheets, targets: Targets, curves: Curves, meets_itself: Bools, pairs: int
+) -> tuple[_Close, tuple[int, ...]]:
+    """Where chords of curves come close to sheets, and the items for which the budget's pairs did not do."""
     depth, image = projection.depth(view, curves.points), projection.image(view, curves.points)
-    parts, short = [], list[int]()
-    for number, target in enumerate(targets):
-        stranger = ((curves.sheet != number) & (curves.second_sheet != number)) | meets_itself[number]
-        chord = curves.chords[stranger[curves.owner[curves.chords]]]
+    none = np.zeros(0, dtype=np.intp)
+    parts, short = [_Close(none, none, np.zeros(0), np.zeros((0, 3)), np.zeros(0))], list[int]()
+    curve, of = _neighbours(targets, curves)
+    stranger = (curves.sheet[curve] != of) & (curves.second_sheet[curve] != of) | meets_itself[of]
+    curve, of = curve[stranger], of[stranger]
+    order = np.argsort(of, kind="stable")
+    sizes = np.diff(curves.offsets) - 1
+    for own in np.split(order, np.flatnonzero(np.diff(of[order])) + 1) if len(order) else ():
+        number, mine = int(of[own[0]]), np.sort(curve[own])
+        target = targets.of_sheet(number)
+        chord = ragged.ranges(curves.offsets[mine], sizes[mine])
         chord = chord[(depth[chord] > view.near) & (depth[chord + 1] > view.near)]
-        if len(chord) and len(target.corners):
 
-            def look(rows: Ints, target: Target = target, number: int = number) -> Block[_Found]:
-                block = _close(target, curves, rows, image, depth)
-                chord, part, places, reach = block.found
-                kept = _elsewhere(target.sheet, number, curves, chord, part, places, APART_AT_FIRST)
-                chord, part, places, reach = chord[kept], part[kept], places[kept], reach[kept]
-                at, at_part, met = _met(view, target.sheet, curves, chord, part, places)
-                kept = _elsewhere(target.sheet, number, curves, at, at_part, met, APART_OF_DOMAIN)
-                return Block((chord, part, reach, at[kept], at_part[kept], met[kept]), block.partners, len(chord))
+        def look(rows: Ints, target: Targets = target, number: int = number) -> Block[_Close]:
+            chord, part, places, reach, looked = _near_triangles(target, curves, rows, image, depth)
+            found = _Close(chord, np.full(len(chord), number), part, places, reach)
+            kept = _elsewhere(sheets, found.number, curves, chord, part, places, APART_AT_FIRST)
+            return Block(records.some(found, kept), looked, int(kept.sum()))
 
-            found, done = in_blocks(chord, pairs, look)
-            if done < len(chord):
-                short.append(target.sheet.item)
-            near, near_part, reach, chord, part, places = (
-                np.concatenate(column) for column in zip(*found, strict=True)
-            )
-            pierced = _pierced(view, target.sheet, curves, chord, part, places)
-            parts += [pierced, unmet_stretches(curves, near, near_part, reach, pierced, target.sheet.item)]
-    return all_events(parts), tuple(short)
+        found, done = in_blocks(chord, pairs, look)
+        if done < len(chord):
+            short.append(int(sheets.item[number]))
+        parts += found
+    return records.joined(parts), tuple(short)
+
+
+def _neighbours(targets: Targets, curves: Curves) -> tuple[Ints, Ints]:
+    """Curves and sheets (n,) whose boxes in space overlap."""
+    first = np.flatnonzero(np.diff(targets.sheet, prepend=-1))
+    if not len(first) or not len(curves):
+        return np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp)
+    low, high = targets.corners.min(axis=1), targets.corners.max(axis=1)
+    # As far as a chord may be from a triangle that it comes close to.
+    within = np.maximum.reduceat(targets.off + NEAR * np.sqrt(3.0) * (high - low).max(axis=1), first)[:, None]
+    low, high = np.minimum.reduceat(low, first) - within, np.maximum.reduceat(high, first) + within
+    points, begin = curves.points, curves.offsets[:-1]
+    curve, sheet = overlapping_boxes(
+        np.minimum.reduceat(points, begin).T, np.maximum.reduceat(points, begin).T, low.T, high.T
+    )
+    return curve, targets.sheet[first[sheet]]
 
 
 def _elsewhere(
-    sheet: Sheet, number: int, curves: Curves, chord: Ints, part: Floats, places: Floats, apart: float
+    sheets: Sheets, number: Ints, curves: Curves, chord: Ints, part: Floats, places: Floats, apart: float
 ) -> Bools:
-    """(k,) which places on a sheet are not those of the curves themselves, which may lie on it once or twice."""
+    """(k,) which places on sheets are not those of the curves themselves, which may lie on them once or twice."""
     away = np.ones(len(chord), dtype=np.bool_)
     for on, own_places in ((curves.sheet, curves.places), (curves.second_sheet, curves.second_places)):
         mine = np.flatnonzero(on[curves.owner[chord]] == number)
         at, begin = part[mine, None], chord[mine]
         own = own_places[begin] + at * (own_places[begin + 1] - own_places[begin])
-        away[mine] &= sheet.apart(places[mine], own) > apart
+        away[mine] &= sheets.apart(number[mine], places[mine], own) > apart
     return away
 
 
-def _close(
-    target: Target, curves: Curves, chord: Ints, image: Floats, depth: Floats
-) -> Block[tuple[Ints, Floats, Floats, Floats]]:
-    """Chords, parts of them and places on the sheet where they come close to it, and within how far."""
+def _near_triangles(
+    target: Targets, curves: Curves, chord: Ints, image: Floats, depth: Floats
+) -> tuple[Ints, Floats, Floats, Floats, int]:
+    """Chords, parts of them and places on the sheet where they come close to one of its triangles, and within how far;
+    and how many pairs were looked at."""
     a, b = image[chord], image[chord + 1]
     box, triangle = target.near_boxes(np.minimum(a, b), np.maximum(a, b))
     looked = len(box)
@@ -101,7 +149,7 @@ def _close(
     near = (np.minimum(one, two) <= deep.max(axis=1) + margin) & (np.maximum(one, two) >= deep.min(axis=1) - margin)
     box, triangle, margin = box[near], triangle[near], margin[near]
     chord = chord[box]
-    corners = target.sheet.vertices[target.corners[triangle]]
+    corners = target.corners[triangle]
     a, b = curves.points[chord], curves.points[chord + 1]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -113,10 +161,10 @@ def _close(
     size = np.sqrt(((corners[:, 1:] - corners[:, :1]) ** 2).sum(axis=2)).max(axis=1)
     weight = _in_space(corners, middle)
     at = np.einsum("ij,ijk->ik", inside(weight), corners)
-    within = margin + 0.25 * size
+    within = margin + NEAR * size
     reach &= np.linalg.norm(at - middle, axis=1) <= within
-    places = np.einsum("ij,ijk->ik", inside(weight), target.sheet.vertex_places[target.corners[triangle]])
-    return Block((chord[reach], part[reach], places[reach], within[reach]), looked, int(reach.sum()))
+    places = np.einsum("ij,ijk->ik", inside(weight), target.places[triangle])
+    return chord[reach], part[reach], places[reach], within[reach], looked
 
 
 def _in_space(corners: Floats, points: Floats) -> Floats:
@@ -135,11 +183,9 @@ def _in_space(corners: Floats, points: Floats) -> Floats:
     return weights(np.stack(flat[:3], axis=1), flat[3])
 
 
-def _met(
-    view: View, sheet: Sheet, curves: Curves, chord: Ints, part: Floats, places: Floats
-) -> tuple[Ints, Floats, Floats]:
-    """Places where the curves meet the sheet: chords, parts, places on the sheet."""
-    part = part.copy()
+def _met(view: View, sheets: Sheets, curves: Curves, near: _Close) -> tuple[Ints, Ints, Floats, Floats]:
+    """Places where the curves meet the sheets: numbers of these, chords, parts, places on the sheet."""
+    number, chord, part, places = near.number, near.chord, near.part.copy(), near.places
     for _ in range(HOPS):
         off = np.full(len(chord), np.inf)
         places, active = places.copy(), np.arange(len(chord))
@@ -147,41 +193,42 @@ def _met(
             if not len(active):
                 break
             at = curves.at(chord[active], part[active])
-            away = at.points - sheet.points(places[active])
+            of = number[active]
+            away = at.points - sheets.points(of, places[active])
             off[active] = np.sqrt(dot(away, away))
-            step, places[active] = sheet.missed(at.points, at.slopes, places[active])
+            step, places[active] = sheets.missed(of, at.points, at.slopes, places[active])
             step = np.clip(np.where(np.isfinite(step), step, 0.0), -0.7, 0.7)
             part[active] = np.clip(part[active] + step, -1.5, 2.5)
             active = active[off[active] > SETTLED_OF_EXTENT]
         kept = np.isfinite(places).all(axis=1) & ((off <= NEARLY_MET) | (part < 0.0) | (part > 1.0))
-        chord, part, places = chord[kept], part[kept], places[kept]
+        number, chord, part, places = number[kept], chord[kept], part[kept], places[kept]
         now, part = hopped(curves, chord, part)
         moved = (now != chord).any()
         chord = now
         if not moved:
             break
-    away = curves.at(chord, part).points - sheet.points(places)
-    met = (np.sqrt(dot(away, away)) <= max(MET_OF_EXTENT, ULPS * projection.rounding(view))) & sheet.on_sheet(places)
+    away = curves.at(chord, part).points - sheets.points(number, places)
+    met = np.sqrt(dot(away, away)) <= max(MET_OF_EXTENT, ULPS * projection.rounding(view))
     on, part = on_chord(part)
-    kept = met & on
-    return chord[kept], part[kept], places[kept]
+    kept = met & sheets.on_sheet(number, places) & on
+    return number[kept], chord[kept], part[kept], places[kept]
 
 
-def _pierced(view: View, sheet: Sheet, curves: Curves, chord: Ints, part: Floats, places: Floats) -> Events:
-    """The events of places where curves meet a sheet, each once; where they only touch it nothing happens, and at
-    singular places nothing that is known."""
-    kept = once(curves, chord, part, np.zeros(len(chord)))
-    chord, part, places = chord[kept], part[kept], places[kept]
-    at, normal = curves.at(chord, part), sheet.normals(places)
+def _pierced(
+    view: View, sheets: Sheets, number: Ints, curves: Curves, chord: Ints, part: Floats, places: Floats
+) -> Events:
+    """The events of places where curves meet sheets; where they only touch one nothing happens, and at singular places
+    nothing that is known."""
+    at, normal = curves.at(chord, part), sheets.normals(number, places)
     through = dot(at.slopes, normal) / np.linalg.norm(at.slopes, axis=1).clip(LEAST_DIVISOR)
     towards = dot(projection.sight(view, at.points), normal)
-    crosses = (np.abs(through) > ALONG_SHEET_SINE) & ~_sharp(sheet, places)
+    crosses = (np.abs(through) > ALONG_SHEET_SINE) & ~_sharp(sheets, number, places)
     change = np.where(crosses, -np.sign(through * towards), 0.0)
     change = np.where(np.isfinite(change), change, 0.0).astype(np.intp)
-    return Events(chord, part, np.full(len(chord), sheet.item), change)
+    return Events(chord, part, sheets.item[number], change)
 
 
-def _sharp(sheet: Sheet, places: Floats) -> Bools:
-    """(k,) whether the sheet is all but singular at places."""
-    bends = [np.abs(sheet.bends(places, np.broadcast_to(axis, places.shape))) for axis in np.eye(3)]
+def _sharp(sheets: Sheets, number: Ints, places: Floats) -> Bools:
+    """(k,) whether the sheets are all but singular at places."""
+    bends = [np.abs(sheets.bends(number, places, np.broadcast_to(axis, places.shape))) for axis in np.eye(3)]
     return np.asarray(~(np.max(bends, axis=0) <= SHARPEST))

@@ -11,31 +11,41 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.exact import intervals
 from vectorplot.visibility.smooth.events.events import Events
+from vectorplot.visibility.smooth.sheets.sheets import Sheets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 
-def unmet_stretches(curves: Curves, chord: Ints, part: Floats, reach: Floats, found: Events, item: int) -> Events:
+def unmet_stretches(
+    curves: Curves, sheets: Sheets, number: Ints, chord: Ints, part: Floats, reach: Floats, met: Ints, found: Events
+) -> Events:
     """The ends of the stretches of curves that are close to a sheet, but for those with an event that was found: events
     that change nothing by themselves, so that what changes between them is looked for.
 
-    chord, part (k,): places close to the sheet; reach (k,): how far around them the curve may meet it.
+    chord, part (k,): places close to the sheets of these numbers (k,); reach (k,): how far around them the curve may
+    meet the sheet; found (e,): the events, with the sheets of the numbers met (e,).
     """
     lengths = _Lengths(curves)
     owner, at = curves.owner[chord], lengths.at(chord, part)
     around = reach / lengths.total[owner]
     low, high = np.clip(at - around, 0.0, 1.0), np.clip(at + around, 0.0, 1.0)
-    owner, low, high = intervals.union(owner, low, high, np.zeros(len(curves)))
+    # A curve near several sheets counts once for each.
+    cases, case = np.unique(owner * len(sheets) + number, return_inverse=True)
+    case, low, high = intervals.union(case.ravel(), low, high, np.zeros(len(cases)))
     changing = np.flatnonzero(found.change)
-    where, met = curves.owner[found.chord[changing]], lengths.at(found.chord[changing], found.part[changing])
-    last = np.searchsorted(2.0 * owner + low, 2.0 * where + met, side="right") - 1
-    inside = (last >= 0) & (owner[last] == where) & (met <= high[last]) if len(owner) else np.zeros(0, dtype=np.bool_)
-    open_ = np.ones(len(owner), dtype=np.bool_)
+    chord, where = found.chord[changing], curves.owner[found.chord[changing]] * len(sheets) + met[changing]
+    there = np.searchsorted(cases, where)
+    near = np.flatnonzero(there < len(cases))
+    near = near[cases[there[near]] == where[near]]
+    there, event = there[near], lengths.at(chord[near], found.part[changing[near]])
+    last = np.searchsorted(2.0 * case + low, 2.0 * there + event, side="right") - 1
+    inside = (last >= 0) & (case[last] == there) & (event <= high[last]) if len(case) else np.zeros(0, dtype=np.bool_)
+    open_ = np.ones(len(case), dtype=np.bool_)
     open_[last[inside]] = False
-    owner, ends = np.tile(owner[open_], 2), np.concatenate([low[open_], high[open_]])
+    case, ends = np.tile(case[open_], 2), np.concatenate([low[open_], high[open_]])
     inner = (ends > 0.0) & (ends < 1.0)
-    chord, part = lengths.place(owner[inner], ends[inner])
-    none = np.zeros(len(chord), dtype=np.intp)
-    return Events(chord, part, none + item, none)
+    owner, number = np.divmod(cases[case[inner]], max(len(sheets), 1))
+    chord, part = lengths.place(owner, ends[inner])
+    return Events(chord, part, sheets.item[number], np.zeros(len(chord), dtype=np.intp))
 
 
 class _Lengths:

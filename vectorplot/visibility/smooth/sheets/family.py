@@ -10,13 +10,14 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.features.implicit.implicit_conditions import SpatialCondition
 from vectorplot.features.implicit.singular_equations import SingularEquations, line_tangents, onto_lines
-from vectorplot.features.parametric.conditions import Condition
+from vectorplot.features.parametric.conditions import SurfaceCondition
 from vectorplot.geometry import records
 from vectorplot.geometry.vectors import dot
+from vectorplot.surfaces.stacked import of_some
 from vectorplot.tolerances.of_lengths import FAMILY_SETTLED
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
-from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
+from vectorplot.visibility.smooth.sheets.parametric_places import OnParametrised, inside
 
 ROUNDS, RENEWED = 8, 4
 """Steps of Newton from a chord to its curve; the one at which slopes are computed anew."""
@@ -95,7 +96,7 @@ class StraightLines:
 class ParameterCurves:
     """Curves that are straight in the parameters: parameter lines, borders; and, nearly, those known by points only."""
 
-    surface: ParametricSheet
+    surface: OnParametrised
     sheet: int
     second: int = -1
 
@@ -104,8 +105,10 @@ class ParameterCurves:
         start, end = chords.places
         way = end - start
         at = start + part[:, None] * way
-        along_u, along_v = self.surface.partials(at)
-        return Along(at, self.surface.points(at), way[:, :1] * along_u + way[:, 1:2] * along_v)
+        surface = self.surface.surface_at(start)
+        u, v = inside(surface.domain, at)
+        along_u, along_v = surface.partials(u, v)
+        return Along(at, surface.points(u, v), way[:, :1] * along_u + way[:, 1:2] * along_v)
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,40 +116,50 @@ class ConditionCurves:
     """Curves of a parametrised surface along which a condition has the value of their level; it holds on the second
     sheet, if there is one, whose places are points."""
 
-    surface: ParametricSheet
+    surface: OnParametrised
     sheet: int
-    condition: Condition
+    condition: SurfaceCondition
     second: int = -1
 
     def between(self, chords: Chords, part: Floats) -> Along:
         """The curves at a part of their chords: from the chord straight across to where the condition holds."""
-        size = np.array(self.surface.surface.domain.size)
         start, end = chords.places
+        surface = self.surface.surface_at(start)
+        domain = surface.domain
+        size = np.broadcast_to(np.stack(domain.size, axis=-1), (len(part), 2))
         way = (end - start)[:, :2] / size
         base = start[:, :2] / size + part[:, None] * way
         across = np.stack([-way[:, 1], way[:, 0]], axis=1)
-        off = np.zeros(len(part))
+        off, slopes = np.zeros(len(part)), np.empty((len(part), 2))
+        # Of many chords a few, mostly those much shorter than others, take longer than all the rest.
+        active = np.arange(len(part))
         for again in range(ROUNDS):
-            u, v = self.surface.parameters((base + off[:, None] * across) * size)
+            if not len(active):
+                break
+            condition = self.condition.on(of_some(surface, active), active)
+            u, v = inside(condition.surface.domain, (base[active] + off[active, None] * across[active]) * size[active])
             # The chord is close to the curve: the slopes on it do, unless that does not lead there.
             if again in (0, RENEWED):
-                slopes = np.stack(self.condition.slopes(u, v), axis=1) * size
+                values, along = condition.values_and_slopes(u, v)
+                slopes[active] = np.stack(along, axis=1) * size[active]
+            else:
+                values = condition.values(u, v)
             with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-                step = (self.condition.values(u, v) - chords.level) / (slopes * across).sum(axis=1)
+                step = (values - chords.level[active]) / (slopes[active] * across[active]).sum(axis=1)
             step = np.clip(np.where(np.isfinite(step), step, 0.0), -FARTHEST, FARTHEST)
-            off = np.clip(off - step, -FARTHEST, FARTHEST)
-            if not (np.abs(step) > FAMILY_SETTLED).any():
-                break
+            off[active] = np.clip(off[active] - step, -FARTHEST, FARTHEST)
+            active = active[np.abs(step) > FAMILY_SETTLED]
         at = base + off[:, None] * across
         tangent = np.stack([-slopes[:, 1], slopes[:, 0]], axis=1)
         forward = (tangent * way).sum(axis=1)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             tangent = tangent * ((way * way).sum(axis=1) / forward)[:, None]
         tangent = np.where(np.isfinite(tangent).all(axis=1)[:, None], tangent, way)
-        places_at = np.concatenate([at * size, np.zeros((len(at), 1))], axis=1)
-        along_u, along_v = self.surface.partials(places_at)
+        places_at = np.concatenate([at * size, start[:, 2:]], axis=1)
+        u, v = inside(domain, places_at)
+        along_u, along_v = surface.partials(u, v)
         moved = tangent * size
-        points = self.surface.points(places_at)
+        points = surface.points(u, v)
         second = points[: len(points) if self.second >= 0 else 0]
         return Along(places_at, points, moved[:, :1] * along_u + moved[:, 1:] * along_v, second)
 

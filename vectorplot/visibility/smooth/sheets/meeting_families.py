@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Floats, Ints
 from vectorplot.features.parametric.conditions import Slopes
 from vectorplot.geometry.vectors import dot
+from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_lengths import FAMILY_SETTLED, MISSED_OF_CHORD
 from vectorplot.visibility.smooth.sheets.family import (
     FARTHEST,
@@ -21,16 +22,16 @@ from vectorplot.visibility.smooth.sheets.family import (
     no_longer,
 )
 from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
-from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
+from vectorplot.visibility.smooth.sheets.parametric_places import OnParametrised
 
 
 @dataclass(frozen=True, eq=False)
 class SheetsMeet:
     """Curves in which two parametrised sheets meet, or one meets itself."""
 
-    surface: ParametricSheet
+    surface: OnParametrised
     sheet: int
-    other: ParametricSheet
+    other: OnParametrised
     second: int
 
     def between(self, chords: Chords, part: Floats) -> Along:
@@ -43,19 +44,25 @@ class SheetsMeet:
         way = end - start
         base, long = start + part[:, None] * way, np.sqrt(dot(way, way))
         at, there = (a + part[:, None] * (b - a) for a, b in (chords.places, chords.second_places))
+        n, m, last = np.empty_like(base), np.empty_like(base), np.full(len(base), np.inf)
+        active = np.arange(len(base))
         with np.errstate(all="ignore"):
             for _ in range(ROUNDS):
-                p, q = one.points(at), two.points(there)
-                n, m = one.normals(at), two.normals(there)
-                across_n, across_m = np.cross(m, way), np.cross(way, n)
-                heights = dot(n, p - base)[:, None] * across_n + dot(m, q - base)[:, None] * across_m
-                aim = base + no_longer(heights / dot(n, across_n)[:, None], FARTHEST * long)
-                steps = [no_longer(aim - x, long) for x in (p, q)]
-                at = _finite(one.moved(at, steps[0]), at)
-                there = _finite(two.moved(there, steps[1]), there)
-                last = np.sqrt(np.fmax(dot(steps[0], steps[0]), dot(steps[1], steps[1])))
-                if not (last > FAMILY_SETTLED * long).any():
+                if not len(active):
                     break
+                a, b, w = at[active], there[active], way[active]
+                p, q = one.points(a), two.points(b)
+                n_a, m_a = one.normals(a), two.normals(b)
+                across_n, across_m = np.cross(m_a, w), np.cross(w, n_a)
+                x = base[active]
+                heights = dot(n_a, p - x)[:, None] * across_n + dot(m_a, q - x)[:, None] * across_m
+                aim = x + no_longer(heights / dot(n_a, across_n)[:, None], FARTHEST * long[active])
+                steps = [no_longer(aim - x, long[active]) for x in (p, q)]
+                at[active] = _finite(one.moved(a, steps[0]), a)
+                there[active] = _finite(two.moved(b, steps[1]), b)
+                n[active], m[active] = n_a, m_a
+                last[active] = np.sqrt(np.fmax(dot(steps[0], steps[0]), dot(steps[1], steps[1])))
+                active = active[last[active] > FAMILY_SETTLED * long[active]]
             tangent = np.cross(n, m)
             tangent *= (dot(way, way) / dot(tangent, way))[:, None]
         p, q = one.points(at), two.points(there)
@@ -74,14 +81,14 @@ class SheetsMeet:
 class FaceCurves:
     """Curves of a parametrised surface in the faces of a mesh, the normals of which are their second places."""
 
-    surface: ParametricSheet
+    surface: OnParametrised
     sheet: int
     second: int = -1
 
     def between(self, chords: Chords, part: Floats) -> Along:
         """The curves at a part of their chords."""
         normals, points = chords.second_places[0], chords.points[0]
-        faces = _PlaneSections(self.surface, normals, dot(points, normals))
+        faces = _PlaneSections(self.surface.surface_at(chords.places[0]), normals, dot(points, normals))
         return ConditionCurves(self.surface, self.sheet, faces).between(_level(chords), part)
 
 
@@ -118,19 +125,27 @@ class _Planes:
 
 @dataclass(frozen=True, eq=False)
 class _PlaneSections:
-    """The same for points of a sheet."""
+    """The same for points of a surface."""
 
-    surface: ParametricSheet
+    surface: Surface
     normals: Floats
     offsets: Floats
 
+    def values_and_slopes(self, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
+        """Both at once."""
+        return self.values(u, v), self.slopes(u, v)
+
+    def on(self, surface: Surface, which: Ints) -> _PlaneSections:
+        """Those of some points, of another surface."""
+        return _PlaneSections(surface, self.normals[which], self.offsets[which])
+
     def values(self, u: Floats, v: Floats) -> Floats:
         """(k,) heights of points."""
-        return dot(self.surface.surface.points(u, v), self.normals) - self.offsets
+        return dot(self.surface.points(u, v), self.normals) - self.offsets
 
     def slopes(self, u: Floats, v: Floats) -> Slopes:
         """(k,) their derivatives by u and by v."""
-        along_u, along_v = self.surface.surface.partials(u, v)
+        along_u, along_v = self.surface.partials(u, v)
         return dot(along_u, self.normals), dot(along_v, self.normals)
 
 

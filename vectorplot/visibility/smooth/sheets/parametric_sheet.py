@@ -7,14 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.parametric.curve_tracing import wrapped
-from vectorplot.geometry.vectors import cross, dot
 from vectorplot.surfaces.jumps import jumping_cells, jumps
-from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Domain, Surface
-from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
-from vectorplot.tolerances.of_parameters import OUTSIDE_DOMAIN
-from vectorplot.visibility.smooth.sheets.sheet import solved
+from vectorplot.visibility.smooth.sheets.parametric_places import OnParametrised
 
 FEWEST, MOST = 32, 512
 """Cells of the tessellation in each direction, at least and at most."""
@@ -28,12 +23,9 @@ VAIN, MOST_VAIN = 0.8, 2
 """Where finer cells leave more than the one of what chords are off, as where waves crowd towards a point, they are in
 vain; after so many times nothing finer is tried. At a vertical tangent they leave less."""
 
-LONGEST_STEP = 0.05
-"""Part of the domain that one step of Newton may go: a longer one leads anywhere."""
-
 
 @dataclass(frozen=True, eq=False)
-class ParametricSheet:
+class ParametricSheet(OnParametrised):
     """A parametrised surface, already in the view's coordinates, and its tessellation; jumps: whether it has triangles
     that were left out, because the surface jumps beneath them; creases: the v at which another sheet of the item begins
     behind a sharp edge; is_cap: whether it is a flat end, without parameter lines."""
@@ -49,111 +41,9 @@ class ParametricSheet:
     creases: tuple[float, ...] = ()
     is_cap: bool = False
 
-    def points(self, places: Floats) -> Floats:
-        """(k,3) points."""
-        return self.surface.points(*self.parameters(places))
-
-    def partials(self, places: Floats) -> tuple[Floats, Floats]:
-        """(k,3) derivatives by u and by v."""
-        return self.surface.partials(*self.parameters(places))
-
-    def normals(self, places: Floats) -> Floats:
-        """(k,3) unit normals; NaN at singular points."""
-        return unit_normals(self.surface, *self.parameters(places))
-
-    def bends(self, places: Floats, directions: Floats) -> Floats:
-        """(k,) normal parts of the accelerations along tangential directions; 0 at singular points."""
-        u, v = self.parameters(places)
-        along_u, along_v = self.surface.partials(u, v)
-        uu, uv, vv = self.surface.second_partials(u, v)
-        n = unit_normals(self.surface, u, v)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            a, b, _ = solved(along_u, along_v, n, directions).T
-            bend = dot(n, uu) * a * a + 2.0 * dot(n, uv) * a * b + dot(n, vv) * b * b
-        return np.where(np.isfinite(bend), bend, 0.0)
-
-    def moved(self, places: Floats, steps: Floats) -> Floats:
-        """(k,3) the places that small tangential steps lead to."""
-        u, v = self.parameters(places)
-        along_u, along_v = self.surface.partials(u, v)
-        step = solved(along_u, along_v, cross(along_u, along_v), steps)
-        step[:, 2] = 0.0
-        return places + step
-
-    def inwards(self, places: Floats) -> Floats:
-        """(k,3) tangents into the sheet at places on its border; 0 elsewhere."""
-        domain = self.surface.domain
-        along_u, along_v = self.partials(places)
-        inner = np.zeros_like(along_u)
-        for axis, closed, start, size, along in (
-            (0, domain.closed_u, domain.u_start, domain.size[0], along_u),
-            (1, domain.closed_v, domain.v_start, domain.size[1], along_v),
-        ):
-            if not closed:
-                part = (places[:, axis] - start) / size
-                inner += (part <= OUTSIDE_DOMAIN)[:, None] * along - (part >= 1.0 - OUTSIDE_DOMAIN)[:, None] * along
-        return inner
-
-    def turnings(self, places: Floats) -> Floats:
-        """(k,3) second derivatives along the direction in which the point stands still."""
-        u, v = self.parameters(places)
-        along_u, along_v = self.surface.partials(u, v)
-        uu, uv, vv = self.surface.second_partials(u, v)
-        # Both partials have one direction: that of a x_u + b x_v = 0, in proportion to the domain.
-        width, height = self.surface.domain.size
-        along_u, along_v = along_u * width, along_v * height
-        long = dot(along_u, along_u) >= dot(along_v, along_v)
-        product = dot(along_u, along_v)
-        a = np.where(long, -product, dot(along_v, along_v))
-        b = np.where(long, dot(along_u, along_u), -product)
-        a, b = (a * width)[:, None], (b * height)[:, None]
-        return np.asarray(uu * a * a + 2.0 * uv * a * b + vv * b * b)
-
-    def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats]:
-        """(k,) and (k,3) one Newton step for where lines meet the sheet."""
-        u, v = self.parameters(places)
-        along_u, along_v = self.surface.partials(u, v)
-        step = solved(along_u, along_v, -ways, points - self.surface.points(u, v))
-        t = np.where(np.isfinite(step[:, 2]), step[:, 2], np.nan)
-        step[:, 2] = 0.0
-        width, height = self.surface.domain.size
-        with np.errstate(invalid="ignore"):
-            long = np.maximum(np.abs(step[:, 0]) / width, np.abs(step[:, 1]) / height)
-            step *= np.minimum(1.0, LONGEST_STEP / np.maximum(long, LEAST_DIVISOR))[:, None]
-        return t, np.stack([u, v, np.zeros_like(u)], axis=1) + step
-
-    def apart(self, one: Floats, two: Floats) -> Floats:
-        """(k,) the larger of the distances in u and v, as parts of the domain."""
-        domain = self.surface.domain
-        du = np.abs(one[:, 0] - two[:, 0]) / domain.size[0]
-        dv = np.abs(one[:, 1] - two[:, 1]) / domain.size[1]
-        if domain.closed_u:
-            du = np.abs(du - np.round(du))
-        if domain.closed_v:
-            dv = np.abs(dv - np.round(dv))
-        return np.maximum(du, dv)
-
-    def on_sheet(self, places: Floats) -> Bools:
-        """(k,) whether places lie in the domain."""
-        domain = self.surface.domain
-        inside = np.isfinite(places).all(axis=1)
-        if not domain.closed_u:
-            part = (places[:, 0] - domain.u_start) / domain.size[0]
-            inside &= (part >= -OUTSIDE_DOMAIN) & (part <= 1.0 + OUTSIDE_DOMAIN)
-        if not domain.closed_v:
-            part = (places[:, 1] - domain.v_start) / domain.size[1]
-            inside &= (part >= -OUTSIDE_DOMAIN) & (part <= 1.0 + OUTSIDE_DOMAIN)
-        return np.asarray(inside)
-
-    def parameters(self, places: Floats) -> tuple[Floats, Floats]:
-        """(k,) u and v within the domain: a place beyond an open border is the border's."""
-        domain = self.surface.domain
-        u, v = wrapped(domain, places[:, 0], places[:, 1])
-        if not domain.closed_u:
-            u = np.clip(u, domain.u_start, domain.u_end)
-        if not domain.closed_v:
-            v = np.clip(v, domain.v_start, domain.v_end)
-        return u, v
+    def surface_at(self, places: Floats) -> Surface:
+        """The surface, whatever the places."""
+        return self.surface
 
 
 def parametric_sheet(surface: Surface, item: int, hides: bool) -> ParametricSheet:

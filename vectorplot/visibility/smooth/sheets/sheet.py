@@ -10,42 +10,12 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import cross, dot
 
 
-class Sheet(Protocol):
-    """A smooth surface in the view's coordinates.
+class OnSheet(Protocol):
+    """What is known at places (k,3) on a smooth surface, in the view's coordinates.
 
-    A place (k,3) says where on the sheet something is: parameters (u, v, 0) of a parametrised surface, the point itself
-    of an implicit one.
+    A place says where on the sheet something is: parameters (u, v, 0) of a parametrised surface, the point itself of an
+    implicit one; and on which of several, where they are asked as one (see parametric_places).
     """
-
-    @property
-    def item(self) -> int:
-        """The item it belongs to."""
-        ...
-
-    @property
-    def hides(self) -> bool:
-        """Whether it hides what is behind it."""
-        ...
-
-    @property
-    def vertices(self) -> Floats:
-        """(m,3) points of a tessellation, on the sheet."""
-        ...
-
-    @property
-    def vertex_places(self) -> Floats:
-        """(m,3) their places."""
-        ...
-
-    @property
-    def corners(self) -> Ints:
-        """(t,3) the vertices of its triangles."""
-        ...
-
-    @property
-    def sags(self) -> Floats:
-        """(t,) how far its triangles are off the sheet, about."""
-        ...
 
     def points(self, places: Floats) -> Floats:
         """(k,3) points."""
@@ -82,6 +52,40 @@ class Sheet(Protocol):
 
     def on_sheet(self, places: Floats) -> Bools:
         """(k,) whether places lie in the domain."""
+        ...
+
+
+class Sheet(OnSheet, Protocol):
+    """A smooth surface in the view's coordinates."""
+
+    @property
+    def item(self) -> int:
+        """The item it belongs to."""
+        ...
+
+    @property
+    def hides(self) -> bool:
+        """Whether it hides what is behind it."""
+        ...
+
+    @property
+    def vertices(self) -> Floats:
+        """(m,3) points of a tessellation, on the sheet."""
+        ...
+
+    @property
+    def vertex_places(self) -> Floats:
+        """(m,3) their places."""
+        ...
+
+    @property
+    def corners(self) -> Ints:
+        """(t,3) the vertices of its triangles."""
+        ...
+
+    @property
+    def sags(self) -> Floats:
+        """(t,) how far its triangles are off the sheet, about."""
         ...
 
 

@@ -27,6 +27,7 @@ from vectorplot.features.zeros.zero_manifold import JUMPS
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
+from vectorplot.surfaces.embedded import is_embedded
 from vectorplot.surfaces.parts import smooth_parts
 from vectorplot.surfaces.placed import placed_once
 from vectorplot.surfaces.surface import Surface
@@ -72,11 +73,13 @@ def _edges(view: View, sheet: ParametricSheet, number: int, tracing: Tracing) ->
     else:
         turn, found = CentralContour(surface, view.eye), contour(surface, view.eye, tracing=tracing)
     found, _ = contour_with_cusps(turn, found)
-    return [
+    result: list[Found] = [
         (LineKind.CONTOUR, ConditionCurves(sheet, number, turn), found),
         (LineKind.BOUNDARY, straight, borders(surface, tracing=tracing)),
-        (LineKind.CREASE, straight, singular_lines(surface, tracing=tracing)),
     ]
+    if not is_embedded(surface):
+        result.append((LineKind.CREASE, straight, singular_lines(surface, tracing=tracing)))
+    return result
 
 
 def _asked_for(

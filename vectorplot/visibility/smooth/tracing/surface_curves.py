@@ -22,8 +22,8 @@ def as_curves(
     rounds = closed_round(found)
     index = rounds.index
     places = np.stack([found.u, found.v, np.zeros_like(found.u)], axis=1)[index]
-    surface = family.surface.surface
-    places[rounds.again, :2] += found.turns[found.closed] * np.array(surface.domain.size)
+    size = np.stack(family.surface.surface_at(places[rounds.again]).domain.size, axis=-1)
+    places[rounds.again, :2] += found.turns[found.closed] * size
     many = len(found)
     whole = np.full(many, item, dtype=np.intp)
     return Curves(

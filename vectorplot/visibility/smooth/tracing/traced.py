@@ -18,8 +18,10 @@ from vectorplot.visibility.polyhedra.lines import kinds_of
 from vectorplot.visibility.smooth.sheets import projection
 from vectorplot.visibility.smooth.sheets.implicit_sheet import implicit_sheet
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
+from vectorplot.visibility.smooth.sheets.sheets import Sheets
 from vectorplot.visibility.smooth.tracing.implicit_items import curves_of_implicit
 from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet, meetings
+from vectorplot.visibility.smooth.tracing.merged_families import with_merged_families
 from vectorplot.visibility.smooth.tracing.parametric_items import curves_of_parametrised, sheets_of_parametrised
 from vectorplot.visibility.smooth.tracing.rims import with_rims
 from vectorplot.visibility.smooth.tracing.space_items import space_curve
@@ -39,7 +41,7 @@ class TracedScene:
     the folds, borders and cuspidal edges of the sheets that hide; doubts: what could not be decided, with the name of
     the item."""
 
-    sheets: tuple[SmoothSheet, ...]
+    sheets: Sheets
     meets_itself: Bools
     curves: Curves
     edges: Curves
@@ -101,8 +103,11 @@ def traced_scene(
     for number, item in enumerate(scene.items):
         if is_curve(item.shape) and LineKind.CURVE in kinds_of(item, kinds):
             drawn.append(space_curve(view, item.shape, number, sheets, tracing))
-    curves, hiding = (_with_images(view, together(parts)) for parts in ([*drawn, met.curves], edges))
-    return TracedScene(sheets, met.meets_itself, curves, hiding, tuple(dict.fromkeys(doubts)))
+    all_sheets = Sheets(sheets)
+    curves, hiding = (
+        with_merged_families(_with_images(view, together(parts)), all_sheets) for parts in ([*drawn, met.curves], edges)
+    )
+    return TracedScene(all_sheets, met.meets_itself, curves, hiding, tuple(dict.fromkeys(doubts)))
 
 
 def _with_images(view: View, curves: Curves) -> Curves:

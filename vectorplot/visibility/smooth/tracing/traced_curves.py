@@ -27,7 +27,8 @@ class Curves:
     NaN; offsets (m+1,); closed (m,): the last point is the first again, its place whole periods
     away; kind (m,) LineKind values; item (m,); family (m,) indices into families; level (m,) the value that the
     condition of its family has along a curve; side (m,): of an outline 1 or -1 where its surface lies to its left or
-    right and that is known already, else 0; behind (m,): by how many items it is hidden already.
+    right and that is known already, else 0; behind (m,): by how many items it is hidden already; sheet (m,): the sheet
+    that it lies on, -1 for straight lines, and second_sheet (m,) another one, or -1: as its family says, if not given.
     """
 
     points: Floats = field(metadata=EACH_POINT)
@@ -42,8 +43,14 @@ class Curves:
     families: tuple[Family, ...]
     side: Ints = field(default_factory=_none, metadata=EACH_LINE)
     behind: Ints = field(default_factory=_none, metadata=EACH_LINE)
+    sheet: Ints = field(default_factory=_none, metadata=EACH_LINE)
+    second_sheet: Ints = field(default_factory=_none, metadata=EACH_LINE)
 
     def __post_init__(self) -> None:
+        for name, of_family in (("sheet", "sheet"), ("second_sheet", "second")):
+            if len(self) and not len(getattr(self, name)):
+                values = np.array([*(getattr(family, of_family) for family in self.families), -1], dtype=np.intp)
+                object.__setattr__(self, name, values[self.family])
         for name in ("side", "behind"):
             if not len(getattr(self, name)):
                 object.__setattr__(self, name, np.zeros(len(self), dtype=np.intp))
@@ -62,19 +69,6 @@ class Curves:
         first = np.ones(len(self.points), dtype=np.bool_)
         first[self.offsets[1:] - 1] = False
         return np.flatnonzero(first)
-
-    @cached_property
-    def sheet(self) -> Ints:
-        """(m,) the sheet of each curve, -1 for straight lines."""
-        return self._of_family([family.sheet for family in self.families])
-
-    @cached_property
-    def second_sheet(self) -> Ints:
-        """(m,) the other sheet that a curve lies on, or -1."""
-        return self._of_family([family.second for family in self.families])
-
-    def _of_family(self, values: Sequence[int]) -> Ints:
-        return np.array([*values, -1], dtype=np.intp)[self.family]
 
     def at(self, chord: Ints, part: Floats) -> Along:
         """The curves between two of their points: at the part (k,) of the chords that begin at the points chord (k,).
@@ -114,7 +108,7 @@ class Curves:
             which = np.flatnonzero(family == number)
             found = self.families[number].between(chords.some(which), part[which])
             places[which], points[which], slopes[which] = found.places, found.points, found.slopes
-            if self.families[number].second >= 0:
+            if len(found.second_places):
                 second[which] = found.second_places
         lost = np.flatnonzero(~np.isfinite(points + slopes).all(axis=1))
         if len(lost):

@@ -1,0 +1,60 @@
+"""Many surfaces asked at once say what each of them says alone."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from vectorplot.surfaces.families.cylinder import Cone, Cylinder
+from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
+from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
+from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.function import surface_of_function
+from vectorplot.surfaces.normals import normal_partials, unit_normals
+from vectorplot.surfaces.placed import PlacedSurface
+from vectorplot.surfaces.stacked import StackedSurfaces
+from vectorplot.surfaces.surface import Domain, Surface
+
+WAVE = surface_of_function(lambda u, v: (u, v, np.sin(3.0 * u) * v), Domain(-1.0, 1.0, 0.0, 2.0))
+SHELL = surface_of_function(lambda u, v: (u * u, u * v, v**3), Domain(-1.0, 1.0, 0.0, 2.0))
+
+ROUND = (
+    *(Cylinder(1.0), Cylinder(2.0, -1.0, 3.0), Cylinder(1.0, depth=2.0), Cone(1.0, -1.0, 2.0), Cone(2.0, 0.0, 2.0)),
+    *(Sphere(2.0), Sphere(1.0), Ellipsoid((1.0, 2.0, 3.0)), Ellipsoid((3.0, 2.0, 3.0)), Hyperboloid((1.0, 2.0, 3.0))),
+    *(Hyperboloid(), HyperboloidSheet((1.0, 1.0, 0.5)), HyperboloidSheet(), Paraboloid(), Paraboloid(2.0, 3.0, 4.0)),
+)
+RINGS = (Torus(3.0, 1.0), Torus(2.0, 0.5), Torus(3.0, 2.0), Torus(1.0, 2.0))
+OPEN = (WAVE, SHELL, WAVE, HyperbolicParaboloid(1.0, 2.0), HyperbolicParaboloid(3.0, 2.0, 0.5))
+
+
+@pytest.mark.parametrize("shapes", [ROUND, RINGS, OPEN], ids=["round", "rings", "open"])
+def test_surfaces_at_once_say_what_each_says_alone(shapes: tuple[Surface, ...]) -> None:
+    """Points, derivatives and normals, in the middle of the domains, on their borders and at poles."""
+    rng = np.random.default_rng(4)
+    placed = [PlacedSurface(shape, rng.normal(size=(3, 3)), rng.normal(size=3)) for shape in shapes]
+    row = rng.permutation(np.repeat(np.arange(len(shapes)), 40))
+    together = StackedSurfaces(tuple(placed)).at(row)
+    (width, height), domain = together.domain.size, together.domain
+    u = domain.u_start + rng.choice([0.0, 0.3, 0.5, 0.81, 1.0], len(row)) * width
+    v = domain.v_start + rng.choice([0.0, 0.3, 0.5, 0.81, 1.0], len(row)) * height
+    at_once = _said(together, u, v)
+    for number, surface in enumerate(placed):
+        own = row == number
+        for one, all_ in zip(_said(surface, u[own], v[own]), at_once, strict=True):
+            assert np.allclose(all_[own], one, rtol=1e-9, atol=1e-9, equal_nan=True)
+
+
+def test_one_surface_is_asked_itself() -> None:
+    placed = PlacedSurface(Torus(), np.eye(3))
+    assert StackedSurfaces((placed,)).at(np.zeros(5, dtype=np.intp)) is placed
+
+
+def _said(surface: Surface, u: np.ndarray, v: np.ndarray) -> list[np.ndarray]:
+    return [
+        surface.points(u, v),
+        *surface.partials(u, v),
+        *surface.second_partials(u, v),
+        unit_normals(surface, u, v),
+        *normal_partials(surface, u, v),
+    ]

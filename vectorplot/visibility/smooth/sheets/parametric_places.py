@@ -1,0 +1,154 @@
+"""Places on parametrised sheets, one sheet or many: what is known there."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats
+from vectorplot.features.parametric.curve_tracing import wrapped
+from vectorplot.geometry.vectors import cross, dot
+from vectorplot.surfaces.normals import unit_normals
+from vectorplot.surfaces.stacked import StackedSurfaces
+from vectorplot.surfaces.surface import Domain, Surface
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
+from vectorplot.tolerances.of_parameters import OUTSIDE_DOMAIN
+from vectorplot.visibility.smooth.sheets.sheet import solved
+
+LONGEST_STEP = 0.05
+"""Part of the domain that one step of Newton may go: a longer one leads anywhere."""
+
+
+class OnParametrised(ABC):
+    """What a sheet knows at places (k,3), which are (u, v) and, where it is made of several, the number of the one."""
+
+    @abstractmethod
+    def surface_at(self, places: Floats) -> Surface:
+        """The surface, in the view's coordinates, to be asked for parameters at these places (k,3)."""
+
+    def points(self, places: Floats) -> Floats:
+        """(k,3) points."""
+        surface = self.surface_at(places)
+        return surface.points(*inside(surface.domain, places))
+
+    def partials(self, places: Floats) -> tuple[Floats, Floats]:
+        """(k,3) derivatives by u and by v."""
+        surface = self.surface_at(places)
+        return surface.partials(*inside(surface.domain, places))
+
+    def normals(self, places: Floats) -> Floats:
+        """(k,3) unit normals; NaN at singular points."""
+        surface = self.surface_at(places)
+        return unit_normals(surface, *inside(surface.domain, places))
+
+    def bends(self, places: Floats, directions: Floats) -> Floats:
+        """(k,) normal parts of the accelerations along tangential directions; 0 at singular points."""
+        surface = self.surface_at(places)
+        u, v = inside(surface.domain, places)
+        along_u, along_v = surface.partials(u, v)
+        uu, uv, vv = surface.second_partials(u, v)
+        n = unit_normals(surface, u, v)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            a, b, _ = solved(along_u, along_v, n, directions).T
+            bend = dot(n, uu) * a * a + 2.0 * dot(n, uv) * a * b + dot(n, vv) * b * b
+        return np.where(np.isfinite(bend), bend, 0.0)
+
+    def moved(self, places: Floats, steps: Floats) -> Floats:
+        """(k,3) the places that small tangential steps lead to."""
+        surface = self.surface_at(places)
+        u, v = inside(surface.domain, places)
+        along_u, along_v = surface.partials(u, v)
+        step = solved(along_u, along_v, cross(along_u, along_v), steps)
+        step[:, 2] = 0.0
+        return places + step
+
+    def inwards(self, places: Floats) -> Floats:
+        """(k,3) tangents into the sheet at places on its border; 0 elsewhere."""
+        surface = self.surface_at(places)
+        domain = surface.domain
+        along_u, along_v = surface.partials(*inside(domain, places))
+        inner = np.zeros_like(along_u)
+        for axis, closed, start, size, along in (
+            (0, domain.closed_u, domain.u_start, domain.size[0], along_u),
+            (1, domain.closed_v, domain.v_start, domain.size[1], along_v),
+        ):
+            if not closed:
+                part = (places[:, axis] - start) / size
+                inner += (part <= OUTSIDE_DOMAIN)[:, None] * along - (part >= 1.0 - OUTSIDE_DOMAIN)[:, None] * along
+        return inner
+
+    def turnings(self, places: Floats) -> Floats:
+        """(k,3) second derivatives along the direction in which the point stands still."""
+        surface = self.surface_at(places)
+        u, v = inside(surface.domain, places)
+        along_u, along_v = surface.partials(u, v)
+        uu, uv, vv = surface.second_partials(u, v)
+        # Both partials have one direction: that of a x_u + b x_v = 0, in proportion to the domain.
+        width, height = surface.domain.size
+        along_u, along_v = along_u * np.asarray(width)[..., None], along_v * np.asarray(height)[..., None]
+        long = dot(along_u, along_u) >= dot(along_v, along_v)
+        product = dot(along_u, along_v)
+        a = np.where(long, -product, dot(along_v, along_v))
+        b = np.where(long, dot(along_u, along_u), -product)
+        a, b = (a * width)[:, None], (b * height)[:, None]
+        return np.asarray(uu * a * a + 2.0 * uv * a * b + vv * b * b)
+
+    def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats]:
+        """(k,) and (k,3) one Newton step for where lines meet the sheet."""
+        surface = self.surface_at(places)
+        u, v = inside(surface.domain, places)
+        along_u, along_v = surface.partials(u, v)
+        step = solved(along_u, along_v, -ways, points - surface.points(u, v))
+        t = np.where(np.isfinite(step[:, 2]), step[:, 2], np.nan)
+        step[:, 2] = 0.0
+        width, height = surface.domain.size
+        with np.errstate(invalid="ignore"):
+            long = np.maximum(np.abs(step[:, 0]) / width, np.abs(step[:, 1]) / height)
+            step *= np.minimum(1.0, LONGEST_STEP / np.maximum(long, LEAST_DIVISOR))[:, None]
+        return t, np.stack([u, v, places[:, 2]], axis=1) + step
+
+    def apart(self, one: Floats, two: Floats) -> Floats:
+        """(k,) the larger of the distances in u and v, as parts of the domain."""
+        domain = self.surface_at(one).domain
+        du = np.abs(one[:, 0] - two[:, 0]) / domain.size[0]
+        dv = np.abs(one[:, 1] - two[:, 1]) / domain.size[1]
+        if domain.closed_u:
+            du = np.abs(du - np.round(du))
+        if domain.closed_v:
+            dv = np.abs(dv - np.round(dv))
+        return np.maximum(du, dv)
+
+    def on_sheet(self, places: Floats) -> Bools:
+        """(k,) whether places lie in the domain."""
+        domain = self.surface_at(places).domain
+        within = np.isfinite(places).all(axis=1)
+        if not domain.closed_u:
+            part = (places[:, 0] - domain.u_start) / domain.size[0]
+            within &= (part >= -OUTSIDE_DOMAIN) & (part <= 1.0 + OUTSIDE_DOMAIN)
+        if not domain.closed_v:
+            part = (places[:, 1] - domain.v_start) / domain.size[1]
+            within &= (part >= -OUTSIDE_DOMAIN) & (part <= 1.0 + OUTSIDE_DOMAIN)
+        return np.asarray(within)
+
+
+@dataclass(frozen=True, eq=False)
+class StackedSheets(OnParametrised):
+    """Many parametrised sheets as one; the third number of a place says on which of them it is."""
+
+    surfaces: StackedSurfaces
+
+    def surface_at(self, places: Floats) -> Surface:
+        """That of the sheet of each place."""
+        return self.surfaces.at(places[:, 2].astype(np.intp))
+
+
+def inside(domain: Domain, places: Floats) -> tuple[Floats, Floats]:
+    """(k,) u and v of places within the domain: a place beyond an open border is the border's."""
+    u, v = wrapped(domain, places[:, 0], places[:, 1])
+    if not domain.closed_u:
+        u = np.clip(u, domain.u_start, domain.u_end)
+    if not domain.closed_v:
+        v = np.clip(v, domain.v_start, domain.v_end)
+    return u, v
