@@ -107,7 +107,7 @@ def _guided(target: str, corpus: str) -> int:
     folder = TemporaryDirectory()
 
     def test(data: bytes) -> None:
-        found = judged(target, data, target if target in TARGETS[:6] else "scene", Path(folder.name))
+        found = judged(target, data, target if target in TARGETS[:7] else "scene", Path(folder.name))
         if found is not None:
             raise AssertionError(found.story)
 

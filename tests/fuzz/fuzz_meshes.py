@@ -140,7 +140,7 @@ def stl_file(rng: Random) -> bytes:
 def glb_file(rng: Random) -> bytes:
     tree, binary = random_tree(rng)
     if rng.random() < 0.5:
-        _damage(rng, tree)
+        damage(rng, tree)
     text = json.dumps(tree).encode()
     text += b" " * (-len(text) % 4)
     total = 28 + len(text) + len(binary)
@@ -200,7 +200,7 @@ _WRONG: tuple[Any, ...] = (
 )  # fmt: skip
 
 
-def _damage(rng: Random, tree: dict[str, Any]) -> None:
+def damage(rng: Random, tree: dict[str, Any]) -> None:
     """Replaces, removes or adds something anywhere in the tree."""
     for _ in range(rng.choice((1, 1, 2, 3))):
         place: Any = tree

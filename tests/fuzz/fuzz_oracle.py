@@ -15,6 +15,7 @@ from random import Random
 from tempfile import TemporaryDirectory
 from types import FrameType
 
+from fuzz.fuzz_drawings import drawing_bytes
 from fuzz.fuzz_meshes import MESHES, mesh_bytes
 from fuzz.fuzz_scenes import formula_text, scene_bytes
 
@@ -116,11 +117,16 @@ def rendered(path: Path) -> None:
     vp.save(vp.render(read(path), size=(40, 40)), path.with_suffix(".png"))
 
 
+def read_back(path: Path) -> None:
+    """Read a drawing, and write it."""
+    vp.save(vp.read(path), path.with_suffix(".svg"))
+
+
 VERBS: dict[str, Callable[[Path], None]] = {"info": described, "draw": drawn, "paint": painted, "render": rendered}
 """What is done with whole files, by name."""
 
-TARGETS = (*MESHES, "scene", "formula", *VERBS)
-"""Everything that a campaign attacks: the readers of six formats, the reader of formulas, and the verbs."""
+TARGETS = (*MESHES, "scene", "json", "formula", *VERBS)
+"""Everything that a campaign attacks: the readers of seven formats, the reader of formulas, and the verbs."""
 
 
 def attack(target: str, seed: str, folder: Path) -> tuple[Finding | None, bytes, str, float]:
@@ -130,6 +136,8 @@ def attack(target: str, seed: str, folder: Path) -> tuple[Finding | None, bytes,
         data, suffix = formula_text(rng).encode("utf-8", "surrogatepass"), "txt"
     elif target in MESHES:
         data, suffix = mesh_bytes(rng, target), target
+    elif target == "json":
+        data, suffix = drawing_bytes(rng), "json"
     elif target == "scene":
         data, suffix = scene_bytes(rng), "scene"
     elif rng.random() < 0.2:
@@ -149,6 +157,8 @@ def judged(target: str, data: bytes, suffix: str, folder: Path) -> Finding | Non
         return finding(lambda: _used(data.decode("utf-8", "surrogatepass")), reading)
     path = folder / f"input.{suffix}"
     path.write_bytes(data)
+    if target == "json":
+        return finding(lambda: read_back(path), reading)
     return finding(lambda: VERBS.get(target, read)(path), reading + VERB_S * (target in VERBS and target != "info"))
 
 

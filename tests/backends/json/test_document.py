@@ -183,3 +183,15 @@ def test_a_file_that_is_not_json_is_refused_in_one_line(tmp_path, text):
         read_drawing(file)
     assert error.value.file == str(file)
     assert error.value.line == (3 if text.startswith("\n") else error.value.line)
+
+
+@pytest.mark.parametrize("large", [1e200, 1e308, 5e-324])
+def test_numbers_as_large_as_any_are_cut_at_the_border_of_the_page(tmp_path, large):
+    """Lines are cut by the ratio of the depths of their ends, however large these are."""
+    world = np.eye(4)
+    world[3] = (large, 0.0, 0.0, 1.0)
+    paths = paths_of([np.array([(-500.0, 10.0), (20.0, 10.0), (300.0, 40.0)])])
+    paths = replace(paths, points3d=np.array([(1.0, 0.0, 0.0), (large, 0.0, 0.0), (3.0, 1.0, 0.0)]))
+    save(replace(drawing_of(paths), page_from_world=world), tmp_path / "a.json")
+    save(read_drawing(tmp_path / "a.json"), tmp_path / "a.svg")
+    assert b"polyline" in (tmp_path / "a.svg").read_bytes()

@@ -95,8 +95,10 @@ def _divided(paths: Paths, segment: Ints, t: Floats, page_from_world: Floats) ->
     """The points at the fractions t of the segments, on the page and in the world; exact at 0 and 1."""
     a, b = paths.points[segment], paths.points[segment + 1]
     a3, b3 = paths.points3d[segment], paths.points3d[segment + 1]
-    row = page_from_world[3]
-    depth_a, depth_b = np.abs(a3 @ row[:3] + row[3]), np.abs(b3 @ row[:3] + row[3])
+    # Depths count by their ratio alone: powers of two keep what is very large within range, and all digits.
+    reach, weight = (int(np.frexp(np.abs(some).max(initial=1.0))[1]) for some in (paths.points3d, page_from_world[3]))
+    row = np.ldexp(page_from_world[3], (-weight, -weight, -weight, -weight - reach))
+    depth_a, depth_b = (np.abs(np.ldexp(ends, -reach) @ row[:3] + row[3]) for ends in (a3, b3))
     whole = t * depth_a + (1.0 - t) * depth_b
     # Both depths vanish only for points that have no image; they are divided as on the page.
     s = np.where(whole > 0.0, t * depth_a / np.where(whole > 0.0, whole, 1.0), t)
