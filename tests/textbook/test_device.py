@@ -183,8 +183,9 @@ def test_depth_cueing_by_a_device_is_that_of_the_verb_to_half_a_shade():
     for wrong in ((1.0, 1.0, 0, 9), (2.0, 1.0, 0, 9), (0.0, np.inf, 0, 9), (0.0, 1.0, -1, 9), (0.0, 1.0, 0, 256)):
         with pytest.raises(InputError):
             DepthCueing(*wrong)
-    with pytest.raises(InputError, match="depth"):
-        line(blank().with_depth_cueing(cueing), (1, 1), (5, 5, 0.0))
+    for start, end in (((1, 1), (5, 5, 0.0)), ((1, 1, 0.0), (5, 5))):
+        with pytest.raises(InputError, match="depth"):
+            line(blank().with_depth_cueing(cueing), start, end)
 
 
 def solid(device):

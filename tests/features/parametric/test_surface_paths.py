@@ -65,6 +65,24 @@ def test_a_path_ends_where_it_leaves_the_surface_and_goes_on_where_it_comes_back
     assert len(surface_path(ball, lambda t: np.stack([0 * t, 0 * t], axis=1), 0.0, 1.0)) == 0
 
 
+@pytest.mark.capability("G8.2-surface")
+@pytest.mark.parametrize("size", [1e-6, 1e6])
+def test_a_path_on_a_surface_of_any_size_has_the_same_points(size: float) -> None:
+    small, large = (surface_path(Torus(3.0 * k, k), knot(2, 3), 0.0, 2 * np.pi) for k in (1.0, size))
+    assert large.closed.all() and len(large.points) == len(small.points)
+    assert np.allclose(large.points / size, small.points, atol=1e-9)
+
+
+@pytest.mark.capability("G8.2-surface")
+def test_a_path_that_comes_back_to_its_place_from_elsewhere_is_not_closed() -> None:
+    # From the pole down, and up to it again on another meridian; and a quarter of a turn about the torus.
+    petal = surface_path(Sphere(1.0), lambda t: np.stack([1.3 * t, np.pi / 2 - np.sin(np.pi * t)], axis=1), 0.0, 1.0)
+    assert len(petal) == 1 and not petal.closed.any() and petal.turns.tolist() == [[0, 0]]
+    assert np.allclose(petal.points[[0, -1]], (0.0, 0.0, 1.0), atol=1e-12)
+    arc = surface_path(TORUS, lambda t: np.stack([t, 0 * t], axis=1), 0.0, np.pi / 2)
+    assert len(arc) == 1 and not arc.closed.any()
+
+
 def on_curve(drawing: vp.Drawing) -> tuple[float, float]:
     """Lengths of what is seen and what is hidden of lines of the kind curve."""
     lengths = [0.0, 0.0]
