@@ -144,18 +144,22 @@ MATERIALS = {
 """Words for physical properties, and the material each one names."""
 
 _MEANT = {
+    "ball": "sphere",
     "border": "boundary",
     "cube": "box",
     "extrude": "translation",
     "extrusion": "translation",
     "field_of_view": "field_of_vision",
     "field-of-view": "fov",
+    "falloff": "fading",
     "fov": "field_of_vision",
     "isoline": "section",
+    "lamp": "light",
     "lathe": "revolution",
     "move": "translation",
     "outline": "contour",
     "output": "out",
+    "penumbra": "aura",
     "rotate": "rotation",
     "sharp": "crease",
     "silhouette": "contour",

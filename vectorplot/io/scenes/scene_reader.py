@@ -94,6 +94,8 @@ class ItemReader:
             expected = f"'{missing}'" if draft.kind != "box" else "three lengths"
             self.fail(f"expected {expected}, got {source.shown(self.at)}", draft)
         plain = word and word not in SCENE_WORDS and word[0] not in '",' and not source.is_number(self.at)
+        if plain:
+            self._named_shape(draft, word)
         near = nearest(word, _HEADER) if plain else None
         if near:
             self.fail(f"unknown word '{word}', expected '{near}'", draft)
@@ -108,6 +110,16 @@ class ItemReader:
         if meant == draft.name:
             hint = f" ('{meant}' is a word of the language, but none of what stands before it)"
         self.fail(f"expected one of {', '.join(KIND_WORDS)}, got {source.shown(self.at)}{hint}", draft)
+
+    def _named_shape(self, draft: Draft, word: str) -> None:
+        """An error for a surface or a curve without the word that says which of them it is."""
+        # Surfaces and curves are loaded for scenes that name one, and where a word is none that is known.
+        from vectorplot.io.scenes.scene_families import CURVES, SURFACES
+
+        for kind, names in (("surface", SURFACES), ("curve", CURVES)):
+            if word.lower() in names:
+                name = word.lower()
+                self.fail(f"'{word}' is a {kind}: expected '{kind} {name}'", draft)
 
     def _kind(self, draft: Draft, kind: str) -> None:
         if draft.kind is not None and draft.kind != kind:
