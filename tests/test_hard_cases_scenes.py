@@ -205,10 +205,10 @@ def cylinder(sides: int, rings: int) -> vp.Mesh:
 @pytest.mark.parametrize("lines", [("contour", "crease", "boundary"), EVERY_EDGE])
 def test_a_cylinder_along_its_axis_is_one_closed_stroke(lines: tuple[str, ...]) -> None:
     tube = scene_of(TUBE=cylinder(500, 12))
-    begin = time.perf_counter()
+    begin = time.process_time()
     drawing = vp.draw(tube, vp.Camera.view("top", (0, 0, 0), 9), lines=lines, hidden="solid")
     central = vp.draw(tube, vp.Camera((0, 0, 12), (0, 0, 0)), lines=lines)
-    assert time.perf_counter() - begin < 5.0
+    assert time.process_time() - begin < 5.0
     perimeter = 500 * 2 * np.sin(np.pi / 500)
     assert stroke_count(drawing) == 1
     assert drawn(drawing).length == pytest.approx(perimeter, rel=1e-4)
@@ -223,9 +223,9 @@ def test_a_honeycomb_of_161_cells_is_bounded_reports_progress_and_can_be_stopped
     assert len(scene.items) == 161
     camera = vp.Camera((9, -14, 20), (0, 0, 0))
     calls: list[tuple[str, float]] = []
-    begin = time.perf_counter()
+    begin = time.process_time()
     drawing = vp.draw(scene, camera, hidden="solid", progress=lambda stage, part: calls.append((stage, part)))
-    assert time.perf_counter() - begin < 10.0
+    assert time.process_time() - begin < 10.0
     of_stage: dict[str, list[float]] = {}
     for stage, part in calls:
         of_stage.setdefault(stage, []).append(part)

@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -287,9 +286,14 @@ def test_ctrl_c_leaves_no_file_and_says_one_line(cube, tmp_path):
 
 
 def test_help_is_fast():
+    def children() -> float:
+        """Seconds of processors that other processes took, however many run at once."""
+        spent = os.times()
+        return spent.children_user + spent.children_system
+
     times = []
     for _ in range(3):
-        start = time.perf_counter()
+        start = children()
         shell("--help")
-        times.append(time.perf_counter() - start)
+        times.append(children() - start)
     assert min(times) < 0.5

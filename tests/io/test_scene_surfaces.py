@@ -228,10 +228,10 @@ def test_polyhedra_have_no_parameter_lines_and_surfaces_no_lines_of_polyhedra_no
     ids=["grid", "isophotes", "sections", "levels", "list", "long", "deep"],
 )
 def test_wild_counts_are_refused_at_once(text):
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises(InputError):
         parse_scene(text)
-    assert time.perf_counter() - start < 2.0
+    assert time.process_time() - start < 2.0
 
 
 @pytest.mark.hard(69)

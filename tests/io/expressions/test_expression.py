@@ -302,9 +302,9 @@ def test_an_expression_is_never_run_as_code(monkeypatch):
     ],
 )
 def test_deep_and_long_expressions_are_refused_in_one_line(text, cause):
-    start = time.perf_counter()
+    start = time.process_time()
     assert cause in fails(text, "u")
-    assert time.perf_counter() - start < 1.0
+    assert time.process_time() - start < 1.0
 
 
 def test_nesting_up_to_the_bound_is_read():

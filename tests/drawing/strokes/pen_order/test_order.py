@@ -173,9 +173,9 @@ def test_twenty_thousand_strokes_and_a_few_take_no_time_to_speak_of():
     def seconds(count):
         ends = random_ends(count)
         ordered(ends)
-        start = time.perf_counter()
+        start = time.process_time()
         ordered(ends)
-        return time.perf_counter() - start
+        return time.process_time() - start
 
     # Several times what is asked for, as tests share processors: 20,000 strokes in 0.25 s, a few in 2 ms.
     assert seconds(20000) < 1.0
