@@ -21,7 +21,7 @@ ORDER = [
     *("errors", "words", "arrays", "tolerances"),
     *("exact", "geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
     *("drawing", "effects", "animation", "textbook", "backends"),
-    *("verbs", "testing", "cli"),
+    *("verbs", "testing", "speed", "cli"),
 ]
 VERBS = {"draw", "paint", "painting", "read", "render", "save", "plan"}
 

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 import subprocess
 import sys
-import time
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +17,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.scene.view import look
+from vectorplot.speed.clock import cpu_seconds
 from vectorplot.testing.shapes import rotated_boxes
 from vectorplot.testing.surfaces import bumpy_icosphere
 from vectorplot.visibility.framing import frame_of, in_frame
@@ -84,16 +83,6 @@ def bare(vertices_file: Path, triangles_file: Path, camera: Camera) -> int:
     return int((area > 0.0)[order].sum())
 
 
-def seconds(action: Callable[[], object], repeat: int = 3) -> float:
-    """The shortest of a few times."""
-    times = []
-    for _ in range(repeat):
-        start = time.perf_counter()
-        action()
-        times.append(time.perf_counter() - start)
-    return min(times)
-
-
 def report(name: str, scenes: list[Scene], kinds: frozenset[LineKind], beat: str, folder: Path) -> None:
     """Print time, ratio and growth over a series of scenes."""
     sizes, times = [], []
@@ -102,7 +91,7 @@ def report(name: str, scenes: list[Scene], kinds: frozenset[LineKind], beat: str
         count = sum(fan(item.shape).shape[0] for item in scene.items)
         files, camera = saved(scene, folder), default_camera(scene)
         parts = visible(scene, kinds)
-        took, least = seconds(lambda s=scene: visible(s, kinds)), seconds(lambda f=files, c=camera: bare(*f, c))
+        took, least = cpu_seconds(lambda s=scene: visible(s, kinds)), cpu_seconds(lambda f=files, c=camera: bare(*f, c))
         sizes.append(count)
         times.append(took)
         print(

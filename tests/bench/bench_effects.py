@@ -5,9 +5,6 @@ Times are of the processor, and as multiples of what the order of the same scene
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
@@ -19,6 +16,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Light, Material, Scene
 from vectorplot.scene.view import look
+from vectorplot.speed.clock import cpu_seconds
 from vectorplot.testing.shapes import box, rotated_boxes
 from vectorplot.visibility.painter.order import painters_order
 from vectorplot.visibility.projected_faces import project_faces
@@ -28,16 +26,6 @@ pytestmark = pytest.mark.bench
 SUN = Light((-1.0, -2.0, 3.0), parallel=True)
 BEND = 1e-4
 """What bent sides may be off, in units of the image: 0.02 mm on a sheet A4."""
-
-
-def seconds(action: Callable[[], object], repeat: int = 3) -> float:
-    """The shortest of a few times, of the processor."""
-    times = []
-    for _ in range(repeat):
-        start = time.process_time()
-        action()
-        times.append(time.process_time() - start)
-    return min(times)
 
 
 def ball(order: int, rings: int, radius: float = 1.0) -> Mesh:
@@ -51,15 +39,15 @@ def report(name: str, scene: Scene) -> None:
     view = look(scene, default_camera(scene))
     projected = project_faces(view)
     painted = painters_order(view, projected).faces
-    bare = seconds(lambda: painters_order(view, projected))
+    bare = cpu_seconds(lambda: painters_order(view, projected))
     found = mirrors(scene, view, projected)
     if len(found):
         seen = reflections(view, found, painted)
-        took = seconds(lambda: reflections(view, found, painted))
+        took = cpu_seconds(lambda: reflections(view, found, painted))
         what = f"{len(found):4d} planes, {1000 * took / len(found):6.1f} ms a plane"
     else:
         seen = seen_in_glass(scene, view, projected, painted, BEND)
-        took = seconds(lambda: seen_in_glass(scene, view, projected, painted, BEND))
+        took = cpu_seconds(lambda: seen_in_glass(scene, view, projected, painted, BEND))
         what = "glass"
     print(f"  {name:34s} {view.face_count:7d} faces {bare:7.3f} s, {what}: {took:7.3f} s,", end="")
     print(f" {took / bare:7.1f} times as much, {len(seen):6d} polygons")
@@ -106,5 +94,5 @@ def test_whole_pictures() -> None:
     mirror = Item("M", ball(40, 8), "cyan", Material("mirror"))
     for name, item, most in (("glass, 96 faces", clear, 3.0), ("mirrors, 320 faces", mirror, 5.0)):
         scene = Scene((item, floor(3.0, -2.0)), (SUN,))
-        took = seconds(lambda s=scene: paint(s), 1)
+        took = cpu_seconds(lambda s=scene: paint(s), 1)
         print(f"  a ball of {name}: {took:.2f} s (to beat: {most} s)")

@@ -1,7 +1,5 @@
 """Implicit surfaces and lines on meshes: how long they take."""
 
-import time
-
 import numpy as np
 import pytest
 
@@ -10,18 +8,10 @@ from vectorplot.features.implicit.implicit_mesh import implicit_mesh
 from vectorplot.features.implicit.implicit_tracing import ImplicitTracing
 from vectorplot.features.implicit.polygonize import polygonized, settled_mesh
 from vectorplot.features.meshes.mesh_lines import mesh_plane_sections
+from vectorplot.speed.clock import cpu_seconds
 from vectorplot.surfaces.families.torus import ImplicitTorus
 
 TORUS = ImplicitTorus(3.0, 1.0)
-
-
-def seconds(task):
-    best = np.inf
-    for _ in range(3):
-        start = time.perf_counter()
-        task()
-        best = min(best, time.perf_counter() - start)
-    return best
 
 
 @pytest.mark.bench
@@ -31,7 +21,7 @@ def test_contour_and_nine_isophotes_of_an_implicit_torus():
         implicit_contour(TORUS, (8, -3, 6), tracing=tracing)
         implicit_isophotes(TORUS, (2, 1, 3), np.linspace(-0.9, 0.9, 9), tracing=tracing)
 
-    mesh, whole = seconds(lambda: settled_mesh(TORUS, 64)), seconds(lines)
+    mesh, whole = cpu_seconds(lambda: settled_mesh(TORUS, 64)), cpu_seconds(lines)
     print(f"\n64 cells: mesh {mesh:.3f} s, with contour and 9 isophotes {whole:.3f} s")
     assert whole < 30.0 * mesh
 
@@ -42,7 +32,7 @@ def test_sections_of_a_fine_mesh():
     for cells in (62, 124, 248):
         mesh = polygonized(TORUS, cells)
         counts.append(mesh.face_count)
-        times.append(seconds(lambda m=mesh: mesh_plane_sections(m, (1, 2, 3), np.linspace(-2, 2, 10))))
+        times.append(cpu_seconds(lambda m=mesh: mesh_plane_sections(m, (1, 2, 3), np.linspace(-2, 2, 10))))
         print(f"\n{counts[-1]} triangles: 10 sections {times[-1]:.3f} s")
     # Not more than linear in the faces, with room for noise.
     assert times[2] / times[0] < 2.0 * counts[2] / counts[0]

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
@@ -18,6 +15,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View, look
+from vectorplot.speed.clock import cpu_seconds
 from vectorplot.testing.shapes import box, numbered, rotated_boxes, rotation
 from vectorplot.testing.surfaces import bumpy_icosphere
 from vectorplot.textbook.graph_orders import graph_order, graph_triangles
@@ -36,16 +34,6 @@ def view_of(scene: Scene) -> View:
     return look(scene, default_camera(scene))
 
 
-def seconds(action: Callable[[], object], repeat: int = 3) -> float:
-    """The shortest of a few times, of the processor."""
-    times = []
-    for _ in range(repeat):
-        start = time.process_time()
-        action()
-        times.append(time.process_time() - start)
-    return min(times)
-
-
 def growth(sizes: list[int], times: list[float]) -> str:
     slope = np.polyfit(np.log(sizes), np.log(times), 1)[0]
     last = np.log(times[-1] / times[-2]) / np.log(sizes[-1] / sizes[-2])
@@ -57,7 +45,7 @@ def ordered(name: str, views: dict[int, View], beat: str) -> None:
     times = []
     for size, view in views.items():
         painted = painters_order(view)
-        times.append(seconds(lambda v=view: painters_order(v)))
+        times.append(cpu_seconds(lambda v=view: painters_order(v)))
         print(f"  {size:>9,}: {painted.uncut:>9,} faces drawn as {len(painted):>9,}: {times[-1]:7.3f} s")
     print(growth(list(views), times))
 
@@ -93,7 +81,7 @@ def test_boxes_through_one_another() -> None:
     view = view_of(numbered(shapes))
     painted = painters_order(view)
     print(f"\n500 boxes through one another: {painted.uncut} faces drawn as {len(painted)}: ", end="")
-    print(f"{seconds(lambda: painters_order(view)):.3f} s (to beat: 1.7 s, 1,482 to 3,096)")
+    print(f"{cpu_seconds(lambda: painters_order(view)):.3f} s (to beat: 1.7 s, 1,482 to 3,096)")
 
 
 def test_solids_by_the_power_of_their_spheres() -> None:
@@ -110,7 +98,7 @@ def test_solids_by_the_power_of_their_spheres() -> None:
         bodies = convex_bodies(view, faces, np.flatnonzero(outlined_items(view, projected)))
         assert sphere_order(view, faces, bodies) is not None
         sizes.append(len(bodies))
-        times.append(seconds(lambda v=view, f=faces, b=bodies: sphere_order(v, f, b)))
+        times.append(cpu_seconds(lambda v=view, f=faces, b=bodies: sphere_order(v, f, b)))
         print(f"  {sizes[-1]:>9,}: {times[-1]:7.3f} s")
     print(growth(sizes, times))
 
@@ -121,11 +109,11 @@ def test_graphs_and_rings_without_a_comparison() -> None:
     for cells in (250, 500, 1000):
         line = np.linspace(-1.0, 1.0, cells + 1)
         sizes.append(2 * cells * cells)
-        times.append(seconds(lambda x=line, n=cells: (graph_triangles(n, n), graph_order(x, x, (0.3, -3.0, 2.0)))))
+        times.append(cpu_seconds(lambda x=line, n=cells: (graph_triangles(n, n), graph_order(x, x, (0.3, -3.0, 2.0)))))
         print(f"  {sizes[-1]:>9,}: {times[-1]:7.3f} s")
     print(growth(sizes, times))
     meridian = sliced_meridian(np.stack([2.0 + np.sin(np.linspace(0, 20, 600)), np.linspace(0, 5, 600)], axis=1))
-    took = seconds(lambda: ring_order(meridian, 1000, (5.0, 4.0, 3.0)))
+    took = cpu_seconds(lambda: ring_order(meridian, 1000, (5.0, 4.0, 3.0)))
     print(f"  {1000 * (len(meridian) - 1):>9,} faces in rings: {took:7.3f} s")
 
 
@@ -136,14 +124,14 @@ def test_graphs_in_pictures() -> None:
         scene = Scene((Item("G", waves(cells)),))
         view = view_of(scene)
         sizes.append(2 * cells * cells)
-        times.append(seconds(lambda s=scene, v=view: known_orders(s, v)))
+        times.append(cpu_seconds(lambda s=scene, v=view: known_orders(s, v)))
         print(f"  {sizes[-1]:>9,}: {times[-1]:7.3f} s")
     print(growth(sizes, times))
     scene = Scene((Item("G", waves(400)),))
     view = view_of(scene)
-    print(f"  400 x 400 compared: {seconds(lambda: painters_order(view), 1):7.3f} s, ", end="")
-    print(f"known: {seconds(lambda: painters_order(view, known=known_orders(scene, view))):7.3f} s, ", end="")
-    print(f"painted and written: {seconds(lambda: svg_bytes(paint(scene)), 1):7.3f} s")
+    print(f"  400 x 400 compared: {cpu_seconds(lambda: painters_order(view), 1):7.3f} s, ", end="")
+    print(f"known: {cpu_seconds(lambda: painters_order(view, known=known_orders(scene, view))):7.3f} s, ", end="")
+    print(f"painted and written: {cpu_seconds(lambda: svg_bytes(paint(scene)), 1):7.3f} s")
 
 
 def waves(cells: int) -> Mesh:
@@ -161,7 +149,7 @@ def test_visible_fills() -> None:
         fills = painted.layers[0].fills[0]
         regions = visible_fills(fills, painted.page_from_world)
         sizes.append(len(fills))
-        times.append(seconds(lambda f=fills, p=painted: visible_fills(f, p.page_from_world), 1))
+        times.append(cpu_seconds(lambda f=fills, p=painted: visible_fills(f, p.page_from_world), 1))
         print(f"  {len(fills):>9,} faces, {len(regions):>9,} regions: {times[-1]:7.3f} s")
     print(growth(sizes, times))
 
@@ -177,7 +165,7 @@ def test_polygons_clipped_in_pairs() -> None:
             circle = np.stack([np.cos(angle), np.sin(angle)])[:, None]
             corners += [(circle + random.uniform(-1, 1, (2, count, 1))).reshape(2, -1), np.arange(count + 1) * size]
         sizes.append(count)
-        times.append(seconds(lambda c=corners: clipped_by_convex(*c)))
+        times.append(cpu_seconds(lambda c=corners: clipped_by_convex(*c)))
         print(f"  {count:>9,}: {times[-1]:7.3f} s")
     print(growth(sizes, times))
 
@@ -185,4 +173,4 @@ def test_polygons_clipped_in_pairs() -> None:
 def test_a_camera_within_a_crowd() -> None:
     scene = rotated_boxes(20000)
     view = look(scene, Camera(tuple(scene.bounds.mean(axis=0)), tuple(scene.bounds[1])))
-    print(f"\n20,000 boxes seen from among them: {seconds(lambda: painters_order(view)):7.3f} s")
+    print(f"\n20,000 boxes seen from among them: {cpu_seconds(lambda: painters_order(view)):7.3f} s")

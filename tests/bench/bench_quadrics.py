@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
@@ -13,6 +10,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.plan import StageReport
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
+from vectorplot.speed.clock import cpu_seconds
 from vectorplot.surfaces.families.ellipsoid import Sphere
 
 pytestmark = pytest.mark.bench
@@ -41,16 +39,6 @@ def protein(count: int) -> Scene:
     return Scene(tuple(Item(str(k), Sphere(r, c)) for k, (c, r) in enumerate(pairs)))
 
 
-def seconds(action: Callable[[], object], repeat: int = 3) -> float:
-    """The shortest of a few times, of the processor."""
-    times = []
-    for _ in range(repeat):
-        start = time.process_time()
-        action()
-        times.append(time.process_time() - start)
-    return min(times)
-
-
 def bare(scene: Scene) -> float:
     """What projecting 32 points of each sphere and sorting them by depth takes."""
     centres = np.array([item.shape.centre for item in scene.items])
@@ -61,7 +49,7 @@ def bare(scene: Scene) -> float:
         image = points[:, :2] / points[:, 2:]
         np.argsort(points[:, 2] + 0.0 * image[:, 0], kind="stable")
 
-    return seconds(project, 5)
+    return cpu_seconds(project, 5)
 
 
 def measured(name: str, scenes: dict[int, Scene]) -> float:
@@ -70,7 +58,7 @@ def measured(name: str, scenes: dict[int, Scene]) -> float:
     times = []
     for count, scene in scenes.items():
         draw(scene, CAMERA)
-        times.append(seconds(lambda s=scene: draw(s, CAMERA)))
+        times.append(cpu_seconds(lambda s=scene: draw(s, CAMERA)))
         print(f"  {count:>7,}: {times[-1]:6.3f} s, {times[-1] / bare(scene):5.0f} times projecting 32 points each")
     sizes = list(scenes)
     return float(np.log(times[-1] / times[-2]) / np.log(sizes[-1] / sizes[-2]))

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
@@ -13,6 +10,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.plan import StageReport
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.surface_lines import SurfaceLines, even_cosines
+from vectorplot.speed.clock import cpu_seconds
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
 
@@ -26,20 +24,9 @@ def torus(columns: int, rows: int, isophotes: int) -> Scene:
     return Scene((Item("ring", Torus(3.0, 1.0), curves=lines),), lights=(Light((1.0, 2.0, 3.0), parallel=True),))
 
 
-def seconds(action: Callable[[], object], repeat: int = 5) -> float:
-    """The shortest of a few times, the first of which warms up."""
-    action()
-    times = []
-    for _ in range(repeat):
-        start = time.perf_counter()
-        action()
-        times.append(time.perf_counter() - start)
-    return min(times)
-
-
 def test_a_torus_in_less_than_half_a_second() -> None:
     scene = torus(24, 12, 9)
-    took, counted = seconds(lambda: draw(scene, CAMERA)), seconds(lambda: draw(scene, CAMERA, hidden="solid"))
+    took, counted = cpu_seconds(lambda: draw(scene, CAMERA)), cpu_seconds(lambda: draw(scene, CAMERA, hidden="solid"))
     print(f"\ntorus, 24x12 parameter lines, contour, 9 isophotes: {took:.3f} s; hidden lines too {counted:.3f} s")
     stages: list[StageReport] = []
     draw(scene, CAMERA, explain=stages.append)
@@ -52,7 +39,7 @@ def test_cost_grows_linearly_with_the_number_of_lines() -> None:
     print()
     for factor in (1, 2, 4, 8):
         scene = torus(24 * factor, 12 * factor, 9)
-        times.append(seconds(lambda s=scene: draw(s, CAMERA), 3))
+        times.append(cpu_seconds(lambda s=scene: draw(s, CAMERA), 3))
         counts.append(36 * factor)
         print(f"  {counts[-1]:4} parameter lines: {times[-1]:.3f} s")
     slope = np.polyfit(np.log(counts[1:]), np.log(times[1:]), 1)[0]
@@ -69,7 +56,7 @@ def test_cost_grows_no_faster_than_the_number_of_surfaces_squared() -> None:
             for i in range(side)
             for j in range(side)
         )
-        times.append(seconds(lambda shapes=items: draw(Scene(shapes), CAMERA), 2))
+        times.append(cpu_seconds(lambda shapes=items: draw(Scene(shapes), CAMERA), 2))
         counts.append(len(items))
         print(f"  {counts[-1]:4} spheres: {times[-1]:.3f} s")
     slope = np.polyfit(np.log(counts[1:]), np.log(times[1:]), 1)[0]

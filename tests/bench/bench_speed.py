@@ -1,0 +1,49 @@
+"""What is not time: how pictures grow, what they cost in bare work of the same run, and their memory.
+
+Run with ``pytest tests/bench/bench_speed.py -s``. Limits are about twice what is measured, growth a fifth more than it:
+noise of a busy machine passes, an engine that looks at all pairs, or is half as fast again and again, does not.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from vectorplot.speed.measure import measured, on_threads
+from vectorplot.speed.operations import point_cost
+from vectorplot.speed.scenes import SERIES
+
+pytestmark = pytest.mark.bench
+
+LIMITS = {
+    "boxes": (1.2, 1200, 150),
+    "boxes, a layer each": (1.2, 1500, 100),
+    "bars": (1.3, 8000, 150),
+    "weave": (1.2, 900, 300),
+    "one mesh": (1.15, 6, 200),
+    "spheres": (1.2, 1800, 200),
+    "tori": (2.0, 4e6, 200),
+    "boxes in colour": (1.2, 2000, 100),
+    "pixels of one mesh": (1.15, 45, 300),
+}
+"""Growth exponent, points projected and sorted for each thing, and megabytes."""
+
+
+@pytest.mark.parametrize("series", SERIES, ids=lambda series: series.name)
+def test_growth_cost_and_memory(series) -> None:
+    growth, points, memory = LIMITS[series.name]
+    found, point = measured(series), point_cost()
+    print(f"\n{series.name}: growth {found.exponent:.2f}, {found.points(point):.1f} points, {found.memory_mb:.0f} MB")
+    assert found.exponent < growth
+    assert found.points(point) < points
+    assert found.memory_mb < memory
+
+
+def test_every_picture_has_its_limits() -> None:
+    assert set(LIMITS) == {series.name for series in SERIES}
+
+
+def test_two_threads_take_no_longer_than_one() -> None:
+    (mesh,) = (series for series in SERIES if series.name == "one mesh")
+    found = on_threads(mesh, 2)
+    print(f"\none thread {found.one:.3f} s, two {found.several:.3f} s")
+    assert found.several < 1.2 * found.one
