@@ -94,6 +94,24 @@ def test_an_edge_of_three_faces_is_drawn() -> None:
     assert LineKind(int(edges.kind[shared][0])) in (LineKind.CREASE, LineKind.CONTOUR)
 
 
+@pytest.mark.hard(12)
+@pytest.mark.parametrize("layers", [(2, 2), (2, 1), (3, 2)])
+@pytest.mark.parametrize("angle", [0.0, 20.0, 30.0, 80.0])
+def test_an_edge_of_sheets_in_layers_is_a_crease_where_they_turn(layers: tuple[int, int], angle: float) -> None:
+    """Two directions, each of one face or more: an edge within a sheet that lies there twice is none."""
+    across = (np.cos(np.radians(angle)), -np.sin(np.radians(angle)))
+    vertices = [(0, 0, 0), (0, 1, 0), (-1, 0, 0), (-1, 1, 0), *((across[0], y, across[1]) for y in (0, 1))]
+    faces = [[0, 1, 3, 2]] * layers[0] + [[1, 0, 4, 5]] * layers[1]
+    edges = edges_of(Mesh.from_polygons(vertices, faces), camera=Camera((0.1, 0.5, 9.0), (0.0, 0.5, 0.0)))
+    shared = (edges.start == 0) & (edges.end == 1)
+    assert edges.kind[shared].tolist() == [LineKind.CREASE if angle > 25.0 else LineKind.EDGES]
+    # A face that stands on them is a third direction.
+    standing = Mesh.from_polygons([*vertices, (0.1, 0, 1), (0.1, 1, 1)], [*faces, [0, 1, 7, 6]])
+    edges = edges_of(standing, camera=Camera((0.1, 0.5, 9.0), (0.0, 0.5, 0.0)))
+    shared = (edges.start == 0) & (edges.end == 1)
+    assert LineKind(int(edges.kind[shared][0])) in (LineKind.CREASE, LineKind.CONTOUR)
+
+
 def test_the_surface_lies_on_the_stated_side_of_an_outline() -> None:
     camera = Camera((0.0, 0.0, 9.0), up=(0.0, 1.0, 0.0), parallel=True)
     square = Mesh.from_polygons([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [[0, 1, 2, 3]])

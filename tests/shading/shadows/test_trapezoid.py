@@ -132,8 +132,15 @@ def test_the_rectangle_of_the_same_hull():
 
 @pytest.mark.capability("R-matrices", "R-code", "R-gl4x4")
 def test_the_recipe_as_eight_matrices_and_as_three_rows():
-    assert len(recipe_factors(RECIPE)) == 8
+    factors = recipe_factors(RECIPE)
+    assert len(factors) == 8
     product = recipe_matrix(RECIPE)
+    # Step by step: the middle of the top line goes to the origin, the line along x, the meeting point to the origin.
+    far_corners = np.column_stack([RECIPE, np.ones((4, 2))])
+    assert np.allclose(factors[0] @ (far_corners[2] + far_corners[3]) / 2.0, (0, 0, 1, 1), atol=1e-14)
+    turned = far_corners @ (factors[1] @ factors[0]).T
+    assert turned[2, 1] == pytest.approx(turned[3, 1], abs=1e-14) and turned[2, 0] == pytest.approx(-turned[3, 0])
+    assert np.allclose(np.linalg.multi_dot(factors[::-1]), product, atol=1e-13)
     rows = product[np.ix_([0, 1, 3], [0, 1, 3])]
     tv63 = [
         (0.654320987654321, 0.0987654320987653, -0.703703703703703),

@@ -314,4 +314,7 @@ def test_the_order_of_spheres_is_right_or_refused(parallel):
         FLOOR=box((-5, -5, -0.1), (5, 5, 0)), BOX=box((3, 3, 0), (4, 4, 1)), LOW=box((-4, -4, 0), (-3, -3, 1))
     )
     assert ordered(flat)[1] is None or parallel
+    # Slabs whose spheres overlap: where the outlines say the same as the spheres, their order stands.
+    slabs = numbered([box((0, 0, 3 * k), (4, 4, 3 * k + 0.5)) for k in (2, 0, 1)])
+    assert ordered(slabs)[1].tolist() == [1, 2, 0]
     assert ordered(interpenetrating_boxes())[1] is None
