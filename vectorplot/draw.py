@@ -332,7 +332,8 @@ def _closed_forms(walk: Walk, scene: Scene, view: View, kinds: frozenset[LineKin
         return None
     from vectorplot.visibility.quadrics.closed_forms import closed_forms
 
-    return walk.run("balls", closed_forms, scene, view, kinds, _seen_among_balls(walk, "balls", view))
+    hidden_too = not walk.calls_for("visible lines")
+    return walk.run("balls", closed_forms, scene, view, kinds, _seen_among_balls(walk, "balls", view), hidden_too)
 
 
 def _seen_among_balls(walk: Walk, stage: str, view: View) -> Seen:

@@ -41,6 +41,7 @@ from vectorplot.visibility.quadrics.lines.body_meetings import (
     overlapping_capped,
 )
 from vectorplot.visibility.quadrics.lines.capped_arcs import capped_arcs
+from vectorplot.visibility.quadrics.lines.meetings_inside import meet_inside_balls
 from vectorplot.words import LineKind
 
 Seen = Callable[[Bodies, Arcs, OwnSides], Visibility]
@@ -81,17 +82,20 @@ BOX_SLACK = 0.01
 _CORNERS = np.array(list(np.ndindex(2, 2, 2)), dtype=np.bool_)
 
 
-def closed_forms(scene: Scene, view: View, kinds: frozenset[LineKind], seen: Seen) -> ClosedForms:
+def closed_forms(
+    scene: Scene, view: View, kinds: frozenset[LineKind], seen: Seen, hidden_too: bool = False
+) -> ClosedForms:
     """The bodies of a scene of which all lines that are asked for are conics and straight, and these lines.
 
     Bodies are spheres and ellipsoids, and frusta and parts of balls between caps. The others are smooth surfaces like
     any other: those with the eye inside, with curves of their own, isophotes of all but spheres and of lamps inside,
     sections of capped bodies, ellipsoids that meet others of another form, capped bodies that meet anything but a ball
-    on their axis, and all that meet surfaces which are no bodies themselves.
+    on their axis, and all that meet surfaces which are no bodies themselves. hidden_too: whether hidden lines are asked
+    for too; otherwise two capped bodies may meet inside of a ball, as the bonds of an atom do.
     """
     bodies = _bodies(scene, view, kinds)
     wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
-    bodies, balls, mixed = _apart(scene, view, bodies, wants)
+    bodies, balls, mixed = _apart(scene, view, bodies, wants, hidden_too)
 
     def asked(item: Item, kind: LineKind) -> bool:
         return kind in kinds_of(item, kinds)
@@ -194,7 +198,7 @@ def _is_conic(scene: Scene, view: View, item: Item, ball: Ball, kinds: frozenset
 Pairs = tuple[Ints, Ints]
 
 
-def _apart(scene: Scene, view: View, bodies: Bodies, wants: Bools) -> tuple[Bodies, Pairs, Pairs]:
+def _apart(scene: Scene, view: View, bodies: Bodies, wants: Bools, hidden_too: bool) -> tuple[Bodies, Pairs, Pairs]:
     """The bodies of which all intersections that are wanted have closed forms; the pairs of balls that overlap, and of
     balls and capped bodies that meet."""
     count, asked = len(bodies.balls), wants[bodies.item]
@@ -203,6 +207,11 @@ def _apart(scene: Scene, view: View, bodies: Bodies, wants: Bools) -> tuple[Bodi
     both = asked[first] | asked[second]
     first, second = first[both], second[both]
     mixed = first < count
+    if not hidden_too:
+        ball, capped = first[mixed], second[mixed] - count
+        inside = np.zeros(len(first), dtype=np.bool_)
+        inside[~mixed] = meet_inside_balls(bodies, first[~mixed] - count, second[~mixed] - count, ball, capped)
+        first, second, mixed = first[~inside], second[~inside], mixed[~inside]
     meeting = _meets_others(scene, view, bodies, wants)
     body, face = capped_at_faces(view, bodies.capped)
     meeting[count + body[asked[count + body] | wants[view.face_item[face]]]] = True
