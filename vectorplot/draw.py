@@ -383,7 +383,7 @@ def _lines_and_chords(
     if not walk.calls_for("curves"):
         return lines
     from vectorplot.visibility.smooth.smooth_lines import cut_lines_and_chords, whole_lines_and_chords
-    from vectorplot.visibility.smooth.tracing.traced import traced_scene
+    from vectorplot.visibility.smooth.tracing.traced import traced_scene, tracing_of
 
     if tolerance < FINEST_CHORD_OF_EXTENT:
         text = "the picture shows so small a part of the scene that smooth curves are off by more than the tolerance"
@@ -397,6 +397,14 @@ def _lines_and_chords(
         from vectorplot.visibility.quadrics.conic_curves import conic_curves
 
         traced = traced.joined(conic_curves(view, forms.arcs, forms.behind, tolerance))
+        if len(forms.traced) or len(forms.in_faces):
+            from vectorplot.visibility.quadrics.traced_meetings import traced_meetings
+
+            tracing = tracing_of(view, tolerance, budget)
+            met, doubts = walk.run("curves", traced_meetings, scene, view, forms, kinds, tracing)
+            traced = traced.joined(met)
+            for doubt in doubts:
+                warnings.warn(doubt, InputWarning, stacklevel=3)
     if not sheets or not walk.calls_for("smooth surfaces"):
         return whole_lines_and_chords(view, traced, lines)
     done = walk.fraction("smooth surfaces")

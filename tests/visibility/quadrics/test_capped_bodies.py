@@ -234,8 +234,6 @@ def test_what_has_no_closed_form_is_a_surface_like_any_other():
 
     assert items(can) == {0, 1}
     assert items(can, Item("ring", Torus(1.0, 0.4))) == {2}
-    assert items(can, Item("beside", Sphere(1.0, (1.0, 0.5, 0.0)))) == {2}
-    assert items(Item("b", box((0.5, 0.5, 0.5), (2, 2, 2))), can) == {2}
     assert items(can, camera=Camera((0.2, 0.1, 0.3), (5, 0, 0))) == {1}
     assert items(Item("lit", can.shape, curves=SurfaceLines(isophotes=(0.5,)))) == {1}
     assert items(Item("cut", can.shape, curves=SurfaceLines(sections=(Section((1, 0, 0), (0.1,)),)))) == {1}

@@ -163,7 +163,8 @@ def test_what_has_no_closed_form_is_a_surface_like_any_other():
     ball, far = Item("a", Sphere(1.0)), Item("b", Sphere(1.0, (16, 0, 0)))
     assert forms_of([ball, far]).items == {0, 1}
     assert forms_of([ball, Item("ring", Torus(1.0, 0.4)), far]).items == {2}
-    assert forms_of([Item("e", Ellipsoid((1, 2, 3))), Item("f", Ellipsoid((3, 2, 1))), far]).items == {2}
+    crossing = forms_of([Item("e", Ellipsoid((1, 2, 3))), Item("f", Ellipsoid((3, 2, 1))), far])
+    assert crossing.items == {0, 1, 2} and crossing.traced.tolist() == [[0, 1]]
     assert forms_of([Item("e", Ellipsoid((1, 2, 3))), Item("f", Ellipsoid((2, 4, 6), (1, 0, 0))), far]).items == {
         0,
         1,

@@ -42,6 +42,7 @@ from vectorplot.visibility.quadrics.lines.body_meetings import (
 )
 from vectorplot.visibility.quadrics.lines.capped_arcs import capped_arcs
 from vectorplot.visibility.quadrics.lines.meetings_inside import meet_inside_balls
+from vectorplot.visibility.quadrics.own_bodies import own_bodies
 from vectorplot.words import LineKind
 
 Seen = Callable[[Bodies, Arcs, OwnSides], Visibility]
@@ -51,11 +52,14 @@ Seen = Callable[[Bodies, Arcs, OwnSides], Visibility]
 @dataclass(frozen=True, eq=False)
 class ClosedForms:
     """The bodies of a scene, and the parts of arcs on them that are seen among them; behind (n,): by how many items
-    each is hidden."""
+    each is hidden; traced (p,2): pairs of bodies that meet in other curves; in_faces (q,2): bodies that meet the faces
+    of items in such, and these items."""
 
     bodies: Bodies
     arcs: Arcs
     behind: Ints
+    traced: Ints
+    in_faces: Ints
 
     def __len__(self) -> int:
         return len(self.arcs)
@@ -89,40 +93,42 @@ def closed_forms(
 
     Bodies are spheres and ellipsoids, and frusta and parts of balls between caps. The others are smooth surfaces like
     any other: those with the eye inside, with curves of their own, isophotes of all but spheres and of lamps inside,
-    sections of capped bodies, ellipsoids that meet others of another form, capped bodies that meet anything but a ball
-    on their axis, and all that meet surfaces which are no bodies themselves. hidden_too: whether hidden lines are asked
-    for too; otherwise two capped bodies may meet inside of a ball, as the bonds of an atom do.
+    sections of capped bodies, and all that meet surfaces which are no bodies themselves. Ellipsoids that meet others of
+    another form, and capped bodies that meet anything but a ball on their axis, do so in curves that are traced.
+    hidden_too: whether hidden lines are asked for too; otherwise what two capped bodies have in common inside of a ball
+    that hides, as the bonds of an atom do, is left out.
     """
     bodies = _bodies(scene, view, kinds)
     wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
-    bodies, balls, mixed = _apart(scene, view, bodies, wants, hidden_too)
+    bodies, met = _apart(scene, view, bodies, wants, hidden_too)
 
     def asked(item: Item, kind: LineKind) -> bool:
         return kind in kinds_of(item, kinds)
 
     wanting = wants[bodies.item]
     parts = ball_arcs(scene, view, bodies.balls, asked)
-    parts.append(balls_with_balls(bodies.balls, *balls, wanting[: len(bodies.balls)]))
+    parts.append(balls_with_balls(bodies.balls, *met.balls, wanting[: len(bodies.balls)]))
     parts.append(balls_with_faces(view, bodies.balls, wants))
     parts += capped_arcs(scene, bodies.capped, len(bodies.balls), asked)
-    parts.append(circles_on_one_axis(bodies, *mixed, wanting))
+    parts.append(circles_on_one_axis(bodies, *met.on_axis, wanting))
     arcs, sides = beyond_near(bodies.sight, *joined_arcs(parts))
     found = seen(bodies, arcs, sides)
     chosen = arcs.some(found.segment)
     span = chosen.high - chosen.low
     low, high = chosen.low + found.low * span, np.where(found.high < 1.0, chosen.low + found.high * span, chosen.high)
-    return ClosedForms(bodies, replace(chosen, low=low, high=high), found.hidden_by)
+    return ClosedForms(bodies, replace(chosen, low=low, high=high), found.hidden_by, met.traced, met.in_faces)
 
 
 def lines_behind(view: View, forms: ClosedForms, lines: Lines, seen: Seen) -> Lines:
     """Lines beyond the near plane, cut where bodies begin or end to hide them, and what is seen of them; the arcs on
     the bodies themselves as they are."""
-    own = np.zeros(len(lines), dtype=np.bool_)
+    own, family = np.zeros(len(lines), dtype=np.bool_), np.full(len(lines), -1)
     if lines.chords is not None:
         curves = lines.chords.curves
         conic = np.array([isinstance(family, ConicArcs) for family in curves.families] + [False])
         chord = lines.chords.chord
-        own[chord >= 0] = conic[curves.family[curves.owner[chord[chord >= 0]]]]
+        family[chord >= 0] = curves.family[curves.owner[chord[chord >= 0]]]
+        own = conic[family]
     others = np.flatnonzero(~own)
     sight = forms.bodies.sight
     start, end = sight.points(lines.start[:, others].T), sight.points(lines.end[:, others].T)
@@ -140,7 +146,11 @@ def lines_behind(view: View, forms: ClosedForms, lines: Lines, seen: Seen) -> Li
         lines.side[others],
     )
     none = np.zeros(0, dtype=np.intp)
-    found = seen(forms.bodies, arcs, OwnSides(none, np.zeros((0, 4)), none))
+    sides = OwnSides(none, np.zeros((0, 4)), none)
+    if lines.chords is not None:
+        bodies, sides = own_bodies(forms.bodies, lines.chords.curves, family[others])
+        arcs = replace(arcs, own=bodies)
+    found = seen(forms.bodies, arcs, sides)
     kept = np.flatnonzero(own)
     which = np.concatenate([kept, others[found.segment]])
     low = np.concatenate([np.zeros(len(kept)), found.low])
@@ -198,9 +208,19 @@ def _is_conic(scene: Scene, view: View, item: Item, ball: Ball, kinds: frozenset
 Pairs = tuple[Ints, Ints]
 
 
-def _apart(scene: Scene, view: View, bodies: Bodies, wants: Bools, hidden_too: bool) -> tuple[Bodies, Pairs, Pairs]:
-    """The bodies of which all intersections that are wanted have closed forms; the pairs of balls that overlap, and of
-    balls and capped bodies that meet."""
+@dataclass(frozen=True, eq=False)
+class _Met:
+    """Which bodies meet: pairs of balls, in circles; balls and, numbered by themselves, capped bodies on whose axes
+    they are; traced (p,2) all other pairs; in_faces (q,2): capped bodies, and items with faces that they meet."""
+
+    balls: Pairs
+    on_axis: Pairs
+    traced: Ints
+    in_faces: Ints
+
+
+def _apart(scene: Scene, view: View, bodies: Bodies, wants: Bools, hidden_too: bool) -> tuple[Bodies, _Met]:
+    """The bodies that meet no other surfaces where that is wanted, and which of them meet."""
     count, asked = len(bodies.balls), wants[bodies.item]
     one, two = overlapping_balls(bodies.balls)
     first, second = overlapping_capped(bodies)
@@ -212,14 +232,16 @@ def _apart(scene: Scene, view: View, bodies: Bodies, wants: Bools, hidden_too: b
         inside = np.zeros(len(first), dtype=np.bool_)
         inside[~mixed] = meet_inside_balls(bodies, first[~mixed] - count, second[~mixed] - count, ball, capped)
         first, second, mixed = first[~inside], second[~inside], mixed[~inside]
-    meeting = _meets_others(scene, view, bodies, wants)
     body, face = capped_at_faces(view, bodies.capped)
-    meeting[count + body[asked[count + body] | wants[view.face_item[face]]]] = True
+    item = view.face_item[face]
+    wanted = asked[count + body] | wants[item]
+    in_faces = np.unique(np.stack([count + body[wanted], item[wanted]], axis=1), axis=0)
     balls = np.flatnonzero(asked[one] | asked[two])
     pairs = np.concatenate([np.stack([one[balls], two[balls]]), np.stack([first, second])], axis=1)
     closed = np.concatenate([are_homothetic(bodies.balls, one[balls], two[balls])[0], np.zeros(len(first), np.bool_)])
     closed[len(balls) :][mixed] = on_one_axis(bodies, first[mixed], second[mixed] - count)
-    meeting[pairs[:, ~closed]] = True
+    traced = pairs[:, ~closed].T
+    meeting = _meets_others(scene, view, bodies, wants)
     while True:
         # What meets such a body is one too: their curve is traced on both.
         linked = pairs[:, meeting[pairs[0]] != meeting[pairs[1]]]
@@ -228,10 +250,17 @@ def _apart(scene: Scene, view: View, bodies: Bodies, wants: Bools, hidden_too: b
         meeting[linked] = True
     number = np.cumsum(~meeting) - 1
     left = int((~meeting[:count]).sum())
-    kept = ~meeting[one] & ~meeting[two]
-    inner = mixed & ~meeting[first] & ~meeting[second]
-    mixed_pairs = number[first[inner]], number[second[inner]] - left
-    return bodies.some(~meeting), (number[one[kept]], number[two[kept]]), mixed_pairs
+    one, two = one[balls], two[balls]
+    kept = closed[: len(balls)] & ~meeting[one] & ~meeting[two]
+    inner = closed[len(balls) :] & ~meeting[first] & ~meeting[second]
+    in_faces = in_faces[~meeting[in_faces[:, 0]]]
+    met = _Met(
+        (number[one[kept]], number[two[kept]]),
+        (number[first[inner]], number[second[inner]] - left),
+        number[traced[~meeting[traced].any(axis=1)]],
+        np.stack([number[in_faces[:, 0]], in_faces[:, 1]], axis=1),
+    )
+    return bodies.some(~meeting), met
 
 
 def _meets_others(scene: Scene, view: View, bodies: Bodies, wants: Bools) -> Bools:

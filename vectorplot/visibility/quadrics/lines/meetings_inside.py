@@ -37,8 +37,8 @@ def meet_inside_balls(bodies: Bodies, one: Ints, two: Ints, ball: Ints, capped: 
 
 
 def _common_ball(capped: CappedBodies, one: Ints, two: Ints) -> tuple[Floats, Floats]:
-    """Centres (k,3) and radii (k,) of balls around all that pairs of bodies have in common; the radius is negative where
-    they have nothing."""
+    """Centres (k,3) and radii (k,) of balls around all that pairs of bodies have in common; the radius is negative
+    where they have nothing."""
     a, r = _axis(capped, one)
     b, s = _axis(capped, two)
     start, other = capped.centre[one], capped.centre[two]

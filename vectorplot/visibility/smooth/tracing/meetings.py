@@ -28,7 +28,7 @@ from vectorplot.visibility.smooth.tracing.implicit_meetings import (
     parametrised_with_implicit,
 )
 from vectorplot.visibility.smooth.tracing.surface_curves import as_curves
-from vectorplot.visibility.smooth.tracing.traced_curves import Curves, together
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves, no_curves, together
 from vectorplot.words import LineKind
 
 SmoothSheet = ParametricSheet | ImplicitSheet
@@ -106,6 +106,23 @@ def _with_mesh(
     section = mesh_section(sheet.surface, mesh, tracing=tracing)
     family, found = FaceCurves(sheet, number), section.curves
     return as_curves(found, LineKind.INTERSECTION, item, family, section.normals), found.doubts
+
+
+def curves_of_pair(
+    sheets: tuple[ParametricSheet, ParametricSheet], item: int, tracing: Tracing
+) -> tuple[Curves, tuple[str, ...]]:
+    """The curves of two sheets that are none of a scene's, and doubts about them; item: whose they are."""
+    if not _overlap(*(_box(sheet.vertices) for sheet in sheets)):
+        return no_curves(), ()
+    return _pair(sheets, 0, 1, item, tracing)
+
+
+def curves_with_mesh(sheet: ParametricSheet, mesh: Mesh, item: int, tracing: Tracing) -> tuple[Curves, tuple[str, ...]]:
+    """The curves of a sheet that is none of a scene's with a mesh in the view's coordinates, and doubts about them;
+    item: whose they are."""
+    if not _overlap(_box(sheet.vertices), _box(mesh.vertices)):
+        return no_curves(), ()
+    return _with_mesh(sheet, 0, mesh, item, tracing)
 
 
 def _box(points: Floats) -> Floats:

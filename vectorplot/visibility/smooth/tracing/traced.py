@@ -82,7 +82,7 @@ def traced_scene(
 
     budget: of the work on every item; done: is told the part of the work that is done.
     """
-    tracing = Tracing(tolerance=tolerance, picture=lambda points: _picture(view, points), budget=budget)
+    tracing = tracing_of(view, tolerance, budget)
     drawn, edges, doubts = [], [], []
     for number, sheet in enumerate(sheets):
         item = scene.items[sheet.item]
@@ -108,6 +108,11 @@ def traced_scene(
         with_merged_families(_with_images(view, together(parts)), all_sheets) for parts in ([*drawn, met.curves], edges)
     )
     return TracedScene(all_sheets, met.meets_itself, curves, hiding, tuple(dict.fromkeys(doubts)))
+
+
+def tracing_of(view: View, tolerance: float, budget: Budget = USUAL) -> Tracing:
+    """How curves are traced whose chords are to be within a tolerance in the image."""
+    return Tracing(tolerance=tolerance, picture=lambda points: _picture(view, points), budget=budget)
 
 
 def _with_images(view: View, curves: Curves) -> Curves:
