@@ -188,8 +188,9 @@ def test_patterns_on_dark_faces_lack_all_lights() -> None:
 
 def test_patterns_need_a_face() -> None:
     for wrong in (-1, 6):
-        with pytest.raises(InputError, match="there are 6 faces"):
+        with pytest.raises(InputError, match=f"face {wrong + 1}: there are 6 faces"):
             face_frames(box((1.0, 1.0, 1.0)), np.array([0, wrong]))
-    sliver = Mesh.from_polygons([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [[0, 1, 2]])
-    with pytest.raises(InputError, match="no area"):
-        face_frames(sliver, np.array([0]))
+    sliver = Mesh.from_polygons([(0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 1, 0)], [[0, 1, 2], [0, 1, 3]])
+    for faces in ([0], [1, 0]):
+        with pytest.raises(InputError, match="no area"):
+            face_frames(sliver, np.array(faces))

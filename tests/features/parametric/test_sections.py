@@ -19,12 +19,17 @@ BOX = [[-9.0] * 3, [9.0] * 3]
 
 
 @pytest.mark.capability("G8.4-intersection")
-@pytest.mark.parametrize("offset", [0.0, 1e6])
-def test_two_spheres_meet_in_a_circle(offset):
+@pytest.mark.parametrize(("offset", "size"), [(0.0, 1.0), (1e6, 1.0), (0.0, 1e-6), (0.0, 1e6)])
+def test_two_spheres_meet_in_a_circle(offset, size):
     far = np.array([offset, 0.0, 0.0])
-    curves = section_by_implicit(Sphere(2.0, far), implicit_sphere(2.0, (offset + 1.0, 0.5, 0.0)))
+    other = implicit_sphere(2.0 * size, (offset + size, 0.5 * size, 0.0))
+    curves = section_by_implicit(Sphere(2.0 * size, far), other)
     assert len(curves) == 1 and curves.closed.all() and not curves.doubts
-    assert np.abs((curves.points - far) @ (1.0, 0.5, 0.0) - 0.625).max() < (1e-10 if offset == 0.0 else 1e-8)
+    off = (curves.points - far) / size @ (1.0, 0.5, 0.0) - 0.625
+    assert np.abs(off).max() < (1e-10 if offset == 0.0 else 1e-8)
+    # Touching is told apart from missing at any size.
+    with pytest.warns(InputWarning, match="in a single point"):
+        assert len(section_by_implicit(Sphere(size, far), implicit_sphere(size, (offset + 2.0 * size, 0, 0)))) == 0
 
 
 @pytest.mark.capability("G8.4-intersection")
