@@ -87,16 +87,11 @@ def _pieces(curves: Curves, chord: Ints, places: Floats, points: Floats, outline
         return np.insert(values, after, np.repeat(new, 2, axis=0), axis=0)
 
     return replace(
-        curves,
+        curves.some(of),
         points=put(curves.points, points),
         places=put(curves.places, places),
         second_places=put(curves.second_places, np.full_like(places, np.nan)),
         offsets=np.append(begin[order], bounds[-1]),
         closed=curves.closed[of] & whole,
         kind=np.where(turned, int(LineKind.CONTOUR), int(LineKind.CREASE)),
-        item=curves.item[of],
-        family=curves.family[of],
-        level=curves.level[of],
-        side=curves.side[of],
-        behind=curves.behind[of],
     )
