@@ -111,8 +111,21 @@ def test_diagonals_are_not_drawn_and_sides_can_be_chosen() -> None:
 @pytest.mark.hard(5)
 def test_edges_that_reach_behind_the_eye_end_at_the_near_plane() -> None:
     long = Scene((Item("LONG", box((-1, -50, -2), (1, 50, -1))),))
-    _, _, erased = painted(long, Camera(eye=(0.0, 0.0, 0.0), target=(0.0, 5.0, -1.0)))
+    view, _, erased = painted(long, Camera(eye=(0.0, 0.0, 0.0), target=(0.0, 5.0, -1.0)))
     assert np.isfinite(erased.start).all() and np.isfinite(erased.end).all() and len(erased) >= 3
+    nearest = []
+    for end in (erased.start, erased.end):
+        place = in_space(view, end)
+        depth = view.eye[2] - place[2]
+        assert (depth > view.near * (1.0 - 1e-6)).all()
+        nearest.append(depth)
+        # Every end lies on an edge of the box: on two of its six planes.
+        x, y, z = view.world_of(place).T
+        on = [np.abs(np.abs(x) - 1), np.abs(np.abs(y) - 50), np.minimum(np.abs(z + 1), np.abs(z + 2))]
+        assert (np.sum(np.array(on) < 1e-5, axis=0) >= 2).all()
+    # The long edges run from far away up to the near plane.
+    cut = np.isclose(np.minimum(*nearest), view.near, rtol=1e-6)
+    assert cut.sum() >= 2 and (np.maximum(*nearest)[cut] > 1000.0 * view.near).all()
 
 
 @pytest.mark.hard(55)

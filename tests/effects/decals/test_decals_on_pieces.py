@@ -80,6 +80,14 @@ def test_decals_that_reach_behind_the_eye_end_at_the_near_plane() -> None:
     faces = painters_order(view).faces
     parts = laid(view, pattern_decals(scene, view), faces.points, faces.offsets, faces.source)
     assert len(parts) == 1 and np.isfinite(parts.points).all()
+    # Of the band below y = x / 50 what lies before the near plane, which the floor meets along a line of one y.
+    away = np.sqrt(26.0)
+    near = (view.near * view.scale * away - 1.0) / 5.0
+    corners = np.array([(-6.0, near, 0.0), (6.0, near, 0.0), (6.0, 0.12, 0.0), (-6.0, -0.12, 0.0)])
+    expected = view.image_of(view.points_of(corners)).T
+    found = parts.points[:2].T
+    apart = np.abs(found[:, None] - expected).max(axis=2) / np.abs(expected).max(axis=1)
+    assert found.shape == (4, 2) and apart.min(axis=0).max() < 1e-9 and apart.min(axis=1).max() < 1e-9
     assert len(laid(view, no_decals(), faces.points, faces.offsets, faces.source)) == 0
     assert len(laid(view, joined_decals(), faces.points, faces.offsets, faces.source)) == 0
 
