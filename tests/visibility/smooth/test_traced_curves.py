@@ -13,14 +13,14 @@ from vectorplot.scene.view import look
 from vectorplot.surfaces.graphs import graph
 from vectorplot.surfaces.surface import Domain
 from vectorplot.visibility.smooth.sheets.family import ParameterCurves
-from vectorplot.visibility.smooth.tracing.parametric_items import sheet_of_parametrised
+from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised
 
 
 def test_over_a_hole_between_two_of_its_points_a_curve_is_its_chord() -> None:
     torn = graph(lambda x, y: np.sqrt(x * x - 0.3) + 0.2 * y * y, Domain(-2.0, 2.0, -2.0, 2.0))
     view = look(Scene((Item("torn", torn),)), Camera((5.0, -7.0, 9.0)))
     with np.errstate(invalid="ignore"):
-        sheet = sheet_of_parametrised(view, torn, 0, True)
+        (sheet, *_) = sheets_of_parametrised(view, torn, 0, True)
         places = np.array([[-1.0, 0.5, 0.0], [1.0, 0.5, 0.0]])
         line = replace(polylines(sheet.points(places)), places=places, families=(ParameterCurves(sheet, 0),))
         part = np.array([0.0, 0.1, 0.5, 0.6, 1.0])
