@@ -123,6 +123,7 @@ def test_seen_along_its_axis_a_cylinder_has_no_contour_but_a_doubt():
     assert len(curves) == 0 and len(curves.doubts) == 1
 
 
+@pytest.mark.capability("G8.4-contour")
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("offset", [0.0, 1e6])
 def test_contours_of_scaled_and_shifted_scenes_are_the_same(scale, offset):

@@ -34,6 +34,25 @@ def test_isophotes_of_a_sphere_are_parallel_circles_about_the_light():
         assert abs(length - 4 * np.pi * np.sqrt(1 - level**2)) < 0.03
 
 
+@pytest.mark.capability("G8.4-isophote")
+@pytest.mark.parametrize(("size", "offset"), [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e6)])
+def test_isophotes_of_sun_and_lamp_are_the_same_at_any_size_and_place(size, offset):
+    far = np.array([offset, -offset, offset])
+    digits = 1e-10 if offset == 0.0 else 1e-8
+    for found in (
+        isophotes(Sphere(2.0 * size, far), LIGHT, [-0.5, 0.3]),
+        point_light_isophotes(Sphere(2.0 * size, far), 4.0 * size * LIGHT + far, [-0.5, 0.3]),
+    ):
+        assert len(found) == 2 and found.closed.all() and not found.doubts
+        for k in range(2):
+            along = (found[k] - far) / size @ LIGHT
+            assert np.ptp(along) < 10 * digits and np.allclose(np.linalg.norm(found[k] - far, axis=1), 2.0 * size)
+    # Of the lamp the circle where the angle between normal and ray has that cosine.
+    arm = 4.0 * LIGHT - (found[1] - far) / size
+    cosine = ((found[1] - far) / size * arm).sum(axis=1) / 2.0 / np.linalg.norm(arm, axis=1)
+    assert np.allclose(cosine, 0.3, atol=100 * digits)
+
+
 @pytest.mark.slow
 @pytest.mark.capability("G8.4-isophote")
 def test_isophote_of_the_torus_meets_the_meridian_of_the_test_values():
@@ -57,6 +76,7 @@ def test_the_point_that_faces_the_light_is_isolated():
     assert np.linalg.norm(Sphere().points(*curves.isolated.T)[0] - LIGHT) < 1e-6
 
 
+@pytest.mark.capability("G8.4-isophote")
 def test_isophotes_of_a_point_light_on_the_axis_are_level_circles():
     # On the unit sphere, lamp at height 3: cosine = (3 z - 1) / sqrt(10 - 6 z).
     curves = point_light_isophotes(Sphere(), (0.0, 0.0, 3.0), [0.2, 0.6])
