@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Ints
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.strokes.paths import chosen
+from vectorplot.geometry.polylines import split
 from vectorplot.words import LineKind
 
 BLACK = "#000000"
@@ -99,8 +100,5 @@ def layers_of(paths: Paths, which: Ints, named: Sequence[tuple[str, Pen, bool]])
     layer of every stroke."""
     order = np.argsort(which, kind="stable")
     bounds = np.searchsorted(which[order], np.arange(len(named) + 1))
-    return tuple(
-        Layer(name, pen, (chosen(paths, order[low:high]),), plotted)
-        for (name, pen, plotted), low, high in zip(named, bounds[:-1].tolist(), bounds[1:].tolist(), strict=True)
-        if low < len(order)
-    )
+    parts = zip(named, split(chosen(paths, order), bounds), bounds.tolist(), strict=False)
+    return tuple(Layer(name, pen, (part,), plotted) for (name, pen, plotted), part, low in parts if low < len(order))

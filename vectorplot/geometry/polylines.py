@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import Field, dataclass, field, fields, replace
+from itertools import pairwise
 from typing import Any, ClassVar, Protocol, TypeVar
 
 import numpy as np
@@ -121,6 +122,16 @@ def some(lines: L, which: Ints | Bools) -> L:
     return _with_rows(lines, points, which, offsets)
 
 
+def split(lines: L, bounds: Ints) -> list[L]:
+    """The polylines in parts, with all that is said of them: part k has those from bounds[k] to bounds[k+1]."""
+    ends = bounds.tolist()
+    at = lines.offsets[bounds].tolist()
+    return [
+        _with_rows(lines, slice(*at[k : k + 2]), slice(begin, end), lines.offsets[begin : end + 1] - at[k])
+        for k, (begin, end) in enumerate(pairwise(ends))
+    ]
+
+
 def with_points(lines: L, points: Ints, which: Ints, offsets: Ints) -> L:
     """Polylines through the points with these indices, and offsets (k+1,) among them; all else that is said of each is
     what is said of the one of these lines (k,)."""
@@ -135,7 +146,7 @@ def with_points_kept(lines: L, kept: Bools) -> L:
     return _with_rows(lines, kept & real[owner], real, ragged.offsets(counts[real]))
 
 
-def _with_rows(lines: L, points: Ints | Bools, which: Ints | Bools, offsets: Ints) -> L:
+def _with_rows(lines: L, points: Ints | Bools | slice, which: Ints | Bools | slice, offsets: Ints) -> L:
     values = {f.name: getattr(lines, f.name) for f in fields(lines)}
     chosen = {"point": points, "line": which}
     rows = {

@@ -43,7 +43,7 @@ def joined(records: Sequence[R]) -> R:
     return replace(records[0], **{f.name: in_a_row(f, v) for f, v in values.items() if v[0] is not None})
 
 
-def entries(f: Field[Any], values: NDArray[Any], which: Ints | Bools) -> NDArray[Any]:
+def entries(f: Field[Any], values: NDArray[Any], which: Ints | Bools | slice) -> NDArray[Any]:
     """What the values of a field say of some of its elements."""
     return values[..., which] if f.metadata.get(_COLUMNS) else values[which]
 

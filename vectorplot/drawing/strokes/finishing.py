@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -17,11 +18,18 @@ from vectorplot.drawing.strokes.paths import chosen, concatenated
 from vectorplot.drawing.strokes.pen_order.order import pen_ordered
 from vectorplot.drawing.strokes.rows import going_on, in_rows, without_dots
 from vectorplot.drawing.strokes.simplify import without_collinear_points
+from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import split
 from vectorplot.tolerances.of_the_page import COINCIDENT_MM, COLLINEAR_MM
 from vectorplot.words import LineKind
 
 DASH_MM = (2.0, 1.0)
 """Dash and gap of hidden lines."""
+
+
+MANY_PARTS = 32
+"""The strokes of so many layers are joined and put in order layer by layer; those of more layers, which are small, all
+at once, in a little more travel: a call costs as much as hundreds of strokes."""
 
 
 def inked(
@@ -34,17 +42,14 @@ def inked(
     """Each layer's strokes joined, without collinear points, hidden ones dashed if asked for, in the order of the
     pen, in parts where they are longer than longest_mm; smooth ones as curves within curve_tolerance_mm, or as
     polylines where it is None. Filled polygons stay."""
-    found = []
-    for layer in layers:
-        strokes = tuple(_pen_strokes(paths, hidden, world) for paths in layer.strokes)
-        if longest_mm is not None:
-            strokes = tuple(split_long(paths, longest_mm, world) for paths in strokes)
-        drawn = iter(
-            strokes if curve_tolerance_mm is None else (curved_strokes(s, curve_tolerance_mm) for s in strokes)
-        )
-        marks = tuple(mark if isinstance(mark, Fills) else next(drawn) for mark in layer.marks)
-        found.append(replace(layer, marks=marks))
-    return tuple(found)
+    strokes = _pen_strokes([paths for layer in layers for paths in layer.strokes], hidden, world)
+    if longest_mm is not None:
+        strokes = [split_long(paths, longest_mm, world) for paths in strokes]
+    drawn = iter(strokes if curve_tolerance_mm is None else (curved_strokes(s, curve_tolerance_mm) for s in strokes))
+    return tuple(
+        replace(layer, marks=tuple(mark if isinstance(mark, Fills) else next(drawn) for mark in layer.marks))
+        for layer in layers
+    )
 
 
 def long_strokes(paths: Paths) -> Paths:
@@ -66,12 +71,24 @@ def _group(paths: Paths) -> Ints:
     return (paths.item * len(LineKind) + paths.kind) * (int(paths.hidden_by.max(initial=0)) + 1) + paths.hidden_by
 
 
-def _pen_strokes(paths: Paths, hidden: str, world: Floats) -> Paths:
-    if not len(paths):
-        return paths
+def _pen_strokes(parts: Sequence[Paths], hidden: str, world: Floats) -> list[Paths]:
+    """The strokes of each part, joined and in the order of the pen."""
+    if len(parts) <= MANY_PARTS:
+        return [pen_ordered(_long_or_dashed(paths, hidden, world)) for paths in parts]
+    every = concatenated(tuple(parts))
+    part = ragged.owner([len(paths) for paths in parts])
+    low, high = int(every.item.min(initial=0)), int(every.item.max(initial=0)) + 1
+    # Until they are in order, what is said of their items tells the parts of strokes too: no two parts are joined.
+    long = _long_or_dashed(replace(every, item=part * (high - low) + every.item - low), hidden, world)
+    part, item = np.divmod(long.item, high - low)
+    order = np.argsort(part, kind="stable")
+    ordered = pen_ordered(chosen(replace(long, item=item + low), order), part[order])
+    return split(ordered, np.searchsorted(part[order], np.arange(len(parts) + 1)))
+
+
+def _long_or_dashed(paths: Paths, hidden: str, world: Floats) -> Paths:
     long = long_strokes(paths)
-    if hidden == "dashed" and (long.hidden_by > 0).any():
-        behind = np.flatnonzero(long.hidden_by > 0)
-        dashes = dashed(chosen(long, behind), *DASH_MM, world)
-        long = concatenated((chosen(long, np.flatnonzero(long.hidden_by == 0)), dashes))
-    return pen_ordered(long)
+    if hidden != "dashed" or not (long.hidden_by > 0).any():
+        return long
+    dashes = dashed(chosen(long, np.flatnonzero(long.hidden_by > 0)), *DASH_MM, world)
+    return concatenated((chosen(long, np.flatnonzero(long.hidden_by == 0)), dashes))

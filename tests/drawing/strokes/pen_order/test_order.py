@@ -1,6 +1,7 @@
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from support.sample_paths import pieces, polylines
 
 from vectorplot.drawing.strokes.paths import chosen
 from vectorplot.drawing.strokes.pen_order.order import pen_ordered, travel_mm
+from vectorplot.speed.clock import cpu_seconds
 
 
 def numbered(paths):
@@ -194,3 +196,39 @@ def test_chosen_strokes_travel_as_measured():
     paths = polylines([(0, 0), (1, 0)], [(1, 3), (2, 3)], [(2, 7), (2, 8), (3, 8)], closed=[2])
     assert travel_mm(paths) == 3.0 + 4.0
     assert travel_mm(chosen(paths, np.array([2, 0]))) == pytest.approx(np.hypot(2, 7))
+
+
+def layered(count, layers, seed=5):
+    """Strokes at random, some of them rings, and the layers of them."""
+    rng = np.random.default_rng(seed)
+    lines = [rng.uniform(0.0, 300.0, 2) + rng.normal(0.0, 8.0, (3, 2)) for _ in range(count)]
+    return polylines(*lines, closed=range(0, count, 7)), rng.integers(0, layers, count)
+
+
+@pytest.mark.parametrize("layers", [1, 3, 40, 400])
+def test_each_layer_is_ordered_for_itself(layers):
+    paths, layer = layered(400, layers)
+    # The item tells the layer.
+    ordered = pen_ordered(replace(paths, item=layer), layer)
+    assert (np.diff(ordered.item) >= 0).all()
+    assert np.array_equal(np.bincount(ordered.item, minlength=layers), np.bincount(layer, minlength=layers))
+    together = alone = 0.0
+    for one in range(layers):
+        of_it = chosen(paths, np.flatnonzero(layer == one))
+        together += travel_mm(chosen(ordered, np.flatnonzero(ordered.item == one)))
+        alone += travel_mm(pen_ordered(of_it))
+    assert together <= 1.03 * alone
+
+
+def test_strokes_of_several_layers_that_touch_are_not_linked():
+    rays = [((0.0, 0.0), (np.cos(t), np.sin(t))) for t in np.linspace(0.0, 6.0, 12)]
+    ordered = pen_ordered(replace(polylines(*rays), item=np.arange(12) % 2), np.arange(12) % 2)
+    assert ordered.item.tolist() == [0] * 6 + [1] * 6
+    for part in (chosen(ordered, ordered.item == k) for k in (0, 1)):
+        assert travel_mm(part) < 4.0
+
+
+def test_thousands_of_layers_take_hardly_longer_than_one():
+    paths, layer = layered(6000, 3000)
+    whole = cpu_seconds(lambda: pen_ordered(paths), 2)
+    assert cpu_seconds(lambda: pen_ordered(paths, layer), 2) < 4.0 * whole

@@ -65,7 +65,7 @@ NODE = st.tuples(st.integers(0, 4), st.integers(0, 4))
 @given(st.lists(st.tuples(NODE, NODE), min_size=1, max_size=60))
 def test_links_make_trails_with_two_free_ends_each(edges):
     ends = np.array([complex(*node) for edge in edges for node in edge])
-    link = trails(ends, ends)
+    link = trails(ends, ends, np.zeros(len(ends), dtype=np.intp))
     joined = np.flatnonzero(link >= 0)
     assert np.array_equal(link[link[joined]], joined) and not np.any(link == np.arange(len(link)))
     free = np.flatnonzero(link < 0)
@@ -88,7 +88,7 @@ def test_a_connected_figure_takes_no_more_jumps_than_its_odd_nodes(edges):
     every = edges + spokes
     _, uses = np.unique(np.array(every).reshape(-1, 2), axis=0, return_counts=True)
     ends = np.array([complex(*node) for edge in every for node in edge])
-    link = trails(ends, ends)
+    link = trails(ends, ends, np.zeros(len(ends), dtype=np.intp))
     assert np.count_nonzero(link < 0) == 2
     joined = np.flatnonzero(link >= 0)
     jumps = np.count_nonzero(ends[joined] != ends[link[joined]]) // 2

@@ -16,7 +16,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import with_points
 
 
-def pen_ordered(paths: Paths) -> Paths:
+def pen_ordered(paths: Paths, layer: Ints | None = None) -> Paths:
     """The same strokes in an order, with directions and (closed ones) first points that make the pen's travel short.
 
     Parameters
@@ -34,6 +34,7 @@ def pen_ordered(paths: Paths) -> Paths:
     The pen begins anywhere; the end of the tour nearer to the page's corner comes first. The result does not depend on
     the order or the directions of the given strokes, except among strokes with equal ends.
 
+    layer (m,): each layer is ordered for itself, one after the other.
     Degenerate: strokes without points come last, as given.
 
     Source: Bentley, Fast algorithms for geometric traveling salesman problems, ORSA J. Computing 4 (1992): greedy
@@ -50,23 +51,27 @@ def pen_ordered(paths: Paths) -> Paths:
     >>> round(travel_mm(lines), 1), round(travel_mm(ordered), 1)
     (104.8, 20.0)
     """
+    if layer is None:
+        layer = np.zeros(len(paths), dtype=np.intp)
     empty = np.diff(paths.offsets) == 0
+    layer = layer[np.concatenate((np.flatnonzero(~empty), np.flatnonzero(empty)))]
     paths = chosen(paths, np.concatenate((np.flatnonzero(~empty), np.flatnonzero(empty))))
     many = int(len(paths) - empty.sum())
     if many == 0:
         return paths
     spots = _spots(paths)
     start = _canonical_starts(paths, spots)
-    rank, ends = _canonical_ends(paths, spots, start, many)
-    tour = greedy_tour(ends)
+    rank, ends = _canonical_ends(paths, spots, start, layer[:many])
+    layer = np.repeat(layer[rank], 2)
+    tour = greedy_tour(ends, layer)
+    bounds = np.append(np.flatnonzero(np.diff(layer[tour], prepend=layer[0] - 1)), many)
     if np.any(paths.closed[:many]):
-        entry, start = _entered(paths, spots, start, rank, ends, tour)
+        entry, start = _entered(paths, spots, start, rank, ends, tour, bounds)
         ends = entry
-    tour = shortened(ends, tour)
+    tour = shortened(ends, tour, layer)
     if np.any(paths.closed[:many]):
-        ends, start = _entered(paths, spots, start, rank, ends, tour)
-    if abs(ends[tour[-1] ^ 1]) < abs(ends[tour[0]]):
-        tour = tour[::-1] ^ 1
+        ends, start = _entered(paths, spots, start, rank, ends, tour, bounds)
+    tour = _from_the_corner(ends, tour, bounds)
     return _drawn(paths, start, rank[tour >> 1], _reversed(paths, spots, rank, tour))
 
 
@@ -102,6 +107,17 @@ def travel_mm(paths: Paths) -> float:
     return float(np.hypot(*(paths.points[first[1:]] - paths.points[last[:-1]]).T).sum())
 
 
+def _from_the_corner(ends: Places, tour: Ints, bounds: Ints) -> Ints:
+    """The tours of layers, which begin at bounds, turned round where they end nearer to the corner than they begin."""
+    first, last = bounds[:-1], bounds[1:] - 1
+    turned = np.abs(ends[tour[last] ^ 1]) < np.abs(ends[tour[first]])
+    counts = np.diff(bounds)
+    position = np.arange(len(tour))
+    backwards = np.repeat(turned, counts)
+    position = np.where(backwards, np.repeat(first + last, counts) - position, position)
+    return np.where(backwards, tour[position] ^ 1, tour[position])
+
+
 # Canonical numbering ---------------------------------------------------------------------------------------------
 
 
@@ -131,11 +147,13 @@ def _least(value: Floats, tie: Floats, counts: Ints) -> Ints:
     return place
 
 
-def _canonical_ends(paths: Paths, spots: Places, start: Ints, many: int) -> tuple[Ints, Places]:
-    """Strokes sorted by where they are; and the places of their two ends, the lesser one first."""
+def _canonical_ends(paths: Paths, spots: Places, start: Ints, layer: Ints) -> tuple[Ints, Places]:
+    """The first strokes, of which the layers (k,) are given, sorted by these and by where they are; and the places of
+    their two ends, the lesser one first."""
+    many = len(layer)
     first, last = _given_ends(paths, spots, start)
     a, b = np.minimum(first, last)[:many], np.maximum(first, last)[:many]
-    rank: Ints = np.lexsort((b.imag, b.real, a.imag, a.real))
+    rank: Ints = np.lexsort((b.imag, b.real, a.imag, a.real, layer))
     return rank, np.stack((a[rank], b[rank]), axis=1).ravel()
 
 
@@ -174,23 +192,27 @@ def _drawn(paths: Paths, start: Ints, order: Ints, against: Bools) -> Paths:
 # Closed strokes ---------------------------------------------------------------------------------------------------
 
 
-def _entered(paths: Paths, spots: Places, start: Ints, rank: Ints, ends: Places, tour: Ints) -> tuple[Places, Ints]:
-    """Ends and starts with the closed strokes entered where the way from the stroke before to the next is shortest.
+def _entered(
+    paths: Paths, spots: Places, start: Ints, rank: Ints, ends: Places, tour: Ints, bounds: Ints
+) -> tuple[Places, Ints]:
+    """Ends and starts with the closed strokes entered where the way from the stroke before to the next is shortest;
+    bounds: where the tours of layers begin, and the last one ends.
 
     Every other stroke moves at a time, between neighbours that stay, so that each step shortens the way.
     """
     ends, start = ends.copy(), start.copy()
     counts = np.diff(paths.offsets)
-    position = np.arange(len(tour))
-    loops = paths.closed[rank[tour >> 1]] & (len(tour) > 1)
+    layers = np.diff(bounds)
+    position, first, last = ragged.place(layers), np.repeat(bounds[:-1], layers), np.repeat(bounds[1:] - 1, layers)
+    loops = paths.closed[rank[tour >> 1]] & (first < last)
     for turn in (0, 1, 0, 1):
-        at = position[loops & (position % 2 == turn)]
+        at = np.flatnonzero(loops & (position % 2 == turn))
         if not len(at):
             continue
         stroke = rank[tour[at] >> 1]
-        before = ends[tour[np.maximum(at - 1, 0)] ^ 1]
-        after = ends[tour[np.minimum(at + 1, len(tour) - 1)]]
-        before, after = np.where(at == 0, after, before), np.where(at == len(tour) - 1, before, after)
+        before = ends[tour[np.maximum(at - 1, first[at])] ^ 1]
+        after = ends[tour[np.minimum(at + 1, last[at])]]
+        before, after = np.where(at == first[at], after, before), np.where(at == last[at], before, after)
         many = counts[stroke]
         spot = spots[ragged.ranges(paths.offsets[:-1][stroke], many)]
         way = np.abs(spot - np.repeat(before, many)) + np.abs(spot - np.repeat(after, many))

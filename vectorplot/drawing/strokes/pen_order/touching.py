@@ -22,34 +22,34 @@ from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 _EXCHANGES = 100
 
 
-def trails(ends: Places, spread: Places) -> Ints:
+def trails(ends: Places, spread: Places, layer: Ints) -> Ints:
     """For every end the one that the pen goes on from, or -1: links that make trails with two free ends each.
 
-    spread: the ends as they are compared for being near.
+    spread: the ends as they are compared for being near; layer (n,): only ends of one layer are linked.
     """
     link = np.full(len(ends), -1, dtype=np.intp)
-    order, node = _nodes(ends)
+    order, node = _nodes(ends, layer)
     if not np.any((np.diff(node[order]) == 0) & (np.diff(order >> 1) != 0)):
         return link
     _link_pairs(link, order, node)
     part = _parts(node[::2], node[1::2], int(node.max()) + 1)[node]
     odd = np.flatnonzero(link < 0)
-    _link_odd(link, part, spread)
+    _link_odd(link, part, spread, layer)
     odd = odd[np.isin(part[odd], part[odd[link[odd] >= 0]])]
     if len(odd):
-        link[odd] = _exchanged(link, odd, part, spread)
+        link[odd] = _exchanged(link, odd, part, spread, layer)
     _merge_rings(link, order, node)
     _cut_rings(link)
     return link
 
 
-def _nodes(ends: Places) -> tuple[Ints, Ints]:
+def _nodes(ends: Places, layer: Ints) -> tuple[Ints, Ints]:
     """The ends sorted by node, and (n,) the node of each."""
     unit = (ends - complex(ends.real.min(), ends.imag.min())) / ((extent(ends) or 1.0) * ZERO_OF_EXTENT)
     key = np.rint(unit.real).astype(np.int64) << 31 | np.rint(unit.imag).astype(np.int64)
-    order = np.argsort(key, kind="stable")
+    order = np.lexsort((key, layer))
     node = np.zeros(len(ends), dtype=np.intp)
-    node[order[1:]] = np.cumsum(np.diff(key[order]) != 0)
+    node[order[1:]] = np.cumsum((np.diff(key[order]) != 0) | (np.diff(layer[order]) != 0))
     return order, node
 
 
@@ -79,7 +79,7 @@ def _parts(one: Ints, other: Ints, count: int) -> Ints:
             least = least[least]
 
 
-def _link_odd(link: Ints, part: Ints, spread: Places) -> None:
+def _link_odd(link: Ints, part: Ints, spread: Places, layer: Ints) -> None:
     """Free ends that are each other's nearest; two of each part stay free. Parts that are linked are one then."""
     while True:
         free = np.flatnonzero(link < 0)
@@ -91,7 +91,7 @@ def _link_odd(link: Ints, part: Ints, spread: Places) -> None:
         pair = by_part[left[part[free[by_part]]] == 2]
         other = number.copy()
         _join(other, pair[::2], pair[1::2])
-        mate, apart = mutual_nearest(spread[free], other)
+        mate, apart = mutual_nearest(spread[free], other, layer[free])
         one = number[(mate > number) & (other != mate)]
         one = one[np.argsort(apart[one], kind="stable")]
         part = _parts(part[free[one]], part[free[mate[one]]], len(part))[part]
@@ -107,7 +107,7 @@ def _link_odd(link: Ints, part: Ints, spread: Places) -> None:
         _join(link, free[one], free[mate[one]])
 
 
-def _exchanged(link: Ints, odd: Ints, part: Ints, spread: Places) -> Ints:
+def _exchanged(link: Ints, odd: Ints, part: Ints, spread: Places, layer: Ints) -> Ints:
     """The links of the odd ends, after exchanges of partners between two within a connected part that make the jumps
     shorter."""
     number = np.full(len(link), -1, dtype=np.intp)
@@ -115,7 +115,7 @@ def _exchanged(link: Ints, odd: Ints, part: Ints, spread: Places) -> Ints:
     spots = np.append(spread[odd], complex(np.nan, np.nan))
     of = np.append(part[odd], -1)
     mate = np.append(np.where(link[odd] >= 0, number[link[odd]], -1), -1)
-    near = neighbours(spots[:-1])
+    near = neighbours(spots[:-1], layer[odd])
     end, column = np.nonzero(part[odd[near]] == part[odd][:, None])
     one, other = end, near[end, column]
     one, other = one[one < other], other[one < other]

@@ -18,23 +18,25 @@ from vectorplot.drawing.strokes.pen_order.tour_ends import Places, extent, mutua
 from vectorplot.tolerances.of_extent import DRAWN_TOGETHER_OF_EXTENT, SPREAD_OF_EXTENT
 
 
-def greedy_tour(ends: Places) -> Ints:
-    """A tour through all strokes: at each position the end that the pen enters by."""
+def greedy_tour(ends: Places, layer: Ints) -> Ints:
+    """A tour through all strokes of each layer (n,), of the ends, ascending, one after the other: at each position the
+    end that the pen enters by."""
     spots = _spread(ends)
-    link = trails(ends, spots)
+    link = trails(ends, spots, layer)
+    layers = 1 + int(np.count_nonzero(np.diff(layer)))
     far = _terminals(link, np.arange(len(ends)) ^ 1)
     free = np.flatnonzero(link < 0)
-    while len(free) > 2:
+    while len(free) > 2 * layers:
         place = np.empty(len(ends), dtype=np.intp)
         place[free] = np.arange(len(free))
         other = place[far[free]]
-        mate, apart = mutual_nearest(spots[free], other)
+        mate, apart = mutual_nearest(spots[free], other, layer[free])
         mate = _without_cycles(mate, other, apart)
         joined = mate >= 0
         link[free[joined]] = free[mate[joined]]
         far[free] = free[_terminals(mate, other)]
         free = free[~joined]
-    return _walked(link, free[0])
+    return _walked(link, free[np.flatnonzero(np.diff(layer[free], prepend=-1))], layer)
 
 
 def _spread(ends: Places) -> Places:
@@ -92,8 +94,9 @@ def _terminals(mate: Ints, other: Ints) -> Ints:
         step = further
 
 
-def _walked(link: Ints, first: int) -> Ints:
-    """The ends by which the pen enters the strokes, beginning with a free end, one stroke after the other."""
+def _walked(link: Ints, first: Ints, layer: Ints) -> Ints:
+    """The ends by which the pen enters the strokes, one stroke after the other, beginning with a free end of each
+    layer."""
     number = np.arange(len(link))
     back = link
     # From the end by which a stroke is entered to the one by which the stroke before it was; the first stays.
@@ -102,7 +105,5 @@ def _walked(link: Ints, first: int) -> Ints:
     for _ in range(len(link).bit_length()):
         behind += behind[step]
         step = step[step]
-    entered = np.flatnonzero(step == first)
-    tour = np.empty(len(entered), dtype=np.intp)
-    tour[behind[entered]] = entered
-    return tour
+    entered = np.flatnonzero(np.isin(step, first))
+    return np.asarray(entered[np.lexsort((behind[entered], layer[entered]))], dtype=np.intp)

@@ -20,34 +20,33 @@ def extent(spots: Places) -> float:
     return float(max(np.ptp(spots.real), np.ptp(spots.imag)))
 
 
-def mutual_nearest(spots: Places, other: Ints) -> tuple[Ints, Floats]:
+def mutual_nearest(spots: Places, other: Ints, layer: Ints) -> tuple[Ints, Floats]:
     """For every end the end that it is joined to, or -1, as each must be the other's nearest; how far that is.
 
-    other: the end of the same fragment, which does not count.
+    other: the end of the same fragment, which does not count, nor do those of other layers (n,).
     """
-    near, apart = (
-        _nearest_of_all(spots, other) if len(spots) <= ALL_PAIRS else _nearest_alongcurves_through(spots, other)
-    )
-    return np.where(near[near] == np.arange(len(near)), near, -1), apart
+    nearest = _nearest_of_all if len(spots) <= ALL_PAIRS else _nearest_along_curves
+    near, apart = nearest(spots, other, layer)
+    return np.where((near[near] == np.arange(len(near))) & (apart < np.inf), near, -1), apart
 
 
-def _nearest_of_all(spots: Places, other: Ints) -> tuple[Ints, Floats]:
-    apart = np.abs(spots[:, None] - spots)
+def _nearest_of_all(spots: Places, other: Ints, layer: Ints) -> tuple[Ints, Floats]:
+    apart = np.where(layer[:, None] == layer, np.abs(spots[:, None] - spots), np.inf)
     number = np.arange(len(spots))
     apart[number, number] = apart[number, other] = np.inf
     near = np.argmin(apart, axis=1)
     return near, apart[number, near]
 
 
-def _nearest_alongcurves_through(spots: Places, other: Ints) -> tuple[Ints, Floats]:
+def _nearest_along_curves(spots: Places, other: Ints, layer: Ints) -> tuple[Ints, Floats]:
     near = np.zeros(len(spots), dtype=np.intp)
     apart = np.full(len(spots), np.inf)
-    for curve in curves_through(spots):
-        along, opposite = spots[curve], other[curve]
+    for curve in curves_through(spots, layer):
+        along, opposite, own = spots[curve], other[curve], layer[curve]
         best, best_apart = near[curve], apart[curve]
         for lag in range(1, REACH + 1):
             length = np.abs(along[lag:] - along[:-lag])
-            length[opposite[lag:] == curve[:-lag]] = np.inf
+            length[(opposite[lag:] == curve[:-lag]) | (own[lag:] != own[:-lag])] = np.inf
             for here, there in ((slice(lag, None), slice(None, -lag)), (slice(None, -lag), slice(lag, None))):
                 nearer = length < best_apart[here]
                 best[here] = np.where(nearer, curve[there], best[here])
@@ -56,12 +55,13 @@ def _nearest_alongcurves_through(spots: Places, other: Ints) -> tuple[Ints, Floa
     return near, apart
 
 
-def curves_through(spots: Places) -> tuple[Ints, ...]:
-    """Orders of the places along Morton's curve, which keeps near places together whatever their density; and along
-    the same curve shifted by a third, since every curve separates some neighbours (Chan)."""
+def curves_through(spots: Places, layer: Ints) -> tuple[Ints, ...]:
+    """Orders of the places, layer after layer, along Morton's curve, which keeps near places together whatever their
+    density; and along the same curve shifted by a third, since every curve separates some neighbours (Chan)."""
     low = complex(spots.real.min(), spots.imag.min())
     unit = (spots - low) / (extent(spots) or 1.0)
-    return tuple(np.argsort(_morton(unit + shift), kind="stable") for shift in (0.0, (1 + 1j) / 3))
+    curves = (np.argsort(_morton(unit + shift), kind="stable") for shift in (0.0, (1 + 1j) / 3))
+    return tuple(curve[np.argsort(layer[curve], kind="stable")] for curve in curves)
 
 
 def _morton(unit: Places) -> NDArray[np.uint64]:
@@ -82,13 +82,13 @@ def _every_other_bit(x: Floats) -> NDArray[np.uint64]:
     return bits
 
 
-def neighbours(spots: Places) -> Ints:
-    """(n,k) for every end some ends near it, perhaps itself, perhaps one twice."""
+def neighbours(spots: Places, layer: Ints) -> Ints:
+    """(n,k) for every end some ends near it, most of them of its layer, perhaps itself, perhaps one twice."""
     n = len(spots)
     if n <= ALL_PAIRS:
         return np.tile(np.arange(n), (n, 1))
     columns = []
-    for curve in curves_through(spots):
+    for curve in curves_through(spots, layer):
         for lag in (*range(-REACH, 0), *range(1, REACH + 1)):
             column = np.empty(n, dtype=np.intp)
             column[curve] = np.roll(curve, lag)

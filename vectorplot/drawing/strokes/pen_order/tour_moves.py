@@ -34,12 +34,14 @@ _MORE_ROUNDS = 40000
 
 @dataclass(frozen=True, eq=False)
 class _Row:
-    """A tour in its row. spots: where the ends are, the last one nowhere; gap: the lengths of the gaps; near (p,) and
+    """A tour in its row. spots: where the ends are, the last ones nowhere; layer: those of the strokes, -1 for those
+    that are nowhere and stand between two layers; gap: the lengths of the gaps; near (p,) and
     to (p,): indices in the row of two ends that are apart (p,) from each other, less than the gap of the first one."""
 
     spots: Places
     tour: Ints
     row: Ints
+    layer: Ints
     gap: Floats
     near: Ints
     to: Ints
@@ -52,16 +54,23 @@ class _Row:
         return apart
 
 
-def shortened(ends: Places, tour: Ints) -> Ints:
-    """The tour after rounds of moves that shorten it."""
+def shortened(ends: Places, tour: Ints, layer: Ints) -> Ints:
+    """The tour, one after the other those of the layers (n,) of the ends, after rounds of moves that shorten each."""
     if len(tour) < 3:
         return tour
     zero = ZERO_OF_EXTENT * extent(ends)
-    near, apart = _neighbours(ends)
+    near, apart = _neighbours(ends, layer)
+    count, mean = len(ends), len(tour)
+    # Between two layers stands a stroke that is nowhere: what ends there costs nothing, and nothing is near it.
+    borders = np.flatnonzero(np.diff(layer[tour])) + 1
+    tour = np.insert(tour, borders, count + 2 * np.arange(len(borders)))
+    ends = np.append(ends, np.full(2 * len(borders), complex(np.nan, np.nan)))
+    layer = np.append(layer, np.full(2 * len(borders), -1))
+    mean //= len(borders) + 1
     everything = awake = np.arange(len(ends))
-    for _ in range(_ROUNDS + _MORE_ROUNDS // len(tour)):
-        moved, tried = _runs_moved(_row(ends, tour, near, apart, awake), zero)
-        turned, tried_too = _stretches_turned(_row(ends, moved, near, apart, awake), zero)
+    for _ in range(_ROUNDS + _MORE_ROUNDS // mean):
+        moved, tried = _runs_moved(_row(ends, tour, layer, near, apart, awake), zero)
+        turned, tried_too = _stretches_turned(_row(ends, moved, layer, near, apart, awake), zero)
         # Only where something changed, or a move was put off, is there something to gain in the next round.
         changed = _partners(turned) != _partners(tour)
         changed[tried] = changed[tried_too] = True
@@ -70,7 +79,7 @@ def shortened(ends: Places, tour: Ints) -> Ints:
             if len(looked_at) == len(everything):
                 break
             awake = everything
-    return tour
+    return tour[tour < count]
 
 
 def _partners(tour: Ints) -> Ints:
@@ -80,7 +89,7 @@ def _partners(tour: Ints) -> Ints:
     return partner
 
 
-def _row(ends: Places, tour: Ints, near: Ints, apart: Floats, awake: Ints) -> _Row:
+def _row(ends: Places, tour: Ints, layer: Ints, near: Ints, apart: Floats, awake: Ints) -> _Row:
     nowhere = len(ends)
     row = np.full(nowhere + 2, nowhere, dtype=np.intp)
     row[1:-1:2], row[2:-1:2] = tour, tour ^ 1
@@ -93,13 +102,14 @@ def _row(ends: Places, tour: Ints, near: Ints, apart: Floats, awake: Ints) -> _R
     apart = apart[awake]
     which = np.flatnonzero(apart < gap[place[awake] >> 1][:, None])
     end = awake[which // apart.shape[1]]
-    return _Row(spots, tour, row, gap, place[end], place[near[awake].ravel()[which]], apart.ravel()[which])
+    return _Row(spots, tour, row, layer[tour], gap, place[end], place[near[awake].ravel()[which]], apart.ravel()[which])
 
 
-def _neighbours(ends: Places) -> tuple[Ints, Floats]:
+def _neighbours(ends: Places, layer: Ints) -> tuple[Ints, Floats]:
     """For every end the nearest ends of other strokes, among some near it, and how far they are."""
-    near = np.sort(neighbours(ends), axis=1)
+    near = np.sort(neighbours(ends, layer), axis=1)
     apart = np.abs(ends[near] - ends[:, None])
+    apart[layer[near] != layer[:, None]] = np.inf
     apart[near >> 1 == (np.arange(len(ends)) >> 1)[:, None]] = np.inf
     apart[:, 1:][near[:, 1:] == near[:, :-1]] = np.inf
     if near.shape[1] <= _NEAREST:
@@ -182,8 +192,11 @@ def _run_moves(at: _Row, length: int, zero: float) -> tuple[Ints, Ints, Ints, Bo
     first = np.where(from_front, (at.near - 1) >> 1, (at.near >> 1) - length)
     into = at.to >> 1
     fits = (first >= 0) & (first + length < len(at.gap)) & ((into < first) | (into > first + length))
-    from_front, first, into = from_front[fits], first[fits], into[fits]
-    head, to, apart = at.near[fits], at.to[fits], at.apart[fits]
+    # A run is of one layer.
+    some = np.flatnonzero(fits)
+    some = some[at.layer[first[some]] == at.layer[first[some] + length - 1]]
+    from_front, first, into = from_front[some], first[some], into[some]
+    head, to, apart = at.near[some], at.to[some], at.apart[some]
     front, rear = 2 * first + 1, 2 * (first + length)
     freed = at.gap[first] + at.gap[first + length] - at.between(front - 1, rear + 1)
     gain = freed - apart - at.between(np.where(from_front, rear, front), to ^ 1) + at.gap[into]
