@@ -8,7 +8,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.curves.line import Line
-from vectorplot.drawing.drawing import Curves, Drawing
+from vectorplot.drawing.drawing import CurvedStrokes, Drawing
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
@@ -33,7 +33,7 @@ def ends_of(curves: list[np.ndarray]) -> np.ndarray:
 
 def knots(drawing: Drawing) -> np.ndarray:
     """(n,2) where Bézier segments begin and end."""
-    marks = [mark for layer in drawing.layers for mark in layer.marks if isinstance(mark, Curves)]
+    marks = [mark for layer in drawing.layers for mark in layer.marks if isinstance(mark, CurvedStrokes)]
     return np.concatenate([mark.beziers.control[:, k] for mark in marks for k in (0, 3)])
 
 

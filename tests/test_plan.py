@@ -63,7 +63,7 @@ CALLS = [
     (Scene((CUBE, MIRROR), (SUN,)), {}, with_stages("shadows", "mirror light", "reflections")),
     (Scene((CUBE, MIRROR), (SUN,)), {"shadows": "none"}, with_stages("reflections")),
     (Scene((CUBE, CLEAR)), {}, with_sheets()),
-    (Scene((CUBE, CLEAR), (SUN,)), {}, with_sheets("shadows", "clear shadows")),
+    (Scene((CUBE, CLEAR), (SUN,)), {}, with_sheets("shadows", "transparent shadows")),
     (Scene((CUBE, GLASS)), {}, with_sheets("refraction")),
     (Scene((CUBE, GLASS), (SUN,)), {"shadows": "none"}, with_sheets("refraction")),
     (Scene((CUBE, BALL)), {}, ["facets", *PLAIN]),

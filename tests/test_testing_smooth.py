@@ -10,7 +10,7 @@ from support.analytic_sight import sheets_in_front
 from support.torus_runs import contour_of, isophotes_of, parameter_lines, runs_of
 
 from vectorplot.draw import draw
-from vectorplot.drawing.drawing import Curves, Drawing, Paths
+from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Paths
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Scene
@@ -141,8 +141,8 @@ def test_what_does_not_occlude_hides_nothing() -> None:
 def changed(drawing: Drawing, **values) -> Drawing:
     """The drawing with other values in its polylines."""
 
-    def with_them(mark: Paths | Curves) -> Paths:
-        paths = mark.paths if isinstance(mark, Curves) else mark
+    def with_them(mark: Paths | CurvedStrokes) -> Paths:
+        paths = mark.paths if isinstance(mark, CurvedStrokes) else mark
         return replace(paths, **{name: value(getattr(paths, name)) for name, value in values.items()})
 
     layers = tuple(replace(layer, marks=tuple(map(with_them, layer.marks))) for layer in drawing.layers)

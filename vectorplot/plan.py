@@ -154,7 +154,7 @@ def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple
         how = {"buffer": "shadow buffers", "trapezoid": "trapezoidal shadow maps", "exact": "exactly"}[shadows]
         stages.append(Stage("shadows", f"{len(scene.lights)} lights cast them: {how}" + (why and f", as {why}")))
         if any(map(dims_light, scene.items)):
-            stages.append(Stage("clear shadows", "items are transparent"))
+            stages.append(Stage("transparent shadows", "items are transparent"))
     stages.append(Stage("coplanar", "which of the faces in one plane is seen"))
     stages.append(Stage("depth", "which triangle is in front in every pixel"))
     stages.append(Stage("shading", "every visible point once"))
@@ -273,7 +273,7 @@ def _shading_stages(scene: Scene, shadows: str) -> list[Stage]:
     if any(item.patterns for item in scene.items):
         stages.append(Stage("patterns", "faces carry patterns"))
     if casts and clear:
-        stages.append(Stage("clear shadows", "items are transparent"))
+        stages.append(Stage("transparent shadows", "items are transparent"))
     if mirrors:
         stages.append(Stage("reflections", "items are mirrors"))
     if clear and any(item.material.refraction != 1.0 for item in scene.items):

@@ -310,8 +310,8 @@ def _lighting(walk: Walk, scene: Scene, view: View, maps: _Maps) -> Lighting:
     if walk.calls_for("shadows"):
         casts = np.array([casts_shadow(item) for item in scene.items], dtype=np.bool_)
         blocked = walk.run("shadows", maps.of_items, casts)
-    if walk.calls_for("clear shadows"):
-        clear = walk.run("clear shadows", maps.of_clear_items, scene)
+    if walk.calls_for("transparent shadows"):
+        clear = walk.run("transparent shadows", maps.of_clear_items, scene)
     return lighting_of(view, scene.items, maps.lights, blocked, clear)
 
 

@@ -23,7 +23,7 @@ from support.backend_samples import (
 
 from vectorplot.backends.cairo.surfaces import png_bytes
 from vectorplot.backends.svg.document import svg_bytes
-from vectorplot.drawing.drawing import Curves, Drawing, Pen
+from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Pen
 from vectorplot.drawing.strokes.curved_strokes import curved_strokes
 from vectorplot.drawing.strokes.paths import concatenated
 from vectorplot.errors import InputError
@@ -239,7 +239,7 @@ def test_100_000_segments_take_less_than_half_a_second():
         closed=np.zeros(count, np.bool_),
         error=np.zeros(count),
     )
-    drawing = drawing_of(Curves(paths, beziers, mark.arcs))
+    drawing = drawing_of(CurvedStrokes(paths, beziers, mark.arcs))
     start = time.process_time()
     text = svg_bytes(drawing)
     spent = time.process_time() - start

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from vectorplot.curves.bezier.fit import fitted_paths
-from vectorplot.drawing.drawing import Curves, Paths
+from vectorplot.drawing.drawing import CurvedStrokes, Paths
 from vectorplot.drawing.strokes.curved_strokes import curved_strokes
 
 pytestmark = pytest.mark.bench
@@ -66,7 +66,7 @@ def test_curves_of_a_hundred_thousand_points():
         start = time.process_time()
         curves = curved_strokes(paths, 0.02)
         times.append(time.process_time() - start)
-    assert isinstance(curves, Curves)
+    assert isinstance(curves, CurvedStrokes)
     segments = len(curves.beziers.control)
     print(f"\n1000 x 100 points: {len(curves.arcs)} arcs, {segments} segments, {min(times):.3f} s")
     assert len(curves.arcs) == 500

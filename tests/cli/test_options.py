@@ -33,11 +33,11 @@ def test_bounds_of_numbers_are_kept():
 
 
 def test_pages_have_names_or_sizes():
-    assert options.sheet("A4") == (210.0, 297.0)
-    assert options.sheet("300x200.5") == (300.0, 200.5)
+    assert options.page_size("A4") == (210.0, 297.0)
+    assert options.page_size("300x200.5") == (300.0, 200.5)
     for text in ("A9", "0x5", "5x-5", "nanx5", "x"):
         with pytest.raises(click.BadParameter):
-            options.sheet(text)
+            options.page_size(text)
 
 
 def test_kinds_come_once_in_the_order_given():

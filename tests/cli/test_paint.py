@@ -185,7 +185,7 @@ def test_explain_prints_each_stage_with_its_time(scene: Path, capsys: pytest.Cap
     names = [re.split(r"\s{2,}", line)[0] for line in lines[1:-1]]
     assert names[0] == "read" and names[-1] == "write"
     wanted = ["look", "faces", "order", "transparent sheets", "shades", "shadows", "mirror light"]
-    wanted += ["clear shadows", "reflections", "fills"]
+    wanted += ["transparent shadows", "reflections", "fills"]
     assert names[1:-1] == wanted
     assert all(re.search(r"\d", line) for line in lines[1:])
 

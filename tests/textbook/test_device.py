@@ -9,7 +9,7 @@ from support.backend_samples import grey_of_pgm, run
 
 import vectorplot as vp
 from vectorplot.backends.page.areas import Areas
-from vectorplot.backends.page.page_marks import sheet
+from vectorplot.backends.page.page_marks import page_marks
 from vectorplot.errors import InputError
 from vectorplot.geometry import clipping
 from vectorplot.geometry.cameras.camera import Camera
@@ -299,7 +299,7 @@ class Recorder:
 def shown_on(device, drawing, place):
     """The device after a drawing, by the primitives alone."""
     numbers: dict[tuple[int, int, int], int] = {}
-    for ink in sheet(drawing).inks:
+    for ink in page_marks(drawing).inks:
         for part in ink.parts:
             for low, high in zip(part.offsets[:-1], part.offsets[1:], strict=True):
                 corners = [place(corner) for corner in part.microns[low:high] / 1000.0]
@@ -342,5 +342,5 @@ def test_the_raster_postscript_and_a_recorder_show_a_drawing_by_the_same_handful
         "drawn_area",
         "closed_area",
     }
-    marks = sum(len(part) for ink in sheet(drawing).inks for part in ink.parts)
+    marks = sum(len(part) for ink in page_marks(drawing).inks for part in ink.parts)
     assert sum(name in ("moved", "moved_area") for name, *_ in calls) == marks

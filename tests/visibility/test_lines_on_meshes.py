@@ -7,7 +7,7 @@ import pytest
 from support.smooth_scenes import lit, views
 
 from vectorplot.draw import draw
-from vectorplot.drawing.drawing import Curves, Drawing
+from vectorplot.drawing.drawing import CurvedStrokes, Drawing
 from vectorplot.errors import InputError
 from vectorplot.features.implicit.polygonize import polygonized
 from vectorplot.geometry.cameras.camera import Camera
@@ -117,10 +117,10 @@ def drawn_points(drawing: Drawing, kind: LineKind) -> tuple[np.ndarray, int]:
     points, curved = [np.zeros((0, 3))], 0
     for layer in drawing.layers:
         for mark in layer.marks:
-            paths = mark.paths if isinstance(mark, Curves) else mark
+            paths = mark.paths if isinstance(mark, CurvedStrokes) else mark
             own = paths.kind == int(kind)
             points.append(paths.points3d[np.repeat(own, np.diff(paths.offsets))])
-            curved += int(np.diff(mark.beziers.offsets)[own].sum()) if isinstance(mark, Curves) else 0
+            curved += int(np.diff(mark.beziers.offsets)[own].sum()) if isinstance(mark, CurvedStrokes) else 0
     return np.concatenate(points), curved
 
 
@@ -150,7 +150,7 @@ def test_smooth_lines_come_nearer_to_the_circles_of_the_true_ball(height: float)
     camera = Camera((0, 0, 9), up=(0, 1, 0), parallel=True, height=3.0)
     drawing = draw(ball(24, f"level_lines at {height} smooth_lines"), camera, hidden="solid", lines=("section",))
     (mark,) = [mark for layer in drawing.layers for mark in layer.marks if len(mark)]
-    assert isinstance(mark, Curves)
+    assert isinstance(mark, CurvedStrokes)
     middle = mark.paths.points.mean(axis=0)
     corners = np.linalg.norm(mark.paths.points - middle, axis=1)
     t = np.linspace(0, 1, 9)[:, None]

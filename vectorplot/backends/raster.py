@@ -12,7 +12,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.backends.page.page_marks import LARGEST_PAGE_MM
-from vectorplot.drawing.drawing import Curves, Drawing, Paths
+from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Paths
 from vectorplot.drawing.fills import Fills
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
@@ -66,7 +66,7 @@ def painted(picture: Bytes, drawing: Drawing) -> Bytes:
             if isinstance(mark, Fills):
                 _fill(flat, mark, _pixels(mark.points, scale, origin), columns, rows)
                 continue
-            paths = mark.paths if isinstance(mark, Curves) else mark
+            paths = mark.paths if isinstance(mark, CurvedStrokes) else mark
             for pixel in _stroke_pixels(paths, _pixels(paths.points, scale, origin), width, columns, rows):
                 flat[pixel] = colour
     return result

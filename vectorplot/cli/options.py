@@ -64,7 +64,7 @@ def point(text: str) -> tuple[float, float, float]:
     return (x, y, z)
 
 
-def sheet(text: str) -> tuple[float, float]:
+def page_size(text: str) -> tuple[float, float]:
     """Width and height in mm of a named page or of WIDTHxHEIGHT."""
     from vectorplot.scene.paper import sheet_size
 

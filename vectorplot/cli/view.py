@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.options import at_least, between, chosen, exclusive, number, point, sheet
+from vectorplot.cli.options import at_least, between, chosen, exclusive, number, page_size, point
 
 if TYPE_CHECKING:
     from vectorplot.geometry.cameras.camera import Camera, Point
@@ -45,7 +45,10 @@ def fit_option(filled: str) -> Callable[[Command], Command]:
 
 PAGE_OPTIONS = (
     click.option(
-        "--page", type=sheet, metavar="SIZE", help="A0 to A6, letter, legal, ... or WIDTHxHEIGHT in mm.  [default: A4]"
+        "--page",
+        type=page_size,
+        metavar="SIZE",
+        help="A0 to A6, letter, legal, ... or WIDTHxHEIGHT in mm.  [default: A4]",
     ),
     click.option("--landscape", is_flag=True, help="Lay the page on its longer side."),
     click.option("--margin", type=at_least(0.0), metavar="MM", help="Empty border of the page.  [default: 10]"),

@@ -1,4 +1,4 @@
-from .drawing import Curves, Drawing, Layer, Paths, Pen
+from .drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
 from .fills import FillKind, Fills
 from .fills_without_overlaps import visible_fills
 from .painted_fills import placement_of_faces
@@ -7,7 +7,7 @@ from .strokes.long_strokes import split_long
 from .strokes.pen_order.order import pen_ordered, travel_mm
 
 __all__ = [
-    "Curves",
+    "CurvedStrokes",
     "Drawing",
     "FillKind",
     "Fills",

@@ -109,7 +109,7 @@ class Paths:
 
 
 @dataclass(frozen=True, eq=False)
-class Curves:
+class CurvedStrokes:
     """Strokes of which some are drawn as curves.
 
     Parameters
@@ -154,7 +154,7 @@ class Layer:
         What the layer holds, such as ``visible``.
     pen : Pen
         What draws its strokes.
-    marks : tuple of Paths, Curves and Fills
+    marks : tuple of Paths, CurvedStrokes and Fills
         In drawing order.
     plotted : bool
         False for a layer that is there to be looked at only (its label gets the prefix % that plotter drivers skip).
@@ -169,14 +169,14 @@ class Layer:
 
     name: str
     pen: Pen
-    marks: tuple[Paths | Curves | Fills, ...]
+    marks: tuple[Paths | CurvedStrokes | Fills, ...]
     plotted: bool = True
 
     @property
     def strokes(self) -> tuple[Paths, ...]:
         """The polylines of all marks that are strokes."""
         strokes = (mark for mark in self.marks if not isinstance(mark, Fills))
-        return tuple(mark.paths if isinstance(mark, Curves) else mark for mark in strokes)
+        return tuple(mark.paths if isinstance(mark, CurvedStrokes) else mark for mark in strokes)
 
     @property
     def fills(self) -> tuple[Fills, ...]:

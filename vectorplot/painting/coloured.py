@@ -58,11 +58,11 @@ def _decals(
         from vectorplot.effects.decals.scene_decals import scene_patterns
 
         found.append(walk.run("patterns", scene_patterns, scene, view, lighting, joined_decals(*found[:1])))
-    if walk.calls_for("clear shadows"):
-        from vectorplot.effects.shadows.transparent_shadows import clear_shadows
+    if walk.calls_for("transparent shadows"):
+        from vectorplot.effects.shadows.transparent_shadows import transparent_shadows
 
-        clear = partial(clear_shadows, projected=projected, budget=budget)
-        found.append(walk.run("clear shadows", clear, view, scene, scene.lights, found[0] if found else None))
+        clear = partial(transparent_shadows, projected=projected, budget=budget)
+        found.append(walk.run("transparent shadows", clear, view, scene, scene.lights, found[0] if found else None))
     return tuple(found), lighting
 
 

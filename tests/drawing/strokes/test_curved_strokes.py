@@ -8,7 +8,7 @@ import shapely
 from support.sample_paths import lines_of, polylines
 
 from vectorplot.curves.bezier.paths import bezier_points, bezier_tangents
-from vectorplot.drawing.drawing import Curves, Layer, Paths, Pen
+from vectorplot.drawing.drawing import CurvedStrokes, Layer, Paths, Pen
 from vectorplot.drawing.strokes.curved_strokes import curved_strokes, one_mark
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.errors import InputError
@@ -157,7 +157,7 @@ def mixed():
 
 def test_strokes_keep_their_order_and_straight_ones_stay_polylines():
     drawn = curved_strokes(mixed(), TOLERANCE)
-    assert isinstance(drawn, Curves) and len(drawn) == 8
+    assert isinstance(drawn, CurvedStrokes) and len(drawn) == 8
     assert (np.diff(drawn.beziers.offsets) > 0).tolist() == [False, True, True, False, False, True, False, True]
     assert drawn.arcs.stroke.tolist() == [2, 7]
     np.testing.assert_array_equal(drawn.paths.points, mixed().points)
@@ -207,7 +207,7 @@ def test_ink_joins_the_chords_of_a_curve_and_fits_it_once():
     layers = (Layer("visible", Pen(), (chords(wave, 0.0, 2.0, 1200, order),)),)
     (layer,) = inked(layers, "none", np.eye(4), TOLERANCE)
     (mark,) = layer.marks
-    assert isinstance(mark, Curves) and len(mark) == 1
+    assert isinstance(mark, CurvedStrokes) and len(mark) == 1
     assert farthest(wave, 0.0, 2.0, mark.beziers) <= TOLERANCE
     (plain,) = inked(layers, "none", np.eye(4))[0].marks
     np.testing.assert_array_equal(plain.points, mark.paths.points)

@@ -45,12 +45,12 @@ def test_every_ray_that_leaves_is_in_a_beam_and_meets_what_the_beam_meets(seed: 
     for number, face in enumerate(front.tolist()):
         corners = solid.points[:, solid.offsets[face] : solid.offsets[face + 1]]
         image = view.image_of(corners @ random.dirichlet(np.ones(corners.shape[1]), 60).T)
-        inside = traced(view, solid.passages(np.array([face])), image)
+        inside = traced(view, solid.sight_ways(np.array([face])), image)
         slope = solid.planes[:3].T @ inside.direction
         off = solid.planes[3][:, None] - solid.planes[:3].T @ inside.place
         back = np.where(slope > 1e-9, off / np.where(slope > 1e-9, slope, 1.0), np.inf).argmin(axis=0)
         for leaf in np.unique(back).tolist():
-            out = traced(view, solid.passages(np.array([face]), np.array([leaf])), image[:, back == leaf])
+            out = traced(view, solid.sight_ways(np.array([face]), np.array([leaf])), image[:, back == leaf])
             if out.passes.any():
                 used.add((number, leaf))
     assert used <= pairs

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.effects.glass.refracted_order import bent_order
+from vectorplot.effects.glass.refracted_order import refracted_order
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View, look
@@ -41,7 +41,7 @@ def sheet(x: float, y: float, size: float, height: float) -> np.ndarray:
 
 def test_parts_of_a_face_stand_together_whatever_their_number() -> None:
     sheets = [sheet(0.1 * k, 0.1 * k, 0.3, height) for k, height in enumerate((0.2, 0.0, 0.3, 0.1))]
-    found = bent_order(view(), *parts_of(*sheets), 1e-6)
+    found = refracted_order(view(), *parts_of(*sheets), 1e-6)
     assert (found.source // 4).reshape(-1, 4).tolist() == [[1] * 4, [3] * 4, [0] * 4, [2] * 4]
 
 
@@ -50,7 +50,7 @@ def test_faces_that_overlap_by_no_more_than_the_tolerance_make_no_demands() -> N
     left, right = sheet(0.0, 0.0, 0.3, 0.1), sheet(0.2999, 0.0, 0.3, 0.0)
     left[2] += 1e3 * (left[0] - 0.29995) * np.sign(left[1] - 0.15)
     parts, face = parts_of(left, right)
-    assert len(bent_order(view(), parts, face, 1e-3)) == 8
+    assert len(refracted_order(view(), parts, face, 1e-3)) == 8
 
 
 def test_faces_in_a_circle_are_cut() -> None:
@@ -62,7 +62,7 @@ def test_faces_in_a_circle_are_cut() -> None:
         c, s = np.cos(angle), np.sin(angle)
         sheets.append(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ bar)
     parts, face = parts_of(*sheets)
-    found = bent_order(view(), parts, face, 1e-6)
+    found = refracted_order(view(), parts, face, 1e-6)
     seen = np.concatenate([np.flatnonzero(found.source // 4 == k) for k in range(3)])
     assert len(found) >= 12 and len(np.unique(seen)) == len(found)
     # At every crossing the higher of two bars comes later.

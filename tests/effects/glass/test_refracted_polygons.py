@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from vectorplot.effects.glass.refracted_polygons import Soup, bent
-from vectorplot.effects.glass.sight_rays import Passages, traced
+from vectorplot.effects.glass.sight_rays import SightWays, traced
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View, look
@@ -18,11 +18,11 @@ EVERYWHERE = np.array([[-np.inf], [np.inf], [-np.inf], [np.inf]])
 FLOOR = np.array([(-1.0, -1.0, -1.0), (1.0, -1.0, -1.0), (1.0, 1.0, -1.0), (-1.0, 1.0, -1.0)])
 
 
-def pool() -> tuple[View, Passages]:
+def pool() -> tuple[View, SightWays]:
     """The cube of side 2 about the origin, and its upper face as the surface of water."""
     view = look(Scene((Item("A", box((-1, -1, -1), (1, 1, 1))),)), Camera(eye=(3.0, -4.0, 3.0)))
     down = (view.axes @ np.array([0.0, 0.0, -1.0]))[:, None, None]
-    return view, Passages(down, view.points_of(np.array([[0.0, 0.0, 1.0]]))[..., None], np.array([4.0 / 3.0]))
+    return view, SightWays(down, view.points_of(np.array([[0.0, 0.0, 1.0]]))[..., None], np.array([4.0 / 3.0]))
 
 
 def floor_in(view: View) -> Soup:

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.effects.glass.refraction import plate_shift, seen_in_surface, tangents_of_rays
-from vectorplot.effects.glass.sight_rays import Passages, traced, virtual_points
+from vectorplot.effects.glass.sight_rays import SightWays, traced, virtual_points
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View, look
@@ -20,11 +20,11 @@ def view_of(eye: tuple[float, float, float], parallel: bool = False) -> View:
     return look(scene, Camera(eye=eye, parallel=parallel))
 
 
-def horizontal(view: View, *surfaces: tuple[float, float]) -> Passages:
+def horizontal(view: View, *surfaces: tuple[float, float]) -> SightWays:
     """Surfaces at some heights in the world, with constants, passed downwards."""
     normal = np.repeat((view.axes @ DOWN)[:, None], len(surfaces), axis=1)
     point = view.points_of(np.array([(0.0, 0.0, height) for height, _ in surfaces]))
-    return Passages(normal[..., None], point[..., None], np.array([constant for _, constant in surfaces]))
+    return SightWays(normal[..., None], point[..., None], np.array([constant for _, constant in surfaces]))
 
 
 def in_world(view: View, points: np.ndarray) -> np.ndarray:
@@ -94,7 +94,7 @@ def test_rays_that_are_traced_to_a_point_come_back_to_it() -> None:
         tilted = np.array([[0.1, -0.3], [0.2, 0.1], [-1.0, -1.0]])
         tilted = view.axes @ (tilted / np.linalg.norm(tilted, axis=0))
         corner = view.points_of(np.array([(0, 0, 0.8), (0, 0, 0.1)]))
-        passage = Passages(tilted[..., None], corner[..., None], np.array([1.5, 1 / 1.5]))
+        passage = SightWays(tilted[..., None], corner[..., None], np.array([1.5, 1 / 1.5]))
         points = view.points_of(random.uniform(-1, 1, (100, 3)) - [0, 0, 1.8])
         virtual, seen = virtual_points(view, passage, points)
         assert seen.all()
@@ -119,7 +119,7 @@ def test_points_before_the_surface_and_beyond_total_reflection_are_not_seen() ->
     view = view_of((3.0, -2.0, 4.0))
     above = view.points_of(np.array([(0.0, 0.0, 0.5)]))
     assert not virtual_points(view, horizontal(view, (0.0, WATER)), above)[1].any()
-    sideways = Passages(
+    sideways = SightWays(
         (view.axes @ np.array([[0.0], [1.0], [0.0]]))[..., None], np.zeros((3, 1, 1)), np.array([WATER])
     )
     behind = view.points_of(np.array([(0.0, -9.0, 0.0)]))

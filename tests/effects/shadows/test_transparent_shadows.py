@@ -12,7 +12,7 @@ import vectorplot as vp
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals.decal_polygons import joined_decals
 from vectorplot.effects.shadows.shadow_decals import shadow_decals
-from vectorplot.effects.shadows.transparent_shadows import clear_shadows
+from vectorplot.effects.shadows.transparent_shadows import transparent_shadows
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Item, Light, Material, Scene
 from vectorplot.scene.view import look
@@ -35,7 +35,7 @@ def scene() -> Scene:
 @pytest.mark.capability("G6.6-transparent-shadow")
 def test_they_have_the_colours_of_the_items_and_come_last() -> None:
     view = look(scene(), Camera((3, -9, 15), (0, 0, 0)))
-    clear = clear_shadows(view, scene(), LIGHTS)
+    clear = transparent_shadows(view, scene(), LIGHTS)
     on_floor = np.flatnonzero(view.face_item[clear.face] == 0)
     names = [clear.colours[k] for k in clear.colour[on_floor]]
     assert sorted(names) == ["blue"] * 4 + ["green"] * 2
@@ -52,14 +52,14 @@ def test_they_have_the_colours_of_the_items_and_come_last() -> None:
 def test_a_scene_without_glass_has_none() -> None:
     solid = Scene(tuple(item for item in scene().items if item.hides))
     view = look(solid, Camera((3, -9, 15), (0, 0, 0)))
-    assert len(clear_shadows(view, solid, LIGHTS)) == 0
+    assert len(transparent_shadows(view, solid, LIGHTS)) == 0
 
 
 def test_what_is_wholly_clear_or_occludes_casts_none() -> None:
     milky = replace(glass("b", 2, "blue", 0.5), occludes=True)
     items = (scene().items[0], glass("a", 0, "blue", 0.0), milky)
     view = look(Scene(items), Camera((3, -9, 15), (0, 0, 0)))
-    assert len(clear_shadows(view, Scene(items), LIGHTS)) == 0
+    assert len(transparent_shadows(view, Scene(items), LIGHTS)) == 0
 
 
 @pytest.mark.capability("G6.6-transparent-shadow")
@@ -107,7 +107,7 @@ def test_where_a_light_does_not_get_anyway_nothing_dims_it_and_others_lack_too()
     panes = (glass("a", 0, "blue", 0.3), glass("b", 0.25, "blue", 0.3))
     view = look(Scene((floor, *panes, brick)), Camera((3, -9, 15), (0, 0, 0)))
     dark = shadow_decals(view, LIGHTS)
-    clear = clear_shadows(view, Scene((floor, *panes, brick)), LIGHTS, dark)
+    clear = transparent_shadows(view, Scene((floor, *panes, brick)), LIGHTS, dark)
     at = face_points(view, np.flatnonzero(view.face_item == 0), 30000, np.random.default_rng(3))
     masks = {}
     for name, decals in (("dark", dark), ("clear", clear)):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.drawing.drawing import Curves
+from vectorplot.drawing.drawing import CurvedStrokes
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.surface_paths import surface_path
 from vectorplot.geometry.budget import Budget
@@ -88,7 +88,7 @@ def on_curve(drawing: vp.Drawing) -> tuple[float, float]:
     lengths = [0.0, 0.0]
     for layer in drawing.layers:
         for mark in layer.marks:
-            paths = mark.paths if isinstance(mark, Curves) else mark
+            paths = mark.paths if isinstance(mark, CurvedStrokes) else mark
             for k in np.flatnonzero(paths.kind == int(LineKind.CURVE)):
                 line = paths.points3d[paths.offsets[k] : paths.offsets[k + 1]]
                 line = np.vstack([line, line[:1]]) if paths.closed[k] else line

@@ -9,7 +9,7 @@ import pytest
 from support.body_rays import body_sight, off_surface, unit_body
 
 from vectorplot.draw import draw
-from vectorplot.drawing.drawing import Curves
+from vectorplot.drawing.drawing import CurvedStrokes
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.scene.scene import Item, Material, Scene
@@ -258,7 +258,7 @@ def test_glass_bodies_hide_nothing_and_creases_leave_as_arcs():
     drawing = draw(Scene((glass, core)), Camera((5, -9, 7), (0, 0, 1)), hidden="solid")
     assert max(paths.hidden_by[k] for paths, k in strokes_of(drawing)) == 1
     alone = draw(Scene((Item("can", Capped(Cylinder())),)), Camera((5, -9, 7), (0, 0, 1)))
-    marks = [mark for layer in alone.layers for mark in layer.marks if isinstance(mark, Curves)]
+    marks = [mark for layer in alone.layers for mark in layer.marks if isinstance(mark, CurvedStrokes)]
     assert sum(len(mark.arcs) for mark in marks) == 1
 
 

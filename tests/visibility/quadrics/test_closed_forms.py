@@ -233,10 +233,10 @@ def test_a_ball_behind_the_eye_is_not_drawn_and_one_beside_it_is_cut():
 
 
 def test_a_circle_leaves_as_one_arc_of_an_ellipse():
-    from vectorplot.drawing.drawing import Curves
+    from vectorplot.drawing.drawing import CurvedStrokes
 
     drawing = draw(Scene((Item("a", Sphere(1.0)),)), Camera(eye=(5, -9, 4)))
-    marks = [mark for layer in drawing.layers for mark in layer.marks if isinstance(mark, Curves)]
+    marks = [mark for layer in drawing.layers for mark in layer.marks if isinstance(mark, CurvedStrokes)]
     assert [len(mark.arcs) for mark in marks] == [1]
 
 

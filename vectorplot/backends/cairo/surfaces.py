@@ -20,7 +20,7 @@ import numpy as np
 from vectorplot.backends.cairo.areas_in_cairo import paint
 from vectorplot.backends.cairo.gouraud import with_triangles_in_pdf, with_triangles_in_postscript
 from vectorplot.backends.page.areas import Areas
-from vectorplot.backends.page.page_marks import Lines, Sheet, sheet
+from vectorplot.backends.page.page_marks import PageMarks, PageStrokes, page_marks
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import SEAM_MM
 from vectorplot.errors import InputError
@@ -73,7 +73,7 @@ def ps_bytes(drawing: Drawing) -> bytes:
     >>> backends.ps_bytes(drawing).startswith(b"%!PS-Adobe-3.0")
     True
     """
-    return _postscript(sheet(drawing), eps=False)
+    return _postscript(page_marks(drawing), eps=False)
 
 
 def eps_bytes(drawing: Drawing) -> bytes:
@@ -109,7 +109,7 @@ def eps_bytes(drawing: Drawing) -> bytes:
     >>> backends.eps_bytes(drawing).splitlines()[0]
     b'%!PS-Adobe-3.0 EPSF-3.0'
     """
-    return _postscript(sheet(drawing), eps=True)
+    return _postscript(page_marks(drawing), eps=True)
 
 
 def pdf_bytes(drawing: Drawing) -> bytes:
@@ -146,7 +146,7 @@ def pdf_bytes(drawing: Drawing) -> bytes:
     """
     import cairo
 
-    page = sheet(drawing)
+    page = page_marks(drawing)
     stream = io.BytesIO()
     height = page.height * POINTS_PER_MICRON
     surface = cairo.PDFSurface(stream, page.width * POINTS_PER_MICRON, height)
@@ -194,7 +194,7 @@ def png_bytes(drawing: Drawing, dpi: float = DPI) -> bytes:
     """
     import cairo
 
-    page = sheet(drawing)
+    page = page_marks(drawing)
     if not 0.0 < dpi < np.inf:
         raise InputError(f"resolution of {dpi:g} dpi")
     scale = dpi / 25400.0
@@ -214,7 +214,7 @@ def png_bytes(drawing: Drawing, dpi: float = DPI) -> bytes:
     return with_meaning(stream.getvalue(), dpi)
 
 
-def _postscript(page: Sheet, *, eps: bool) -> bytes:
+def _postscript(page: PageMarks, *, eps: bool) -> bytes:
     import cairo
 
     stream = io.BytesIO()
@@ -240,17 +240,17 @@ def postscript_string(text: str) -> str:
     return re.sub(r"([\\()])", r"\\\1", printable)
 
 
-def _with_page_box(text: bytes, page: Sheet) -> bytes:
+def _with_page_box(text: bytes, page: PageMarks) -> bytes:
     """The file of an empty drawing with the page as bounding box, where cairo writes a box turned inside out."""
     width, height = _whole_points(page)
     return re.sub(rb"(?m)^%%(Page)?BoundingBox:.*$", rb"%%\1BoundingBox: 0 0 " + b"%d %d" % (width, height), text)
 
 
-def _whole_points(page: Sheet) -> tuple[int, int]:
+def _whole_points(page: PageMarks) -> tuple[int, int]:
     return math.ceil(page.width * POINTS_PER_MICRON), math.ceil(page.height * POINTS_PER_MICRON)
 
 
-def _draw(surface: cairo.Surface, page: Sheet, height: float) -> None:
+def _draw(surface: cairo.Surface, page: PageMarks, height: float) -> None:
     import cairo
 
     context = cairo.Context(surface)
@@ -259,7 +259,7 @@ def _draw(surface: cairo.Surface, page: Sheet, height: float) -> None:
     surface.finish()
 
 
-def _ink(context: cairo.Context[Any], page: Sheet, scale: float, height: float, seam: float) -> None:
+def _ink(context: cairo.Context[Any], page: PageMarks, scale: float, height: float, seam: float) -> None:
     """Draw all inks; scale: device units per micron; height: of the page's lower border in them, from the top; seam:
     width of the line around opaque polygons."""
     import cairo
@@ -277,7 +277,7 @@ def _ink(context: cairo.Context[Any], page: Sheet, scale: float, height: float, 
                 _stroke(context, part, scale, height)
 
 
-def _stroke(context: cairo.Context[Any], lines: Lines, scale: float, height: float) -> None:
+def _stroke(context: cairo.Context[Any], lines: PageStrokes, scale: float, height: float) -> None:
     """Stroke the polylines and curves. Cairo takes one segment a call, so this loops over points."""
     points = (lines.microns * (scale, -scale) + (0.0, height)).tolist()
     move_to, line_to, curve_to = context.move_to, context.line_to, context.curve_to

@@ -1,6 +1,6 @@
 """What every backend that makes a page draws: checked, clipped strokes and areas in thousandths of a millimetre.
 
-A backend turns a Sheet into bytes and needs six primitives for it: a page, a pen, a polyline, a Bézier path, a filled
+A backend turns PageMarks into bytes and needs six primitives for it: a page, a pen, a polyline, a Bézier path, a filled
 polygon, a shaded triangle. Because all of them draw the same integers, their pictures agree.
 """
 
@@ -18,7 +18,7 @@ from vectorplot.backends.page.areas import Areas, areas
 from vectorplot.curves.bezier.clip_to_page import clipped_paths
 from vectorplot.curves.bezier.elliptic_arcs import EllipseArcs
 from vectorplot.curves.bezier.paths import BezierPaths
-from vectorplot.drawing.drawing import Curves, Drawing, Layer, Paths, Pen
+from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.strokes.curved_strokes import one_mark
 from vectorplot.drawing.strokes.page_clip import Rectangle, clipped_parts
@@ -33,7 +33,7 @@ _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
 @dataclass(frozen=True, eq=False)
-class Lines:
+class PageStrokes:
     """Strokes of one layer, as they appear on the page.
 
     microns (p,2) int64, y upwards; offsets (m+1,); closed (m,); curved (m,): a cubic Bézier path, the points of which
@@ -58,7 +58,7 @@ class Ink:
 
     label: str
     pen: Pen
-    parts: tuple[Lines | Areas, ...]
+    parts: tuple[PageStrokes | Areas, ...]
 
     @property
     def areas(self) -> tuple[Areas, ...]:
@@ -67,7 +67,7 @@ class Ink:
 
 
 @dataclass(frozen=True, eq=False)
-class Sheet:
+class PageMarks:
     """A page and its inks in drawing order. Width and height in microns; title: one line without control characters."""
 
     width: int
@@ -76,7 +76,7 @@ class Sheet:
     title: str
 
 
-def sheet(drawing: Drawing) -> Sheet:
+def page_marks(drawing: Drawing) -> PageMarks:
     """The drawing as a backend sees it: clipped to the page and rounded to thousandths of a millimetre.
 
     The label of a layer is its number from 1 and its name, with the prefix % if it is not to be plotted.
@@ -87,13 +87,13 @@ def sheet(drawing: Drawing) -> Sheet:
     check(drawing)
     inks = tuple(_ink(drawing, layer, number) for number, layer in enumerate(drawing.layers, start=1))
     width, height = (max(1, round(side * 1000.0)) for side in (drawing.width_mm, drawing.height_mm))
-    return Sheet(width, height, inks, plain_text(drawing.title))
+    return PageMarks(width, height, inks, plain_text(drawing.title))
 
 
 def check(drawing: Drawing) -> None:
     """Refuse what no file can hold.
 
-    Errors: as sheet.
+    Errors: as page_marks.
     """
     for side in (drawing.width_mm, drawing.height_mm):
         if not 0.0 < side <= LARGEST_PAGE_MM:
@@ -105,7 +105,7 @@ def check(drawing: Drawing) -> None:
         if not 0.0 < layer.pen.width_mm <= LARGEST_PAGE_MM:
             raise InputError(f"layer {layer.name!r}: pen width of {layer.pen.width_mm:g} mm")
         points = [paths.points for paths in layer.strokes]
-        points += [mark.beziers.control for mark in layer.marks if isinstance(mark, Curves)]
+        points += [mark.beziers.control for mark in layer.marks if isinstance(mark, CurvedStrokes)]
         points += [fills.points for fills in layer.fills]
         if not all(np.isfinite(some).all() for some in points):
             raise InputError(f"layer {layer.name!r}: a point on the page is not finite")
@@ -121,7 +121,7 @@ def plain_text(text: str) -> str:
 
 def _ink(drawing: Drawing, layer: Layer, number: int) -> Ink:
     label = f"{'' if layer.plotted else '%'}{number} {plain_text(layer.name)}".rstrip()
-    parts: list[Lines | Areas] = []
+    parts: list[PageStrokes | Areas] = []
     for filled, marks in groupby(layer.marks, lambda mark: isinstance(mark, Fills)):
         some = tuple(marks)
         if filled:
@@ -132,7 +132,7 @@ def _ink(drawing: Drawing, layer: Layer, number: int) -> Ink:
     return Ink(label, layer.pen, tuple(parts))
 
 
-def _lines(drawing: Drawing, mark: Curves) -> Lines:
+def _lines(drawing: Drawing, mark: CurvedStrokes) -> PageStrokes:
     page = (0.0, 0.0, drawing.width_mm, drawing.height_mm)
     drawn_straight = np.flatnonzero(np.diff(mark.beziers.offsets) == 0)
     lines, line = clipped_parts(chosen(mark.paths, drawn_straight), page, drawing.page_from_world)
@@ -143,7 +143,7 @@ def _lines(drawing: Drawing, mark: Curves) -> Lines:
     order = np.argsort(source, kind="stable")
     count = np.concatenate((np.diff(straight.offsets), np.diff(curved.offsets)))[order]
     first = np.concatenate((straight.offsets[:-1], curved.offsets[:-1] + len(straight.microns)))[order]
-    return Lines(
+    return PageStrokes(
         np.concatenate((straight.microns, curved.microns))[ragged.ranges(first, count)],
         ragged.offsets(count),
         np.concatenate((straight.closed, curved.closed))[order],
@@ -203,7 +203,7 @@ def _control_polygons(paths: BezierPaths) -> tuple[_Rounded, Bools]:
     return _Rounded(microns, offsets, paths.closed[remains]), remains
 
 
-def _whole_arcs(mark: Curves, page: Rectangle, source: Ints) -> EllipseArcs:
+def _whole_arcs(mark: CurvedStrokes, page: Rectangle, source: Ints) -> EllipseArcs:
     """The arcs of strokes that the page does not cut; source (m,): the stroke of the mark of each stroke that is drawn,
     ascending."""
     control = mark.beziers.control

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Ints
 from vectorplot.backends.page.areas import Areas
-from vectorplot.backends.page.page_marks import Ink, Lines, Sheet, sheet
+from vectorplot.backends.page.page_marks import Ink, PageMarks, PageStrokes, page_marks
 from vectorplot.backends.svg.areas_in_svg import ID_PREFIX, area_elements
 from vectorplot.backends.svg.path_data import formatted
 from vectorplot.drawing.drawing import Drawing
@@ -107,7 +107,7 @@ def svg_bytes(drawing: Drawing) -> bytes:
     >>> backends.svg_bytes(vp.Drawing(100, 80, ())).decode() == backends.svg_text(vp.Drawing(100, 80, ()))
     True
     """
-    page = sheet(drawing)
+    page = page_marks(drawing)
     bodies = [_body(ink, number, page.height) for number, ink in enumerate(page.inks, start=1)]
     prefix = _content_hash(page, bodies)
     frame = _document(page, prefix).encode("utf-8").split(f"<!--{_PLACE}-->".encode())
@@ -135,7 +135,7 @@ def _letters(number: int, place: int) -> str:
     return layer + (low[place] if place < len(low) else f"z{place}z")
 
 
-def elements(lines: Lines, height: int) -> bytes:
+def elements(lines: PageStrokes, height: int) -> bytes:
     """The polyline, polygon and path elements of strokes; y is flipped about the page height in microns."""
     shown, first, last = _separators(lines)
     blocks = []
@@ -150,7 +150,7 @@ def elements(lines: Lines, height: int) -> bytes:
     return b"".join(part for pair in zip(between, [*_arc_data(lines, height), b""], strict=True) for part in pair)
 
 
-def _separators(lines: Lines) -> tuple[Ints, NDArray[np.uint8], NDArray[np.uint8]]:
+def _separators(lines: PageStrokes) -> tuple[Ints, NDArray[np.uint8], NDArray[np.uint8]]:
     """The points that are written (k,), what stands before each of them and what after it.
 
     Of an arc only the first point: the place of its other data is marked.
@@ -169,7 +169,7 @@ def _separators(lines: Lines) -> tuple[Ints, NDArray[np.uint8], NDArray[np.uint8
     return np.flatnonzero(shown), first[shown], last[shown]
 
 
-def _arc_data(lines: Lines, height: int) -> list[bytes]:
+def _arc_data(lines: PageStrokes, height: int) -> list[bytes]:
     """For each arc the rest of its path element: parts of equal parameter length."""
     arcs = lines.arcs
     size = np.stack((np.hypot(*arcs.first.T), np.hypot(*arcs.second.T)))
@@ -206,7 +206,7 @@ class _Place:
         return ET.Comment(_PLACE)
 
 
-def _document(page: Sheet, prefix: str) -> str:
+def _document(page: PageMarks, prefix: str) -> str:
     """The page and its layers with a mark in place of their lines."""
     import svgwrite
     from svgwrite.extensions import Inkscape
@@ -233,7 +233,7 @@ def _document(page: Sheet, prefix: str) -> str:
     return f'<?xml version="1.0" encoding="utf-8"?>\n{document.tostring()}'
 
 
-def _content_hash(page: Sheet, bodies: list[bytes]) -> str:
+def _content_hash(page: PageMarks, bodies: list[bytes]) -> str:
     """A prefix for ids, which must begin with a letter."""
     digest = hashlib.sha256(f"{page.width} {page.height} {page.title}".encode())
     for ink, body in zip(page.inks, bodies, strict=True):

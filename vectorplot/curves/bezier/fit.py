@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier.paths import BezierPath, BezierPaths
 from vectorplot.curves.bezier.spans import Spans, fitted_spans, measured_spans
-from vectorplot.curves.bezier.tangents import Directions, Lines, directions
+from vectorplot.curves.bezier.tangents import Directions, FitLines, directions
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
@@ -182,13 +182,13 @@ def fitted_curve(curve: Curve, *, tolerance: float) -> BezierPath:
 class _Fit:
     """Lines, their tangents, the room (n,) between each point and the next, and the tolerance."""
 
-    lines: Lines
+    lines: FitLines
     tangent: Directions
     room: Floats
     tolerance: float
 
     @classmethod
-    def of(cls, lines: Lines, given: Floats, tolerance: float, corner_angle: float, sag: float = np.inf) -> _Fit:
+    def of(cls, lines: FitLines, given: Floats, tolerance: float, corner_angle: float, sag: float = np.inf) -> _Fit:
         total = lines.length[lines.last] - lines.length[lines.first]
         tangent = directions(lines, given, np.minimum(_WINDOW * tolerance, total / 8.0), corner_angle, tolerance, sag)
         chord = np.diff(lines.points, axis=1, append=lines.points[:, -1:])
@@ -279,7 +279,7 @@ class _Fit:
         return np.stack((start, one, two, end)).transpose(2, 0, 1)
 
 
-def _between(lines: Lines, knots: Bools) -> tuple[Ints, Ints]:
+def _between(lines: FitLines, knots: Bools) -> tuple[Ints, Ints]:
     index = np.flatnonzero(knots)
     same = lines.line[index[:-1]] == lines.line[index[1:]]
     return index[:-1][same], index[1:][same]
@@ -318,14 +318,18 @@ def _check(points: Floats, offsets: Ints, tangents: Floats | None, tolerance: fl
         raise InputError(f"point {int(np.argmax(bad)) + 1} of those to fit is not finite")
 
 
-def _lines(points: Floats, offsets: Ints, closed: Bools, tangents: Floats | None) -> tuple[Lines, Floats, Ints]:
+def _lines(points: Floats, offsets: Ints, closed: Bools, tangents: Floats | None) -> tuple[FitLines, Floats, Ints]:
     """Lines without repeated points, loops with their first point at the end too; tangents (2,d,n), NaN where they are
     not known; which they are."""
     counts = np.diff(offsets)
     kept = np.flatnonzero(counts > 0)
     if not len(kept):
         nothing = np.zeros(0, dtype=np.intp)
-        return Lines(points.T, np.zeros(0), nothing, nothing, closed[:0], nothing), np.zeros((2, *points.T.shape)), kept
+        return (
+            FitLines(points.T, np.zeros(0), nothing, nothing, closed[:0], nothing),
+            np.zeros((2, *points.T.shape)),
+            kept,
+        )
     # Open lines may end with a point that repeats; a loop gets its first point again, and a single point too.
     rounds = closed_round(Polylines(points, offsets, closed | (counts == 1)))
     index = rounds.index
@@ -348,7 +352,7 @@ def _lines(points: Floats, offsets: Ints, closed: Bools, tangents: Floats | None
     return _measured(points[index], line, closed[kept]), given, kept
 
 
-def _measured(points: Floats, line: Ints, closed: Bools) -> Lines:
+def _measured(points: Floats, line: Ints, closed: Bools) -> FitLines:
     """Lines with their lengths, from points (n,d) and the line of each."""
     count = len(closed)
     step = np.linalg.norm(np.diff(points, axis=0, prepend=points[:1]), axis=1)
@@ -357,7 +361,7 @@ def _measured(points: Floats, line: Ints, closed: Bools) -> Lines:
     # A gap, so that the end of a line and the start of the next differ in length.
     step[first] = 0.0
     step[first[1:]] = step.mean() + (step.mean() == 0.0)
-    return Lines(np.ascontiguousarray(points.T), np.cumsum(step), first, last, closed, line)
+    return FitLines(np.ascontiguousarray(points.T), np.cumsum(step), first, last, closed, line)
 
 
 def _sampled(curve: Curve, count: int) -> tuple[Floats, Floats]:
@@ -368,6 +372,6 @@ def _sampled(curve: Curve, count: int) -> tuple[Floats, Floats]:
     return points, tangents
 
 
-def _open_line(points: Floats, tangents: Floats, *, closed: bool) -> Lines:
+def _open_line(points: Floats, tangents: Floats, *, closed: bool) -> FitLines:
     """One line through all the points, repeated ones too, so that places of points are those of parameters."""
     return _measured(points, np.zeros(len(points), dtype=np.intp), np.array([closed]))

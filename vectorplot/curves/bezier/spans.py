@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.curves.bezier.tangents import Directions, Lines
+from vectorplot.curves.bezier.tangents import Directions, FitLines
 from vectorplot.geometry import ragged
 from vectorplot.tolerances.of_angles import PARABOLA_SINE_SQUARED
 from vectorplot.tolerances.of_values import RIDGE
@@ -27,7 +27,9 @@ class Spans:
     excess: Floats
 
 
-def fitted_spans(lines: Lines, tangent: Directions, room: Floats, tolerance: float, ends: tuple[Ints, Ints]) -> Spans:
+def fitted_spans(
+    lines: FitLines, tangent: Directions, room: Floats, tolerance: float, ends: tuple[Ints, Ints]
+) -> Spans:
     """Segments with the tangents given, their handles such that the distances to the points are small.
 
     room (n,): how far a curve with these tangents may leave the chord from a point to the next; ends: first and last
@@ -56,7 +58,9 @@ def fitted_spans(lines: Lines, tangent: Directions, room: Floats, tolerance: flo
     return spans
 
 
-def measured_spans(lines: Lines, tangent: Directions, room: Floats, spans: Spans, indices: tuple[Ints, Ints]) -> Spans:
+def measured_spans(
+    lines: FitLines, tangent: Directions, room: Floats, spans: Spans, indices: tuple[Ints, Ints]
+) -> Spans:
     """The same segments against other points, between which they run from first to last."""
     problem = _Problem(lines, tangent, *indices)
     t = problem.guess()[1]
@@ -68,7 +72,7 @@ def measured_spans(lines: Lines, tangent: Directions, room: Floats, spans: Spans
 class _Problem:
     """The points of spans in coordinates from the spans' first points, one span after the other."""
 
-    def __init__(self, lines: Lines, tangent: Directions, first: Ints, last: Ints) -> None:
+    def __init__(self, lines: FitLines, tangent: Directions, first: Ints, last: Ints) -> None:
         self.first, self.last = first, last
         self.counts = last - first + 1
         self.starts = ragged.starts(self.counts)

@@ -11,7 +11,7 @@ from vectorplot.tolerances.of_lengths import SLACK_OF_LENGTH
 
 
 @dataclass(frozen=True, eq=False)
-class Lines:
+class FitLines:
     """Polylines ready for fitting: no repeated points, closed ones with their first point repeated at the end.
 
     points (d,n); length (n,) along all of them, one after the other; first, last (m,) indices of each line's ends;
@@ -46,7 +46,7 @@ shorter chord by so much, about."""
 
 
 def directions(
-    lines: Lines, given: Floats, window: Floats, corner_angle: float, tolerance: float, sag: float = np.inf
+    lines: FitLines, given: Floats, window: Floats, corner_angle: float, tolerance: float, sag: float = np.inf
 ) -> Directions:
     """Corners and tangents of lines.
 
@@ -102,14 +102,14 @@ def _bend(before: Floats, after: Floats) -> Floats:
     return np.asarray(np.arccos(np.clip(_cosine(before, after), -1.0, 1.0)) * _shorter(before, after))
 
 
-def _ends(lines: Lines) -> Bools:
+def _ends(lines: FitLines) -> Bools:
     """Ends of open lines."""
     ends = np.zeros(len(lines.line), dtype=np.bool_)
     ends[lines.first[~lines.closed]] = ends[lines.last[~lines.closed]] = True
     return ends
 
 
-def _next_chords(lines: Lines) -> tuple[Floats, Floats]:
+def _next_chords(lines: FitLines) -> tuple[Floats, Floats]:
     """(d,n) vectors from the point before and to the next one; zero beyond the ends of open lines."""
     step = np.diff(lines.points, axis=1)
     before, after = np.zeros_like(lines.points), np.zeros_like(lines.points)
@@ -120,7 +120,7 @@ def _next_chords(lines: Lines) -> tuple[Floats, Floats]:
     return before, after
 
 
-def _chords(lines: Lines, window: Floats, stops: Bools) -> tuple[Floats, Floats]:
+def _chords(lines: FitLines, window: Floats, stops: Bools) -> tuple[Floats, Floats]:
     """(d,n) vectors from the point that lies a window before, and to the one after, none beyond a stop."""
     everything = np.arange(len(lines.line))
     reach = window[lines.line]
@@ -129,7 +129,7 @@ def _chords(lines: Lines, window: Floats, stops: Bools) -> tuple[Floats, Floats]
     return lines.points - lines.points[:, before], lines.points[:, after] - lines.points
 
 
-def _neighbour(lines: Lines, at: Ints, step: Floats, stops: Bools) -> Ints:
+def _neighbour(lines: FitLines, at: Ints, step: Floats, stops: Bools) -> Ints:
     """The nearest point not nearer than |step| along its line, but no point beyond a stop; at least the next one."""
     line = lines.line[at]
     start, end = lines.length[lines.first[line]], lines.length[lines.last[line]]
@@ -182,7 +182,7 @@ def _beyond(where: Floats, near: Floats, far: Floats, total: Floats, otherwise: 
 
 
 def _one_sided(
-    lines: Lines, at: Ints, side: float, stops: Bools, window: Floats, given: Floats, known: Bools
+    lines: FitLines, at: Ints, side: float, stops: Bools, window: Floats, given: Floats, known: Bools
 ) -> Floats:
     """(d,k) tangents with which the line arrives at stops (side -1) or leaves them (1): those of circles through the
     next point with the tangent given there (2,d,n), where it is known (2,n), or through two more points."""

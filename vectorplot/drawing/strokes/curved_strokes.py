@@ -10,7 +10,7 @@ from vectorplot.arrays import Ints
 from vectorplot.curves.bezier.elliptic_arcs import EllipseArcs, arc_segments, recognised_arcs
 from vectorplot.curves.bezier.fit import fitted_paths
 from vectorplot.curves.bezier.paths import BezierPaths
-from vectorplot.drawing.drawing import Curves, Paths
+from vectorplot.drawing.drawing import CurvedStrokes, Paths
 from vectorplot.drawing.strokes.paths import chosen, concatenated
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
@@ -28,7 +28,7 @@ CORNER_ANGLE = np.radians(60.0)
 within half a tolerance, turn by less unless it is no larger than a few tolerances."""
 
 
-def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | Curves:
+def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | CurvedStrokes:
     """The strokes with curves for the smooth ones: arcs of ellipses where they are, cubic Bézier paths elsewhere.
 
     Parameters
@@ -40,7 +40,7 @@ def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | Curves:
 
     Returns
     -------
-    Paths or Curves
+    Paths or CurvedStrokes
         In the same order and directions; each curve begins and ends where its stroke does.
 
     Raises
@@ -90,15 +90,15 @@ def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | Curves:
         sag=CHORD_SHARE * tolerance_mm,
     )
     beziers = _in_places((round_ones, fitted), (which[arcs.stroke], which[others]), paths)
-    return Curves(paths, beziers, replace(arcs, stroke=which[arcs.stroke]))
+    return CurvedStrokes(paths, beziers, replace(arcs, stroke=which[arcs.stroke]))
 
 
-def one_mark(marks: tuple[Paths | Curves, ...]) -> Curves:
+def one_mark(marks: tuple[Paths | CurvedStrokes, ...]) -> CurvedStrokes:
     """All marks of a layer as one, one after the other; what was Paths stays polylines."""
-    some = [mark if isinstance(mark, Curves) else _polylines(mark) for mark in marks]
+    some = [mark if isinstance(mark, CurvedStrokes) else _polylines(mark) for mark in marks]
     first = ragged.offsets(np.array([len(mark) for mark in some], dtype=np.intp))
     arcs = [mark.arcs for mark in some]
-    return Curves(
+    return CurvedStrokes(
         concatenated(tuple(mark.paths for mark in some)),
         joined([_polylines(Paths.empty()).beziers, *(mark.beziers for mark in some)]),
         EllipseArcs.joined(
@@ -107,9 +107,9 @@ def one_mark(marks: tuple[Paths | Curves, ...]) -> Curves:
     )
 
 
-def _polylines(paths: Paths) -> Curves:
+def _polylines(paths: Paths) -> CurvedStrokes:
     none = BezierPaths(np.zeros((0, 4, 2)), np.zeros(len(paths) + 1, np.intp), paths.closed, np.zeros(len(paths)))
-    return Curves(paths, none, EllipseArcs.none())
+    return CurvedStrokes(paths, none, EllipseArcs.none())
 
 
 def _in_places(parts: tuple[BezierPaths, ...], strokes: tuple[Ints, ...], paths: Paths) -> BezierPaths:

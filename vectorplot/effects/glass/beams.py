@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.glass.refracted_polygons import Soup, joined_soups
-from vectorplot.effects.glass.sight_rays import Passages, Rays, traced, virtual_points
+from vectorplot.effects.glass.sight_rays import Rays, SightWays, traced, virtual_points
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.plane_cuts import PlaneBundles, cut_by_planes, planes_of
 from vectorplot.geometry.mesh import next_positions
@@ -67,13 +67,13 @@ class Solid:
         exits = np.ones(len(face), dtype=np.bool_)
         return cls(face, view.points[:, view.corners[corner]], offsets, planes, constant, exits)
 
-    def passages(self, front: Ints, *back: Ints) -> Passages:
+    def sight_ways(self, front: Ints, *back: Ints) -> SightWays:
         """The ways of sight rays into a solid by some of its faces (w,) and, if given, out by others (w,)."""
         face = np.stack([front, *back])
         planes = self.planes[:, face]
         side = np.array([-1.0, 1.0])[: len(face), None]
         constant = np.array([self.constant, 1.0 / self.constant])[: len(face)]
-        return Passages(side * planes[:3], planes[:3] * planes[3], constant)
+        return SightWays(side * planes[:3], planes[:3] * planes[3], constant)
 
     def reflected(self, points: Floats, face: int) -> Floats:
         """(3,n) the mirror images of points (3,n) in the plane of one of the faces."""
@@ -113,7 +113,7 @@ class Beams:
 
     front: Ints
     back: Ints
-    leaves: Passages
+    leaves: SightWays
     box: Floats
     bundles: PlaneBundles
 
@@ -204,7 +204,7 @@ def _cones(view: View, solid: Solid, front: Ints) -> tuple[Floats, Floats]:
     that is not known."""
     outline = solid.outlines(front)
     owner = np.repeat(outline.way, np.diff(outline.offsets))
-    rays = traced(view, solid.passages(front).of(owner), view.image_of(outline.points))
+    rays = traced(view, solid.sight_ways(front).of(owner), view.image_of(outline.points))
     known = np.logical_and.reduceat(rays.passes & (view.depth_of(outline.points) > view.near), outline.offsets[:-1])
     axis = np.add.reduceat(rays.direction, outline.offsets[:-1], axis=1)
     axis /= np.sqrt((axis * axis).sum(axis=0))
@@ -226,7 +226,7 @@ def _beams(view: View, solid: Solid, front: Ints, windows: Floats, first: Ints, 
     position, offsets = ragged.take(offsets, kept)
     first, back = first[kept], back[kept]
     direction, good = rays.direction[:, position], good[position]
-    leaves = replace(solid.passages(front[first], back), guides=_guides(image[:, position], good, offsets))
+    leaves = replace(solid.sight_ways(front[first], back), guides=_guides(image[:, position], good, offsets))
     return Beams(first, back, leaves, common[:, kept], _bundles(view, solid, back, direction, good, offsets))
 
 
@@ -246,9 +246,9 @@ class _Grid:
         """Those of pairs of faces, the first a number in front."""
         points, offsets = _grids(solid.outlines(back))
         owner = ragged.owner(np.diff(offsets))
-        virtual, seen = virtual_points(view, solid.passages(front), points, first[owner])
+        virtual, seen = virtual_points(view, solid.sight_ways(front), points, first[owner])
         image = view.image_of(virtual)
-        rays = traced(view, solid.passages(front[first], back).of(owner), image)
+        rays = traced(view, solid.sight_ways(front[first], back).of(owner), image)
         return cls(image, offsets, rays, seen, seen & rays.passes)
 
     def seen_in(self, windows: Floats) -> tuple[Floats, Bools]:

@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.decals.decal_polygons import Decals, no_decals
 from vectorplot.effects.glass.beams import TOUCHING, Beams, Solid, soup_above, soup_in_beams, totally_reflecting
-from vectorplot.effects.glass.refracted_order import bent_order
+from vectorplot.effects.glass.refracted_order import refracted_order
 from vectorplot.effects.glass.refracted_polygons import Soup, bent
 from vectorplot.effects.windows.window_polygons import (
     SeenThrough,
@@ -212,7 +212,7 @@ def _panes_of(glass: _Glass, front: Ints, back: int) -> Panes:
     view = glass.view
     every = np.arange(len(front))
     outlines = replace(glass.solid.outlines(np.full(len(front), back)), source=every, way=front)
-    backs = bent(view, glass.solid.passages(glass.front), outlines, glass.boxes, glass.tolerance)
+    backs = bent(view, glass.solid.sight_ways(glass.front), outlines, glass.boxes, glass.tolerance)
     faces = polygons_of(image_points(view, backs.points), backs.offsets, np.arange(len(backs)), view.tolerance)
     points, ends, face, pane = _in_panes(view, faces, backs.way, glass.panes)
     parts = ImageFaces(points, ends, faces.planes[:, face], glass.panes.faces.source[pane], faces.rank[face])
@@ -228,8 +228,8 @@ def _open(glass: _Glass, panes: Panes) -> Panes:
 def _bent_inside(glass: _Glass, soup: Soup) -> Soup:
     """What is in a solid as it is seen through each of its front faces."""
     way, polygon = (grid.ravel() for grid in np.mgrid[: len(glass.front), : len(soup)])
-    passages = glass.solid.passages(glass.front)
-    return bent(glass.view, passages, soup.on_ways(polygon, way), glass.boxes, glass.tolerance)
+    sight_ways = glass.solid.sight_ways(glass.front)
+    return bent(glass.view, sight_ways, soup.on_ways(polygon, way), glass.boxes, glass.tolerance)
 
 
 def _as_soup(decals: Decals) -> Soup:
@@ -246,7 +246,7 @@ def _behind(glass: _Glass, beams: Beams, soup: Soup) -> SeenThrough:
     lying = bent(view, beams.leaves, _decals_in(glass, beams, soup), beams.box, glass.tolerance)
     used = np.unique(found.way)
     outlines = replace(solid.outlines(beams.back[used]), source=used, way=beams.front[used])
-    backs = bent(view, solid.passages(glass.front), outlines, glass.boxes, glass.tolerance)
+    backs = bent(view, solid.sight_ways(glass.front), outlines, glass.boxes, glass.tolerance)
     faces = polygons_of(image_points(view, backs.points), backs.offsets, np.arange(len(backs)), view.tolerance)
     points, ends, face, pane = _in_panes(view, faces, backs.way, glass.panes)
     source = glass.panes.faces.source[pane]
@@ -292,7 +292,7 @@ def _shown(glass: _Glass, soup: Soup, lying: Soup, panes: Panes) -> SeenThrough:
     piece = faces.source[face]
     _, bent_face = np.unique(np.stack([soup.way[piece], soup.source[piece]]), axis=1, return_inverse=True)
     off = view.tolerance if view.eye is None else max(glass.tolerance, view.tolerance)
-    order = bent_order(view, parts, bent_face[parts.source], off)
+    order = refracted_order(view, parts, bent_face[parts.source], off)
     through, piece = pane[order.source], piece[order.source]
     source, window = soup.source[piece], panes.window[through]
     bare = SeenThrough(

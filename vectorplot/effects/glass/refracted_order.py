@@ -18,7 +18,7 @@ from vectorplot.visibility.painter.pairs.face_pairs import drawn_before, face_re
 from vectorplot.visibility.painter.pairs.outlines import Outlines, overlapping
 
 
-def bent_order(view: View, parts: ImageFaces, face: Ints, tolerance: float) -> ImageFaces:
+def refracted_order(view: View, parts: ImageFaces, face: Ints, tolerance: float) -> ImageFaces:
     """Parts of bent faces (n,), numbers from 0, back to front; parts of one face stand together, and are not compared.
 
     tolerance: how far, in units of the image, the sides of parts are off the curves they stand for: those that overlap

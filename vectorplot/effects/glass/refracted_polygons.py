@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.effects.glass.sight_rays import Passages, virtual_points
+from vectorplot.effects.glass.sight_rays import SightWays, virtual_points
 from vectorplot.geometry import polylines, ragged, records
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT
 from vectorplot.geometry.records import IN_COLUMNS
@@ -56,7 +56,7 @@ def joined_soups(parts: list[Soup]) -> Soup:
     return polylines.joined((Soup(np.zeros((3, 0)), ragged.offsets(none), none, none), *parts))
 
 
-def bent(view: View, passages: Passages, soup: Soup, windows: Floats, tolerance: float) -> Soup:
+def bent(view: View, sight_ways: SightWays, soup: Soup, windows: Floats, tolerance: float) -> Soup:
     """Polygons with virtual corners; in a perspective cut into triangles until their sides are straight enough.
 
     windows (4,w): smallest and largest x, smallest and largest y of what is looked at on each way. tolerance: how far
@@ -66,11 +66,11 @@ def bent(view: View, passages: Passages, soup: Soup, windows: Floats, tolerance:
     if not len(soup):
         return soup
     if view.eye is None:
-        return _moved(view, passages, soup, windows)
+        return _moved(view, sight_ways, soup, windows)
     going = _fans(soup)
     done = []
     for number in range(MOST_ROUNDS + 1):
-        points, seen = going.virtual(view, passages)
+        points, seen = going.virtual(view, sight_ways)
         off, near = _bends(view, points, seen, windows[:, going.way])
         partly = ~seen.all(axis=0)
         hopeful = seen.any(axis=0) | (number < BLIND_ROUNDS)
@@ -99,9 +99,9 @@ class _Triangles:
         """(3,6,t) the corners and then the middles of the sides that begin there."""
         return np.concatenate([self.corners, 0.5 * (self.corners + np.roll(self.corners, -1, axis=1))], axis=1)
 
-    def virtual(self, view: View, passages: Passages) -> tuple[Floats, Bools]:
+    def virtual(self, view: View, sight_ways: SightWays) -> tuple[Floats, Bools]:
         """(3,6,t) where the corners and middles seem to be, and (6,t) which are seen."""
-        points, seen = virtual_points(view, passages, self.with_middles().reshape(3, -1), np.tile(self.way, 6))
+        points, seen = virtual_points(view, sight_ways, self.with_middles().reshape(3, -1), np.tile(self.way, 6))
         return points.reshape(3, 6, -1), seen.reshape(6, -1)
 
     def halved(self, which: Ints, sides: Bools) -> _Triangles:
@@ -150,10 +150,10 @@ def _as_soup(corners: Floats, source: Ints, way: Ints) -> Soup:
     return Soup(points, np.arange(0, points.shape[1] + 1, 3), source, way)
 
 
-def _moved(view: View, passages: Passages, soup: Soup, windows: Floats) -> Soup:
+def _moved(view: View, sight_ways: SightWays, soup: Soup, windows: Floats) -> Soup:
     """Polygons as they are seen in a parallel projection: they keep straight sides."""
     sizes = np.diff(soup.offsets)
-    points, seen = virtual_points(view, passages, soup.points, np.repeat(soup.way, sizes))
+    points, seen = virtual_points(view, sight_ways, soup.points, np.repeat(soup.way, sizes))
     image = view.image_of(points)
     box = np.stack([over_corners(e, row, soup.offsets) for row in image for e in (np.minimum, np.maximum)])
     kept = np.logical_and.reduceat(seen, soup.offsets[:-1]) & _meet(box, windows[:, soup.way])

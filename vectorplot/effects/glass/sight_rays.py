@@ -33,7 +33,7 @@ POINTS_AT_ONCE = 1 << 15
 
 
 @dataclass(frozen=True, eq=False)
-class Passages:
+class SightWays:
     """Ways of sight rays through plane surfaces, one after the other: normal, point (3,s,w) of s surfaces on w ways,
     the normals pointing the way the rays go; constant (s,) of the refraction at each, for rays in that direction;
     guides (2,w,g): images of rays that pass them, at which the search for others may begin, NaN where there is none."""
@@ -46,7 +46,7 @@ class Passages:
     def __len__(self) -> int:
         return int(self.normal.shape[2])
 
-    def of(self, way: Ints) -> Passages:
+    def of(self, way: Ints) -> SightWays:
         """The ways of some rays; a single way stays the only one of all."""
         if len(self) == 1:
             return self
@@ -76,7 +76,7 @@ def sight_rays(view: View, image: Floats) -> tuple[Floats, Floats]:
     return np.tile(view.eye[:, None], image.shape[1]), np.stack([-x * away, -y * away, away])
 
 
-def traced(view: View, passages: Passages, image: Floats) -> Rays:
+def traced(view: View, sight_ways: SightWays, image: Floats) -> Rays:
     """The rays of points (2,n) of the image, each on the way of its number, or all on the only one.
 
     Degenerate: rays that miss a surface, or are totally reflected there, do not pass; their numbers mean nothing.
@@ -86,8 +86,8 @@ def traced(view: View, passages: Passages, image: Floats) -> Rays:
     passes = np.ones(image.shape[1], dtype=np.bool_)
     path, index = np.zeros(image.shape[1]), 1.0
     entry = place
-    for number, constant in enumerate(passages.constant.tolist()):
-        normal, point = passages.normal[:, number], passages.point[:, number]
+    for number, constant in enumerate(sight_ways.constant.tolist()):
+        normal, point = sight_ways.normal[:, number], sight_ways.point[:, number]
         slope = dot(normal, direction)
         onwards = slope > 0.0
         step = np.where(onwards, dot(normal, point - place) / np.where(onwards, slope, 1.0), 0.0)
@@ -112,8 +112,8 @@ def _refracted(direction: Floats, normal: Floats, slope: Floats, constant: float
     return along + np.sqrt(np.maximum(square, 0.0)) * normal, square < 0.0
 
 
-def virtual_points(view: View, passages: Passages, points: Floats, way: Ints | None = None) -> tuple[Floats, Bools]:
-    """(3,n) where points (3,n) behind passages seem to be, and (n,) which are seen at all.
+def virtual_points(view: View, sight_ways: SightWays, points: Floats, way: Ints | None = None) -> tuple[Floats, Bools]:
+    """(3,n) where points (3,n) behind ways seem to be, and (n,) which are seen at all.
 
     way (n,): which of the ways light takes from each point (None: there is one only).
     A virtual point lies on the straight line on which the eye sees the point, and so far behind the first surface as
@@ -124,30 +124,30 @@ def virtual_points(view: View, passages: Passages, points: Floats, way: Ints | N
     """
     way = np.zeros(points.shape[1], dtype=np.intp) if way is None else way
     found, seen = np.empty_like(points), np.empty(points.shape[1], dtype=np.bool_)
-    guided = _Guides.of(view, passages)
+    guided = _Guides.of(view, sight_ways)
     for low in range(0, points.shape[1], POINTS_AT_ONCE):
         some = slice(low, low + POINTS_AT_ONCE)
-        own, there = passages.of(way[some]), points[:, some]
+        own, there = sight_ways.of(way[some]), points[:, some]
         frame = np.broadcast_to(_frames(own.normal[:, -1]), (2, 3, there.shape[1]))
         image = _met(view, own, frame, there, _guesses(view, own, there, guided, way[some]))
         miss, rays, left = _missed(view, own, frame, there, image)
         behind = left * dot(own.normal[:, -1], rays.direction) >= -TOUCHING * view.tolerance
         seen[some] = rays.passes & (np.abs(miss).max(axis=0) <= MET_OF_EXTENT) & behind
         sight = sight_rays(view, image)[1]
-        found[:, some] = rays.entry + (rays.path + left / float(np.prod(passages.constant))) * sight
+        found[:, some] = rays.entry + (rays.path + left / float(np.prod(sight_ways.constant))) * sight
     return found, seen
 
 
-def _met(view: View, passages: Passages, frame: Floats, points: Floats, image: Floats) -> Floats:
+def _met(view: View, sight_ways: SightWays, frame: Floats, points: Floats, image: Floats) -> Floats:
     """(2,n) the images of the rays that meet points (3,n), each on its way, by Newton's iteration from some (2,n)."""
-    miss, rays, _ = _missed(view, passages, frame, points, image)
+    miss, rays, _ = _missed(view, sight_ways, frame, points, image)
     off = np.where(rays.passes, np.hypot(*miss), np.inf)
     share = np.ones(points.shape[1])
     going = np.flatnonzero(~(off <= SETTLED_OF_EXTENT))
     for _ in range(MOST_STEPS):
         if not len(going):
             break
-        own, axes = passages.of(going), frame[:, :, going]
+        own, axes = sight_ways.of(going), frame[:, :, going]
         here, there, off_here = image[:, going], points[:, going], miss[:, going]
         across, _, _ = _missed(view, own, axes, there, here + ACROSS)
         along, _, _ = _missed(view, own, axes, there, here + ALONG)
@@ -170,7 +170,7 @@ def _met(view: View, passages: Passages, frame: Floats, points: Floats, image: F
 
 @dataclass(frozen=True, eq=False)
 class _Guides:
-    """Rays behind their passages: image (2,w,g), start and rate (2,w,g) across the frame of the last surface, the rate
+    """Rays behind their ways: image (2,w,g), start and rate (2,w,g) across the frame of the last surface, the rate
     per unit of height, and height (w,g) where they start."""
 
     image: Floats
@@ -179,24 +179,24 @@ class _Guides:
     height: Floats
 
     @classmethod
-    def of(cls, view: View, passages: Passages) -> _Guides | None:
-        """The guides of passages, if they have any."""
-        _, ways, count = passages.guides.shape
+    def of(cls, view: View, sight_ways: SightWays) -> _Guides | None:
+        """The guides of ways, if they have any."""
+        _, ways, count = sight_ways.guides.shape
         if not count or view.eye is None:
             return None
-        own = passages.of(np.repeat(np.arange(ways), count))
-        rays = traced(view, own, passages.guides.reshape(2, -1))
+        own = sight_ways.of(np.repeat(np.arange(ways), count))
+        rays = traced(view, own, sight_ways.guides.reshape(2, -1))
         normal = own.normal[:, -1]
         frame = _frames(normal)
         direction = rays.direction / dot(normal, rays.direction)
         start, rate = (np.stack([dot(axis, some) for axis in frame]) for some in (rays.place, direction))
         shape = (2, ways, count)
         height = dot(normal, rays.place).reshape(ways, count)
-        return cls(passages.guides, start.reshape(shape), rate.reshape(shape), height)
+        return cls(sight_ways.guides, start.reshape(shape), rate.reshape(shape), height)
 
-    def nearest(self, passages: Passages, points: Floats, way: Ints) -> Floats:
+    def nearest(self, sight_ways: SightWays, points: Floats, way: Ints) -> Floats:
         """(2,n) the images of those that come nearest to points (3,n) on their ways; NaN where a way has none."""
-        normal = passages.normal[:, -1]
+        normal = sight_ways.normal[:, -1]
         high = dot(normal, points)
         place = np.stack([dot(axis, points) for axis in _frames(normal)])
         found = np.empty((2, points.shape[1]))
@@ -212,28 +212,28 @@ class _Guides:
         return found
 
 
-def _guesses(view: View, passages: Passages, points: Floats, guides: _Guides | None, way: Ints) -> Floats:
+def _guesses(view: View, sight_ways: SightWays, points: Floats, guides: _Guides | None, way: Ints) -> Floats:
     """(2,n) images of rays that come near to points, or meet them: through one surface the rays are known; otherwise of
     the nearest guides, and of the straight line where there are none."""
-    if view.eye is not None and len(passages.constant) == 1:
-        normal, corner = passages.normal[:, 0], passages.point[:, 0]
+    if view.eye is not None and len(sight_ways.constant) == 1:
+        normal, corner = sight_ways.normal[:, 0], sight_ways.point[:, 0]
         below = points - np.minimum(dot(normal, points - corner), 0.0) * normal
-        constant = float(passages.constant[0])
+        constant = float(sight_ways.constant[0])
         return view.image_of(seen_in_surface(view.eye, below.T, -normal.T, corner.T, constant).T)
     straight = view.image_of(points)
     if guides is None:
         return straight
-    found = guides.nearest(passages, points, way)
+    found = guides.nearest(sight_ways, points, way)
     return np.where(np.isnan(found), straight, found)
 
 
 def _missed(
-    view: View, passages: Passages, frame: Floats, points: Floats, image: Floats
+    view: View, sight_ways: SightWays, frame: Floats, points: Floats, image: Floats
 ) -> tuple[Floats, Rays, Floats]:
     """By how much (2,n) rays miss points, measured along the last surface; the rays, and how far behind it the points
     are, along the rays."""
-    rays = traced(view, passages, image)
-    normal = passages.normal[:, -1]
+    rays = traced(view, sight_ways, image)
+    normal = sight_ways.normal[:, -1]
     slope = dot(normal, rays.direction)
     left = dot(normal, points - rays.place) / np.where(slope > 0.0, slope, 1.0)
     off = rays.place + left * rays.direction - points

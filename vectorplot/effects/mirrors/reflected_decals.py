@@ -49,10 +49,10 @@ def double_decals(
         patterns = replace(patterns, points=mirrors.reflected(number, patterns.points))
         found.append(shadowed_patterns(scene, mirrored, lighting, patterns, joined_decals(*found)))
     if lights and any(item.material.opacity < 1.0 for item in scene.items):
-        from vectorplot.effects.shadows.transparent_shadows import clear_shadows
+        from vectorplot.effects.shadows.transparent_shadows import transparent_shadows
 
         found.append(
-            clear_shadows(mirrored, scene, lights, found[0], receivers=shown, projected=projected, budget=budget)
+            transparent_shadows(mirrored, scene, lights, found[0], receivers=shown, projected=projected, budget=budget)
         )
     return tuple(found)
 

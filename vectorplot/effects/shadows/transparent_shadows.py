@@ -33,7 +33,7 @@ def is_clear(item: Item) -> bool:
     return item.material.is_clear and item.material.opacity > 0.0
 
 
-def clear_shadows(
+def transparent_shadows(
     view: View,
     scene: Scene,
     lights: Sequence[Light],

@@ -73,7 +73,7 @@ def check_file(path: Path) -> int:
 
 
 @dataclass(frozen=True, eq=False)
-class Lines:
+class TextLines:
     """Some lines of a text that hold words, in the order of the file.
 
     text: the padded piece of the file; starts, ends (w,) of its words; first (l,) the first word of every line, count
@@ -88,10 +88,10 @@ class Lines:
     count: Ints
     offset: int
 
-    def part(self, begin: int, end: int) -> Lines:
+    def part(self, begin: int, end: int) -> TextLines:
         """The lines from begin to before end."""
         first, count = self.first[begin:end], self.count[begin:end]
-        return Lines(self.source, self.text, self.starts, self.ends, first, count, self.offset)
+        return TextLines(self.source, self.text, self.starts, self.ends, first, count, self.offset)
 
     def word(self, index: int) -> str:
         """A word by its number."""
@@ -135,7 +135,7 @@ class TextFile:
         """An InputError that names the last line."""
         self.fail(len(self.data.rstrip()), cause)
 
-    def lines(self, *, comment: bytes = b"#", slashed: bool = False) -> Iterator[Lines]:
+    def lines(self, *, comment: bytes = b"#", slashed: bool = False) -> Iterator[TextLines]:
         """The lines in pieces of half a megabyte; slashed: of a word like 7/3/2 the part before the first slash."""
         begin = self.begin
         while begin < len(self.data):
@@ -144,7 +144,9 @@ class TextFile:
             yield self._piece(begin, end, comment, slashed)
             begin = end
 
-    def sections(self, counts: list[int], names: list[str], *, comment: bytes = b"#") -> Iterator[tuple[int, Lines]]:
+    def sections(
+        self, counts: list[int], names: list[str], *, comment: bytes = b"#"
+    ) -> Iterator[tuple[int, TextLines]]:
         """The lines of consecutive sections with the given counts of lines, each piece with the number of its section.
 
         Errors: InputError if the file ends before.
@@ -164,7 +166,7 @@ class TextFile:
             total = counts[section]
             self.fail_at_end(f"the file ends after {total - missing} of {total} {names[section]}")
 
-    def _piece(self, begin: int, end: int, comment: bytes, slashed: bool) -> Lines:
+    def _piece(self, begin: int, end: int, comment: bytes, slashed: bool) -> TextLines:
         text = padded(self.data[begin:end])
         breaks = np.flatnonzero(text == ord("\n"))
         if comment and self.data.find(comment, begin, end) >= 0:
@@ -182,7 +184,7 @@ class TextFile:
         first = np.concatenate([[0], np.searchsorted(starts, breaks)])
         count = np.diff(first, append=len(starts))
         first, count = first[count > 0], count[count > 0]
-        return Lines(self, text, starts, ends, first, count, begin - PAD)
+        return TextLines(self, text, starts, ends, first, count, begin - PAD)
 
 
 def _blank_comments(text: Bytes, breaks: Ints, mark: int) -> None:

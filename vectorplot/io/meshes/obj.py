@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.io.meshes.mesh_file import JOINT, Lines, MeshFile, TextFile, joined, polygon_mesh, text_file
+from vectorplot.io.meshes.mesh_file import JOINT, MeshFile, TextFile, TextLines, joined, polygon_mesh, text_file
 from vectorplot.tolerances.of_numbers import ULP
 
 
@@ -54,7 +54,7 @@ def _with_joined_lines(text: TextFile) -> TextFile:
     return TextFile(text.name, data)
 
 
-def _read_lines(lines: Lines, found: _Found) -> None:
+def _read_lines(lines: TextLines, found: _Found) -> None:
     letters = lines.text[lines.starts[lines.first]]
     single = lines.ends[lines.first] - lines.starts[lines.first] == 1
     is_vertex, is_face = single & (letters == ord("v")), single & (letters == ord("f"))
@@ -66,13 +66,13 @@ def _read_lines(lines: Lines, found: _Found) -> None:
     _read_vertices(lines, is_vertex, found)
 
 
-def _rest_of_line(lines: Lines, word: int) -> str:
+def _rest_of_line(lines: TextLines, word: int) -> str:
     data, begin = lines.source.data, int(lines.ends[word]) + lines.offset
     end = data.find(b"\n", begin)
     return " ".join(data[begin : len(data) if end < 0 else end].decode("utf-8", "replace").split())
 
 
-def _read_vertices(lines: Lines, is_vertex: Bools, found: _Found) -> None:
+def _read_vertices(lines: TextLines, is_vertex: Bools, found: _Found) -> None:
     first = lines.first[is_vertex]
     short = lines.count[is_vertex] < 4
     if short.any():
@@ -85,7 +85,7 @@ def _read_vertices(lines: Lines, is_vertex: Bools, found: _Found) -> None:
     found.vertex_count += len(first)
 
 
-def _read_faces(lines: Lines, is_vertex: Bools, is_face: Bools, found: _Found) -> None:
+def _read_faces(lines: TextLines, is_vertex: Bools, is_face: Bools, found: _Found) -> None:
     first, size = lines.first[is_face] + 1, lines.count[is_face] - 1
     if len(first) == 0:
         return

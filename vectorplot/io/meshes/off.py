@@ -10,7 +10,15 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.io.meshes.mesh_file import Lines, MeshFile, TextFile, check_announced, joined, polygon_mesh, text_file
+from vectorplot.io.meshes.mesh_file import (
+    MeshFile,
+    TextFile,
+    TextLines,
+    check_announced,
+    joined,
+    polygon_mesh,
+    text_file,
+)
 from vectorplot.tolerances.of_numbers import ULP
 
 # The keyword may be missing, or stand in one line with the counts (ModelNet writes it without a blank). What a part of
@@ -61,19 +69,19 @@ def _header(text: TextFile) -> tuple[TextFile, int, int]:
     return TextFile(text.name, text.data, match.end()), vertices, faces
 
 
-def _vertices(lines: Lines) -> Floats:
+def _vertices(lines: TextLines) -> Floats:
     short = lines.count < 3
     if short.any():
         lines.fail(int(lines.first[short][0]), "a vertex needs three coordinates")
     return lines.decimals(lines.first[:, None] + np.arange(3))
 
 
-def _faces(lines: Lines, vertex_count: int) -> tuple[Ints, Ints]:
+def _faces(lines: TextLines, vertex_count: int) -> tuple[Ints, Ints]:
     sizes = lines.integers(lines.first)
     return face_corners(lines, lines.first + 1, sizes, lines.first + lines.count, vertex_count)
 
 
-def face_corners(lines: Lines, first: Ints, sizes: Ints, stop: Ints, vertex_count: int) -> tuple[Ints, Ints]:
+def face_corners(lines: TextLines, first: Ints, sizes: Ints, stop: Ints, vertex_count: int) -> tuple[Ints, Ints]:
     """Corners and sizes of the polygons whose indices, from 0, begin at the words first in lines that end before stop.
 
     Polygons of fewer than three corners are left out. Errors: InputError with the line for a size that the line does
