@@ -92,9 +92,20 @@ def face_intersections(faces: Faces, part: Ints, tolerance: float) -> Intersecti
     found = [Intersections(none, none, np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
     one, two = _pairs_of_faces(faces, part, tolerance)
     chunks = slices(len(one), FACES_AT_ONCE)
-    found.extend(mapped(lambda some: _meet(faces, one[some], two[some], tolerance), chunks))
+    normals = _normals_of(faces, one, two)
+    found.extend(mapped(lambda some: _meet(faces, normals, one[some], two[some], tolerance), chunks))
     whole = records.joined(found)
     return records.some(whole, _first_of_equal(whole.start, whole.end, tolerance))
+
+
+def _normals_of(faces: Faces, one: Ints, two: Ints) -> Floats:
+    """(3,f) unit normals of all faces that are in a pair."""
+    normals = np.zeros((3, len(faces.offsets) - 1))
+    paired = np.zeros(normals.shape[1], dtype=np.bool_)
+    paired[one] = paired[two] = True
+    which = np.flatnonzero(paired)
+    normals[:, which] = unit_normals(faces, which)
+    return normals
 
 
 def _first_of_equal(start: Floats, end: Floats, tolerance: float) -> Ints:
@@ -143,7 +154,7 @@ def _may_meet(faces: Faces, part: Ints, one: Ints, two: Ints, tolerance: float) 
         pair = kept[some]
         axis = cross(along[:, one[pair]], along[:, two[pair]])
         spans = [_spans(faces, corner, offsets, which[pair], axis) for which in (one, two)]
-        gap = tolerance * np.sqrt((axis * axis).sum(axis=0))
+        gap = tolerance * np.sqrt(dot(axis, axis))
         away = (spans[0][0] > spans[1][1] + gap) | (spans[1][0] > spans[0][1] + gap)
         return np.asarray(pair[away], dtype=np.intp)
 
@@ -216,13 +227,13 @@ def _within_pairs(
     return sides[0][1][one], sides[1][1][two]
 
 
-def _meet(faces: Faces, one: Ints, two: Ints, tolerance: float) -> Intersections:
+def _meet(faces: Faces, normals: Floats, one: Ints, two: Ints, tolerance: float) -> Intersections:
     """The segments of these pairs of faces that do meet: the first face cut by the second's plane, then clipped by the
     second's edges."""
-    normal_one, normal_two = unit_normals(faces, one), unit_normals(faces, two)
+    normal_one, normal_two = normals[:, one], normals[:, two]
     origin_one, origin_two = (faces.points[:, faces.corners[faces.offsets[f]]] for f in (one, two))
-    across = np.cross(normal_one, normal_two, axis=0)
-    meet = _reaches_over(faces, two, normal_one, origin_one, tolerance) & ((across * across).sum(axis=0) > 0.0)
+    across = cross(normal_one, normal_two)
+    meet = _reaches_over(faces, two, normal_one, origin_one, tolerance) & (dot(across, across) > 0.0)
     some = np.flatnonzero(meet)
     kept = some[_reaches_over(faces, one[some], normal_two[:, some], origin_two[:, some], tolerance)]
     one, two, across = one[kept], two[kept], across[:, kept]
@@ -230,7 +241,7 @@ def _meet(faces: Faces, one: Ints, two: Ints, tolerance: float) -> Intersections
     kept_two = normal_two[:, kept][:, cuts]
     one, two, start, end = one[cuts], two[cuts], start[:, cuts], end[:, cuts]
     low, high = _clip_by_edges(faces, two, kept_two, start, end, tolerance)
-    length = np.sqrt(((end - start) ** 2).sum(axis=0))
+    length = np.sqrt(dot(end - start, end - start))
     met = np.flatnonzero((high - low) * length > tolerance)
     along = (end - start)[:, met]
     return Intersections(start[:, met] + low[met] * along, start[:, met] + high[met] * along, one[met], two[met])
@@ -251,7 +262,7 @@ def _heights(
     """Distances of the corners of some faces from planes, snapped to zero, with _corners_of."""
     position, owner, starts = _corners_of(faces, which)
     arm = faces.points[:, faces.corners[position]] - origin[:, owner]
-    height = (arm * normal[:, owner]).sum(axis=0)
+    height = dot(arm, normal[:, owner])
     height[np.abs(height) <= tolerance] = 0.0
     return height, position, owner, starts
 
@@ -274,12 +285,12 @@ def _cut_by_plane(
         return np.zeros((3, 0)), np.zeros((3, 0)), np.zeros(0, dtype=np.bool_)
     height, position, owner, starts = _heights(faces, which, normal, origin, tolerance)
     here = faces.points[:, faces.corners[position]]
-    after = faces.after(position) - position + np.arange(len(position))
+    after = ragged.following(np.append(starts, len(position)))
     step = np.where(
         height * height[after] < 0.0, height / np.where(height == height[after], 1.0, height - height[after]), 0.0
     )
     on_plane = here + step * (here[:, after] - here)
-    along = (on_plane * across[:, owner]).sum(axis=0)
+    along = dot(on_plane, across[:, owner])
     hit = (height == 0.0) | (height * height[after] < 0.0)
     first, last = np.where(hit, along, np.inf), np.where(hit, along, -np.inf)
     low, high = np.minimum.reduceat(first, starts), np.maximum.reduceat(last, starts)
@@ -299,12 +310,13 @@ def _clip_by_edges(
     low, high = np.zeros(len(which)), np.ones(len(which))
     size = faces.offsets[which + 1] - faces.offsets[which]
     for step in range(int(size.max(initial=0))):
-        position = faces.offsets[which] + np.minimum(step, size - 1)
-        a = faces.points[:, faces.corners[position]]
-        side = faces.points[:, faces.corners[faces.after(position)]] - a
-        inward = np.cross(normal, side, axis=0)
-        inward /= np.maximum(np.sqrt((inward * inward).sum(axis=0)), LEAST_DIVISOR)
-        at_start, at_end = ((inward * (p - a)).sum(axis=0) for p in (start, end))
+        here = np.minimum(step, size - 1)
+        there = np.where(here + 1 < size, here + 1, 0)
+        a, b = (faces.points[:, faces.corners[faces.offsets[which] + place]] for place in (here, there))
+        side = b - a
+        inward = cross(normal, side)
+        inward /= np.maximum(np.sqrt(dot(inward, inward)), LEAST_DIVISOR)
+        at_start, at_end = (dot(inward, p - a) for p in (start, end))
         at_start[np.abs(at_start) <= tolerance] = 0.0
         at_end[np.abs(at_end) <= tolerance] = 0.0
         crossing = at_start * at_end < 0.0
