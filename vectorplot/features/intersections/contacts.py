@@ -83,11 +83,12 @@ class _Middles:
     high: Floats
 
 
-def _middles(sheet: Sheet) -> _Middles:
+def _middles(sheet: Sheet, which: Ints) -> _Middles:
+    """Those of some of the triangles."""
     own = sheet.tessellation
-    corners = own.points[own.triangles]
-    places = own.places.mean(axis=1)
-    sides = 0.5 * (own.places + np.roll(own.places, -1, axis=1))
+    corners, own_places = own.points[own.triangles[which]], own.places[which]
+    places = own_places.mean(axis=1)
+    sides = 0.5 * (own_places + np.roll(own_places, -1, axis=1))
     between = 0.5 * (corners + np.roll(corners, -1, axis=1))
     points = sheet.points(places)
     count, dimension = len(places), places.shape[1]
@@ -96,17 +97,18 @@ def _middles(sheet: Sheet) -> _Middles:
         sag = np.fmax(np.fmax.reduce(off, axis=1), np.linalg.norm(points - corners.mean(axis=1), axis=1))
     sag = 1.5 * np.nan_to_num(sag)
     normals = sheet.normals(places)
-    around = sheet.normals(own.places.reshape(-1, dimension)).reshape(count, 3, 3)
+    around = sheet.normals(own_places.reshape(-1, dimension)).reshape(count, 3, 3)
     cosine = np.abs((around * normals[:, None]).sum(axis=2)).min(axis=1, initial=1.0)
-    low, high = own.boxes
+    low, high = (side[:, which] for side in own.boxes)
     return _Middles(places, points, normals, np.arccos(np.clip(cosine, 0.0, 1.0)), low - sag, high + sag)
 
 
 def _near_pairs(one: Sheet, two: Sheet, same: bool) -> tuple[Ints, Ints]:
     """Pairs of triangles between which there may be a contact."""
-    a = _middles(one)
-    b = a if same else _middles(two)
-    cells = one.tessellation.cells, two.tessellation.cells
+    first, second = _beside(one, two), _beside(two, one)
+    a = _middles(one, first)
+    b = a if same else _middles(two, second)
+    cells = one.tessellation.cells[first], two.tessellation.cells[second]
     i, j = overlapping_in_cells((a.low, a.high, cells[0]), (b.low, b.high, cells[1]))
     if same:
         i, j = i[i < j], j[i < j]
@@ -116,13 +118,26 @@ def _near_pairs(one: Sheet, two: Sheet, same: bool) -> tuple[Ints, Ints]:
     near = cosine >= np.cos(np.minimum(a.spread[i] + b.spread[j] + 0.05, 0.5 * np.pi))
     i, j = i[near], j[near]
     if not len(i):
-        return i, j
+        return first[i], second[j]
     distance = np.linalg.norm(a.points[i] - b.points[j], axis=1)
     order = np.lexsort((distance, i))
     i, j = i[order], j[order]
-    first = np.flatnonzero(np.concatenate([[True], i[1:] != i[:-1]]))
-    rank = np.arange(len(i)) - np.repeat(first, np.diff(np.append(first, len(i))))
-    return i[rank < NEAREST], j[rank < NEAREST]
+    starts = np.flatnonzero(np.concatenate([[True], i[1:] != i[:-1]]))
+    rank = np.arange(len(i)) - np.repeat(starts, np.diff(np.append(starts, len(i))))
+    return first[i[rank < NEAREST]], second[j[rank < NEAREST]]
+
+
+def _beside(one: Sheet, two: Sheet) -> Ints:
+    """The triangles of the one sheet that the other may come near: those within its box, and a triangle around it."""
+    boxes = [sheet.tessellation.boxes for sheet in (one, two)]
+    if not all(low.size for low, _ in boxes):
+        return np.zeros(0, dtype=np.intp)
+    slack = max(float((high - low).max()) for low, high in boxes)
+    (low, high), (other_low, other_high) = boxes
+    near = (low <= other_high.max(axis=1, keepdims=True) + slack) & (
+        high >= other_low.min(axis=1, keepdims=True) - slack
+    )
+    return np.flatnonzero(near.all(axis=0))
 
 
 def _stationary(one: Sheet, two: Sheet, i: Ints, j: Ints, same: bool) -> Contacts:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Protocol
 
@@ -169,6 +169,20 @@ class SurfaceSheet:
         low = np.where(closed, -np.inf, (domain.u_start, domain.v_start))
         high = np.where(closed, np.inf, (domain.u_end, domain.v_end))
         return np.clip(places, low, high)
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceGrids:
+    """A surface that is polygonised once by each grid, however many others it may meet."""
+
+    surface: Surface
+    made: dict[tuple[int, int], SurfaceSheet] = field(default_factory=dict)
+
+    def sheet(self, columns: int, rows: int) -> SurfaceSheet:
+        """Its sheet of so many columns times rows cells."""
+        if (columns, rows) not in self.made:
+            self.made[columns, rows] = SurfaceSheet(self.surface, columns, rows)
+        return self.made[columns, rows]
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ from vectorplot.features.intersections.double_curves import (
 )
 from vectorplot.features.intersections.double_nodes import missed_loops, through_nodes
 from vectorplot.features.intersections.meeting_points import zero_between
-from vectorplot.features.intersections.sheets import MeshSheet, Sheet, SurfaceSheet
+from vectorplot.features.intersections.sheets import MeshSheet, Sheet, SurfaceGrids, SurfaceSheet
 from vectorplot.features.intersections.surface_pairs import Traced, traced, without_crowds, without_zigzags
 from vectorplot.features.intersections.triangle_pairs import Piercings, overlapping_triangles, piercings
 from vectorplot.features.parametric.curve_tracing import Tracing
@@ -75,8 +75,13 @@ def surface_intersection(one: Surface, two: Surface, *, tracing: Tracing = DEFAU
     >>> len(curves), bool(np.allclose(np.abs(curves.points[:, 2]), 0.8))
     (2, True)
     """
+    return intersection_of_grids(SurfaceGrids(one), SurfaceGrids(two), tracing)
+
+
+def intersection_of_grids(one: SurfaceGrids, two: SurfaceGrids, tracing: Tracing) -> DoubleCurves:
+    """The same of surfaces that are polygonised once for several intersections."""
     for columns, rows in finer_grids(tracing.columns, tracing.rows):
-        first, second = (SurfaceSheet(s, columns, rows) for s in (one, two))
+        first, second = one.sheet(columns, rows), two.sheet(columns, rows)
         pairs = overlapping_triangles(first.tessellation, second.tessellation)
         found = piercings(first.tessellation, second.tessellation, pairs)
         all_ = joined(first, second, found, contacts(first, second), tracing, same=False)

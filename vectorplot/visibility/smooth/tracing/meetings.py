@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations
 
 import numpy as np
 
@@ -11,8 +11,10 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.features.intersections.double_curves import DoubleCurves
 from vectorplot.features.intersections.mesh_section import mesh_section
 from vectorplot.features.intersections.self_intersection import self_intersections
-from vectorplot.features.intersections.surface_intersection import surface_intersection
+from vectorplot.features.intersections.sheets import SurfaceGrids
+from vectorplot.features.intersections.surface_intersection import intersection_of_grids
 from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.geometry.boxes import overlapping_boxes
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.scene.scene import Scene
@@ -32,6 +34,9 @@ from vectorplot.visibility.smooth.tracing.traced_curves import Curves, no_curves
 from vectorplot.words import LineKind
 
 SmoothSheet = ParametricSheet | ImplicitSheet
+
+SLACK = 0.01
+"""Part of its size that a tessellation may lie inside of its sheet."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,11 +66,12 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
             itself[number] = len(found) > 0 or bool(found.doubts)
             doubts += [f"{scene.items[sheet.item].name}: {text}" for text in found.doubts]
             parts.append(_double(found, sheet, number, sheet, number, sheet.item))
-    # The sheets of one item are parts of one surface, which meet at its sharp edges only.
-    for one, two in combinations(range(len(sheets)), 2):
+    grids = [SurfaceGrids(sheet.surface) if isinstance(sheet, ParametricSheet) else None for sheet in sheets]
+    for one, two in _neighbours(boxes):
         items = [i for i in sorted((sheets[one].item, sheets[two].item)) if wants[i]]
-        if items and sheets[one].item != sheets[two].item and _overlap(boxes[one], boxes[two]):
-            part, unsure = _pair(sheets, one, two, items[0], tracing)
+        # The sheets of one item are parts of one surface, which meet at its sharp edges only.
+        if items and sheets[one].item != sheets[two].item:
+            part, unsure = _pair(sheets, grids, one, two, items[0], tracing)
             names = " and ".join(scene.items[sheets[k].item].name for k in (one, two))
             doubts += [f"{names}: {text}" for text in unsure]
             parts.append(part)
@@ -82,8 +88,26 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
     return Meetings(together(parts), itself, tuple(doubts))
 
 
+def _neighbours(boxes: Sequence[Floats]) -> list[tuple[int, int]]:
+    """The pairs of boxes (2,3), each once, that overlap as `_overlap` says."""
+    if not boxes:
+        return []
+    known = np.flatnonzero([np.isfinite(box).all() for box in boxes])
+    low, high = np.array(boxes)[known].transpose(1, 2, 0)
+    slack = SLACK * (high - low).max(axis=0, initial=0.0)
+    one, two = overlapping_boxes(low - slack, high + slack, low - slack, high + slack)
+    one, two = known[one[one < two]], known[two[one < two]]
+    order = np.lexsort((two, one))
+    return list(zip(one[order].tolist(), two[order].tolist(), strict=True))
+
+
 def _pair(
-    sheets: tuple[SmoothSheet, ...], one: int, two: int, item: int, tracing: Tracing
+    sheets: tuple[SmoothSheet, ...],
+    grids: Sequence[SurfaceGrids | None],
+    one: int,
+    two: int,
+    item: int,
+    tracing: Tracing,
 ) -> tuple[Curves, tuple[str, ...]]:
     """The curves of two sheets, given by their numbers."""
     first, second = sheets[one], sheets[two]
@@ -93,7 +117,9 @@ def _pair(
         return parametrised_with_implicit(second, two, first, one, item, tracing)
     if isinstance(second, ImplicitSheet):
         return parametrised_with_implicit(first, one, second, two, item, tracing)
-    found = surface_intersection(first.surface, second.surface, tracing=tracing)
+    first_grids, second_grids = grids[one], grids[two]
+    assert first_grids is not None and second_grids is not None
+    found = intersection_of_grids(first_grids, second_grids, tracing)
     return _double(found, first, one, second, two, item), found.doubts
 
 
@@ -137,7 +163,7 @@ def _overlap(one: Floats, two: Floats) -> bool:
     """Whether boxes overlap, tessellations a little inside of them."""
     if not (np.isfinite(one).all() and np.isfinite(two).all()):
         return False
-    slack = 0.01 * float(np.ptp(one, axis=0).max() + np.ptp(two, axis=0).max())
+    slack = SLACK * float(np.ptp(one, axis=0).max() + np.ptp(two, axis=0).max())
     return bool((one[0] <= two[1] + slack).all() and (two[0] <= one[1] + slack).all())
 
 
