@@ -23,6 +23,10 @@ from vectorplot.tolerances.of_values import DERIVATIVES_AGREE
 _SLOPES = np.array([[2, -3, -1, 1], [-8, 6, 16, -8], [12, 0, -30, 0], [-8, -6, 16, 8], [2, 3, -1, -1]]) / 12.0
 _NODES = np.arange(-2.0, 3.0)
 
+FEW_PLACES = 2048
+"""At no more places than that a function takes longer to call than to compute; at more, one parameter is complex at a
+time: the others stay real numbers, which are quicker."""
+
 FEW_LOOKS = 15
 """Places along each side at which a function is looked at where every place is a call."""
 _FILTERS = Lock()
@@ -88,7 +92,7 @@ class NumericFunction:
 
     def gradient(self, *parameters: Floats) -> tuple[Floats, ...]:
         """(..., k) derivatives by each parameter: the function is called as seldom as can be."""
-        if not self.by_complex_step:
+        if not self.by_complex_step or np.size(parameters[0]) > FEW_PLACES:
             return tuple(self.derivatives(axis, *parameters) for axis in range(len(self.ranges)))
 
         def evaluate(flat: list[Floats]) -> Floats:
@@ -101,7 +105,7 @@ class NumericFunction:
         called as seldom as can be."""
         count = len(self.ranges)
         pairs = [(axis, other) for axis in range(count) for other in range(axis, count)]
-        if not self.by_complex_step:
+        if not self.by_complex_step or len(_NODES) * np.size(parameters[0]) > FEW_PLACES:
             return tuple(self.second_derivatives(*pair, *parameters) for pair in pairs)
 
         def evaluate(flat: list[Floats]) -> Floats:

@@ -57,16 +57,16 @@ class ImplicitFunction:
         xyz = _coordinates(points)
         if self.gradient is not None:
             return self.gradient.values(*xyz)
-        return np.stack([self.function.derivatives(axis, *xyz)[..., 0] for axis in range(3)], axis=-1)
+        return np.concatenate(self.function.gradient(*xyz), axis=-1)
 
     def hessians(self, points: Floats) -> Floats:
         """(..., 3, 3) second derivatives."""
         xyz = _coordinates(points)
         if self.gradient is not None:
-            rows = np.stack([self.gradient.derivatives(axis, *xyz) for axis in range(3)], axis=-2)
+            rows = np.stack(self.gradient.gradient(*xyz), axis=-2)
             return np.asarray(0.5 * (rows + np.swapaxes(rows, -1, -2)))
-        parts = {(i, j): self.function.second_derivatives(i, j, *xyz)[..., 0] for i in range(3) for j in range(i, 3)}
-        return np.stack([np.stack([parts[min(i, j), max(i, j)] for j in range(3)], -1) for i in range(3)], -2)
+        xx, xy, xz, yy, yz, zz = (part[..., 0] for part in self.function.hessian(*xyz))
+        return np.stack([np.stack(row, -1) for row in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))], -2)
 
 
 def _coordinates(points: Floats) -> tuple[Floats, Floats, Floats]:
@@ -149,5 +149,5 @@ def hessians(surface: ImplicitSurface, points: Floats) -> Floats:
 
     ranges = [Range(float(low), float(high)) for low, high in np.asarray(surface.box).T]
     slopes = numeric_function(gradient, 3, ranges)
-    rows = np.stack([slopes.derivatives(axis, *_coordinates(points)) for axis in range(3)], axis=-2)
+    rows = np.stack(slopes.gradient(*_coordinates(points)), axis=-2)
     return np.asarray(0.5 * (rows + np.swapaxes(rows, -1, -2)))
