@@ -78,7 +78,7 @@ def calls(scene: Scene, camera: Camera) -> int:
         ("tori", ring, NO_LINES, (10, 30, 100), 80_000),
         ("tori, 24x12 lines", ring, SurfaceLines(24, 12), (10, 30), 110_000),
         ("hyperboloids", waist, NO_LINES, (10, 30, 100), 45_000),
-        ("users' functions", wave, NO_LINES, (5, 15, 50), 160_000),
+        ("users' functions", wave, NO_LINES, (5, 15, 50), 320_000),
     ],
     ids=["tori", "lines", "hyperboloids", "functions"],
 )
