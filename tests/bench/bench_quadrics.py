@@ -1,4 +1,4 @@
-"""Many spheres from a scene to a drawing: run with ``pytest tests/bench/bench_quadrics.py -s``."""
+"""Many spheres and capped bodies from a scene to a drawing: run with ``pytest tests/bench/bench_quadrics.py -s``."""
 
 from __future__ import annotations
 
@@ -8,10 +8,14 @@ import pytest
 from vectorplot.draw import draw
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.plan import StageReport
+from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.speed.clock import cpu_seconds
+from vectorplot.surfaces.families.capped import Capped, rod
+from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.testing.shapes import box
 
 pytestmark = pytest.mark.bench
 
@@ -39,9 +43,41 @@ def protein(count: int) -> Scene:
     return Scene(tuple(Item(str(k), Sphere(r, c)) for k, (c, r) in enumerate(pairs)))
 
 
+def forest(count: int) -> Scene:
+    """Cylinders and cones that stand on a ground."""
+    rng = np.random.default_rng(3)
+    side = int(np.ceil(np.sqrt(count)))
+    step = 10.0 / side
+    items = [Item("ground", box((-1.0, -1.0, -0.1), (11.0, 11.0, 0.0)))]
+    for number in range(count):
+        place = (*(step * (np.array(divmod(number, side)) + rng.uniform(-0.2, 0.2, 2))).tolist(), 0.0)
+        height, radius = step * rng.uniform(0.3, 1.5), step * rng.uniform(0.1, 0.27)
+        round_ = Cylinder(radius, 0.0, height, place) if number % 2 else Cone.standing(radius, height, place)
+        items.append(Item(str(number), Capped(round_)))
+    return Scene(tuple(items))
+
+
+def molecule(count: int) -> Scene:
+    """Atoms as balls, and bonds from the middle of one to that of the next, five for every four atoms."""
+    rng = np.random.default_rng(5)
+    side = int(np.ceil(count ** (1.0 / 3.0)))
+    cells = np.stack(np.meshgrid(*[np.arange(side)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)[:count]
+    number = np.full((side + 1,) * 3, -1)
+    number[tuple(cells.T)] = np.arange(count)
+    places = (cells + rng.uniform(-0.07, 0.07, (count, 3))) * (10.0 / side)
+    radii = rng.uniform(0.2, 0.3, count) * (10.0 / side)
+    ways = [np.stack([np.arange(count), number[tuple((cells + way).T)]]) for way in np.eye(3, dtype=int)]
+    pairs = np.concatenate(ways, axis=1)
+    bonds = rng.permutation(pairs[:, pairs[1] >= 0], axis=1)[:, : 5 * count // 4]
+    items = [Item(f"atom {k}", Sphere(float(r), p)) for k, (p, r) in enumerate(zip(places, radii, strict=True))]
+    for one, two in bonds.T.tolist():
+        items.append(Item(f"bond {one} {two}", rod(places[one], places[two], 0.6 / side)))
+    return Scene(tuple(items))
+
+
 def bare(scene: Scene) -> float:
     """What projecting 32 points of each sphere and sorting them by depth takes."""
-    centres = np.array([item.shape.centre for item in scene.items])
+    centres = np.array([0.5 * smooth_bounds(item.shape).sum(axis=0) for item in scene.items if item.name != "ground"])
     around = np.random.default_rng(1).normal(size=(32, 1, 3))
 
     def project() -> None:
@@ -82,5 +118,17 @@ def test_twelve_meridians_each() -> None:
 
 def test_a_protein() -> None:
     exponent = measured("atoms that pierce each other", {count: protein(count) for count in (500, 5000)})
+    print(f"  growth exponent {exponent:.2f}")
+    assert exponent < 1.2
+
+
+def test_a_forest_on_a_ground() -> None:
+    exponent = measured("cones and cylinders on a ground", {count: forest(count) for count in (250, 1000, 4000)})
+    print(f"  growth exponent {exponent:.2f}")
+    assert exponent < 1.2
+
+
+def test_balls_on_sticks() -> None:
+    exponent = measured("atoms with bonds from middle to middle", {count: molecule(count) for count in (500, 2000)})
     print(f"  growth exponent {exponent:.2f}")
     assert exponent < 1.2

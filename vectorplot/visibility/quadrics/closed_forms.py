@@ -35,10 +35,11 @@ from vectorplot.visibility.quadrics.lines.ball_meetings import (
     overlapping_balls,
 )
 from vectorplot.visibility.quadrics.lines.body_meetings import (
+    are_bodies_apart,
     capped_at_faces,
     circles_on_one_axis,
+    near_capped,
     on_one_axis,
-    overlapping_capped,
 )
 from vectorplot.visibility.quadrics.lines.capped_arcs import capped_arcs
 from vectorplot.visibility.quadrics.lines.meetings_inside import meet_inside_balls
@@ -223,25 +224,32 @@ def _apart(scene: Scene, view: View, bodies: Bodies, wants: Bools, hidden_too: b
     """The bodies that meet no other surfaces where that is wanted, and which of them meet."""
     count, asked = len(bodies.balls), wants[bodies.item]
     one, two = overlapping_balls(bodies.balls)
-    first, second = overlapping_capped(bodies)
-    both = asked[first] | asked[second]
-    first, second = first[both], second[both]
-    mixed = first < count
+    first, second = near_capped(bodies, asked)
+    axial = first < count
+    axial[axial] = on_one_axis(bodies, first[axial], second[axial] - count)
+    ball, capped = first[axial], second[axial]
+    first, second = first[~axial], second[~axial]
     if not hidden_too:
-        ball, capped = first[mixed], second[mixed] - count
+        flat = np.flatnonzero(first >= count)
         inside = np.zeros(len(first), dtype=np.bool_)
-        inside[~mixed] = meet_inside_balls(bodies, first[~mixed] - count, second[~mixed] - count, ball, capped)
-        first, second, mixed = first[~inside], second[~inside], mixed[~inside]
+        inside[flat] = meet_inside_balls(bodies, first[flat] - count, second[flat] - count, ball, capped - count)
+        first, second = first[~inside], second[~inside]
+    apart = are_bodies_apart(bodies, first, second)
+    first, second = first[~apart], second[~apart]
     body, face = capped_at_faces(view, bodies.capped)
     item = view.face_item[face]
     wanted = asked[count + body] | wants[item]
     in_faces = np.unique(np.stack([count + body[wanted], item[wanted]], axis=1), axis=0)
-    balls = np.flatnonzero(asked[one] | asked[two])
-    pairs = np.concatenate([np.stack([one[balls], two[balls]]), np.stack([first, second])], axis=1)
-    closed = np.concatenate([are_homothetic(bodies.balls, one[balls], two[balls])[0], np.zeros(len(first), np.bool_)])
-    closed[len(balls) :][mixed] = on_one_axis(bodies, first[mixed], second[mixed] - count)
-    traced = pairs[:, ~closed].T
+    both = asked[one] | asked[two]
+    one, two = one[both], two[both]
+    alike = are_homothetic(bodies.balls, one, two)[0]
     meeting = _meets_others(scene, view, bodies, wants)
+    if meeting.any():
+        met_on_axis = ~are_bodies_apart(bodies, ball, capped)
+        ball, capped = ball[met_on_axis], capped[met_on_axis]
+    traced = np.stack([np.concatenate([one[~alike], first]), np.concatenate([two[~alike], second])], axis=1)
+    one, two = one[alike], two[alike]
+    pairs = np.concatenate([np.stack([one, two]), np.stack([ball, capped]), traced.T], axis=1)
     while True:
         # What meets such a body is one too: their curve is traced on both.
         linked = pairs[:, meeting[pairs[0]] != meeting[pairs[1]]]
@@ -250,13 +258,11 @@ def _apart(scene: Scene, view: View, bodies: Bodies, wants: Bools, hidden_too: b
         meeting[linked] = True
     number = np.cumsum(~meeting) - 1
     left = int((~meeting[:count]).sum())
-    one, two = one[balls], two[balls]
-    kept = closed[: len(balls)] & ~meeting[one] & ~meeting[two]
-    inner = closed[len(balls) :] & ~meeting[first] & ~meeting[second]
+    kept, inner = ~meeting[one] & ~meeting[two], ~meeting[ball] & ~meeting[capped]
     in_faces = in_faces[~meeting[in_faces[:, 0]]]
     met = _Met(
         (number[one[kept]], number[two[kept]]),
-        (number[first[inner]], number[second[inner]] - left),
+        (number[ball[inner]], number[capped[inner]] - left),
         number[traced[~meeting[traced].any(axis=1)]],
         np.stack([number[in_faces[:, 0]], in_faces[:, 1]], axis=1),
     )

@@ -21,17 +21,22 @@ from vectorplot.visibility.quadrics.lines.ball_arcs import Found, own_sides
 from vectorplot.words import LineKind
 
 
-def overlapping_capped(bodies: Bodies) -> tuple[Ints, Ints]:
-    """Pairs of bodies that meet, the second one capped, the first one before it; and a few that do not but nearly."""
+def near_capped(bodies: Bodies, wants: Bools) -> tuple[Ints, Ints]:
+    """Pairs of bodies whose boxes overlap, one of which wants their curve, wants (n,); the second one is capped, the
+    first one before it. Equal bodies have no curve in common."""
     count = len(bodies.balls)
     low, high = bodies.reach[:, 0].T, bodies.reach[:, 1].T
     one, two = overlapping_boxes(low, high, low[:, count:], high[:, count:])
     two = two + count
-    # Equal bodies have no curve in common.
-    before = (one < two) & (bodies.same[one] != bodies.same[two])
-    one, two = one[before], two[before]
+    kept = (one < two) & (bodies.same[one] != bodies.same[two]) & (wants[one] | wants[two])
+    return one[kept], two[kept]
+
+
+def are_bodies_apart(bodies: Bodies, one: Ints, two: Ints) -> Bools:
+    """(k,) which pairs of bodies, the second one capped, have no point in common, or only touch; but for a few that
+    nearly do."""
     apart = np.zeros(len(one), dtype=np.bool_)
-    for kind in (one < count, one >= count):
+    for kind in (one < len(bodies.balls), one >= len(bodies.balls)):
         pair = np.flatnonzero(kind)
         apart[pair] = are_apart(
             _convex(bodies, one[pair]),
@@ -39,7 +44,7 @@ def overlapping_capped(bodies: Bodies) -> tuple[Ints, Ints]:
             _guesses(bodies, one[pair], two[pair]),
             bodies.tolerance,
         )
-    return one[~apart], two[~apart]
+    return apart
 
 
 def _convex(bodies: Bodies, which: Ints) -> Convex:
