@@ -101,4 +101,5 @@ def _on_bodies(curves: Curves, parts: tuple[_Part, ...]) -> Curves:
     form = np.zeros((2, 4))
     for k, part in enumerate(parts):
         body[k], form[k] = part.body, part.form
-    return replace(curves, families=tuple(BodiesMeet(family, body, form) for family in curves.families))
+    families, no_sheet = tuple(BodiesMeet(family, body, form) for family in curves.families), np.full(len(curves), -1)
+    return replace(curves, families=families, sheet=no_sheet, second_sheet=no_sheet)

@@ -140,7 +140,8 @@ def curves_of_pair(
     """The curves of two sheets that are none of a scene's, and doubts about them; item: whose they are."""
     if not _overlap(*(_box(sheet.vertices) for sheet in sheets)):
         return no_curves(), ()
-    return _pair(sheets, 0, 1, item, tracing)
+    grids = [SurfaceGrids(sheet.surface) for sheet in sheets]
+    return _pair(sheets, grids, 0, 1, item, tracing)
 
 
 def curves_with_mesh(sheet: ParametricSheet, mesh: Mesh, item: int, tracing: Tracing) -> tuple[Curves, tuple[str, ...]]:
