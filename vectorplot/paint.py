@@ -20,7 +20,7 @@ from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.chunks import threads_of
 from vectorplot.painting.coloured import coloured
 from vectorplot.painting.erased import erased
-from vectorplot.painting.reports import tell_groups, tell_knots, tell_slices
+from vectorplot.painting.reports import tell_groups, tell_knots, tell_slices, warn_of_guesses
 from vectorplot.painting.ruler import PEN, Ruler
 from vectorplot.painting.seen import Seen, without_unseen_facets
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_paint
@@ -165,7 +165,9 @@ def paint(
     projected = walk.run("faces", project_faces, view)
     known, groups = known_orders(shown, view), _groups(scene)
     sliced = {number: planes for number, item in enumerate(scene.items) if (planes := item.curves.slices)}
-    painted = walk.run("order", painters_order, view, projected, known=known, sliced=sliced, group=groups)
+    most = budget_of(budget).pieces
+    painted = walk.run("order", painters_order, view, projected, known=known, sliced=sliced, group=groups, most=most)
+    warn_of_guesses(scene, painted)
     tell_slices(walk, scene, sliced, painted)
     tell_knots(walk, scene, painted)
     tell_groups(walk, scene, painted)

@@ -9,6 +9,7 @@ from vectorplot.curves.circle import Circle
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.helix import Helix
 from vectorplot.curves.line import Line
+from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_about
 from vectorplot.surfaces.families.cyclide import dupin_cyclide
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
@@ -209,3 +210,9 @@ def test_unit_normals_do_not_depend_on_scale(scale):
 def test_generators_are_curves():
     generators: list[Curve] = [LINE, CIRCLE]
     assert all(g.start < g.end for g in generators)
+
+
+@pytest.mark.parametrize("made", [HyperboloidSheet, Hyperboloid])
+def test_a_hyperboloid_as_flat_as_no_number_tells_is_refused(made):
+    with pytest.raises(InputError, match="out of range"):
+        made((5.0, 10.0, 1e-308), top=1e10)

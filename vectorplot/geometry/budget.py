@@ -29,6 +29,8 @@ class Budget:
         image and are looked at closely.
     facets : int
         Triangles that a surface is painted or rendered by.
+    pieces : int
+        That faces which pierce one another are cut into to be painted in order.
 
     Notes
     -----
@@ -48,6 +50,7 @@ class Budget:
     points: int = 1 << 16
     pairs: int = 1 << 20
     facets: int = 1 << 18
+    pieces: int = 1 << 15
 
 
 USUAL = Budget()
@@ -80,7 +83,7 @@ def budget_of(factor: float) -> Budget:
     """
     if not 0.0 < factor < math.inf:
         raise InputError(f"a budget of {factor:g}: expected a factor that is finite and positive")
-    limits = (USUAL.cells, USUAL.triangles, USUAL.points, USUAL.pairs, USUAL.facets)
+    limits = (USUAL.cells, USUAL.triangles, USUAL.points, USUAL.pairs, USUAL.facets, USUAL.pieces)
     # No array has more elements than that.
     return Budget(*(max(1, int(min(limit * factor, 2.0**62))) for limit in limits))
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 
+from vectorplot.errors import InputWarning
+from vectorplot.geometry.budget import unresolved
 from vectorplot.plan import Walk
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section
@@ -40,3 +43,10 @@ def tell_knots(walk: Walk, scene: Scene, painted: Painted) -> None:
         names = ", ".join(scene.items[number].name for number in painted.knots[:MOST_NAMES].tolist())
         more = f" and {len(painted.knots) - MOST_NAMES} more" if len(painted.knots) > MOST_NAMES else ""
         walk.tell("cut", f"{names}{more}: they pierce one another, or overlap in circles", len(painted) - painted.uncut)
+
+
+def warn_of_guesses(scene: Scene, painted: Painted) -> None:
+    """An InputWarning for each item parts of which may be painted in a wrong order."""
+    for number in painted.guessed.tolist():
+        text = unresolved("what pierces it, or itself, takes too many cuts, and is in order by depth alone")
+        warnings.warn(f"{scene.items[number].name}: {text}", InputWarning, stacklevel=3)

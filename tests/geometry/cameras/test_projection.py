@@ -5,10 +5,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import vectorplot as vp
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras import projection as pr
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.projection import CoordinateSystem, PixelWindow
+from vectorplot.geometry.solids import box
 
 EYE, TARGET, P = (10.0, 5.0, 7.0), (1.0, 2.0, -1.0), np.array([3.0, -2.0, 4.0])
 BOOK = Camera(eye=EYE, target=TARGET, twist_deg=np.degrees(0.3))
@@ -309,3 +311,11 @@ def test_the_roller_and_its_two_doubles_have_the_same_image():
 
     assert bend(straight).max() < 1e-13
     assert bend(bent).min() > 1e-3
+
+
+@pytest.mark.parametrize("verb", ["draw", "paint", "render"])
+def test_an_eye_that_is_its_target_beside_the_scene_is_refused(verb):
+    """In a box as large as that nothing keeps them apart."""
+    scene = vp.Scene((vp.Item("BOX", box((5.0, 1e20, 6.0))),))
+    with pytest.raises(InputError, match="too near to its target"):
+        getattr(vp, verb)(scene, Camera((5.0, 4.0, 3.0), (1.0, 0.0, 0.0)))

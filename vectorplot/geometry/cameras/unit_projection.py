@@ -203,7 +203,8 @@ def projection_of(camera: Camera, bounds: Floats) -> Projection:
     Raises
     ------
     InputError
-        Where this is so small, or the eye so far away, that its coordinates have no digits left.
+        Where this is so small, or the eye so far away, that its coordinates have no digits left; or so large beside the
+        distance from the eye to its target that these are one.
 
     Notes
     -----
@@ -231,6 +232,8 @@ def projection_of(camera: Camera, bounds: Floats) -> Projection:
     noise = ULPS * ULP * largest / scale
     if noise > NO_DIGITS_OF_EXTENT:
         raise InputError("the scene is too small for its distance from the origin: its coordinates have no digits left")
+    if not camera.parallel and camera.distance <= ULPS * ULP * scale:
+        raise InputError("the eye is too near to its target for a scene of this size: nothing keeps them apart")
     axes = camera.axes
     eye = None if camera.parallel else axes @ ((np.asarray(camera.eye) - centre) / scale)
     focus = 1.0 if eye is None else max(float(eye[2]), 1.0)

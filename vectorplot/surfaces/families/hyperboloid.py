@@ -21,6 +21,13 @@ def _semi_axes(name: str, value: ArrayLike) -> Floats:
     return axes
 
 
+def _check_heights(semi_axes: Floats, *heights: float) -> None:
+    """Errors: InputError for a height that has no parameter, so large it is for its semi-axis."""
+    with np.errstate(over="ignore"):
+        if not np.isfinite(np.asarray(heights) / semi_axes[2]).all():
+            raise InputError(f"hyperboloid: its heights are out of range for a semi-axis of {semi_axes[2]:g}")
+
+
 @dataclass(frozen=True, eq=False)
 class Hyperboloid(EllipticSections):
     """The hyperboloid of one sheet x^2/a^2 + y^2/b^2 - z^2/c^2 = 1, from height bottom to top.
@@ -62,6 +69,7 @@ class Hyperboloid(EllipticSections):
         object.__setattr__(self, "semi_axes", _semi_axes("hyperboloid", self.semi_axes))
         object.__setattr__(self, "centre", vector("hyperboloid: centre", self.centre))
         parameter_range("hyperboloid", self.bottom, self.top)
+        _check_heights(np.asarray(self.semi_axes), self.bottom, self.top)
 
     @property
     def dimensions(self) -> tuple[str, ...]:
@@ -129,6 +137,7 @@ class HyperboloidSheet(EllipticSections):
         object.__setattr__(self, "centre", vector("hyperboloid: centre", self.centre))
         if not number("hyperboloid: top", self.top) > np.asarray(self.semi_axes)[2]:
             raise InputError("hyperboloid: the top must be above the vertex")
+        _check_heights(np.asarray(self.semi_axes), self.top)
 
     @property
     def dimensions(self) -> tuple[str, ...]:

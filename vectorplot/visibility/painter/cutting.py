@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
+from vectorplot.geometry.budget import USUAL
 from vectorplot.geometry.polylines import joined
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.mikado import component_ranks
@@ -26,6 +27,9 @@ MOST_ROUNDS = 64
 
 LARGE_CIRCLE = 400
 """A circle of more faces than these is ordered by a tree of planes at once."""
+
+PIECES_OF_EACH = 4
+"""A tree of planes may cut faces into so many pieces each in the mean, whatever the budget."""
 
 SHARE_CUT = 8
 """Of a large circle one face in so many is cut in a round."""
@@ -47,8 +51,11 @@ class Pairs:
         return records.some(self, which)
 
 
-def cut_into_order(faces: ImageFaces, group: Ints, pairs: Pairs, tolerance: float) -> tuple[ImageFaces, Ints]:
-    """Faces cut as far as needed, and for each one its place in the order of drawing.
+def cut_into_order(
+    faces: ImageFaces, group: Ints, pairs: Pairs, tolerance: float, most: int = USUAL.pieces
+) -> tuple[ImageFaces, Ints, Bools]:
+    """Faces cut as far as needed, for each one its place in the order of drawing, and whether that is right: after most
+    pieces it is a guess.
 
     group (n,): faces of a lower group are known to go first; only within groups is anything compared. Faces that
     pierce each other are cut first, the larger one along the other's plane; then circles, at faces that lie on many
@@ -75,17 +82,21 @@ def cut_into_order(faces: ImageFaces, group: Ints, pairs: Pairs, tolerance: floa
         pairs = _inherited(faces, pairs, children, tolerance)
     else:
         circled |= np.isin(place, place[pairs.first[place[pairs.first] == place[pairs.second]]])
-    return _with_trees(faces, place, circled, tolerance)
+    return _with_trees(faces, place, circled, tolerance, most)
 
 
-def _with_trees(faces: ImageFaces, place: Ints, circled: Bools, tolerance: float) -> tuple[ImageFaces, Ints]:
+def _with_trees(
+    faces: ImageFaces, place: Ints, circled: Bools, tolerance: float, most: int
+) -> tuple[ImageFaces, Ints, Bools]:
     """The faces in circles that were given up, ordered by trees of planes among the others."""
     if not circled.any():
-        return faces, place
+        return faces, place, np.ones(len(faces), dtype=np.bool_)
     done, left = np.flatnonzero(~circled), np.flatnonzero(circled)
-    pieces, parent, rank = partitioned(faces.some(left), place[left], tolerance)
-    places = np.concatenate([place[done], place[left][parent]])
-    return joined((faces.some(done), pieces)), dense(places, np.concatenate([np.zeros(len(done), dtype=np.intp), rank]))
+    found = partitioned(faces.some(left), place[left], tolerance, max(most, PIECES_OF_EACH * len(left)))
+    places = np.concatenate([place[done], place[left][found.parent]])
+    ranks = np.concatenate([np.zeros(len(done), dtype=np.intp), found.rank])
+    right = np.concatenate([np.ones(len(done), dtype=np.bool_), found.complete])
+    return joined((faces.some(done), found.faces)), dense(places, ranks), right
 
 
 def _sorted_out(faces: ImageFaces, place: Ints, pairs: Pairs) -> Ints:

@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.budget import USUAL
 from vectorplot.geometry.polylines import joined
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
@@ -58,6 +59,8 @@ class Painted:
         Groups that could not stay together.
     ribbons : mapping of int to int
         How many ribbons the items have that are painted slice by slice.
+    guessed : (k,) array of int
+        The items parts of which are in order by their heights alone: that they pierce one another took too many cuts.
 
     Examples
     --------
@@ -74,6 +77,7 @@ class Painted:
     knots: Ints
     undone: tuple[int, ...] = ()
     ribbons: Mapping[int, int] = field(default_factory=dict)
+    guessed: Ints = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
 
     def __len__(self) -> int:
         return len(self.faces)
@@ -86,6 +90,7 @@ def painters_order(
     known: Mapping[int, Precedence] | None = None,
     sliced: Mapping[int, Section] | None = None,
     group: Ints | None = None,
+    most: int = USUAL.pieces,
 ) -> Painted:
     """The faces that can be seen, in an order in which each may be painted over those before it.
 
@@ -105,6 +110,9 @@ def painters_order(
     group : (i,) array of int, optional
         The group of each item, -1 for none: first the groups are put in order, then what is in each, but for those that
         lie on other things in a circle.
+    most : int
+        So many pieces a tree of planes cuts faces into, and four of each; what is not in order then is painted by its
+        heights, and named.
 
     Returns
     -------
@@ -142,14 +150,14 @@ def painters_order(
     alone = _alone(view, faces, item, list(sliced or {}))
     usual = {number: order for number, order in (known or {}).items() if not alone[number]}
     together = faces.some(np.flatnonzero(~alone[item])) if alone.any() else faces
-    rest = _ordered(view, projected, together, usual, group)
+    rest = _ordered(view, projected, together, usual, group, most)
     ordered, uncut, counts = rest.faces, rest.uncut, {}
     for number in np.flatnonzero(alone).tolist():
         slices = in_slices(view, faces.some(np.flatnonzero(item == number)), (sliced or {})[number])
         found = ribbons(view, projected.facing, slices)
         counts[number], uncut = len(found), uncut + len(slices.faces)
         ordered = joined((ribbon_order(view, slices, found), ordered))
-    return Painted(ordered, uncut, rest.knots, rest.undone, counts)
+    return Painted(ordered, uncut, rest.knots, rest.undone, counts, rest.guessed)
 
 
 def _check_known(view: View, known: Mapping[int, Precedence]) -> None:
@@ -181,6 +189,7 @@ def _ordered(
     faces: ImageFaces,
     known: Mapping[int, Precedence],
     group_of_item: Ints | None,
+    most: int,
 ) -> Painted:
     """The painter's order of some faces of a view."""
     things = _things(view, projected, faces)
@@ -207,14 +216,15 @@ def _ordered(
     pieces = faces.some(loose)
     group = rank[things.of_face[loose]]
     pairs = _pairs_within(pieces, group, things.of_face[loose], view.tolerance)
-    pieces, place = cut_into_order(pieces, group, pairs, view.tolerance)
+    pieces, place, right = cut_into_order(pieces, group, pairs, view.tolerance, most)
     # Pieces keep their group: it is what their source had.
     group_of_source = np.full(view.face_count, -1, dtype=np.intp)
     group_of_source[faces.source] = rank[things.of_face]
     whole = joined((faces.some(rest), pieces))
     places = np.concatenate([np.zeros(len(rest), dtype=np.intp), place])
     order = np.lexsort((whole.rank, places, group_of_source[whole.source]))
-    return Painted(whole.some(order), len(faces), np.unique(view.face_item[pieces.source]), undone)
+    guessed = np.unique(view.face_item[pieces.source[~right]])
+    return Painted(whole.some(order), len(faces), np.unique(view.face_item[pieces.source]), undone, guessed=guessed)
 
 
 @dataclass(frozen=True, eq=False)

@@ -146,7 +146,7 @@ def ribbon_order(view: View, slices: Slices, found: Ribbons) -> ImageFaces:
     left = pairs.some(~asked & (place[pairs.first] == place[pairs.second]))
     together = place[known.first] == place[known.second]
     both = records.joined((known.some(together), related(faces, left, view.tolerance)))
-    pieces, places = cut_into_order(faces, place, both, view.tolerance)
+    pieces, places, _ = cut_into_order(faces, place, both, view.tolerance)
     return pieces.some(np.lexsort((pieces.rank, places)))
 
 

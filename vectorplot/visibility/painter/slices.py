@@ -169,7 +169,7 @@ def sliced_order(faces: ImageFaces, place: Ints, tolerance: float) -> ImageFaces
     [1, 1, 0, 0]
     """
     found = related(faces, pairs_in_slices(faces, place, tolerance), tolerance)
-    pieces, places = cut_into_order(faces, place, found, tolerance)
+    pieces, places, _ = cut_into_order(faces, place, found, tolerance)
     return pieces.some(np.lexsort((pieces.rank, places)))
 
 

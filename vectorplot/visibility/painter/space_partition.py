@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from vectorplot.arrays import Ints
+from vectorplot.arrays import Bools, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import joined
-from vectorplot.visibility.painter.image_faces import ImageFaces
+from vectorplot.visibility.painter.image_faces import ImageFaces, over_corners
 from vectorplot.visibility.painter.splitting import dense, halves, height_span
 
 TRIED = 5
@@ -20,12 +22,22 @@ COST_OF_A_CUT = 4
 BELOW, WITHIN, ABOVE, ACROSS = 0, 1, 2, 3
 
 
-def partitioned(faces: ImageFaces, group: Ints, tolerance: float) -> tuple[ImageFaces, Ints, Ints]:
-    """The faces of each group cut by planes of faces until nothing lies across any of them: pieces, the face each one
-    comes from, and its rank in the order of drawing within its group.
+@dataclass(frozen=True, eq=False)
+class Partition:
+    """Pieces of faces; parent (n,): the face each one comes from; rank (n,): in the order of drawing within its group;
+    complete (n,): whether nothing lies across the plane of anything else in its cell."""
+
+    faces: ImageFaces
+    parent: Ints
+    rank: Ints
+    complete: Bools
+
+
+def partitioned(faces: ImageFaces, group: Ints, tolerance: float, most: int) -> Partition:
+    """The faces of each group cut by planes of faces until nothing lies across any of them, or there are most pieces.
 
     All cells of one level are divided at once. What lies below a plane is drawn first, then what lies in it, by rank,
-    then what lies above.
+    then what lies above; what is in a cell that was not divided any more, by the heights of the middles.
     Source: Fuchs, Kedem and Naylor, On visible surface generation by a priori tree structures (1980).
     """
     parent = np.arange(len(faces))
@@ -34,8 +46,10 @@ def partitioned(faces: ImageFaces, group: Ints, tolerance: float) -> tuple[Image
     while True:
         open_cell &= np.bincount(cell)[cell] > 1
         active = np.flatnonzero(open_cell)
-        if not len(active):
-            return faces, parent, cell
+        if not len(active) or len(faces) > most:
+            middle = faces.points[2]
+            height = over_corners(np.minimum, middle, faces.offsets) + over_corners(np.maximum, middle, faces.offsets)
+            return Partition(faces, parent, dense(cell, dense(np.where(open_cell, height, 0.0))), ~open_cell)
         knife = _dividing_faces(faces, cell, active, tolerance)
         side = _sides(faces, active, knife, tolerance)
         across = side == ACROSS
