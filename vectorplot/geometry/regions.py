@@ -50,8 +50,8 @@ def polygons_of(points: Floats, offsets: Ints) -> Any:
 
 
 def unions(polygons: Any, group: Ints, grid: float | None) -> Any:
-    """(g,) the unions of groups 0, 1, ... of polygons, which may cross themselves, on a grid: sides that nearly coincide
-    leave no splinters."""
+    """(g,) the unions of groups 0, 1, ... of polygons, which may cross themselves, on a grid: sides that nearly
+    coincide leave no splinters."""
     import shapely
 
     order = np.argsort(group, kind="stable")
