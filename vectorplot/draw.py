@@ -408,8 +408,7 @@ def _lines_and_chords(
     if not sheets or not walk.calls_for("smooth surfaces"):
         return whole_lines_and_chords(view, traced, lines)
     done = walk.fraction("smooth surfaces")
-    count = len(scene.items)
-    cut, unsure = walk.run("smooth surfaces", cut_lines_and_chords, view, traced, lines, count, tolerance, budget, done)
+    cut, unsure = walk.run("smooth surfaces", cut_lines_and_chords, view, traced, lines, tolerance, budget, done)
     for item, text in unsure:
         warnings.warn(f"{scene.items[item].name}: {text}", InputWarning, stacklevel=3)
     return cut if not walk.calls_for("visible lines") else cut.some(cut.behind == 0)

@@ -49,7 +49,7 @@ def chords_seen(scene: Scene, camera: Camera, *, tolerance: float = 5e-5) -> Cho
     edges = edge_lines(scene, view, faces, kinds, 25.0, np.ones(len(solid), dtype=np.bool_))
     straight = joined_lines([edges, intersection_lines(scene, view, faces, kinds, solid)])
     traced = traced_scene(scene, view, scene_sheets(scene, view), kinds, tolerance)
-    every, _ = cut_lines_and_chords(view, traced, straight, len(scene.items), tolerance)
+    every, _ = cut_lines_and_chords(view, traced, straight, tolerance)
     lines = in_frame(view, every, frame_of(view, every, Page(), True))
     seen = counted_parts(view, faces, solid, Segments(lines.start, lines.end), lambda part: None)
     seen = replace(seen, hidden_by=seen.hidden_by + lines.behind[seen.segment])

@@ -70,7 +70,7 @@ def test_at_a_cusp_a_contour_arrives_and_turns_back(shape, parallel):
     scene = Scene((Item("ring", shape),))
     view = look(scene, Camera((0.0, -12.0, 5.0), (0.0, 0.0, 0.0), parallel=parallel))
     traced = traced_scene(scene, view, scene_sheets(scene, view), frozenset({LineKind.CONTOUR}), 1e-4)
-    lines = cut_lines_and_chords(view, traced, joined_lines([]), 1, 1e-4)[0]
+    lines = cut_lines_and_chords(view, traced, joined_lines([]), 1e-4)[0]
     chords = lines.chords
     direction, image = chords.directions(view), view.image_of(lines.end).T
     gap = np.abs(lines.start[:, 1:] - lines.end[:, :-1]).max(axis=0)

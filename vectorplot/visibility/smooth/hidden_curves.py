@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -38,22 +38,25 @@ def hidden_curves(
     view: View,
     traced: TracedScene,
     curves: Curves,
-    items: int,
     tolerance: float,
     budget: Budget,
     done: Callable[[float], None],
 ) -> HiddenCurves:
     """By how many items with smooth surfaces each piece of the curves is hidden.
 
-    traced: the sheets, and the edges of those that hide; items: how many the scene has;
-    tolerance: how far chords are off their curves, in the image; done: is told the part of the work that is done.
+    traced: the sheets, and the edges of those that hide; tolerance: how far chords are off their curves, in the image;
+    done: is told the part of the work that is done.
     The number of sheets in front of a curve changes only where its image crosses that of a fold or border in front, at
     a cusp of a contour, and where it pierces a sheet or passes the contour of its own: there the curves are cut. Then
     each piece is decided once, by the sight line of its safest point, or by the changes from a neighbour. Runs shorter
     than two tolerances are none.
     Source: Glaeser, section 8.4 and figure 13 for what is drawn; the decisions are this package's own.
     """
-    sheets, edges = traced.sheets, traced.edges
+    # Only items with sheets that hide are counted: a scene may have thousands of others.
+    hiding = np.unique(traced.sheets.item[traced.sheets.hides])
+    items = len(hiding)
+    sheets = replace(traced.sheets, counted_as=np.searchsorted(hiding, traced.sheets.item))
+    edges = replace(traced.edges, item=np.searchsorted(hiding, traced.edges.item))
     targets = targets_of(view, sheets)
     edge_on = edge_on_curves(view, sheets, curves)
     own = own_events(view, sheets, curves, edge_on)
@@ -70,8 +73,8 @@ def hidden_curves(
     if len(more):
         pieces = cut(curves, all_events([events, more]), items)
         counts = counted(view, sheets, targets, curves, edges, edge_on, pieces, items, budget.pairs)
-    short = {*short_of_crossings, *short_of_piercings, *short_of_halvings}
-    short |= set(np.flatnonzero(counts.unlooked).tolist())
+    unlooked = [*short_of_piercings, *short_of_halvings, *np.flatnonzero(counts.unlooked).tolist()]
+    short = {*short_of_crossings, *hiding[unlooked].tolist()} if unlooked else {*short_of_crossings}
     hidden_by = np.asarray((carried(pieces, counts) > 0).sum(axis=1))
     hidden_by = without_short_runs(view, curves, pieces, hidden_by, 2.0 * tolerance)
     return HiddenCurves(pieces, hidden_by, tuple(sorted(short)))

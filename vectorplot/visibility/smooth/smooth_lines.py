@@ -29,7 +29,6 @@ def cut_lines_and_chords(
     view: View,
     traced: TracedScene,
     lines: Lines,
-    items: int,
     tolerance: float,
     budget: Budget = USUAL,
     done: Callable[[float], None] = unheard,
@@ -37,11 +36,11 @@ def cut_lines_and_chords(
     """Straight lines and the chords of curves, all cut where smooth surfaces begin or end to hide them; and items with
     a doubt about each that could not be decided.
 
-    items: how many the scene has; tolerance: how far chords are off their curves, in the image; budget: of the work;
-    done: is told the part of it that is done.
+    tolerance: how far chords are off their curves, in the image; budget: of the work; done: is told the part of it that
+    is done.
     """
     curves = together([traced.curves, _straight(lines)])
-    found = hidden_curves(view, traced, curves, items, tolerance, budget, done)
+    found = hidden_curves(view, traced, curves, tolerance, budget, done)
     doubts = tuple((item, unresolved("lines in front of or behind it may be drawn wrong")) for item in found.short)
     return _as_lines(view, traced, lines, curves, found), doubts
 

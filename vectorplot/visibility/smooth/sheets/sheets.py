@@ -28,9 +28,13 @@ class SheetGroup:
 
 @dataclass(frozen=True, eq=False)
 class Sheets:
-    """Sheets, asked at places (k,3) by their numbers (k,). Where the number is -1 the answer is NaN, or no."""
+    """Sheets, asked at places (k,3) by their numbers (k,). Where the number is -1 the answer is NaN, or no.
+
+    counted_as (s,): the numbers of the items they belong to, where these are not those of the scene.
+    """
 
     sheets: tuple[Sheet, ...]
+    counted_as: Ints | None = None
 
     def __len__(self) -> int:
         return len(self.sheets)
@@ -44,6 +48,8 @@ class Sheets:
     @cached_property
     def item(self) -> Ints:
         """(s,) the items they belong to."""
+        if self.counted_as is not None:
+            return self.counted_as
         return np.array([sheet.item for sheet in self.sheets], dtype=np.intp)
 
     @cached_property

@@ -1,0 +1,37 @@
+"""What smooth surfaces hide in scenes of many other things."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.geometry.budget import USUAL, unheard
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.solids import box
+from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.view import look
+from vectorplot.surfaces.families.torus import Torus
+from vectorplot.visibility.polyhedra.lines import joined_lines
+from vectorplot.visibility.smooth.hidden_curves import hidden_curves
+from vectorplot.visibility.smooth.smooth_lines import cut_lines_and_chords
+from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
+from vectorplot.words import DRAWN, LineKind
+
+
+def test_only_items_that_hide_are_counted() -> None:
+    """Work and memory follow the pieces and the sheets that hide, not the items of the scene; the counts stay."""
+    crate = Item("crate", box((0.1, 0.1, 0.1)))
+    rings = [Item("ring", Torus(1.0, 0.4)), Item("other ring", Torus(1.0, 0.3, (0.0, 0.0, -2.0)))]
+    glass = Item("glass", Torus(1.0, 0.3, (0.0, 0.0, 2.0)), occludes=False)
+    camera = Camera((0.6, -0.4, 9.0), (0.0, 0.0, 0.0), up=(0.0, 1.0, 0.0))
+    kinds = frozenset(map(LineKind.from_word, DRAWN))
+    counts = []
+    for before in (0, 40):
+        scene = Scene((*[crate] * before, glass, *rings))
+        view = look(scene, camera)
+        traced = traced_scene(scene, view, scene_sheets(scene, view), kinds, 1e-3)
+        found = hidden_curves(view, traced, traced.curves, 1e-3, USUAL, unheard)
+        assert found.pieces.change.shape[1] == 2
+        counts.append(found.hidden_by)
+        lines, doubts = cut_lines_and_chords(view, traced, joined_lines([]), 1e-3)
+        assert not doubts and lines.behind.any()
+    assert np.array_equal(*counts)
