@@ -19,8 +19,8 @@ from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 SLIM_FACES, FEWEST_PAIRS = 12, 1024
 """Parts of so few faces are looked at more closely where so many pairs of boxes overlap."""
 
-FACES_AT_ONCE = 1 << 15
-"""Pairs of faces, or of slim parts, looked at at once: what is worked out about them stays in the processor's cache."""
+FACES_AT_ONCE = 1 << 17
+"""Pairs of faces, or of slim parts, looked at at once."""
 
 AXIS_SHIFT = 16.0
 """Coordinates stay below this; pairs of parts are kept apart on a sweep's axis by multiples of it."""

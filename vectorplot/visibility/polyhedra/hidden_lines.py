@@ -23,7 +23,7 @@ from vectorplot.visibility.polyhedra.occluders import Occluders, face_occluders,
 from vectorplot.visibility.polyhedra.pairs import Hits, Segments, clip_pairs
 from vectorplot.visibility.projected_faces import CHUNK, ProjectedFaces
 
-PAIRS_AT_ONCE = 1 << 15
+PAIRS_AT_ONCE = 1 << 17
 """Pairs of a piece and an occluder handled at once."""
 
 MOST_SLABS, IN_SLAB = 24, 4000
