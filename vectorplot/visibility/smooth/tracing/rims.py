@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.sheets.family import Along, Chords, ParameterCurves
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
@@ -19,6 +20,20 @@ from vectorplot.words import LineKind
 
 HALVINGS = 60
 """Steps of halving from a chord to the place where a sheet turns away: what is left is rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rims:
+    """Curves on the common border of two sheets, on which both have the same places."""
+
+    surface: ParametricSheet
+    sheet: int
+    second: int
+
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The curves at a part of their chords."""
+        found = ParameterCurves(self.surface, self.sheet).between(chords, part)
+        return replace(found, second_places=found.places)
 
 
 def with_rims(view: View, sheets: tuple[SmoothSheet, ...], number: int, parts: Sequence[Curves]) -> list[Curves]:
@@ -39,7 +54,9 @@ def with_rims(view: View, sheets: tuple[SmoothSheet, ...], number: int, parts: S
         if own.any():
             other = sheets[number + 1]
             assert isinstance(other, ParametricSheet)
-            result.append(_cut(view, sheet, other, part.some(np.flatnonzero(own))))
+            curves = _cut(view, sheet, other, part.some(np.flatnonzero(own)))
+            families = tuple(Rims(sheet, family.sheet, number + 1) for family in curves.families)
+            result.append(replace(curves, families=families, second_places=curves.places))
     return result
 
 
