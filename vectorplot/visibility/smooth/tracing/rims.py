@@ -56,7 +56,8 @@ def with_rims(view: View, sheets: tuple[SmoothSheet, ...], number: int, parts: S
             assert isinstance(other, ParametricSheet)
             curves = _cut(view, sheet, other, part.some(np.flatnonzero(own)))
             families = tuple(Rims(sheet, family.sheet, number + 1) for family in curves.families)
-            result.append(replace(curves, families=families, second_places=curves.places))
+            second = np.full(len(curves), number + 1)
+            result.append(replace(curves, families=families, second_places=curves.places, second_sheet=second))
     return result
 
 
