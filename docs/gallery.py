@@ -21,6 +21,7 @@ HEIGHT = 220
 
 LOOK_AT = {
     "box": "A hollow box has no bottom and no top; `+bottom` closes it below. The back walls are seen inside.",
+    "capped": "Flat ends make bodies of cylinders, cones and balls; their rims and contours are arcs in closed form.",
     "cone": "A meridian with its upper end on the axis: all faces meet in a single vertex. `edges` shows them.",
     "cubes": "They have their centre in common; edges stop where one cube enters the other, and the section is drawn.",
     "curves": "Curves in space, some of them on surfaces that hide half of them: a course, a knot, borders of holes.",
@@ -50,7 +51,7 @@ LOOK_AT = {
 }
 """What a scene shows, in a sentence."""
 
-PAINTED = frozenset("cubes interpenetrating mirror patterns pencil pool shadows table three_bars town".split())
+PAINTED = frozenset("capped cubes interpenetrating mirror patterns pencil pool shadows table three_bars town".split())
 """The scenes that are painted as well."""
 
 TOLERANCE_MM = 0.2
