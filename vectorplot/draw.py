@@ -48,6 +48,7 @@ from vectorplot.words import DRAWN, WIRES, LineKind, check_word, line_kinds
 if TYPE_CHECKING:
     from vectorplot.visibility.quadrics.closed_forms import ClosedForms, Seen
     from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet
+    from vectorplot.visibility.smooth.tracing.traced import TracedScene
 
 LARGER = 1.25
 """Curves are traced anew where they come out so many times larger on the page than they were taken for."""
@@ -383,28 +384,15 @@ def _lines_and_chords(
     if not walk.calls_for("curves"):
         return lines
     from vectorplot.visibility.smooth.smooth_lines import cut_lines_and_chords, whole_lines_and_chords
-    from vectorplot.visibility.smooth.tracing.traced import traced_scene, tracing_of
 
     if tolerance < FINEST_CHORD_OF_EXTENT:
         text = "the picture shows so small a part of the scene that smooth curves are off by more than the tolerance"
         warnings.warn(text, InputWarning, stacklevel=3)
     tolerance = max(tolerance, FINEST_CHORD_OF_EXTENT)
     done = walk.fraction("curves")
-    traced = walk.run("curves", traced_scene, scene, view, sheets, kinds, tolerance, budget, done)
+    traced = walk.run("curves", _all_curves, scene, view, sheets, forms, kinds, tolerance, budget, done)
     for doubt in traced.doubts:
         warnings.warn(doubt, InputWarning, stacklevel=3)
-    if forms is not None:
-        from vectorplot.visibility.quadrics.conic_curves import conic_curves
-
-        traced = traced.joined(conic_curves(view, forms.arcs, forms.behind, tolerance))
-        if len(forms.traced) or len(forms.in_faces):
-            from vectorplot.visibility.quadrics.traced_meetings import traced_meetings
-
-            tracing = tracing_of(view, tolerance, budget)
-            met, doubts = walk.run("curves", traced_meetings, scene, view, forms, kinds, tracing)
-            traced = traced.joined(met)
-            for doubt in doubts:
-                warnings.warn(doubt, InputWarning, stacklevel=3)
     if not sheets or not walk.calls_for("smooth surfaces"):
         return whole_lines_and_chords(view, traced, lines)
     done = walk.fraction("smooth surfaces")
@@ -412,6 +400,34 @@ def _lines_and_chords(
     for item, text in unsure:
         warnings.warn(f"{scene.items[item].name}: {text}", InputWarning, stacklevel=3)
     return cut if not walk.calls_for("visible lines") else cut.some(cut.behind == 0)
+
+
+def _all_curves(
+    scene: Scene,
+    view: View,
+    sheets: tuple[SmoothSheet, ...],
+    forms: ClosedForms | None,
+    kinds: frozenset[LineKind],
+    tolerance: float,
+    budget: Budget,
+    done: Callable[[float], None],
+) -> TracedScene:
+    """The curves of sheets, the arcs of what is drawn in closed form, and the curves in which the latter meet that are
+    no arcs."""
+    from vectorplot.visibility.smooth.tracing.traced import traced_scene, tracing_of
+
+    traced = traced_scene(scene, view, sheets, kinds, tolerance, budget, done)
+    if forms is None:
+        return traced
+    from vectorplot.visibility.quadrics.conic_curves import conic_curves
+
+    traced = traced.joined(conic_curves(view, forms.arcs, forms.behind, tolerance))
+    if not len(forms.traced) and not len(forms.in_faces):
+        return traced
+    from vectorplot.visibility.quadrics.traced_meetings import traced_meetings
+
+    met, doubts = traced_meetings(scene, view, forms, kinds, tracing_of(view, tolerance, budget))
+    return replace(traced.joined(met), doubts=(*traced.doubts, *doubts))
 
 
 def _visibility(walk: Walk, view: View, faces: ProjectedFaces, solid: Bools, lines: Lines) -> Visibility:
