@@ -35,8 +35,15 @@ TOUCHING_SHEETS_SINE = 1e-6
 ALONG_EDGE_SINE = 1e-6
 """Sine below which a curve does not cross an edge but runs along it in the image."""
 
+SEEN_ALONG_SINE = 1e-6
+"""A chord that makes a smaller angle with the sight line is a point in the image: all of a scene's extent is no longer
+there than places on cubic arcs are off."""
+
 ALONG_SHEET_SINE = 1e-7
 """A curve that makes a smaller angle with a sheet touches it."""
+
+ROUGHLY_ALONG_SHEET_SINE = 1e-4
+"""The same while the curve is replaced by cubic arcs: the slopes of these are off by about so much."""
 
 GRAZING_ANGLE = 1e-4
 """Sight lines that meet a sheet at a smaller angle, in radians, only touch it: there they are no farther behind it than

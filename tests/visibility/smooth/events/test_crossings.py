@@ -43,3 +43,16 @@ def test_in_front_of_it_or_beside_it_nothing_changes() -> None:
 def test_a_corner_of_a_line_on_the_contours_image_is_one_event() -> None:
     found = behind([(-2.0, 0.6, -3.0), (-0.8, 0.6, -3.0), (0.0, 0.0, -3.0)])
     assert found.change.tolist() == [2]
+
+
+def test_edges_and_lines_that_are_points_in_the_image_cross_nothing() -> None:
+    view, sheet, _ = ball_from_above()
+    depths = np.linspace(0.0, -1.0, 1000)
+    # Two edges along the sight line of the target, as far off it as contours of singular surfaces are known.
+    at = 1e-10 * np.cos(np.arange(1000.0))
+    edges = polylines(*(np.stack([side * at, np.zeros(1000), depths], axis=1) for side in (1.0, -1.0)))
+    edges = replace(edges, kind=np.full(2, LineKind.CONTOUR), sheet=np.zeros(2, dtype=np.intp))
+    none = np.zeros(2, dtype=np.bool_)
+    # All of the pairs would take half a minute and gigabytes.
+    found, short = crossings(view, Sheets((sheet,)), edges, edges, none, 1e-3, 1)
+    assert not len(found) and not short

@@ -12,7 +12,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
-from vectorplot.tolerances.of_angles import ALONG_EDGE_SINE
+from vectorplot.tolerances.of_angles import ALONG_EDGE_SINE, SEEN_ALONG_SINE
 from vectorplot.tolerances.of_extent import CROSSING_RESIDUAL, FOLDS_GAP, GAP_IN_FRONT, MODEL_RESIDUAL
 from vectorplot.tolerances.of_lengths import CROSSING_SETTLED, MODEL_RESIDUAL_OF_GAP, RESIDUAL_OF_GAP
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -155,7 +155,9 @@ class _Boxes:
     def of(cls, view: View, curves: Curves) -> _Boxes:
         image, depth = projection.image(view, curves.points), projection.depth(view, curves.points)
         chord = curves.chords
-        long = (curves.points[chord] != curves.points[chord + 1]).any(axis=1)
+        way, seen = (x[chord + 1] - x[chord] for x in (curves.points, image))
+        # What is seen along its own length is a point in the image: nothing passes from one side of it to the other.
+        long = np.sqrt(dot(seen, seen)) > SEEN_ALONG_SINE * np.sqrt(dot(way, way))
         chord = chord[long & (depth[chord] > view.near) & (depth[chord + 1] > view.near)]
         a, b = depth[chord], depth[chord + 1]
         return cls(chord, image[chord], image[chord + 1], np.minimum(a, b), np.maximum(a, b))

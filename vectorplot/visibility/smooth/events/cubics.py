@@ -17,7 +17,7 @@ STEEPEST = 3.0
 
 @dataclass(frozen=True, eq=False)
 class Cubics:
-    """The cubic arcs with the ends and the directions (k,3) of some chords: in the image, and in depth."""
+    """The cubic arcs with the ends and the directions (k,3) of some chords: in space, or in the image and in depth."""
 
     start: Floats
     end: Floats
@@ -25,7 +25,7 @@ class Cubics:
     arriving: Floats
 
     def at(self, index: Ints, part: Floats) -> tuple[Floats, Floats]:
-        """(k,3) images and depths of arcs, and their derivatives.
+        """(k,3) points of arcs, and their derivatives.
 
         Source: Hermite's interpolation; Glaeser, section 9.1, equations 1 to 3.
         """
@@ -37,16 +37,33 @@ class Cubics:
 
 
 def cubics(view: View, curves: Curves, chord: Ints) -> Cubics:
-    """The cubic arcs of chords, given by the points at which they begin."""
+    """The cubic arcs of chords, given by the points at which they begin, in the image and in depth."""
+    points, along = _ends(curves, chord)
+    images = [np.column_stack([projection.image(view, x), projection.depth(view, x)]) for x in points]
+    slopes = [
+        np.column_stack([projection.image_slopes(view, x, way), -way[:, 2]])
+        for x, way in zip(points, along, strict=True)
+    ]
+    return _arcs(images, slopes)
+
+
+def cubics_in_space(curves: Curves, chord: Ints) -> Cubics:
+    """The cubic arcs of chords, given by the points at which they begin, in space."""
+    return _arcs(*_ends(curves, chord))
+
+
+def _ends(curves: Curves, chord: Ints) -> tuple[list[Floats], list[Floats]]:
+    """The points (k,3) at both ends of chords, and the slopes (k,3) of the curves there."""
     zero = np.zeros(len(chord))
-    ends = [curves.points[chord], curves.points[chord + 1]]
-    images = [np.column_stack([projection.image(view, x), projection.depth(view, x)]) for x in ends]
-    way = images[1] - images[0]
-    slopes = []
-    for points, part in zip(ends, (zero, zero + 1.0), strict=True):
-        along = curves.at(chord, part).slopes
-        slope = np.column_stack([projection.image_slopes(view, points, along), -along[:, 2]])
-        with np.errstate(invalid="ignore"):
-            good = (np.abs(slope) <= STEEPEST * np.abs(way).max(axis=1, keepdims=True)).all(axis=1)
-        slopes.append(np.where(good[:, None], slope, way))
-    return Cubics(images[0], images[1], slopes[0], slopes[1])
+    return [curves.points[chord], curves.points[chord + 1]], [
+        curves.at(chord, part).slopes for part in (zero, zero + 1)
+    ]
+
+
+def _arcs(ends: list[Floats], slopes: list[Floats]) -> Cubics:
+    """The cubic arcs between ends (k,3) with these slopes (k,3), straight where a slope is none of a curve near it."""
+    way = ends[1] - ends[0]
+    longest = STEEPEST * np.abs(way).max(axis=1, keepdims=True)
+    with np.errstate(invalid="ignore"):
+        leaving, arriving = (np.where((np.abs(s) <= longest).all(axis=1)[:, None], s, way) for s in slopes)
+    return Cubics(ends[0], ends[1], leaving, arriving)

@@ -11,11 +11,12 @@ from vectorplot.geometry import ragged, records
 from vectorplot.geometry.boxes import overlapping_boxes
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
-from vectorplot.tolerances.of_angles import ALONG_SHEET_SINE
-from vectorplot.tolerances.of_extent import MET_OF_EXTENT, NEARLY_MET, SETTLED_OF_EXTENT
+from vectorplot.tolerances.of_angles import ALONG_SHEET_SINE, ROUGHLY_ALONG_SHEET_SINE
+from vectorplot.tolerances.of_extent import MET_OF_EXTENT, MODEL_RESIDUAL, NEARLY_MET, SETTLED_OF_EXTENT
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.tolerances.of_parameters import APART_OF_DOMAIN
 from vectorplot.visibility.smooth.blocks import Block, in_blocks
+from vectorplot.visibility.smooth.events.cubics import cubics_in_space
 from vectorplot.visibility.smooth.events.events import Events, all_events, hopped, on_chord, once
 from vectorplot.visibility.smooth.events.unmet import unmet_stretches
 from vectorplot.visibility.smooth.sheets import projection
@@ -65,7 +66,7 @@ def piercings(
     near, short = _close(view, sheets, targets, curves, meets_itself, pairs)
     if not len(near.chord):
         return all_events([]), short
-    number, chord, part, places = _met(view, sheets, curves, near)
+    number, chord, part, places = _met(view, sheets, curves, _roughly_met(sheets, curves, near))
     kept = _elsewhere(sheets, number, curves, chord, part, places, APART_OF_DOMAIN)
     number, chord, part, places = number[kept], chord[kept], part[kept], places[kept]
     each = once(curves, chord, part, number.astype(np.float64))
@@ -181,6 +182,42 @@ def _in_space(corners: Floats, points: Floats) -> Floats:
         for pair in ((zero, zero), (long, zero), (dot(ac, x), dot(ac, y)), (dot(ap, x), dot(ap, y)))
     ]
     return weights(np.stack(flat[:3], axis=1), flat[3])
+
+
+def _roughly_met(sheets: Sheets, curves: Curves, near: _Close) -> _Close:
+    """The places, once each, where cubic arcs close to the curves pierce the sheets.
+
+    Where they do not, or run along a sheet, nothing that is known happens: a surface that covers itself several times
+    has such places all over.
+    """
+    chord, of_curve = np.unique(near.chord, return_inverse=True)
+    arcs = cubics_in_space(curves, chord)
+    part, places = near.part.copy(), near.places.copy()
+    off = np.full(len(part), np.inf)
+    active = np.arange(len(part))
+    for _ in range(ROUNDS):
+        if not len(active):
+            break
+        of, before = near.number[active], part[active]
+        points, slopes = arcs.at(of_curve[active], before)
+        away = points - sheets.points(of, places[active])
+        off[active] = np.sqrt(dot(away, away))
+        step, places[active] = sheets.missed(of, points, slopes, places[active])
+        step = np.clip(np.where(np.isfinite(step), step, 0.0), -0.7, 0.7)
+        part[active] = np.clip(before + step, -0.5, 1.5)
+        # A place that is led away from its chord twice is none of it.
+        led_away = (part[active] == before) & (step != 0.0)
+        active = active[(off[active] > SETTLED_OF_EXTENT) & np.isfinite(places[active]).all(axis=1) & ~led_away]
+    met = np.flatnonzero((off <= MODEL_RESIDUAL) & np.isfinite(places).all(axis=1))
+    found = _Close(near.chord[met], near.number[met], part[met], places[met], near.reach[met])
+    slopes = arcs.at(of_curve[met], found.part)[1]
+    through = dot(slopes, sheets.normals(found.number, found.places)) / np.linalg.norm(slopes, axis=1).clip(
+        LEAST_DIVISOR
+    )
+    kept = ~(np.abs(through) <= ROUGHLY_ALONG_SHEET_SINE)
+    kept &= _elsewhere(sheets, found.number, curves, found.chord, found.part, found.places, APART_OF_DOMAIN)
+    found = records.some(found, kept)
+    return records.some(found, once(curves, found.chord, found.part, found.number.astype(np.float64)))
 
 
 def _met(view: View, sheets: Sheets, curves: Curves, near: _Close) -> tuple[Ints, Ints, Floats, Floats]:
