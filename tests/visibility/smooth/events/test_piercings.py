@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
+
 import numpy as np
+import pytest
 from support.smooth_parts import ball_from_above, polylines
 
+import vectorplot as vp
 from vectorplot.geometry.budget import USUAL
+from vectorplot.surfaces import Domain, surface_of_function
 from vectorplot.visibility.smooth.events.piercings import piercings
 from vectorplot.visibility.smooth.sheets.sheets import Sheets
 from vectorplot.visibility.smooth.targets import targets_of
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 
 def test_a_line_through_a_sphere_goes_in_behind_one_sheet_and_out_behind_none() -> None:
@@ -30,3 +36,22 @@ def test_a_line_that_touches_does_not_pierce() -> None:
     assert not piercings(view, sheets, targets_of(view, sheets), line, np.zeros(1, dtype=np.bool_), USUAL.pairs)[
         0
     ].change.any()
+
+
+def followed(turns: int, monkeypatch: pytest.MonkeyPatch) -> int:
+    """For how many places the curves of an ellipsoid that covers itself so often are asked."""
+    asked: list[int] = []
+    at = Curves.at
+    with monkeypatch.context() as patched, pytest.warns(vp.InputWarning) if turns > 1 else contextlib.nullcontext():
+        patched.setattr(Curves, "at", lambda self, chord, part: asked.append(len(chord)) or at(self, chord, part))
+        ellipsoid = surface_of_function(
+            lambda u, v: (np.cos(v) * np.cos(u), np.cos(v) * np.sin(u), 1.5 * np.sin(v)),
+            Domain(0.0, 2.0 * np.pi * turns, -1.0, 1.0),
+        )
+        vp.draw(vp.Scene((vp.Item("S", ellipsoid),)))
+    return sum(asked)
+
+
+def test_lines_that_run_along_other_covers_of_their_surface_are_not_followed(monkeypatch: pytest.MonkeyPatch) -> None:
+    # Every chord is close to several triangles of each of the covers, and meets them everywhere.
+    assert followed(2, monkeypatch) < 4 * followed(1, monkeypatch)
