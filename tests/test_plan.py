@@ -66,7 +66,7 @@ CALLS = [
     (Scene((CUBE, CLEAR), (SUN,)), {}, with_sheets("shadows", "transparent shadows")),
     (Scene((CUBE, GLASS)), {}, with_sheets("refraction")),
     (Scene((CUBE, GLASS), (SUN,)), {"shadows": "none"}, with_sheets("refraction")),
-    (Scene((CUBE, BALL)), {}, ["facets", *PLAIN]),
+    (Scene((CUBE, BALL)), {}, ["facets", *PLAIN[:3], "unseen facets", *PLAIN[3:]]),
     (Scene((CUBE,)), {"fills": "visible"}, [*PLAIN, "visible fills"]),
     (Scene((CUBE,)), {"lines": ("crease",)}, [*PLAIN, "lines"]),
 ]

@@ -94,7 +94,7 @@ def test_a_moebius_band_is_kept_and_said(tmp_path: Path) -> None:
         ("shape.gltf", "{}", "a glTF text with its data beside it, which is not read; save it as one glb file"),
         ("shape.3mf", "PK\x03\x04", "a 3MF package, which is not read"),
         ("shape.foo", "BOX bx 1 1 1", "unknown word 'bx', expected 'box' (it was read as a scene: meshes"),
-        ("shape.xyz", "\0\1", "a binary file, neither a scene nor a mesh"),
+        ("shape.abc", "\0\1", "a binary file, neither a scene nor a mesh"),
         ("shape.model", "  <model/>", "an XML file, which is not read"),
         ("shape.scene", "%PDF-1.4", "a PDF document, which is not read"),
         ("shape.txt", "OFF\n3 1 0", "an OFF file, which is not read; give its name the suffix .off"),

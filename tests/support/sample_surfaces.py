@@ -8,6 +8,7 @@ from vectorplot.curves.circle import Circle
 from vectorplot.curves.function import curve_of_function
 from vectorplot.curves.line import Line
 from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.surfaces.families.capped import Capped, Frustum, rod
 from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
@@ -52,6 +53,11 @@ FAMILIES = [
     ("sphere v 0 90", TrimmedSurface(Sphere(), v=(0.0, np.pi / 2))),
     ("ellipsoid 3 2 1", Ellipsoid((3, 2, 1))),
     ("cylinder 2 -1 4 depth 3", Cylinder(2.0, -1.0, 4.0, depth=3.0)),
+    ("cylinder 2 -1 4 capped", Capped(Cylinder(2.0, -1.0, 4.0))),
+    ("frustum radii 2 1 height 3", Frustum(2.0, 1.0, 3.0)),
+    ("frustum radii 2 0.5 height 3 centre 0 0 1 capped", Capped(Frustum(2.0, 0.5, 3.0, (0, 0, 1)))),
+    ("sphere 2 v 0 90 capped", Capped(Sphere(2.0), (0.0, np.pi / 2))),
+    ("rod radius 0.5 points 0 0 1 2 0 1", rod((0, 0, 1), (2, 0, 1), 0.5)),
     ("cone 2 3 centre 0 0 1", Cone.standing(2.0, 3.0, (0, 0, 1))),
     ("cone slope 0.5 bottom -2 top 2 depth_slope 1", Cone(0.5, -2.0, 2.0, depth_slope=1.0)),
     ("hyperboloid 1 2 3 -1.5 2", Hyperboloid((1, 2, 3), -1.5, 2.0)),

@@ -23,6 +23,8 @@ def pen_ordered(paths: Paths, layer: Ints | None = None) -> Paths:
     ----------
     paths : Paths
         Strokes that one pen draws.
+    layer : array (m,), optional
+        The layer of each stroke, where there are several: each is ordered for itself, one after the other.
 
     Returns
     -------
@@ -34,7 +36,6 @@ def pen_ordered(paths: Paths, layer: Ints | None = None) -> Paths:
     The pen begins anywhere; the end of the tour nearer to the page's corner comes first. The result does not depend on
     the order or the directions of the given strokes, except among strokes with equal ends.
 
-    layer (m,): each layer is ordered for itself, one after the other.
     Degenerate: strokes without points come last, as given.
 
     Source: Bentley, Fast algorithms for geometric traveling salesman problems, ORSA J. Computing 4 (1992): greedy
