@@ -21,9 +21,12 @@ from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.placed import PlacedSurface
 from vectorplot.testing.shapes import box
+from vectorplot.visibility.polyhedra.lines import straight_lines
 from vectorplot.visibility.quadrics import closed_forms as first_engine
 from vectorplot.visibility.quadrics.closed_forms import closed_forms
 from vectorplot.visibility.quadrics.hidden_arcs import visible_arcs
+from vectorplot.visibility.smooth.smooth_lines import whole_lines_and_chords
+from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind, line_kinds
 
 LINES = SurfaceLines(columns=5, rows=3)
@@ -161,15 +164,56 @@ ZONE pink surface ellipsoid 1 0.7 1 v -30 45 capped translation 0 -3 0.5 paramet
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("eye", "parallel"), VIEWS)
-def test_the_engine_that_all_else_falls_back_to_draws_the_same_outlines_and_rims(eye, parallel, monkeypatch):
-    # That one decides piece by piece: where contours end on rims it loses pieces of a hundredth in all.
+def test_both_engines_draw_the_same(eye, parallel, monkeypatch):
     scene = parse_scene(MIXED)
     camera = Camera(eye, (0, 0, 0.5), parallel=parallel)
     one = draw(scene, camera, curves="polyline")
     monkeypatch.setattr(first_engine, "capped_quadric_of", lambda shape: None)
     two = draw(scene, camera, curves="polyline")
-    for kind in (LineKind.CONTOUR, LineKind.CREASE):
-        assert length_of(one, kind) == pytest.approx(length_of(two, kind), rel=1e-2)
+    for kind in (LineKind.CONTOUR, LineKind.CREASE, LineKind.PARAMETER):
+        assert length_of(one, kind) == pytest.approx(length_of(two, kind), rel=3e-4)
+
+
+@pytest.mark.parametrize(("eye", "parallel"), [((1, -2, -11), False), ((7, 16.7, 6.7), True), ((8.8, -11, 1.8), True)])
+def test_traced_bodies_are_hidden_by_as_many_items_as_rays_meet(eye, parallel, monkeypatch):
+    # Some outlines run along rims, and lines end there, where both of the sheets that meet end.
+    scene = parse_scene(MIXED)
+    bodies = [unit_body(item.shape) for item in scene.items]
+    camera = Camera(eye, (0, 0, 0.5), parallel=parallel)
+    monkeypatch.setattr(first_engine, "capped_quadric_of", lambda shape: None)
+    drawing = draw(scene, camera, hidden="solid", curves="polyline")
+    points, counts = samples(drawing, bodies)
+    truth = body_sight(camera, points, bodies)
+    on_apex = np.linalg.norm(points - np.array([3.0, 0.0, 2.0]), axis=1) < 1e-9
+    known = truth.sure & ~on_apex
+    assert known.sum() > 1000
+    assert (counts == truth.hidden_by)[known].all()
+
+
+@pytest.mark.parametrize(("eye", "parallel"), [*VIEWS, ((0, 0, 15), True), ((0, 0, -15), False)])
+def test_bodies_lie_to_the_side_of_their_traced_outlines_that_is_said(eye, parallel):
+    item = Item("can", Capped(Frustum(0.6, 1.1, 1.5)) if eye[0] else Capped(Cylinder(1.0, 0.0, 2.0)))
+    view = look(Scene((item,)), Camera(eye, (0, 0, 0.5), parallel=parallel))
+    sheets = scene_sheets(Scene((item,)), view)
+    traced = traced_scene(Scene((item,)), view, sheets, frozenset({LineKind.CONTOUR}), view.tolerance)
+    none = np.zeros(0, dtype=np.intp)
+    lines = whole_lines_and_chords(view, traced, straight_lines(np.zeros((3, 0)), np.zeros((3, 0)), none, none, none))
+    start, end = view.image_of(lines.start), view.image_of(lines.end)
+    way, arm = end - start, np.mean(start, axis=1, keepdims=True) - start
+    # The image of the body is convex.
+    left = way[0] * arm[1] - way[1] * arm[0] > 0.0
+    assert len(lines) > 8
+    assert np.array_equal(lines.side, np.where(left, 1, -1))
+
+
+def test_rulings_on_outlines_are_drawn_once():
+    can = Item("can", Capped(Cylinder(1.0, 0.0, 2.0)), curves=SurfaceLines(columns=6, rows=1))
+    drawing = draw(Scene((can,)), Camera((1, -2, -11), (0, 0, 0.5)))
+    rulings = [
+        paths.points3d[paths.offsets[k]] for paths, k in strokes_of(drawing) if paths.kind[k] == LineKind.PARAMETER
+    ]
+    # The one at angle 0 lies on the contour.
+    assert sorted(np.round([x for x, _, _ in rulings], 9).tolist()) == [-0.5, 0.5]
 
 
 def test_bodies_on_a_ground_are_drawn_in_closed_form():

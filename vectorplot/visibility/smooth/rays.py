@@ -53,6 +53,13 @@ class Samples:
         """Some of the points."""
         return records.some(self, which)
 
+    @property
+    def own(self) -> tuple[tuple[Ints, Floats, Bools], ...]:
+        """The first and the second sheet of every point: its number (k,), the place there (k,3), and whether (k,) the
+        point lies on its contour."""
+        none = np.zeros(len(self), dtype=np.bool_)
+        return (self.sheet, self.places, self.contour), (self.second, self.second_places, none)
+
 
 def counts_in_front(
     view: View, sheets: Sheets, targets: Targets, samples: Samples, items: int, pairs: int
@@ -100,10 +107,7 @@ def _in_front(
         front &= meeting < 1.0
     looked_at = np.append(np.bincount(targets.sheet, minlength=len(sheets)) > 0, False)
     again_at: list[Ints] = []
-    for own, own_places, contour in (
-        (samples.sheet, samples.places, samples.contour),
-        (samples.second, samples.second_places, np.zeros(len(samples), dtype=np.bool_)),
-    ):
+    for own, own_places, contour in samples.own:
         mine = np.flatnonzero(own[sample] == number)
         apart = sheets.apart(number[mine], places[mine], own_places[sample[mine]])
         edge, near = contour[sample[mine]], distance[mine]
@@ -140,18 +144,18 @@ def _meetings(
     near = distance_to(targets.image[triangle], weight, image[sample]) <= targets.margin[triangle] + 0.02 * spread
     sample, triangle, weight = sample[near], triangle[near], inside(weight[near])
     places, number = np.einsum("ij,ijk->ik", weight, targets.places[triangle]), targets.sheet[triangle]
-    # Another start where curvature says that the own sheet is met again.
+    # Other starts where curvature says that the point's own sheets are met again.
     looked_at = np.append(np.bincount(targets.sheet, minlength=len(sheets)) > 0, False)
-    mine = np.flatnonzero(looked_at[samples.sheet] & ~samples.contour)
-    own = samples.sheet[mine]
-    again = _second_meeting(sheets, own, way[mine], samples.places[mine])
-    close = np.isfinite(again) & (np.abs(again) * np.linalg.norm(way[mine], axis=1) < 0.5)
-    mine, own, again = mine[close], own[close], again[close]
-    there = sheets.moved(own, samples.places[mine], again[:, None] * way[mine])
-    good = np.isfinite(there).all(axis=1)
-    sample, number, places = (
-        np.concatenate(pair) for pair in ((sample, mine[good]), (number, own[good]), (places, there[good]))
-    )
+    starts = [(sample, number, places)]
+    for sheet, at, contour in samples.own:
+        mine = np.flatnonzero(looked_at[sheet] & ~contour)
+        again = _second_meeting(sheets, sheet[mine], way[mine], at[mine])
+        close = np.isfinite(again) & (np.abs(again) * np.linalg.norm(way[mine], axis=1) < 0.5)
+        mine, again = mine[close], again[close]
+        there = sheets.moved(sheet[mine], at[mine], again[:, None] * way[mine])
+        good = np.isfinite(there).all(axis=1)
+        starts.append((mine[good], sheet[mine[good]], there[good]))
+    sample, number, places = (np.concatenate(column) for column in zip(*starts, strict=True))
     t = np.zeros(len(sample))
     points, ways = samples.points[sample], way[sample]
     off = np.full(len(sample), np.inf)

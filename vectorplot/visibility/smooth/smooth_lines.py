@@ -12,7 +12,7 @@ from vectorplot.geometry.budget import USUAL, Budget, unheard, unresolved
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_parameters import LEAST_PART
 from vectorplot.visibility.polyhedra.lines import Lines
-from vectorplot.visibility.smooth.events.edge_sides import covered_sides
+from vectorplot.visibility.smooth.events.edge_sides import covered_sides, sides_of_rims
 from vectorplot.visibility.smooth.events.events import all_events
 from vectorplot.visibility.smooth.hidden_curves import HiddenCurves, cut_curves, hidden_curves
 from vectorplot.visibility.smooth.pieces import cut
@@ -73,7 +73,12 @@ def _as_lines(view: View, traced: TracedScene, lines: Lines, curves: Curves, fou
 def _sides(view: View, traced: TracedScene, curves: Curves, chord: Ints) -> Ints:
     """(k,) the sides on which sheets lie of chords of their outlines, seen from the middle of the chord."""
     at, curve = curves.at(chord, np.full(len(chord), 0.5)), curves.owner[chord]
-    return covered_sides(view, traced.sheets, curves.sheet[curve], curves.kind[curve], at.points, at.places, at.slopes)
+    sheets, one, two = traced.sheets, curves.sheet[curve], curves.second_sheet[curve]
+    side = covered_sides(view, sheets, one, curves.kind[curve], at.points, at.places, at.slopes)
+    rim = np.flatnonzero(two >= 0)
+    on = at.some(rim)
+    side[rim] = sides_of_rims(view, sheets, (one[rim], two[rim]), on.points, (on.places, on.second_places), on.slopes)
+    return side
 
 
 def _straight(lines: Lines) -> Curves:

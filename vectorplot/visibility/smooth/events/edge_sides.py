@@ -6,6 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.visibility.smooth.sheets import projection
 from vectorplot.visibility.smooth.sheets.sheets import Sheets
 from vectorplot.words import LineKind
@@ -29,6 +30,24 @@ def covered_sides(
     covered[at] = sheets.inwards(number[at], places[at])
     at = np.flatnonzero(kind == LineKind.CREASE)
     covered[at] = sheets.turnings(number[at], places[at])
+    return _sides(view, points, slopes, covered)
+
+
+def sides_of_rims(
+    view: View, sheets: Sheets, number: tuple[Ints, Ints], points: Floats, places: tuple[Floats, Floats], slopes: Floats
+) -> Ints:
+    """(k,) 1 where the images of both sheets that meet at a sharp edge lie to the left of it, -1 where to the right.
+
+    number (k,) and places (k,3) of the one sheet and of the other; points and slopes (k,3) on the edge and along it,
+    where it is an outline: seen edge-on, a sheet tells nothing, but the other one does.
+    """
+    inwards = [sheets.inwards(*of) for of in zip(number, places, strict=True)]
+    one, two = (way / np.linalg.norm(way, axis=1, keepdims=True).clip(LEAST_DIVISOR) for way in inwards)
+    return _sides(view, points, slopes, one + two)
+
+
+def _sides(view: View, points: Floats, slopes: Floats, covered: Floats) -> Ints:
+    """(k,) the sides of edges to which directions (k,3) lead."""
     side = turn(projection.image_slopes(view, points, slopes), projection.image_slopes(view, points, covered))
     return np.where(np.isfinite(side), np.sign(side), 0.0).astype(np.intp)
 

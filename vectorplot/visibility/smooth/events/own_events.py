@@ -22,9 +22,10 @@ from vectorplot.words import LineKind
 def edge_on_curves(view: View, sheets: Sheets, curves: Curves) -> Bools:
     """(m,) the curves that lie on the contour of their own sheet all along.
 
-    Contours do, whatever rounding makes of normals close to singular points.
+    Contours do, whatever rounding makes of normals close to singular points; but not the outlines along the sharp edges
+    of bodies, at which two sheets meet and neither of them need turn away.
     """
-    contour = (curves.kind == LineKind.CONTOUR) & (curves.sheet >= 0)
+    contour = (curves.kind == LineKind.CONTOUR) & (curves.sheet >= 0) & (curves.second_sheet < 0)
     facing = np.full(len(curves.points), np.inf)
     number = curves.sheet[curves.owner]
     at = np.flatnonzero(number >= 0)
