@@ -50,7 +50,11 @@ def surface_text(shape: Surface | ImplicitSurface) -> str:
     Errors: InputError for surfaces that the language cannot name, such as functions in Python.
     """
     if isinstance(shape, PlacedSurface | PlacedImplicit):
-        return surface_text(shape.surface) + _placement(np.asarray(shape.matrix), np.asarray(shape.shift))
+        matrix, shift, inner = np.asarray(shape.matrix), np.asarray(shape.shift), shape.surface
+        while isinstance(inner, PlacedSurface | PlacedImplicit):
+            shift = np.asarray(inner.shift) @ matrix + shift
+            matrix, inner = np.asarray(inner.matrix) @ matrix, inner.surface
+        return surface_text(inner) + _placement(matrix, shift)
     if isinstance(shape, TrimmedSurface):
         return _trimmed(shape)
     writer = _WRITERS.get(type(shape))
