@@ -1,6 +1,7 @@
 """A campaign of hostile files, by hand: ``python tests/fuzz/campaign.py --target obj --count 1000``.
 
-Files are made by grammars (fuzz_meshes, fuzz_scenes), damaged, and given to a reader or a verb; fuzz_oracle judges.
+Files are made by grammars (fuzz_meshes, fuzz_molecules, fuzz_scenes, fuzz_drawings), damaged, and given to a reader or a
+verb; fuzz_oracle judges.
 Each cause is printed once, with the seed that shows it again; --keep FOLDER keeps the smallest file of each.
 
     campaign.py                            all targets, a minute of CPU each
@@ -24,9 +25,9 @@ from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
 
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from fuzz.fuzz_oracle import TARGETS, Finding, attack, attacks, judged
+from fuzz.fuzz_oracle import FILES, TARGETS, Finding, attack, attacks, judged
 
 MEMORY_BYTES = 3 << 30
 """A campaign gets no more memory than this; what needs more is a finding."""
@@ -107,7 +108,7 @@ def _guided(target: str, corpus: str) -> int:
     folder = TemporaryDirectory()
 
     def test(data: bytes) -> None:
-        found = judged(target, data, target if target in TARGETS[:7] else "scene", Path(folder.name))
+        found = judged(target, data, target if target in FILES else "scene", Path(folder.name))
         if found is not None:
             raise AssertionError(found.story)
 

@@ -17,6 +17,7 @@ from types import FrameType
 
 from fuzz.fuzz_drawings import drawing_bytes
 from fuzz.fuzz_meshes import MESHES, mesh_bytes
+from fuzz.fuzz_molecules import MOLECULES, molecule_bytes
 from fuzz.fuzz_scenes import formula_text, scene_bytes
 
 import vectorplot as vp
@@ -125,8 +126,11 @@ def read_back(path: Path) -> None:
 VERBS: dict[str, Callable[[Path], None]] = {"info": described, "draw": drawn, "paint": painted, "render": rendered}
 """What is done with whole files, by name."""
 
-TARGETS = (*MESHES, "scene", "json", "formula", *VERBS)
-"""Everything that a campaign attacks: the readers of seven formats, the reader of formulas, and the verbs."""
+FILES = (*MESHES, *MOLECULES, "scene", "json")
+"""The kinds of files that are read, by suffix."""
+
+TARGETS = (*FILES, "formula", *VERBS)
+"""Everything that a campaign attacks: the readers of all formats, the reader of formulas, and the verbs."""
 
 
 def attack(target: str, seed: str, folder: Path) -> tuple[Finding | None, bytes, str, float]:
@@ -136,6 +140,8 @@ def attack(target: str, seed: str, folder: Path) -> tuple[Finding | None, bytes,
         data, suffix = formula_text(rng).encode("utf-8", "surrogatepass"), "txt"
     elif target in MESHES:
         data, suffix = mesh_bytes(rng, target), target
+    elif target in MOLECULES:
+        data, suffix = molecule_bytes(rng, target), target
     elif target == "json":
         data, suffix = drawing_bytes(rng), "json"
     elif target == "scene":

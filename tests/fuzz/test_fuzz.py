@@ -5,12 +5,14 @@ the same generators, so that what it finds shrinks."""
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 from random import Random
 
 import pytest
 from fuzz.fuzz_meshes import MESHES, mesh_bytes
-from fuzz.fuzz_oracle import TARGETS, VERBS, attack, finding, judged
+from fuzz.fuzz_oracle import FILES, TARGETS, VERBS, attack, finding, judged
 from fuzz.fuzz_scenes import formula_text, scene_bytes
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -58,13 +60,19 @@ def test_formulas_that_shrink(tmp_path: Path, rng: Random) -> None:
     assert judged("formula", formula_text(rng).encode("utf-8", "surrogatepass"), "txt", tmp_path) is None
 
 
-@pytest.mark.parametrize("suffix", [*MESHES, "scene"])
+@pytest.mark.parametrize("suffix", FILES)
 def test_arbitrary_bytes(tmp_path: Path, suffix: str) -> None:
     rng = Random(suffix)
     for _ in range(60):
         path = tmp_path / f"input.{suffix}"
         path.write_bytes(bytes(rng.randrange(256) for _ in range(rng.randrange(1, 200))))
         assert finding(lambda path=path: read(path), 2.0) is None
+
+
+def test_the_campaign_runs_as_its_page_says(tmp_path: Path) -> None:
+    command = [sys.executable, "tests/fuzz/campaign.py", "--target", "off", "--count", "20", "--keep", str(tmp_path)]
+    done = subprocess.run(command, cwd=Path(__file__).parents[2], capture_output=True, text=True, timeout=60)
+    assert done.stdout.startswith("off: 20 inputs in"), done.stderr
 
 
 def test_the_oracle_finds_what_it_is_for(tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ from vectorplot.errors import InputError
 
 COLOURS = {
     "H": "white",
+    "D": "white",
     "C": "gray",
     "N": "blue",
     "O": "red",

@@ -13,6 +13,7 @@ from vectorplot.io.meshes.mesh_file import check_file, shown
 from vectorplot.io.molecules.elements import elements_of, gemmi_library
 from vectorplot.io.molecules.molecule import Molecule, bonds_between
 from vectorplot.io.molecules.xyz import read_xyz
+from vectorplot.scene.extent import check_range
 
 
 def read_molecule(path: str | os.PathLike[str]) -> Molecule:
@@ -32,7 +33,8 @@ def read_molecule(path: str | os.PathLike[str]) -> Molecule:
     Raises
     ------
     InputError
-        For what is no such file, with the line where there is one; where the library gemmi is not installed.
+        For what is no such file, with the line where there is one; for places out of range, or too close for atoms;
+        where the library gemmi is not installed.
 
     Notes
     -----
@@ -50,6 +52,7 @@ def read_molecule(path: str | os.PathLike[str]) -> Molecule:
     if not np.isfinite(places).all():
         raise InputError("a place is not finite", file=shown(path))
     try:
+        check_range(np.stack([places.min(axis=0), places.max(axis=0)]))
         bonds = bonds_between(elements_of(symbols), places)
     except InputError as error:
         raise InputError(error.cause, file=shown(path)) from None
@@ -64,6 +67,8 @@ def _of_data_bank(path: Path) -> tuple[tuple[str, ...], Floats]:
         structure = gemmi.read_structure(os.fspath(path), format=kind)
     except (RuntimeError, ValueError, OSError) as error:
         raise InputError(f"no molecule: {error}", file=shown(path)) from None
+    except IndexError:  # gemmi, of a file without a block of data
+        raise InputError("no atoms in this file", file=shown(path)) from None
     if not len(structure):
         raise InputError("no atoms in this file", file=shown(path))
     structure.remove_alternative_conformations()
