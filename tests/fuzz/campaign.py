@@ -1,7 +1,7 @@
 """A campaign of hostile files, by hand: ``python tests/fuzz/campaign.py --target obj --count 1000``.
 
-Files are made by grammars (fuzz_meshes, fuzz_molecules, fuzz_scenes, fuzz_drawings), damaged, and given to a reader or a
-verb; fuzz_oracle judges.
+Files are made by grammars (fuzz_meshes, fuzz_molecules, fuzz_scenes, fuzz_drawings), damaged, and given to a
+reader or a verb; fuzz_oracle judges.
 Each cause is printed once, with the seed that shows it again; --keep FOLDER keeps the smallest file of each.
 
     campaign.py                            all targets, a minute of CPU each
