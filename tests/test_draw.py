@@ -17,7 +17,7 @@ from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.io.read import read
+from vectorplot.io.read_file import read
 from vectorplot.plan import StageReport
 from vectorplot.scene.scene import Item, Page, Pattern, Scene
 from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, edge_points, hard_shapes

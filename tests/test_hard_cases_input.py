@@ -20,7 +20,7 @@ from support.paths import PACKAGE
 from vectorplot.cli.main import run
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.meshes.glb import read_glb
-from vectorplot.io.read import read
+from vectorplot.io.read_file import read
 
 STEERING = ("\x1b[31mred\x1b[0m", "\x9b2J", "\u202egnp.exe", "\u2066x\u2069", "a\rb", "\x07", "\u2028", "\udc80")
 """What would colour a terminal, wipe it, turn its text round, go back on its line, or ring."""
@@ -112,7 +112,7 @@ def watch(event, args):
     if event in ("open", "socket.connect"):
         opened.append((event, str(args[0])))
 sys.addaudithook(watch)
-from vectorplot.io.read import read
+from vectorplot.io.read_file import read
 import warnings
 warnings.simplefilter("ignore")
 for path in sys.argv[1:]:

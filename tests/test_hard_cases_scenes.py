@@ -249,7 +249,7 @@ import numpy as np
 import vectorplot as vp
 from vectorplot.plan import peak_mb
 from vectorplot.testing import visible_by_rays
-from vectorplot.testing.surfaces import grid_graph
+from vectorplot.testing.curved_meshes import grid_graph
 sys.path.insert(0, sys.argv[1])
 from support.drawn import drawn, on_page
 mesh = grid_graph(710)

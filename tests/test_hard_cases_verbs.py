@@ -17,6 +17,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.backends.raster import painted
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.testing import assert_drawing_is_right
+from vectorplot.testing.curved_meshes import torus_mesh
 from vectorplot.testing.shapes import (
     box,
     box_on_table,
@@ -31,7 +32,6 @@ from vectorplot.testing.shapes import (
     t_junction,
     without,
 )
-from vectorplot.testing.surfaces import torus_mesh
 
 COLOURS = ("#ff0000", "#00ff00", "#0000ff")
 COLUMNS, ROWS = 96, 72

@@ -12,6 +12,7 @@ from support.drawn import EVERY_EDGE, drawn, moved, on_page, plate, stroke_count
 import vectorplot as vp
 from vectorplot.exact.predicates import orient3d
 from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, edge_points
+from vectorplot.testing.curved_meshes import moebius_strip
 from vectorplot.testing.shapes import (
     box,
     box_on_table,
@@ -26,7 +27,6 @@ from vectorplot.testing.shapes import (
     t_junction,
     touching_boxes,
 )
-from vectorplot.testing.surfaces import moebius_strip
 
 CUBE = box((-1, -1, -1), (1, 1, 1))
 

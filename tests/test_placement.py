@@ -17,7 +17,7 @@ from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing.shapes import box, rotated_boxes
 from vectorplot.tolerances.of_extent import NEAR_OF_DISTANCE
 from vectorplot.visibility.framing import frame_of
-from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.polyhedra.lines import straight_lines
 
 PAGE = Page(120.0, 90.0, 5.0)

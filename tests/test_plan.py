@@ -11,7 +11,7 @@ import pytest
 from support.paths import DATA
 
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.io.read import read
+from vectorplot.io.read_file import read
 from vectorplot.paint import paint
 from vectorplot.plan import Stage, StageReport, Walk
 from vectorplot.scene.scene import Item, Light, Material, Pattern, Scene
@@ -118,7 +118,7 @@ def effects_of(modules: set[str]) -> set[str]:
 
 @pytest.mark.slow
 def test_a_scene_without_lights_mirrors_patterns_and_clear_things_loads_no_effect() -> None:
-    pencil = f"from vectorplot.io.read import read\nscene = read({str(DATA / 'pencil.scene')!r})"
+    pencil = f"from vectorplot.io.read_file import read\nscene = read({str(DATA / 'pencil.scene')!r})"
     modules = loaded(pencil)
     assert not {name for name in modules if name.startswith("vectorplot.effects")}
     assert not {name.split(".")[0] for name in modules} & {"cairo", "svgwrite"}

@@ -24,7 +24,7 @@ from vectorplot.render import render
 from vectorplot.save import write
 from vectorplot.shading.light.illumination import AMBIENT, DARK_SIDE, DIRECT_SHARE, FINISHES
 from vectorplot.shading.light.palettes import PALETTE_LIMITS, palette
-from vectorplot.shading.raster import picture
+from vectorplot.shading.raster import scene_pixels
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.spiral import spiral_surface
 from vectorplot.surfaces.families.torus import Torus
@@ -418,7 +418,7 @@ def test_pictures_in_bands_are_the_whole_ones(monkeypatch):
     options = {"size": (97, 61), "samples": 3, "shadows": "buffer"}
     whole = render(scene, **options)
     monkeypatch.setattr(sys.modules["vectorplot.render"], "BAND_PIXELS", 97 * 9 * 4)
-    monkeypatch.setattr(picture, "POINTS_AT_ONCE", 500)
+    monkeypatch.setattr(scene_pixels, "POINTS_AT_ONCE", 500)
     bands = render(scene, **options)
     assert (whole.pixels == bands.pixels).all()
 
@@ -479,7 +479,7 @@ def test_triangles_are_small_in_fitted_pictures_from_afar_too(camera):
 
 @pytest.mark.slow
 def test_meshes_look_round_up_to_the_crease_angle():
-    from vectorplot.testing.surfaces import torus_mesh
+    from vectorplot.testing.curved_meshes import torus_mesh
 
     scene = vp.Scene((vp.Item("RING", torus_mesh(36, 18), "gray"),), (SUN,))
     camera = default_camera(scene)

@@ -20,9 +20,9 @@ from vectorplot.testing import (
     hard_shapes,
     visible_by_rays,
 )
+from vectorplot.testing.curved_meshes import bumpy_icosphere, grid_graph, torus_mesh
 from vectorplot.testing.rays.triangles import triangulated
 from vectorplot.testing.shapes import box, honeycomb, prism, scene_of, without
-from vectorplot.testing.surfaces import bumpy_icosphere, grid_graph, torus_mesh
 from vectorplot.words import LineKind
 
 LINE = [(10.0, 10.0), (50.0, 10.0), (50.0, 40.0)]

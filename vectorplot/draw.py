@@ -26,8 +26,8 @@ from vectorplot.geometry.vectors import cross, normalize
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_draw
 from vectorplot.scene.placement import Placement, mm_per_image
 from vectorplot.scene.scene import Page, Scene
-from vectorplot.scene.seams import without_seams
-from vectorplot.scene.unbounded import tell_what_is_cut_off
+from vectorplot.scene.seamless_scene import without_seams
+from vectorplot.scene.unbounded_items import tell_what_is_cut_off
 from vectorplot.scene.view import View, look, view_of
 from vectorplot.tolerances.of_extent import FINEST_CHORD_OF_EXTENT
 from vectorplot.visibility.framing import frame_of, in_frame

@@ -26,9 +26,9 @@ from vectorplot.painting.seen import Seen, without_unseen_facets
 from vectorplot.plan import StageReport, Walk, plan_cuts, plan_paint
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.scene import Light, Page, Scene
-from vectorplot.scene.seams import without_seams
+from vectorplot.scene.seamless_scene import without_seams
 from vectorplot.scene.twins import without_twins
-from vectorplot.scene.unbounded import tell_what_is_cut_off
+from vectorplot.scene.unbounded_items import tell_what_is_cut_off
 from vectorplot.scene.view import View, view_of
 from vectorplot.shading.light.face_shades import view_lights
 from vectorplot.shading.light.faceted import FacetedScene, faceted
@@ -40,7 +40,7 @@ from vectorplot.shading.light.palettes import PALETTE_SIZE
 from vectorplot.visibility.painter.gathering import side_by_side
 from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import ImageFaces
-from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import LINE_WORDS, check_word, line_kinds
 

@@ -32,7 +32,7 @@ def read(path: str | os.PathLike[str]) -> Scene | Any:
 
     Notes
     -----
-    What becomes of meshes says `vectorplot.io.read.read`; of layers and pens `vectorplot.backends.read_drawing`.
+    What becomes of meshes says `vectorplot.io.read_file.read`; of layers and pens `vectorplot.backends.read_drawing`.
 
     Examples
     --------
@@ -48,6 +48,6 @@ def read(path: str | os.PathLike[str]) -> Scene | Any:
         from vectorplot.backends.json.document import read_drawing
 
         return read_drawing(path)
-    from vectorplot.io.read import read as read_file
+    from vectorplot.io.read_file import read as read_file
 
     return read_file(path)

@@ -21,8 +21,8 @@ from vectorplot.geometry.chunks import threads_of
 from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, dims_light, plan_cuts, plan_render
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Light, Page, Scene
-from vectorplot.scene.seams import without_seams
-from vectorplot.scene.unbounded import tell_what_is_cut_off
+from vectorplot.scene.seamless_scene import without_seams
+from vectorplot.scene.unbounded_items import tell_what_is_cut_off
 from vectorplot.scene.view import View, view_of
 from vectorplot.shading.depth.coplanar import coplanar_faces
 from vectorplot.shading.light.face_shades import view_lights
@@ -30,8 +30,8 @@ from vectorplot.shading.light.faceted import FacetedScene, faceted
 from vectorplot.shading.light.lighting import Blocked, Lighting, lighting_of
 from vectorplot.shading.light.palettes import palette
 from vectorplot.shading.raster.image import Image
-from vectorplot.shading.raster.picture import Picture, opaque_buffer, picture_of, shaded, with_glass, with_mirrors
 from vectorplot.shading.raster.png import Bytes
+from vectorplot.shading.raster.scene_pixels import Picture, opaque_buffer, picture_of, shaded, with_glass, with_mirrors
 from vectorplot.shading.raster.scene_triangles import SceneTriangles, scene_triangles
 from vectorplot.shading.raster.screen import (
     LARGEST_RASTER_PIXELS,

@@ -25,7 +25,7 @@ from vectorplot.backends.cairo.surfaces import png_bytes
 from vectorplot.backends.svg.document import svg_bytes
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Pen
 from vectorplot.drawing.strokes.curved_strokes import curved_strokes
-from vectorplot.drawing.strokes.paths import concatenated
+from vectorplot.drawing.strokes.stroke_paths import concatenated
 from vectorplot.errors import InputError
 from vectorplot.save import FORMATS, save, write
 

@@ -18,8 +18,8 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.scene.view import look
 from vectorplot.speed.clock import cpu_seconds
+from vectorplot.testing.curved_meshes import bumpy_icosphere
 from vectorplot.testing.shapes import rotated_boxes
-from vectorplot.testing.surfaces import bumpy_icosphere
 from vectorplot.visibility.framing import frame_of, in_frame
 from vectorplot.visibility.polyhedra.hidden_lines import visible_parts
 from vectorplot.visibility.polyhedra.lines import edge_lines, joined_lines

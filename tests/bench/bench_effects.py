@@ -18,7 +18,7 @@ from vectorplot.scene.scene import Item, Light, Material, Scene
 from vectorplot.scene.view import look
 from vectorplot.speed.clock import cpu_seconds
 from vectorplot.testing.shapes import box, rotated_boxes
-from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.projected_faces import project_faces
 
 pytestmark = pytest.mark.bench

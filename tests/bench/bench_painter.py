@@ -16,15 +16,15 @@ from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.speed.clock import cpu_seconds
+from vectorplot.testing.curved_meshes import bumpy_icosphere
 from vectorplot.testing.shapes import box, numbered, rotated_boxes, rotation
-from vectorplot.testing.surfaces import bumpy_icosphere
 from vectorplot.textbook.graph_orders import graph_order, graph_triangles
 from vectorplot.textbook.ring_orders import ring_order, sliced_meridian
 from vectorplot.textbook.sphere_orders import sphere_order
 from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
-from vectorplot.visibility.painter.order import painters_order
-from vectorplot.visibility.painter.pairs.bodies import convex_bodies, outlined_items
+from vectorplot.visibility.painter.painters_order import painters_order
+from vectorplot.visibility.painter.pairs.convex_bodies import convex_bodies, outlined_items
 from vectorplot.visibility.projected_faces import project_faces
 
 pytestmark = pytest.mark.bench

@@ -11,7 +11,7 @@ import pytest
 
 from vectorplot.geometry.repair.mesh_repair import is_closed_oriented, mended
 from vectorplot.io.meshes.numerals import decimals, padded
-from vectorplot.io.read import read
+from vectorplot.io.read_file import read
 
 pytestmark = pytest.mark.bench
 
@@ -84,7 +84,8 @@ def test_binary_stl_read_welded_and_checked(stl: Path) -> None:
 def test_peak_memory_of_reading_binary_stl(stl: Path) -> None:
     if not Path("/proc/self/status").exists():
         pytest.skip("needs /proc: elsewhere the peak of a process includes that of its parent")
-    code = "import sys; from vectorplot.io.read import read; read(sys.argv[1]); print(open('/proc/self/status').read())"
+    work = "from vectorplot.io.read_file import read; read(sys.argv[1])"
+    code = f"import sys; {work}; print(open('/proc/self/status').read())"
     found = subprocess.run([sys.executable, "-c", code, str(stl)], capture_output=True, text=True, check=True)
     (line,) = (line for line in found.stdout.splitlines() if line.startswith("VmHWM"))
     peak = int(line.split()[1]) / 1e3

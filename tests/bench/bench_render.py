@@ -21,7 +21,7 @@ from vectorplot.draw import default_camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.render import render
 from vectorplot.scene.scene import Item, Light, Material, Scene
-from vectorplot.testing.surfaces import bumpy_icosphere
+from vectorplot.testing.curved_meshes import bumpy_icosphere
 
 levels, shadows, lights, samples = {levels}, {shadows!r}, {lights}, {samples}
 sun = [(1.0, -1.5, 2.0), (-1.0, -1.0, 1.0), (2.0, 0.5, 1.0)]

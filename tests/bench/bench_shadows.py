@@ -13,8 +13,8 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Light, Scene
 from vectorplot.scene.view import View, look
+from vectorplot.testing.curved_meshes import bumpy_icosphere
 from vectorplot.testing.shapes import box, numbered, rotated_boxes, rotation
-from vectorplot.testing.surfaces import bumpy_icosphere
 
 pytestmark = pytest.mark.bench
 

@@ -22,7 +22,7 @@ from vectorplot.cli.options import at_least
 from vectorplot.cli.paint import paint
 from vectorplot.cli.render import render
 from vectorplot.cli.verbs import vectorplot
-from vectorplot.cli.view import PAGE_OPTIONS, CameraOptions, PageOptions
+from vectorplot.cli.view_options import PAGE_OPTIONS, CameraOptions, PageOptions
 
 VERBS = [verb for verb in vectorplot.commands.values() if any(param.name == "out" for param in verb.params)]
 PARAMS = {verb.name: {param.name: param for param in verb.params} for verb in VERBS}

@@ -5,7 +5,7 @@ import pytest
 from support.top_fills import colours_at, fills_of, top_at
 
 import vectorplot as vp
-from vectorplot.painting.paper import PAPER
+from vectorplot.painting.painted_paper import PAPER
 from vectorplot.shading.light.palettes import palette
 from vectorplot.testing.shapes import box
 

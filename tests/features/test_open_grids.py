@@ -11,7 +11,7 @@ from vectorplot.features.meshes.edges import Edges, Faces, mesh_edges
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.winding import unbalanced_vertices
-from vectorplot.io.read import read
+from vectorplot.io.read_file import read
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.words import LineKind
 

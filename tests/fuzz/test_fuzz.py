@@ -17,7 +17,7 @@ from fuzz.fuzz_scenes import formula_text, scene_bytes
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from vectorplot.io.read import read
+from vectorplot.io.read_file import read
 
 COUNTS = {**dict.fromkeys(TARGETS, 250), "formula": 600, "draw": 16, "paint": 12, "render": 20, "info": 100}
 """How many files of its stream each target gets in the normal tests."""

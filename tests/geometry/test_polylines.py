@@ -9,7 +9,7 @@ from vectorplot.backends.page.areas import Polygons
 from vectorplot.backends.svg.strips import Strips
 from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.paths import chosen, concatenated
+from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.features.implicit.implicit_tracing import ImplicitCurves
 from vectorplot.features.intersections.double_curves import DoubleCurves
 from vectorplot.features.meshes.mesh_curves import MeshCurves

@@ -12,7 +12,7 @@ from fuzz.fuzz_oracle import cpu_seconds, finding
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.repair.weld import close_points
-from vectorplot.io.read import read
+from vectorplot.io.read_file import read
 
 N = 20_000
 

@@ -20,7 +20,7 @@ from vectorplot.curves.placed import PlacedCurve
 from vectorplot.draw import draw
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.io.info import describe
+from vectorplot.io.description import describe
 from vectorplot.io.scenes.scene_families import CURVES
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene

@@ -7,7 +7,7 @@ from support.paths import DATA
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.geometry.repair.adjacency import body_record, mesh_edges
-from vectorplot.io.read import read
+from vectorplot.io.read_file import read
 from vectorplot.scene.pools import pools
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing.shapes import box, hard_shapes

@@ -9,7 +9,7 @@ import vectorplot as vp
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.solids import box
 from vectorplot.scene.scene import Light
-from vectorplot.shading.raster import picture
+from vectorplot.shading.raster import scene_pixels
 from vectorplot.shading.shadows import shadow_buffer, shadow_map
 from vectorplot.shading.shadows.map_settings import MapSettings
 
@@ -77,13 +77,13 @@ def test_the_maps_of_many_lights_have_room(monkeypatch):
 
 def test_points_that_are_shaded_together_are_fewer_with_more_lights(monkeypatch):
     together = []
-    real = picture.shaded_points
+    real = scene_pixels.shaded_points
 
     def counted(triangles, found, lighting):
         together.append(len(found) * len(lighting.lights))
         return real(triangles, found, lighting)
 
-    monkeypatch.setattr(picture, "shaded_points", counted)
-    monkeypatch.setattr(picture, "SHARES_AT_ONCE", 2000)
+    monkeypatch.setattr(scene_pixels, "shaded_points", counted)
+    monkeypatch.setattr(scene_pixels, "SHARES_AT_ONCE", 2000)
     vp.render(vp.Scene((FLOOR,), scattered(16)), size=(40, 30), shadows="none", samples=1)
     assert len(together) > 5 and 0 < max(together) <= 2000

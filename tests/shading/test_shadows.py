@@ -46,7 +46,7 @@ from vectorplot.shading.shadows.shadow_map import (
 )
 from vectorplot.shading.shadows.shadow_rays import blocked_exactly
 from vectorplot.shading.shadows.trapezoid import focus_area
-from vectorplot.testing.surfaces import bumpy_icosphere
+from vectorplot.testing.curved_meshes import bumpy_icosphere
 
 SUN = Light((1.0, -1.5, 2.0), parallel=True)
 FAR_LAMP = Light((20.0, -30.0, 40.0))

@@ -11,7 +11,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.visibility.painter.image_faces import ImageFaces
-from vectorplot.visibility.painter.order import Painted, painters_order
+from vectorplot.visibility.painter.painters_order import Painted, painters_order
 
 NEAR_EDGE = 1e-6
 """Points nearer to the image of an edge than this part of the extent are not compared."""

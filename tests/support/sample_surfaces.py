@@ -23,9 +23,9 @@ from vectorplot.surfaces.families.spiral import spiral_surface
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.families.translation import translation_surface
 from vectorplot.surfaces.function import surface_of_function
+from vectorplot.surfaces.graph_regions import Disc
 from vectorplot.surfaces.graphs import graph, graph_over_disc
 from vectorplot.surfaces.implicit_function import hessians
-from vectorplot.surfaces.regions import Disc
 from vectorplot.surfaces.surface import Domain, is_parametrised
 from vectorplot.surfaces.trimmed import TrimmedSurface
 

@@ -10,8 +10,8 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.shading.depth.depth_buffer import depth_buffer
 from vectorplot.shading.raster.barycentrics import visible_points
 from vectorplot.shading.raster.screen import raster_system, screen_triangles
+from vectorplot.testing.curved_meshes import bumpy_icosphere, grid_graph, torus_mesh
 from vectorplot.testing.shapes import box, rotated_boxes
-from vectorplot.testing.surfaces import bumpy_icosphere, grid_graph, torus_mesh
 
 COLUMNS, ROWS = 320, 240
 

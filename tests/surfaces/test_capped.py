@@ -9,7 +9,7 @@ import vectorplot as vp
 from vectorplot.errors import InputError
 from vectorplot.features.facets import Within, facets
 from vectorplot.geometry.vectors import dot
-from vectorplot.io.info import describe
+from vectorplot.io.description import describe
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
 from vectorplot.scene.extent import smooth_bounds

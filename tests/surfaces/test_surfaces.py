@@ -24,10 +24,10 @@ from vectorplot.surfaces.families.spiral import spiral_surface
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.families.translation import translation_surface
 from vectorplot.surfaces.function import surface_of_function
+from vectorplot.surfaces.graph_regions import Disc
 from vectorplot.surfaces.graphs import graph, graph_over_disc
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.placed import PlacedSurface
-from vectorplot.surfaces.regions import Disc
 from vectorplot.surfaces.surface import Domain, normals
 
 LINE = Line((2, 0.5, -1), (0.4, 1, 0.7))

@@ -12,7 +12,7 @@ import click
 
 from vectorplot.cli.options import KINDS, at_least, between, format_of, kinds, light
 from vectorplot.cli.picture import make_picture
-from vectorplot.cli.view import CAMERA_OPTIONS, CameraOptions, PageOptions, camera_from, page_from
+from vectorplot.cli.view_options import CAMERA_OPTIONS, CameraOptions, PageOptions, camera_from, page_from
 
 if TYPE_CHECKING:
     from vectorplot.cli.picture import Report

@@ -14,7 +14,7 @@ from vectorplot.cli.common_options import (
     picture_verb,
 )
 from vectorplot.cli.options import at_least
-from vectorplot.cli.view import PAGE_OPTIONS
+from vectorplot.cli.view_options import PAGE_OPTIONS
 
 if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Drawing

@@ -13,8 +13,8 @@ from vectorplot.errors import printable
 @click.option("--quiet", "-q", is_flag=True, help="No warnings.")
 def info(file: str, quiet: bool) -> None:
     """Say what FILE holds: counts, whether it is closed and convex, its size, and what is wrong with it."""
-    from vectorplot.io.info import describe
-    from vectorplot.io.read import read
+    from vectorplot.io.description import describe
+    from vectorplot.io.read_file import read
 
     with told_warnings(quiet=quiet):
         lines = describe(read(file))

@@ -44,7 +44,7 @@ def make_picture(
 
     quiet: no warnings, no progress bar; explain: print what each stage cost.
     """
-    from vectorplot.io.read import read
+    from vectorplot.io.read_file import read
     from vectorplot.plan import Stage, Walk
     from vectorplot.save import write
 

@@ -8,7 +8,7 @@ import click
 
 from vectorplot.cli.common_options import LIGHTS, crease_angle_option, lines_option, picture_verb, shadows_option
 from vectorplot.cli.options import between, pixels
-from vectorplot.cli.view import fit_option
+from vectorplot.cli.view_options import fit_option
 
 if TYPE_CHECKING:
     from vectorplot.scene.scene import Scene

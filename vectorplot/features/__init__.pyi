@@ -33,11 +33,11 @@ from .meshes.mesh_lines import (
 from .parametric.conditions import CentralContour, ParallelContour
 from .parametric.contour import contour, parallel_contour
 from .parametric.curve_tracing import Tracing
+from .parametric.cuspidal_edges import singular_lines
 from .parametric.cusps import Cusps, contour_cusps, contour_with_cusps
 from .parametric.isophotes import isophotes, point_light_isophotes
 from .parametric.parameter_lines import borders, parameter_lines, u_lines, v_lines
 from .parametric.sections import level_lines, plane_sections, section_by_implicit
-from .parametric.singular_lines import singular_lines
 from .parametric.surface_curves import SurfaceCurves
 from .tessellation import Tessellation, surface_tessellation
 from .zeros.grid_triangulation import average_normals, mesh_of_grid, triangulate_surface

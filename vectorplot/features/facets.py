@@ -11,8 +11,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, Vertices, refined
+from vectorplot.features.implicit.implicit_singular_lines import SingularLines, singular_lines, usual_gradient
 from vectorplot.features.implicit.polygonize import onto_surface, polygonized, settled_mesh
-from vectorplot.features.implicit.singular_lines import SingularLines, singular_lines, usual_gradient
 from vectorplot.features.implicit.singular_set import led_into_singular_set
 from vectorplot.features.parametric.poles import Pole, poles
 from vectorplot.features.tessellation import grid_numbers

@@ -1,5 +1,5 @@
+from .description import describe
 from .expressions.expression import Expression, parse_expression
-from .info import describe
 from .molecules.molecule import Molecule
 from .molecules.molecule_scene import molecule_scene
 from .molecules.read_molecule import read_molecule

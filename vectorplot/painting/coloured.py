@@ -12,7 +12,7 @@ from vectorplot.arrays import Bools
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted_fills import Overlay, fills_on_page, stacked
 from vectorplot.geometry.budget import Budget
-from vectorplot.painting.paper import background, paper
+from vectorplot.painting.painted_paper import background, paper
 from vectorplot.painting.seen import Seen, finer, shades_of_faces
 from vectorplot.plan import Walk
 from vectorplot.scene.scene import Page

@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.painted_fills import fills_on_page
-from vectorplot.painting.paper import paper
+from vectorplot.painting.painted_paper import paper
 from vectorplot.painting.ruler import PEN, Ruler
 from vectorplot.painting.seen import Seen
 from vectorplot.plan import Walk
@@ -42,7 +42,7 @@ def erased(walk: Walk, seen: Seen, scene: Scene, ruler: Ruler, kinds: frozenset[
 def _coloured_strokes(scene: Scene, ruler: Ruler, kinds: frozenset[LineKind], size: int) -> list[tuple[Paths, Colours]]:
     """The visible lines of a scene, and their inks (m,3): the middle shades of the palettes of items, and of those of
     patterns."""
-    from vectorplot.drawing.strokes.paths import chosen
+    from vectorplot.drawing.strokes.stroke_paths import chosen
     from vectorplot.shading.light.depth_cueing import MIDDLE
 
     strokes = ruler.strokes(scene, kinds)

@@ -10,7 +10,7 @@ from vectorplot.geometry.budget import unresolved
 from vectorplot.plan import Walk
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section
-from vectorplot.visibility.painter.order import Painted
+from vectorplot.visibility.painter.painters_order import Painted
 
 MOST_NAMES = 5
 """So many items of a knot are named."""

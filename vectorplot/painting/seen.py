@@ -14,7 +14,7 @@ from vectorplot.shading.light.faceted import FacetedScene
 from vectorplot.shading.light.painted_colours import Lighting, corner_shades_of
 from vectorplot.shading.light.refinement import SHORTEST_MM, refined
 from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
-from vectorplot.visibility.painter.order import Painted
+from vectorplot.visibility.painter.painters_order import Painted
 from vectorplot.visibility.painter.unseen import unseen_faces
 from vectorplot.visibility.projected_faces import ProjectedFaces
 

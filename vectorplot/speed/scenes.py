@@ -14,8 +14,8 @@ from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
+from vectorplot.testing.curved_meshes import bumpy_icosphere
 from vectorplot.testing.shapes import box, rotated_boxes
-from vectorplot.testing.surfaces import bumpy_icosphere
 
 LAMP = Light((9.0, -7.0, 12.0))
 

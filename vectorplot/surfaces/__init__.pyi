@@ -23,13 +23,13 @@ from .families.swept import Swept
 from .families.torus import ImplicitTorus, ImplicitTorusByDistance, Torus
 from .families.translation import translation_surface
 from .function import FunctionSurface, surface_of_function
+from .graph_regions import Disc, PolygonRegion, Region
 from .graphs import Graph, PolarGraph, graph, graph_over_disc
 from .height_grid import densified_grid, grid_of_scattered
 from .implicit_function import ImplicitFunction, implicit_of_function
 from .inversion import InvertedImplicit, InvertedSurface, inverted
 from .normals import unit_normals
 from .placed import PlacedImplicit, PlacedSurface
-from .regions import Disc, PolygonRegion, Region
 from .surface import Domain, ImplicitSurface, Surface
 from .trimmed import TrimmedSurface
 

@@ -13,7 +13,7 @@ from vectorplot.curves.derivatives import NumericFunction, cut_off, numeric_func
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.function import ranges_of
-from vectorplot.surfaces.regions import Disc, Region
+from vectorplot.surfaces.graph_regions import Disc, Region
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_parameters import ROUNDING_OF_DOMAIN
 

@@ -1,5 +1,6 @@
 from .compare import assert_drawings_equal
 from .curve_distance import hausdorff
+from .curve_points import curves_in_space
 from .curves import (
     BranchCount,
     assert_closed,
@@ -11,7 +12,6 @@ from .curves import (
     branch_count,
 )
 from .drawing_checks import assert_drawing_is_right, edge_points
-from .polylines import curves_in_space
 from .rays.sight import Sight, visible_by_rays
 from .shapes import hard_shapes
 

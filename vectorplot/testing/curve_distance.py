@@ -11,7 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import norm
-from vectorplot.testing.polylines import Curves, points_of, polylines_of
+from vectorplot.testing.curve_points import Curves, points_of, polylines_of
 from vectorplot.tolerances.of_extent import DISTANCE_ACCURACY
 
 PAIRS = 1 << 20

@@ -16,7 +16,7 @@ from vectorplot.scene.scene import Light
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 from vectorplot.testing.curve_distance import Worst, worst_of_both
-from vectorplot.testing.polylines import CurvePoints, Curves, points_of, polylines_of
+from vectorplot.testing.curve_points import CurvePoints, Curves, points_of, polylines_of
 from vectorplot.testing.rays.nearest import nearest_places
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_lengths import ACCURACY_OF_TOLERANCE

@@ -8,9 +8,9 @@ from vectorplot.arrays import Ints
 from vectorplot.geometry.convex.separating_planes import spheres_power
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import ImageFaces
-from vectorplot.visibility.painter.pairs.bodies import Bodies, spheres_apart
 from vectorplot.visibility.painter.pairs.body_pairs import body_relations
-from vectorplot.visibility.painter.pairs.candidates import box_pairs
+from vectorplot.visibility.painter.pairs.box_pairs import box_pairs
+from vectorplot.visibility.painter.pairs.convex_bodies import Bodies, spheres_apart
 from vectorplot.visibility.painter.pairs.face_pairs import APART, BEHIND, IN_FRONT
 
 

@@ -1,8 +1,8 @@
 from .painter.groups import ObjectOrder, gordian_knots, group_ranks, grouped_order, knot_report, object_order
 from .painter.image_faces import ImageFaces, image_faces, image_points
 from .painter.mikado import Mikado, mikado
-from .painter.order import Painted, painters_order
-from .painter.pairs.bodies import Bodies, convex_bodies
+from .painter.painters_order import Painted, painters_order
+from .painter.pairs.convex_bodies import Bodies, convex_bodies
 from .painter.pairs.face_pairs import APART, BEHIND, COPLANAR, IN_FRONT, STRADDLING
 from .painter.precedence import Precedence
 from .painter.priorities import Objects, demands, priorities, view_objects, wholly_hidden

@@ -16,9 +16,9 @@ from vectorplot.drawing.strokes.finishing import long_strokes
 from vectorplot.drawing.strokes.join import joined
 from vectorplot.drawing.strokes.long_strokes import split_long
 from vectorplot.drawing.strokes.page_clip import clipped
-from vectorplot.drawing.strokes.paths import chosen, concatenated
 from vectorplot.drawing.strokes.pen_order.order import pen_ordered
 from vectorplot.drawing.strokes.simplify import without_collinear_points
+from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 
 
 def ellipse(t):

@@ -6,7 +6,7 @@ from support.effort import examples
 from support.sample_paths import canonical, length_mm, lines_of, pieces, polylines
 
 from vectorplot.drawing.strokes.join import joined
-from vectorplot.drawing.strokes.paths import chosen
+from vectorplot.drawing.strokes.stroke_paths import chosen
 
 TOL = 1e-4
 

@@ -14,7 +14,7 @@ from vectorplot.scene.scene import Item, Material, Pattern, Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import interpenetrating_boxes
 from vectorplot.visibility.painter.image_faces import image_points
-from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.projected_faces import project_faces
 
 SQUARE = np.array([[-9.0, -9.0], [9.0, -9.0], [9.0, 9.0], [-9.0, 9.0]])

@@ -15,8 +15,8 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.plane_cuts import polygon_areas
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View, look
+from vectorplot.testing.curved_meshes import torus_mesh
 from vectorplot.testing.shapes import box, numbered, rotated_boxes
-from vectorplot.testing.surfaces import torus_mesh
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.projected_faces import project_faces
 

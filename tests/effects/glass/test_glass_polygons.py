@@ -15,7 +15,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Material, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box
-from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.projected_faces import newell, project_faces
 
 WATER = Material("transparent", 0.3, 4.0 / 3.0)

@@ -16,7 +16,7 @@ from vectorplot.scene.scene import Item, Material, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.painter.image_faces import ImageFaces, image_points, view_points
-from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.projected_faces import project_faces
 
 MIRROR = Material("mirror")

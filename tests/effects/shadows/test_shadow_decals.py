@@ -20,8 +20,8 @@ from vectorplot.geometry.convex.plane_cuts import parts_of, polygon_areas
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.view import View, look
+from vectorplot.testing.curved_meshes import bumpy_icosphere, grid_graph, torus_mesh
 from vectorplot.testing.shapes import box, hard_shapes, numbered, random_convex_solids, rotated_boxes, rotation
-from vectorplot.testing.surfaces import bumpy_icosphere, grid_graph, torus_mesh
 from vectorplot.textbook.graph_orders import graph_triangles
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.painter.slices import cut_into_slices

@@ -7,8 +7,8 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.winding import unbalanced_vertices
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import look
+from vectorplot.testing.curved_meshes import bumpy_icosphere, moebius_strip, torus_mesh
 from vectorplot.testing.shapes import box
-from vectorplot.testing.surfaces import bumpy_icosphere, moebius_strip, torus_mesh
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import LineKind
 

@@ -7,8 +7,8 @@ from vectorplot.features.meshes.edges import Faces
 from vectorplot.features.meshes.mesh_intersections import Intersections, face_intersections
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import axis_frame
+from vectorplot.testing.curved_meshes import bumpy_icosphere
 from vectorplot.testing.shapes import box
-from vectorplot.testing.surfaces import bumpy_icosphere
 
 
 def met(*meshes: Mesh) -> Intersections:

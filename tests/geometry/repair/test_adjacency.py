@@ -22,7 +22,7 @@ from vectorplot.geometry.repair.adjacency import (
     neighbour_faces,
 )
 from vectorplot.geometry.solids import box, polyhedron
-from vectorplot.io.read import read
+from vectorplot.io.read_file import read
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import look
 from vectorplot.shading.light.face_shades import face_middles, face_normals, face_shades, view_lights

@@ -10,10 +10,10 @@ from vectorplot.features.zeros.grid_triangulation import mesh_of_grid
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.mesh_repair import is_closed_oriented, mesh_report
 from vectorplot.geometry.repair.seams import joined_seams
-from vectorplot.io.info import describe
+from vectorplot.io.description import describe
 from vectorplot.testing import assert_drawings_equal
+from vectorplot.testing.curved_meshes import bumpy_icosphere, grid_graph, moebius_strip, torus_mesh
 from vectorplot.testing.shapes import box, prism, without
-from vectorplot.testing.surfaces import bumpy_icosphere, grid_graph, moebius_strip, torus_mesh
 
 CAMERA = vp.Camera((5.0, -7.0, 4.0))
 SHAPES = {

@@ -11,7 +11,7 @@ from fuzz.fuzz_meshes import random_tree
 
 from vectorplot.errors import InputError
 from vectorplot.io.meshes.glb import read_glb
-from vectorplot.io.read import read
+from vectorplot.io.read_file import read
 
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype="<f4")
 FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], dtype="<u2")

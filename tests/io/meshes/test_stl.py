@@ -5,7 +5,7 @@ import pytest
 
 from vectorplot.errors import InputError
 from vectorplot.io.meshes.stl import read_stl
-from vectorplot.io.read import read
+from vectorplot.io.read_file import read
 
 TETRAHEDRON = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=np.float32)
 FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])

@@ -22,11 +22,11 @@ from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.revolution import revolution_surface
 from vectorplot.surfaces.families.torus import ImplicitTorus, ImplicitTorusByDistance, Torus
 from vectorplot.surfaces.function import surface_of_function
+from vectorplot.surfaces.graph_regions import Disc
 from vectorplot.surfaces.graphs import graph
 from vectorplot.surfaces.implicit_function import implicit_of_function
 from vectorplot.surfaces.inversion import InvertedSurface
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
-from vectorplot.surfaces.regions import Disc
 from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.trimmed import TrimmedSurface
 from vectorplot.testing.shapes import box

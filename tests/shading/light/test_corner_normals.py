@@ -7,8 +7,8 @@ import pytest
 from support.shaded_scenes import triangles_of
 
 from vectorplot.shading.light.corner_normals import corner_normals, face_normals, unit
+from vectorplot.testing.curved_meshes import bumpy_icosphere
 from vectorplot.testing.shapes import box
-from vectorplot.testing.surfaces import bumpy_icosphere
 
 
 def normals_of(points, corners, angle):

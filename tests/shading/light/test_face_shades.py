@@ -16,8 +16,8 @@ from vectorplot.shading.light import face_shades as fs
 from vectorplot.shading.light import fading
 from vectorplot.shading.light.illumination import AMBIENT, DARK_SIDE, DIRECT_SHARE, FINISHES
 from vectorplot.shading.light.palettes import palette
+from vectorplot.testing.curved_meshes import torus_mesh
 from vectorplot.testing.shapes import box, rotation
-from vectorplot.testing.surfaces import torus_mesh
 
 CAMERA = Camera((6.0, 5.0, 4.0))
 LIGHTS = (Light((5.0, -3.0, 8.0)), Light((-2.0, 4.0, 5.0), parallel=True, intensity=0.4))

@@ -13,15 +13,15 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import rotation_about
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View, look
+from vectorplot.surfaces.graph_regions import Disc
 from vectorplot.surfaces.graphs import graph, vertical
 from vectorplot.surfaces.placed import PlacedSurface
-from vectorplot.surfaces.regions import Disc
 from vectorplot.surfaces.surface import Domain
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import ImageFaces
-from vectorplot.visibility.painter.order import painters_order
-from vectorplot.visibility.painter.pairs.candidates import box_pairs
+from vectorplot.visibility.painter.painters_order import painters_order
+from vectorplot.visibility.painter.pairs.box_pairs import box_pairs
 from vectorplot.visibility.painter.pairs.face_pairs import drawn_before, face_relations
 from vectorplot.visibility.painter.plans import plan_of
 
@@ -101,7 +101,7 @@ def test_what_is_in_front_comes_later_always(seed: int, parallel: bool, make) ->
 
 @pytest.mark.parametrize("parallel", [False, True])
 def test_what_else_is_in_the_picture_is_compared_and_only_that(monkeypatch, parallel: bool) -> None:
-    from vectorplot.visibility.painter import order
+    from vectorplot.visibility.painter import painters_order
 
     compared = []
 
@@ -109,7 +109,7 @@ def test_what_else_is_in_the_picture_is_compared_and_only_that(monkeypatch, para
         compared.append(np.stack([faces.source[first], faces.source[second]]))
         return face_relations(faces, first, second, tolerance)
 
-    monkeypatch.setattr(order, "face_relations", counted)
+    monkeypatch.setattr("vectorplot.visibility.painter.painters_order.face_relations", counted)
     for seed in range(12):
         meshes = (field(seed), box((2.0, 1.0, 1.6), (3.0, 2.0, 2.5)), field(seed + 1, holes=False))
         low = meshes[2].transformed(np.array([[1, 0, 0, 0.4], [0, 1, 0, 0.3], [0, 0, 1, -1.7], [0, 0, 0, 1.0]]))

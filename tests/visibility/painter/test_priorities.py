@@ -12,6 +12,7 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Light
 from vectorplot.scene.view import look
+from vectorplot.testing.curved_meshes import torus_mesh
 from vectorplot.testing.shapes import (
     box,
     cyclic_bars,
@@ -21,13 +22,12 @@ from vectorplot.testing.shapes import (
     rotated_boxes,
     scene_of,
 )
-from vectorplot.testing.surfaces import torus_mesh
 from vectorplot.textbook.sphere_orders import sphere_order
 from vectorplot.visibility.painter.groups import gordian_knots, grouped_order, knot_report, object_order
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.mikado import component_ranks, mikado
-from vectorplot.visibility.painter.order import painters_order
-from vectorplot.visibility.painter.pairs.bodies import convex_bodies, outlined_items
+from vectorplot.visibility.painter.painters_order import painters_order
+from vectorplot.visibility.painter.pairs.convex_bodies import convex_bodies, outlined_items
 from vectorplot.visibility.painter.pairs.face_pairs import APART, BEHIND, IN_FRONT, STRADDLING
 from vectorplot.visibility.painter.priorities import demands, priorities, view_objects, which_first, wholly_hidden
 from vectorplot.visibility.projected_faces import project_faces

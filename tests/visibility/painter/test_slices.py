@@ -13,12 +13,12 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.view import look
+from vectorplot.testing.curved_meshes import torus_mesh
 from vectorplot.testing.shapes import box, numbered, scene_of
-from vectorplot.testing.surfaces import torus_mesh
 from vectorplot.textbook.graph_orders import graph_order, graph_triangles
 from vectorplot.textbook.ring_orders import ring_order, sliced_meridian
 from vectorplot.visibility.painter.image_faces import image_faces, image_points, polygons_of
-from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.painter.precedence import Precedence
 from vectorplot.visibility.painter.slices import cut_into_slices, eye_coordinate, slice_order, sliced_order
 

@@ -15,7 +15,7 @@ from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.view import look, view_of
 from vectorplot.shading.light.faceted import faceted
 from vectorplot.shading.light.fineness import picture_fineness
-from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.painter.unseen import unseen_faces
 from vectorplot.visibility.projected_faces import project_faces
 

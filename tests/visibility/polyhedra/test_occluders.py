@@ -5,8 +5,8 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import look
+from vectorplot.testing.curved_meshes import torus_mesh
 from vectorplot.testing.shapes import box, hollow_bodies, random_convex_solids
-from vectorplot.testing.surfaces import torus_mesh
 from vectorplot.visibility.polyhedra.occluders import Occluders, face_occluders, solid_items, solid_occluders
 from vectorplot.visibility.projected_faces import project_faces
 

@@ -12,8 +12,8 @@ from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.scene.view import look
 from vectorplot.surfaces.balls import ball_of
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.visibility.quadrics.arcs import joined_arcs
-from vectorplot.visibility.quadrics.bodies.balls import balls_of
+from vectorplot.visibility.quadrics.bodies.seen_balls import balls_of
+from vectorplot.visibility.quadrics.conic_arcs import joined_arcs
 from vectorplot.visibility.quadrics.conic_curves import conic_curves
 from vectorplot.visibility.quadrics.lines.ball_arcs import ball_arcs
 

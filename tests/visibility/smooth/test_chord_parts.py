@@ -15,7 +15,7 @@ from vectorplot.scene.view import look
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.visibility.polyhedra.lines import joined_lines
 from vectorplot.visibility.smooth.chord_parts import ChordParts
-from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.smooth_lines import cut_lines_and_chords, whole_lines_and_chords
 from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
 from vectorplot.words import LineKind
@@ -33,7 +33,7 @@ def by_differences(view, parts):
     """(n,2) directions at the ends of lines by differences along the curves, and where these say something."""
     span, result, sure = parts.end - parts.begin, [], []
     for start, step in ((parts.begin, STEP * span), (parts.end, -STEP * span)):
-        at = [projection.image(view, parts.curves.at(parts.chord, start + k * step).points) for k in range(4)]
+        at = [sight_lines.image(view, parts.curves.at(parts.chord, start + k * step).points) for k in range(4)]
         way = np.sign(step)[:, None] * (-11.0 * at[0] + 18.0 * at[1] - 9.0 * at[2] + 2.0 * at[3])
         result.append(np.arctan2(way[:, 1], way[:, 0]))
         size = np.linalg.norm(way, axis=1) / (6.0 * STEP)

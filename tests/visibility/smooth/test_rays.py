@@ -7,7 +7,7 @@ from support.smooth_parts import ball_from_above
 
 from vectorplot.geometry.budget import USUAL
 from vectorplot.visibility.smooth.rays import Samples, counts_in_front
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.targets import targets_of
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from support.smooth_parts import around, ball_from_above, polylines
 
 from vectorplot.visibility.smooth.events.events import Events
-from vectorplot.visibility.smooth.pieces import cut
+from vectorplot.visibility.smooth.hidden_pieces import cut
 from vectorplot.visibility.smooth.runs import without_short_runs
 
 

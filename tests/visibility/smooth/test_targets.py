@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from support.smooth_parts import ball_from_above
 
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.targets import distance_to, inside, targets_of, weights
 
 TRIANGLE = np.array([[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]])

@@ -15,7 +15,7 @@ from vectorplot.backends.json.strokes_in_json import strokes_of, strokes_text
 from vectorplot.backends.page.page_marks import check
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
-from vectorplot.drawing.strokes.paths import chosen, concatenated
+from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.errors import InputError
 from vectorplot.words import LineKind
 

@@ -11,7 +11,7 @@ import numpy as np
 from vectorplot.arrays import Ints
 from vectorplot.backends.json.number_arrays import numbers_of, numbers_or_nulls, plain
 from vectorplot.drawing.drawing import NO_CURVE, Paths
-from vectorplot.drawing.strokes.paths import chosen
+from vectorplot.drawing.strokes.stroke_paths import chosen
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.words import LineKind

@@ -22,7 +22,7 @@ from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.strokes.curved_strokes import one_mark
 from vectorplot.drawing.strokes.page_clip import Rectangle, clipped_parts
-from vectorplot.drawing.strokes.paths import chosen
+from vectorplot.drawing.strokes.stroke_paths import chosen
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 

@@ -11,7 +11,7 @@ from vectorplot.curves.bezier.elliptic_arcs import EllipseArcs, arc_segments, re
 from vectorplot.curves.bezier.fit import fitted_paths
 from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.drawing.drawing import CurvedStrokes, Paths
-from vectorplot.drawing.strokes.paths import chosen, concatenated
+from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import joined

@@ -6,7 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.paths import chosen, concatenated, sections, unrolled
+from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated, sections, unrolled
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 

@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.neighbours import Keys, companions, overlapping_cells
-from vectorplot.drawing.strokes.paths import chosen, sections
+from vectorplot.drawing.strokes.stroke_paths import chosen, sections
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
 from vectorplot.tolerances.of_lengths import COLLINEAR_OF_LENGTH

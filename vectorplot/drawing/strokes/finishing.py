@@ -14,10 +14,10 @@ from vectorplot.drawing.strokes.curved_strokes import curved_strokes
 from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.drawing.strokes.join import joined
 from vectorplot.drawing.strokes.long_strokes import split_long
-from vectorplot.drawing.strokes.paths import chosen, concatenated
 from vectorplot.drawing.strokes.pen_order.order import pen_ordered
 from vectorplot.drawing.strokes.rows import going_on, in_rows, without_dots
 from vectorplot.drawing.strokes.simplify import without_collinear_points
+from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import split
 from vectorplot.tolerances.of_the_page import COINCIDENT_MM, COLLINEAR_MM

@@ -10,8 +10,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.chains import NO_END, Chains, chains
 from vectorplot.drawing.strokes.neighbours import clusters
-from vectorplot.drawing.strokes.paths import chosen, directed, world_per_mm
 from vectorplot.drawing.strokes.rows import SAME_PLACE, going_on, in_rows
+from vectorplot.drawing.strokes.stroke_paths import chosen, directed, world_per_mm
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import with_points
 from vectorplot.geometry.repair.weld import close_points

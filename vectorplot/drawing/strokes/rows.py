@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Ints
 from vectorplot.drawing.drawing import NO_CURVE, Paths
-from vectorplot.drawing.strokes.paths import chosen, world_per_mm
+from vectorplot.drawing.strokes.stroke_paths import chosen, world_per_mm
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import with_points
 

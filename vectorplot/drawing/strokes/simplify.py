@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.paths import world_per_mm
+from vectorplot.drawing.strokes.stroke_paths import world_per_mm
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import with_points
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT

@@ -10,7 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.chains import NO_END, chains
 from vectorplot.drawing.strokes.join import linked_ends
-from vectorplot.drawing.strokes.paths import chosen
+from vectorplot.drawing.strokes.stroke_paths import chosen
 from vectorplot.geometry import ragged
 from vectorplot.tolerances.of_the_page import TOUCHING_AT_MM
 from vectorplot.visibility.polyhedra import grid as grids

@@ -26,7 +26,7 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.light.painted_colours import opacities
 from vectorplot.visibility.painter.image_faces import ImageFaces, image_points, polygons_of
-from vectorplot.visibility.painter.pairs.candidates import boxes_over
+from vectorplot.visibility.painter.pairs.box_pairs import boxes_over
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import ProjectedFaces
 

@@ -12,8 +12,8 @@ from vectorplot.geometry.polylines import joined
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
 from vectorplot.visibility.painter.mikado import component_ranks
-from vectorplot.visibility.painter.order import painters_order
-from vectorplot.visibility.painter.pairs.candidates import box_pairs
+from vectorplot.visibility.painter.painters_order import painters_order
+from vectorplot.visibility.painter.pairs.box_pairs import box_pairs
 from vectorplot.visibility.painter.pairs.face_pairs import drawn_before, face_relations
 from vectorplot.visibility.painter.pairs.outlines import Outlines, overlapping
 

@@ -19,7 +19,7 @@ from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, view_points
-from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import ProjectedFaces, newell, project_faces
 

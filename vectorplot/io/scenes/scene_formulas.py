@@ -9,9 +9,9 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.function import FunctionCurve, curve_of_function
 from vectorplot.io.expressions.expression import Expression
 from vectorplot.surfaces.function import FunctionSurface, surface_of_function
+from vectorplot.surfaces.graph_regions import Disc
 from vectorplot.surfaces.graphs import Graph, PolarGraph, graph, graph_over_disc
 from vectorplot.surfaces.implicit_function import ImplicitFunction, implicit_of_function
-from vectorplot.surfaces.regions import Disc
 from vectorplot.surfaces.surface import Domain
 
 

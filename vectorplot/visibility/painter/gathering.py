@@ -7,7 +7,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Ints
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.mikado import Links
-from vectorplot.visibility.painter.pairs.candidates import box_pairs, boxes_over
+from vectorplot.visibility.painter.pairs.box_pairs import box_pairs, boxes_over
 from vectorplot.visibility.painter.pairs.outlines import Outlines, overlapping
 
 MOST_OVERLAPS = 32

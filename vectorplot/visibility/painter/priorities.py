@@ -19,8 +19,8 @@ from vectorplot.geometry.convex.separating_planes import Surroundings, separatio
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces
-from vectorplot.visibility.painter.pairs.bodies import outlined_items
-from vectorplot.visibility.painter.pairs.candidates import box_pairs
+from vectorplot.visibility.painter.pairs.box_pairs import box_pairs
+from vectorplot.visibility.painter.pairs.convex_bodies import outlined_items
 from vectorplot.visibility.painter.pairs.face_pairs import APART, BEHIND, IN_FRONT, STRADDLING, Codes, face_relations
 from vectorplot.visibility.projected_faces import project_faces
 

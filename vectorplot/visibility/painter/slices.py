@@ -11,7 +11,7 @@ from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.polylines import joined, some
 from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
 from vectorplot.visibility.painter.image_faces import ImageFaces
-from vectorplot.visibility.painter.pairs.candidates import box_pairs
+from vectorplot.visibility.painter.pairs.box_pairs import box_pairs
 from vectorplot.visibility.painter.pairs.face_pairs import APART, face_relations
 
 

@@ -9,8 +9,8 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.tolerances.of_numbers import ROUNDING
 from vectorplot.visibility.quadrics import bernstein
+from vectorplot.visibility.quadrics.arc_pieces import Pieces
 from vectorplot.visibility.quadrics.bodies.covers import Covers
-from vectorplot.visibility.quadrics.pieces import Pieces
 
 
 @dataclass(frozen=True, eq=False)

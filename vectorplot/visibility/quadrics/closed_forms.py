@@ -22,10 +22,10 @@ from vectorplot.surfaces.capped_quadrics import capped_quadric_of
 from vectorplot.tolerances.of_values import HOMOTHETIC
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines, kinds_of
-from vectorplot.visibility.quadrics.arcs import Arcs, OwnSides, beyond_near, joined_arcs
-from vectorplot.visibility.quadrics.bodies.balls import balls_of
-from vectorplot.visibility.quadrics.bodies.bodies import Bodies
-from vectorplot.visibility.quadrics.bodies.capped import capped_bodies_of
+from vectorplot.visibility.quadrics.bodies.seen_balls import balls_of
+from vectorplot.visibility.quadrics.bodies.seen_bodies import Bodies
+from vectorplot.visibility.quadrics.bodies.seen_capped import capped_bodies_of
+from vectorplot.visibility.quadrics.conic_arcs import Arcs, OwnSides, beyond_near, joined_arcs
 from vectorplot.visibility.quadrics.conic_curves import ConicArcs
 from vectorplot.visibility.quadrics.lines.ball_arcs import ball_arcs
 from vectorplot.visibility.quadrics.lines.ball_meetings import (

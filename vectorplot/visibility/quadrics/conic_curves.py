@@ -11,8 +11,8 @@ from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import WHOLE_TURN
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
-from vectorplot.visibility.quadrics.arcs import Arcs
 from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates, eye_coordinates
+from vectorplot.visibility.quadrics.conic_arcs import Arcs
 from vectorplot.visibility.smooth.sheets.family import Along, Chords
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 

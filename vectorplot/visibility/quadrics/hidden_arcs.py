@@ -13,12 +13,12 @@ from vectorplot.exact import intervals
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.vectors import dot
 from vectorplot.visibility.polyhedra.hidden_lines import SLIVER, Progress, Visibility
-from vectorplot.visibility.quadrics.arcs import Arcs, OwnSides
-from vectorplot.visibility.quadrics.bodies.bodies import Bodies
+from vectorplot.visibility.quadrics.arc_pieces import Pieces, cut_arcs, packed_box
 from vectorplot.visibility.quadrics.bodies.covers import Covers
-from vectorplot.visibility.quadrics.candidates import close_pairs, grid_of, typical_size
+from vectorplot.visibility.quadrics.bodies.seen_bodies import Bodies
 from vectorplot.visibility.quadrics.clip import hidden_zones
-from vectorplot.visibility.quadrics.pieces import Pieces, cut_arcs, packed_box
+from vectorplot.visibility.quadrics.conic_arcs import Arcs, OwnSides
+from vectorplot.visibility.quadrics.cover_candidates import close_pairs, grid_of, typical_size
 
 IN_SLAB, FEWEST_SLABS, MOST_SLABS = 1500, 4, 24
 """Covers are tried front to back in slabs of about so many, so that what is hidden early drops out."""

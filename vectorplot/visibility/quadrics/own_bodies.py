@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.visibility.quadrics.arcs import OwnSides
-from vectorplot.visibility.quadrics.bodies.bodies import Bodies
+from vectorplot.visibility.quadrics.bodies.seen_bodies import Bodies
+from vectorplot.visibility.quadrics.conic_arcs import OwnSides
 from vectorplot.visibility.smooth.sheets.family import Along, Chords, Family
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 

@@ -14,8 +14,8 @@ from vectorplot.scene.view import View
 from vectorplot.surfaces.families.capped import CappedPart
 from vectorplot.surfaces.placed import PlacedSurface
 from vectorplot.visibility.polyhedra.lines import kinds_of
-from vectorplot.visibility.quadrics.bodies.bodies import Bodies
-from vectorplot.visibility.quadrics.bodies.capped import BOTTOM, TOP
+from vectorplot.visibility.quadrics.bodies.seen_bodies import Bodies
+from vectorplot.visibility.quadrics.bodies.seen_capped import BOTTOM, TOP
 from vectorplot.visibility.quadrics.closed_forms import ClosedForms
 from vectorplot.visibility.quadrics.own_bodies import BodiesMeet
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet

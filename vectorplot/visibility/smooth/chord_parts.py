@@ -10,7 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_parameters import BESIDE_STANDSTILL
-from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 NONE = -1
@@ -75,8 +75,8 @@ class ChordParts:
         """Places (k,2) in the image, how they move (k,2), and whether (k,) that is only how the chord runs."""
         here, points = self.curves.with_exact_slopes(chord, part), self.curves.points
         straight = (here.slopes == points[chord + 1] - points[chord]).all(axis=1)
-        way = projection.image_slopes(view, here.points, here.slopes)
-        return projection.image(view, here.points), way, straight
+        way = sight_lines.image_slopes(view, here.points, here.slopes)
+        return sight_lines.image(view, here.points), way, straight
 
     def _limits(self, view: View, chord: Ints, part: Floats, step: Floats) -> Floats:
         """(k,2) the limits of directions at parts of chords, from three places beside them."""
@@ -93,12 +93,12 @@ class ChordParts:
         if not len(inner):
             return part
         chord, low, high = self.chord[inner], self.begin[inner], self.end[inner]
-        at, aim = low + share[inner] * (high - low), projection.image(view, points[:, inner].T)
+        at, aim = low + share[inner] * (high - low), sight_lines.image(view, points[:, inner].T)
         for _ in range(STEPS):
             here = self.curves.at(chord, at)
-            way = projection.image_slopes(view, here.points, here.slopes)
+            way = sight_lines.image_slopes(view, here.points, here.slopes)
             with np.errstate(divide="ignore", invalid="ignore"):
-                step = dot(aim - projection.image(view, here.points), way) / dot(way, way)
+                step = dot(aim - sight_lines.image(view, here.points), way) / dot(way, way)
             at = np.clip(at + np.where(np.isfinite(step), step, 0.0), low, high)
         part[inner], points[:, inner] = at, self.curves.at(chord, at).points.T
         return part

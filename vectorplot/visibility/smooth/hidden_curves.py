@@ -17,7 +17,7 @@ from vectorplot.visibility.smooth.events.events import all_events
 from vectorplot.visibility.smooth.events.missed_events import missed_events
 from vectorplot.visibility.smooth.events.own_events import edge_on_curves, own_events
 from vectorplot.visibility.smooth.events.piercings import piercings
-from vectorplot.visibility.smooth.pieces import Pieces, carried, counted, cut
+from vectorplot.visibility.smooth.hidden_pieces import Pieces, carried, counted, cut
 from vectorplot.visibility.smooth.runs import without_short_runs
 from vectorplot.visibility.smooth.targets import targets_of
 from vectorplot.visibility.smooth.tracing.traced import TracedScene

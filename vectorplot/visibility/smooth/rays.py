@@ -21,8 +21,8 @@ from vectorplot.tolerances.of_extent import (
 )
 from vectorplot.tolerances.of_parameters import CONTACT_PLACES, ONE_MEETING_PLACES
 from vectorplot.visibility.smooth.blocks import Block, in_blocks
-from vectorplot.visibility.smooth.sheets import projection
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets import sight_lines
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.targets import Targets, distance_to, inside, weights
 
 ROUNDS = 12
@@ -68,7 +68,7 @@ def counts_in_front(
     budget's pairs, so many for each sheet, did for them: other samples see nothing of its sheets."""
     counts = np.zeros((len(samples), items), dtype=np.intp)
     looked = np.ones((len(samples), items), dtype=np.bool_)
-    image = projection.image(view, samples.points)
+    image = sight_lines.image(view, samples.points)
     rows = np.arange(len(samples))
     spent = np.zeros(len(sheets), dtype=np.intp)
     while len(rows) and len(targets):
@@ -97,7 +97,7 @@ def _in_front(
 ) -> tuple[Ints, Ints]:
     """Samples (c,) and the sheets (c,) that lie between them and the eye, as often as they do; pairs: of a sample and a
     triangle that its sight line may meet."""
-    way = projection.sight(view, samples.points)
+    way = sight_lines.sight(view, samples.points)
     long = np.linalg.norm(way, axis=1)
     sample, number, meeting, places = _meetings(view, sheets, targets, samples, way, pairs)
     distance = meeting * long[sample]
@@ -137,7 +137,7 @@ def _meetings(
 ) -> tuple[Ints, Ints, Floats, Floats]:
     """All meetings of the sight lines with sheets, each once: the sample, the sheet, the part of the sight line, the
     place."""
-    image = projection.image(view, samples.points)
+    image = sight_lines.image(view, samples.points)
     sample, triangle = pairs
     weight = weights(targets.image[triangle], image[sample])
     spread = np.ptp(targets.image[triangle], axis=1).max(axis=1)
@@ -168,7 +168,7 @@ def _meetings(
         away = points[active] + t[active, None] * ways[active] - sheets.points(of, places[active])
         off[active] = np.sqrt(dot(away, away))
         active = active[(off[active] > SETTLED_OF_EXTENT) & np.isfinite(off[active])]
-    met = (off <= max(MET_OF_EXTENT, ULPS * projection.rounding(view))) & sheets.on_sheet(number, places)
+    met = (off <= max(MET_OF_EXTENT, ULPS * sight_lines.rounding(view))) & sheets.on_sheet(number, places)
     sample, number, t, places = sample[met], number[met], t[met], places[met]
     return _different(sheets, sample, number, t * np.linalg.norm(ways[met], axis=1), t, places)
 

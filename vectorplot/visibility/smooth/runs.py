@@ -6,8 +6,8 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.scene.view import View
-from vectorplot.visibility.smooth.pieces import Pieces
-from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.hidden_pieces import Pieces
+from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 
@@ -41,7 +41,7 @@ def without_short_runs(view: View, curves: Curves, pieces: Pieces, hidden_by: In
 
 def _lengths(view: View, curves: Curves, pieces: Pieces) -> Floats:
     """(p,) lengths of pieces in the image, along chords."""
-    image = projection.image(view, curves.points)
+    image = sight_lines.image(view, curves.points)
     step = np.zeros(len(image))
     step[1:] = np.linalg.norm(np.diff(image, axis=0), axis=1)
     reach = np.append(np.cumsum(step), 0.0)

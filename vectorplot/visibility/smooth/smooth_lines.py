@@ -15,7 +15,7 @@ from vectorplot.visibility.polyhedra.lines import Lines
 from vectorplot.visibility.smooth.events.edge_sides import covered_sides, sides_of_rims
 from vectorplot.visibility.smooth.events.events import all_events
 from vectorplot.visibility.smooth.hidden_curves import HiddenCurves, cut_curves, hidden_curves
-from vectorplot.visibility.smooth.pieces import cut
+from vectorplot.visibility.smooth.hidden_pieces import cut
 from vectorplot.visibility.smooth.sheets.family import StraightLines
 from vectorplot.visibility.smooth.tracing.traced import TracedScene
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves, together

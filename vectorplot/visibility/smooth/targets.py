@@ -12,9 +12,9 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
-from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.sheets import sight_lines
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.sheets.sheet import Sheet
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
 
 if TYPE_CHECKING:
     import shapely
@@ -92,7 +92,7 @@ def targets_of(view: View, sheets: Sheets) -> Targets:
 
 def _targets(view: View, sheet: Sheet, number: int) -> Targets:
     """The triangles of the sheet of this number."""
-    image, depth = projection.image(view, sheet.vertices), projection.depth(view, sheet.vertices)
+    image, depth = sight_lines.image(view, sheet.vertices), sight_lines.depth(view, sheet.vertices)
     kept = np.flatnonzero((depth[sheet.corners] > view.near).all(axis=1))
     corners, off = sheet.corners[kept], 2.0 * sheet.sags[kept]
     scale = 1.0 if view.eye is None else view.focus / np.maximum(depth[corners].min(axis=1), view.near)

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from support.effort import examples
 from support.sample_paths import pieces, polylines
 
-from vectorplot.drawing.strokes.paths import chosen
 from vectorplot.drawing.strokes.pen_order.order import pen_ordered, travel_mm
+from vectorplot.drawing.strokes.stroke_paths import chosen
 from vectorplot.speed.clock import cpu_seconds
 
 

@@ -11,8 +11,8 @@ from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import look
 from vectorplot.surfaces.balls import ball_of
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.visibility.quadrics.bodies.balls import balls_of
 from vectorplot.visibility.quadrics.bodies.covers import ball_covers, disc_boxes
+from vectorplot.visibility.quadrics.bodies.seen_balls import balls_of
 
 
 def balls_at(shapes, camera):

@@ -11,7 +11,7 @@ from vectorplot.scene.view import look
 from vectorplot.surfaces.balls import ball_of
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.testing.shapes import box, prism
-from vectorplot.visibility.quadrics.bodies.balls import balls_of
+from vectorplot.visibility.quadrics.bodies.seen_balls import balls_of
 from vectorplot.visibility.quadrics.lines.ball_meetings import (
     are_homothetic,
     balls_with_balls,

@@ -10,7 +10,7 @@ from support.smooth_parts import around, ball_from_above, polylines
 from vectorplot.geometry.budget import USUAL
 from vectorplot.visibility.smooth.events.crossings import crossings
 from vectorplot.visibility.smooth.sheets.family import ParameterCurves
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.words import LineKind
 
 

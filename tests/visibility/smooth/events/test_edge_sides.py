@@ -6,7 +6,7 @@ import numpy as np
 from support.smooth_parts import ball_from_above
 
 from vectorplot.visibility.smooth.events.edge_sides import covered_sides, turn
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.words import LineKind
 
 

@@ -14,7 +14,7 @@ from vectorplot.scene.view import look
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.visibility.smooth.events.own_events import edge_on_curves, own_events
 from vectorplot.visibility.smooth.sheets.family import ParameterCurves
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind
 

@@ -12,7 +12,7 @@ import vectorplot as vp
 from vectorplot.geometry.budget import USUAL
 from vectorplot.surfaces import Domain, surface_of_function
 from vectorplot.visibility.smooth.events.piercings import piercings
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.targets import targets_of
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 

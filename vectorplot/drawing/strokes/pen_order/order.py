@@ -8,10 +8,10 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.paths import chosen, directed
 from vectorplot.drawing.strokes.pen_order.tour import greedy_tour
 from vectorplot.drawing.strokes.pen_order.tour_ends import Places
 from vectorplot.drawing.strokes.pen_order.tour_moves import shortened
+from vectorplot.drawing.strokes.stroke_paths import chosen, directed
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import with_points
 

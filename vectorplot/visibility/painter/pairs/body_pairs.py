@@ -7,7 +7,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import ImageFaces
-from vectorplot.visibility.painter.pairs.bodies import Bodies, faces_between, spheres_apart
+from vectorplot.visibility.painter.pairs.convex_bodies import Bodies, faces_between, spheres_apart
 from vectorplot.visibility.painter.pairs.face_pairs import BEHIND, IN_FRONT, ON_OUTLINE, Codes
 from vectorplot.visibility.painter.pairs.outlines import Outlines, Table, common_points, overlapping
 

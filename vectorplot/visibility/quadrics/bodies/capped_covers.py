@@ -11,10 +11,10 @@ from vectorplot.geometry import records
 from vectorplot.geometry.vectors import dot
 from vectorplot.tolerances.of_angles import EDGE_ON_SINE
 from vectorplot.visibility.polyhedra.grid import Floats32
-from vectorplot.visibility.quadrics.bodies.balls import across
-from vectorplot.visibility.quadrics.bodies.capped import BOTTOM, TOP, CappedBodies
+from vectorplot.visibility.quadrics.arc_pieces import packed_box
 from vectorplot.visibility.quadrics.bodies.covers import Covers, disc_boxes, outlines
-from vectorplot.visibility.quadrics.pieces import packed_box
+from vectorplot.visibility.quadrics.bodies.seen_balls import across
+from vectorplot.visibility.quadrics.bodies.seen_capped import BOTTOM, TOP, CappedBodies
 
 BEYOND_CAP = 2.0
 """What lies in the plane of a cap that is turned away is inside: so many tolerances before the plane does the body end

@@ -9,9 +9,9 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.visibility.polyhedra.grid import Floats32
-from vectorplot.visibility.quadrics.bodies.balls import Balls
+from vectorplot.visibility.quadrics.arc_pieces import packed_box
 from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates
-from vectorplot.visibility.quadrics.pieces import packed_box
+from vectorplot.visibility.quadrics.bodies.seen_balls import Balls
 
 
 @dataclass(frozen=True, eq=False)

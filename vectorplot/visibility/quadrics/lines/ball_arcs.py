@@ -12,8 +12,8 @@ from vectorplot.geometry.vectors import cross, dot
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
-from vectorplot.visibility.quadrics.arcs import Arcs, OwnSides, arcs_on
-from vectorplot.visibility.quadrics.bodies.balls import Balls
+from vectorplot.visibility.quadrics.bodies.seen_balls import Balls
+from vectorplot.visibility.quadrics.conic_arcs import Arcs, OwnSides, arcs_on
 from vectorplot.words import LineKind
 
 Found = tuple[Arcs, OwnSides]

@@ -12,9 +12,9 @@ from vectorplot.geometry.vectors import cross, dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_values import HOMOTHETIC
 from vectorplot.visibility.projected_faces import newell
-from vectorplot.visibility.quadrics.arcs import arcs_on
-from vectorplot.visibility.quadrics.bodies.balls import Balls
 from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates
+from vectorplot.visibility.quadrics.bodies.seen_balls import Balls
+from vectorplot.visibility.quadrics.conic_arcs import arcs_on
 from vectorplot.visibility.quadrics.lines.ball_arcs import Found, on_balls, own_sides, plane_circles, unit_planes
 from vectorplot.visibility.quadrics.lines.parts_of_circles import parts_inside
 from vectorplot.words import LineKind

@@ -13,10 +13,10 @@ from vectorplot.geometry.records import joined
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_values import HOMOTHETIC
-from vectorplot.visibility.quadrics.arcs import OwnSides, arcs_on
-from vectorplot.visibility.quadrics.bodies.bodies import Bodies
-from vectorplot.visibility.quadrics.bodies.capped import BOTTOM, TOP, CappedBodies
+from vectorplot.visibility.quadrics.bodies.seen_bodies import Bodies
+from vectorplot.visibility.quadrics.bodies.seen_capped import BOTTOM, TOP, CappedBodies
 from vectorplot.visibility.quadrics.bodies.separation import Convex, are_apart
+from vectorplot.visibility.quadrics.conic_arcs import OwnSides, arcs_on
 from vectorplot.visibility.quadrics.lines.ball_arcs import Found, own_sides
 from vectorplot.words import LineKind
 

@@ -10,9 +10,9 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.scene.scene import Item, Scene
-from vectorplot.visibility.quadrics.arcs import OwnSides, arcs_on, lines_on
-from vectorplot.visibility.quadrics.bodies.capped import BOTTOM, TOP, CappedBodies
 from vectorplot.visibility.quadrics.bodies.capped_covers import ball_contours
+from vectorplot.visibility.quadrics.bodies.seen_capped import BOTTOM, TOP, CappedBodies
+from vectorplot.visibility.quadrics.conic_arcs import OwnSides, arcs_on, lines_on
 from vectorplot.visibility.quadrics.lines.ball_arcs import Found, Wants
 from vectorplot.visibility.quadrics.lines.parts_of_circles import parts_inside
 from vectorplot.words import LineKind

@@ -8,8 +8,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.tolerances.of_angles import TOUCHING_SHEETS_SINE
-from vectorplot.visibility.quadrics.bodies.bodies import Bodies
-from vectorplot.visibility.quadrics.bodies.capped import CappedBodies
+from vectorplot.visibility.quadrics.bodies.seen_bodies import Bodies
+from vectorplot.visibility.quadrics.bodies.seen_capped import CappedBodies
 
 
 def meet_inside_balls(bodies: Bodies, one: Ints, two: Ints, ball: Ints, capped: Ints) -> Bools:

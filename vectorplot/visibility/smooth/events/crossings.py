@@ -20,8 +20,8 @@ from vectorplot.visibility.smooth.blocks import Block, in_blocks
 from vectorplot.visibility.smooth.events.cubics import cubics
 from vectorplot.visibility.smooth.events.edge_sides import covered_sides, turn
 from vectorplot.visibility.smooth.events.events import Events, hopped, on_chord, once
-from vectorplot.visibility.smooth.sheets import projection
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets import sight_lines
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.words import LineKind
 
@@ -133,7 +133,7 @@ def _near_cusps(view: View, sheets: Sheets, edges: Curves) -> Bools:
     bend = np.full(len(edges.points), np.inf)
     at = np.flatnonzero(edges.kind[edges.owner] == LineKind.CONTOUR)
     number = edges.sheet[edges.owner[at]]
-    bend[at] = np.abs(sheets.bends(number, edges.places[at], projection.sight(view, edges.points[at])))
+    bend[at] = np.abs(sheets.bends(number, edges.places[at], sight_lines.sight(view, edges.points[at])))
     largest = np.zeros(len(sheets))
     np.maximum.at(largest, number, bend[at])
     bend[at] /= np.maximum(largest, LEAST_DIVISOR)[number]
@@ -153,7 +153,7 @@ class _Boxes:
 
     @classmethod
     def of(cls, view: View, curves: Curves) -> _Boxes:
-        image, depth = projection.image(view, curves.points), projection.depth(view, curves.points)
+        image, depth = sight_lines.image(view, curves.points), sight_lines.depth(view, curves.points)
         chord = curves.chords
         way, seen = (x[chord + 1] - x[chord] for x in (curves.points, image))
         # What is seen along its own length is a point in the image: nothing passes from one side of it to the other.
@@ -232,14 +232,14 @@ def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
     part, edge_part = pairs.part.copy(), pairs.edge_part.copy()
     off = np.full(len(part), np.inf)
     active = np.arange(len(part))
-    rounding = ULPS * projection.rounding(view)
+    rounding = ULPS * sight_lines.rounding(view)
     for _ in range(ROUNDS):
         if not len(active):
             break
         one, two = curves.at(pairs.chord[active], part[active]), edges.at(pairs.edge[active], edge_part[active])
-        gap = projection.image(view, two.points) - projection.image(view, one.points)
+        gap = sight_lines.image(view, two.points) - sight_lines.image(view, one.points)
         off[active] = np.sqrt(dot(gap, gap))
-        a, b = (projection.image_slopes(view, x.points, x.slopes) for x in (one, two))
+        a, b = (sight_lines.image_slopes(view, x.points, x.slopes) for x in (one, two))
         s, t = _step(gap, a, b)
         part[active] = np.clip(part[active] + s, -1.5, 2.5)
         edge_part[active] = np.clip(edge_part[active] + t, -1.5, 2.5)
@@ -255,17 +255,17 @@ def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
 def _events(view: View, sheets: Sheets, curves: Curves, edges: Curves, edge_on: Bools, pairs: Pairs) -> Events:
     """The crossings of the pairs that really are behind an edge."""
     one, two = curves.at(pairs.chord, pairs.part), edges.at(pairs.edge, pairs.edge_part)
-    away = projection.image(view, two.points) - projection.image(view, one.points)
+    away = sight_lines.image(view, two.points) - sight_lines.image(view, one.points)
     residual = np.sqrt(dot(away, away))
-    gap = projection.depth(view, one.points) - projection.depth(view, two.points)
+    gap = sight_lines.depth(view, one.points) - sight_lines.depth(view, two.points)
     curve, edge = curves.owner[pairs.chord], edges.owner[pairs.edge]
     alike = edge_on[curve] & (curves.sheet[curve] == edges.sheet[edge]) & (edges.kind[edge] == LineKind.CONTOUR)
-    exact = max(CROSSING_RESIDUAL, ULPS * projection.rounding(view))
+    exact = max(CROSSING_RESIDUAL, ULPS * sight_lines.rounding(view))
     real = (
         (gap > np.where(alike, FOLDS_GAP, GAP_IN_FRONT)) & (residual <= exact) & (residual <= RESIDUAL_OF_GAP * gap**3)
     )
-    direction = projection.image_slopes(view, one.points, one.slopes)
-    along = projection.image_slopes(view, two.points, two.slopes)
+    direction = sight_lines.image_slopes(view, one.points, one.slopes)
+    along = sight_lines.image_slopes(view, two.points, two.slopes)
     real &= np.abs(turn(along, direction)) > ALONG_EDGE_SINE * np.sqrt(dot(along, along) * dot(direction, direction))
     pairs, points, places, edge = pairs.some(real), two.points[real], two.places[real], edge[real]
     direction, along = direction[real], along[real]

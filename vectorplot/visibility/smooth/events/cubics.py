@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.scene.view import View
-from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 STEEPEST = 3.0
@@ -39,9 +39,9 @@ class Cubics:
 def cubics(view: View, curves: Curves, chord: Ints) -> Cubics:
     """The cubic arcs of chords, given by the points at which they begin, in the image and in depth."""
     points, along = _ends(curves, chord)
-    images = [np.column_stack([projection.image(view, x), projection.depth(view, x)]) for x in points]
+    images = [np.column_stack([sight_lines.image(view, x), sight_lines.depth(view, x)]) for x in points]
     slopes = [
-        np.column_stack([projection.image_slopes(view, x, way), -way[:, 2]])
+        np.column_stack([sight_lines.image_slopes(view, x, way), -way[:, 2]])
         for x, way in zip(points, along, strict=True)
     ]
     return _arcs(images, slopes)

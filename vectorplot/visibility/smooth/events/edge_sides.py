@@ -7,8 +7,8 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
-from vectorplot.visibility.smooth.sheets import projection
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets import sight_lines
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.words import LineKind
 
 
@@ -22,7 +22,7 @@ def covered_sides(
     the same way; points, places, slopes (k,3) on the edge and along it.
     """
     covered = np.zeros_like(points)
-    way = projection.sight(view, points)
+    way = sight_lines.sight(view, points)
     at = np.flatnonzero(kind == LineKind.CONTOUR)
     bends, normals = sheets.bends(number[at], places[at], way[at]), sheets.normals(number[at], places[at])
     covered[at] = np.sign(bends)[:, None] * normals
@@ -48,7 +48,7 @@ def sides_of_rims(
 
 def _sides(view: View, points: Floats, slopes: Floats, covered: Floats) -> Ints:
     """(k,) the sides of edges to which directions (k,3) lead."""
-    side = turn(projection.image_slopes(view, points, slopes), projection.image_slopes(view, points, covered))
+    side = turn(sight_lines.image_slopes(view, points, slopes), sight_lines.image_slopes(view, points, covered))
     return np.where(np.isfinite(side), np.sign(side), 0.0).astype(np.intp)
 
 

@@ -7,9 +7,9 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.events.events import Events
-from vectorplot.visibility.smooth.pieces import Counts, Pieces, samples_at
+from vectorplot.visibility.smooth.hidden_pieces import Counts, Pieces, samples_at
 from vectorplot.visibility.smooth.rays import counts_in_front
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.targets import Targets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 

@@ -12,9 +12,9 @@ from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import EDGE_ON_SINE
 from vectorplot.visibility.smooth.events.events import Events, all_events
 from vectorplot.visibility.smooth.events.roots import roots_along
-from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.sheets.family import Along
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.words import LineKind
 
@@ -36,7 +36,7 @@ def edge_on_curves(view: View, sheets: Sheets, curves: Curves) -> Bools:
 
 def _facing(view: View, sheets: Sheets, number: Ints, points: Floats, places: Floats) -> Floats:
     """(k,) cosines of the angles between normals and sight lines."""
-    way = projection.sight(view, points)
+    way = sight_lines.sight(view, points)
     return np.asarray(dot(sheets.normals(number, places), way) / np.linalg.norm(way, axis=1))
 
 
@@ -100,7 +100,7 @@ def _passed(
 ) -> Events:
     """Near the contour the sight line meets the sheet once more, at twice facing by bend: in front of the curve where
     that is positive; unless the sheet ends there."""
-    way = projection.sight(view, points)
+    way = sight_lines.sight(view, points)
     bend = sheets.bends(number, places, way)
     change = np.where(falls, -1, 1) * np.sign(bend).astype(np.intp)
     change[dot(sheets.inwards(number, places), way) < 0.0] = 0
@@ -112,12 +112,12 @@ def _cusps(view: View, sheets: Sheets, curves: Curves, numbers: Ints) -> Events:
     own = curves.some(numbers)
 
     def bending(curve: Ints, at: Along) -> Floats:
-        return sheets.bends(own.sheet[curve], at.places, projection.sight(view, at.points))
+        return sheets.bends(own.sheet[curve], at.places, sight_lines.sight(view, at.points))
 
-    values = sheets.bends(own.sheet[own.owner], own.places, projection.sight(view, own.points))
+    values = sheets.bends(own.sheet[own.owner], own.places, sight_lines.sight(view, own.points))
     roots = roots_along(own, bending, values)
     at = own.at(roots.chord, roots.part)
-    leaving = dot(at.slopes, projection.sight(view, at.points)) > 0.0
+    leaving = dot(at.slopes, sight_lines.sight(view, at.points)) > 0.0
     change = np.where(leaving, -1, 1)
     chord = _chords(own, numbers, curves, roots.chord)
     return Events(chord, roots.part, sheets.item[own.sheet[own.owner[roots.chord]]], change)

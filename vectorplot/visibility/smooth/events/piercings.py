@@ -19,8 +19,8 @@ from vectorplot.visibility.smooth.blocks import Block, in_blocks
 from vectorplot.visibility.smooth.events.cubics import cubics_in_space
 from vectorplot.visibility.smooth.events.events import Events, all_events, hopped, on_chord, once
 from vectorplot.visibility.smooth.events.unmet import unmet_stretches
-from vectorplot.visibility.smooth.sheets import projection
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets import sight_lines
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.targets import Targets, inside, weights
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
@@ -80,7 +80,7 @@ def _close(
     view: View, sheets: Sheets, targets: Targets, curves: Curves, meets_itself: Bools, pairs: int
 ) -> tuple[_Close, tuple[int, ...]]:
     """Where chords of curves come close to sheets, and the items for which the budget's pairs did not do."""
-    depth, image = projection.depth(view, curves.points), projection.image(view, curves.points)
+    depth, image = sight_lines.depth(view, curves.points), sight_lines.image(view, curves.points)
     none = np.zeros(0, dtype=np.intp)
     parts, short = [_Close(none, none, np.zeros(0), np.zeros((0, 3)), np.zeros(0))], list[int]()
     curve, of = _neighbours(targets, curves)
@@ -245,7 +245,7 @@ def _met(view: View, sheets: Sheets, curves: Curves, near: _Close) -> tuple[Ints
         if not moved:
             break
     away = curves.at(chord, part).points - sheets.points(number, places)
-    met = np.sqrt(dot(away, away)) <= max(MET_OF_EXTENT, ULPS * projection.rounding(view))
+    met = np.sqrt(dot(away, away)) <= max(MET_OF_EXTENT, ULPS * sight_lines.rounding(view))
     on, part = on_chord(part)
     kept = met & sheets.on_sheet(number, places) & on
     return number[kept], chord[kept], part[kept], places[kept]
@@ -258,7 +258,7 @@ def _pierced(
     nothing that is known."""
     at, normal = curves.at(chord, part), sheets.normals(number, places)
     through = dot(at.slopes, normal) / np.linalg.norm(at.slopes, axis=1).clip(LEAST_DIVISOR)
-    towards = dot(projection.sight(view, at.points), normal)
+    towards = dot(sight_lines.sight(view, at.points), normal)
     crosses = (np.abs(through) > ALONG_SHEET_SINE) & ~_sharp(sheets, number, places)
     change = np.where(crosses, -np.sign(through * towards), 0.0)
     change = np.where(np.isfinite(change), change, 0.0).astype(np.intp)

@@ -11,7 +11,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.exact import intervals
 from vectorplot.visibility.smooth.events.events import Events
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 

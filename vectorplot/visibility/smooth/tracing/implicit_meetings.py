@@ -21,8 +21,8 @@ from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
 from vectorplot.visibility.smooth.sheets.meeting_families import ImplicitFaceCurves
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.tracing.implicit_items import as_spatial_curves, tracing_in_world
-from vectorplot.visibility.smooth.tracing.surface_curves import as_curves
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+from vectorplot.visibility.smooth.tracing.traced_surface_curves import as_curves
 from vectorplot.words import LineKind
 
 Doubts = tuple[str, ...]

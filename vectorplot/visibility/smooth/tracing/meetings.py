@@ -29,8 +29,8 @@ from vectorplot.visibility.smooth.tracing.implicit_meetings import (
     implicit_with_mesh,
     parametrised_with_implicit,
 )
-from vectorplot.visibility.smooth.tracing.surface_curves import as_curves
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves, no_curves, together
+from vectorplot.visibility.smooth.tracing.traced_surface_curves import as_curves
 from vectorplot.words import LineKind
 
 SmoothSheet = ParametricSheet | ImplicitSheet

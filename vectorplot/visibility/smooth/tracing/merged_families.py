@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.visibility.smooth.sheets.family import ConditionCurves, Family, ParameterCurves
 from vectorplot.visibility.smooth.sheets.meeting_families import FaceCurves, SheetsMeet
 from vectorplot.visibility.smooth.sheets.parametric_places import OnParametrised, StackedSheets
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 NONE = -1

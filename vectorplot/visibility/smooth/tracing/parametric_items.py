@@ -16,11 +16,11 @@ from vectorplot.features.parametric.conditions import (
 )
 from vectorplot.features.parametric.contour import contour, parallel_contour
 from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.features.parametric.cuspidal_edges import singular_lines
 from vectorplot.features.parametric.cusps import contour_with_cusps
 from vectorplot.features.parametric.isophotes import isophotes, point_light_isophotes
 from vectorplot.features.parametric.parameter_lines import borders, parameter_lines
 from vectorplot.features.parametric.sections import plane_sections
-from vectorplot.features.parametric.singular_lines import singular_lines
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.features.parametric.surface_paths import surface_path
 from vectorplot.features.zeros.zero_manifold import JUMPS
@@ -33,8 +33,8 @@ from vectorplot.surfaces.placed import placed_once
 from vectorplot.surfaces.surface import Surface
 from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet, parametric_sheet
-from vectorplot.visibility.smooth.tracing.surface_curves import as_curves
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+from vectorplot.visibility.smooth.tracing.traced_surface_curves import as_curves
 from vectorplot.words import LineKind
 
 Found = tuple[LineKind, ConditionCurves | ParameterCurves, SurfaceCurves]

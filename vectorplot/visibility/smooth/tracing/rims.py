@@ -11,7 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
-from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.sheets.family import Along, Chords, ParameterCurves
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet
@@ -84,7 +84,7 @@ def _cut(view: View, one: ParametricSheet, other: ParametricSheet, curves: Curve
 
 def _faces(view: View, sheet: ParametricSheet, places: Floats) -> Bools:
     """(k,) whether a sheet shows its front at places."""
-    return np.asarray(dot(sheet.normals(places), projection.sight(view, sheet.points(places))) > 0.0)
+    return np.asarray(dot(sheet.normals(places), sight_lines.sight(view, sheet.points(places))) > 0.0)
 
 
 def _pieces(curves: Curves, chord: Ints, places: Floats, points: Floats, outline: Bools) -> Curves:

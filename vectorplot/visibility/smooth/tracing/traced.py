@@ -15,10 +15,10 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.visibility.polyhedra.lines import kinds_of
-from vectorplot.visibility.smooth.sheets import projection
+from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.sheets.implicit_sheet import implicit_sheet
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.tracing.implicit_items import curves_of_implicit
 from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet, meetings
 from vectorplot.visibility.smooth.tracing.merged_families import with_merged_families
@@ -127,4 +127,4 @@ def _with_images(view: View, curves: Curves) -> Curves:
 def _picture(view: View, points: Floats) -> Floats:
     """(k,2) images, those far out of every picture drawn in."""
     limit = WIDEST_IMAGE * view.focus
-    return np.clip(projection.image(view, points), -limit, limit)
+    return np.clip(sight_lines.image(view, points), -limit, limit)

@@ -4,7 +4,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.cli.main import run
-from vectorplot.cli.view import CameraOptions, PageOptions, camera_from, page_from
+from vectorplot.cli.view_options import CameraOptions, PageOptions, camera_from, page_from
 from vectorplot.draw import default_camera
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.scene.scene import Page, Scene

@@ -8,9 +8,9 @@ from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.drawing.strokes.join import joined
 from vectorplot.drawing.strokes.long_strokes import split_long
 from vectorplot.drawing.strokes.page_clip import clipped
-from vectorplot.drawing.strokes.paths import chosen, concatenated, unrolled
 from vectorplot.drawing.strokes.pen_order.order import pen_ordered
 from vectorplot.drawing.strokes.simplify import without_collinear_points
+from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated, unrolled
 
 # The smooth strokes lie above y = 50, the others below.
 STROKES = polylines(

@@ -10,8 +10,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra.grid import Floats32, Grid
+from vectorplot.visibility.quadrics.arc_pieces import Pieces
 from vectorplot.visibility.quadrics.bodies.covers import Covers
-from vectorplot.visibility.quadrics.pieces import Pieces
 
 FINEST = 1024.0
 """The finest grid has at most so many cells along each side of the picture."""

@@ -9,11 +9,11 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.visibility.quadrics.bodies.balls import Balls
-from vectorplot.visibility.quadrics.bodies.capped import CappedBodies
 from vectorplot.visibility.quadrics.bodies.capped_covers import capped_covers
 from vectorplot.visibility.quadrics.bodies.covers import Covers, ball_covers
 from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates
+from vectorplot.visibility.quadrics.bodies.seen_balls import Balls
+from vectorplot.visibility.quadrics.bodies.seen_capped import CappedBodies
 
 
 @dataclass(frozen=True, eq=False)

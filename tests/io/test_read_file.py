@@ -9,8 +9,8 @@ import pytest
 
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.repair.mesh_repair import mesh_report
-from vectorplot.io.info import describe
-from vectorplot.io.read import read
+from vectorplot.io.description import describe
+from vectorplot.io.read_file import read
 
 CUBE = "".join(f"v {x} {y} {z}\n" for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
 FACES = ["1 4 3 2", "5 6 7 8", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"]
@@ -159,6 +159,6 @@ def test_models_read_as_trimesh_reads_them(path: Path) -> None:
 
 def test_reading_a_closed_mesh_loads_neither_scipy_nor_trimesh(tmp_path: Path) -> None:
     path = written(tmp_path, "cube.obj", CUBE + faces(FACES))
-    code = "import sys; from vectorplot.io.read import read; read(sys.argv[1]); print(*sys.modules)"
+    code = "import sys; from vectorplot.io.read_file import read; read(sys.argv[1]); print(*sys.modules)"
     found = subprocess.run([sys.executable, "-c", code, str(path)], capture_output=True, text=True, check=True)
     assert not {"scipy", "trimesh", "shapely", "cairo"} & set(found.stdout.split())

@@ -12,7 +12,7 @@ from vectorplot.geometry.repair.mesh_repair import MeshReport, mesh_report, with
 from vectorplot.io.scenes.scene_surface_writer import curve_text, surface_text
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Item, Scene
-from vectorplot.scene.seams import without_seams
+from vectorplot.scene.seamless_scene import without_seams
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.surfaces.parts import creases
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised

@@ -13,8 +13,8 @@ from vectorplot.geometry.vectors import dot
 from vectorplot.scene.scene import Item
 from vectorplot.scene.view import View
 from vectorplot.surfaces.capped_quadrics import CappedQuadric
-from vectorplot.visibility.quadrics.bodies.balls import same_numbers
 from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates, eye_coordinates
+from vectorplot.visibility.quadrics.bodies.seen_balls import same_numbers
 
 BOTTOM, TOP = 0, 1
 

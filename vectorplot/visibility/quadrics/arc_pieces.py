@@ -10,8 +10,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.visibility.polyhedra.grid import Floats32
-from vectorplot.visibility.quadrics.arcs import Arcs
 from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates
+from vectorplot.visibility.quadrics.conic_arcs import Arcs
 
 IN_A_TURN = 8
 """Pieces of a whole turn: fewer have larger boxes, which more things overlap; more cost more."""

@@ -6,7 +6,7 @@ import numpy as np
 from support.smooth_parts import polylines
 
 from vectorplot.visibility.smooth.events.events import Events
-from vectorplot.visibility.smooth.pieces import Counts, carried, cut
+from vectorplot.visibility.smooth.hidden_pieces import Counts, carried, cut
 
 LINES = polylines([(x, 0.0, 0.0) for x in (0.0, 1.0, 2.0)], [(0.0, 1.0, 0.0), (1.0, 1.0, 0.0)])
 

@@ -22,7 +22,7 @@ from vectorplot.testing.shapes import (
     rotated_boxes,
     scene_of,
 )
-from vectorplot.visibility.painter.order import painters_order
+from vectorplot.visibility.painter.painters_order import painters_order
 
 SHAPES = hard_shapes()
 

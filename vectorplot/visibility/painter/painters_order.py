@@ -18,9 +18,9 @@ from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
 from vectorplot.visibility.painter.groups import group_ranks
 from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces
 from vectorplot.visibility.painter.mikado import component_ranks
-from vectorplot.visibility.painter.pairs.bodies import Bodies, convex_bodies, outlined_items
 from vectorplot.visibility.painter.pairs.body_pairs import UNDECIDED, body_relations
-from vectorplot.visibility.painter.pairs.candidates import box_pairs, pairs_across
+from vectorplot.visibility.painter.pairs.box_pairs import box_pairs, pairs_across
+from vectorplot.visibility.painter.pairs.convex_bodies import Bodies, convex_bodies, outlined_items
 from vectorplot.visibility.painter.pairs.face_pairs import (
     APART,
     BEHIND,

@@ -14,8 +14,8 @@ from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.hyperboloid import Paraboloid
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.placed import PlacedSurface
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.sheets.sheet import Sheet
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
 from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind
 

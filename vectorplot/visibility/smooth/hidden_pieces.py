@@ -11,8 +11,8 @@ from vectorplot.scene.view import View
 from vectorplot.tolerances.of_extent import SAFE_IN_IMAGE
 from vectorplot.visibility.smooth.events.events import Events
 from vectorplot.visibility.smooth.rays import Samples, counts_in_front
-from vectorplot.visibility.smooth.sheets import projection
-from vectorplot.visibility.smooth.sheets.sheets import Sheets
+from vectorplot.visibility.smooth.sheets import sight_lines
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.targets import Targets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
@@ -120,12 +120,12 @@ def _safest(view: View, curves: Curves, edges: Curves, edge_on: Bools, pieces: P
     at = np.concatenate([begin + share * (end - begin) for share in CANDIDATES])
     chord = np.minimum(at.astype(np.intp), np.tile(pieces.end_chord, len(CANDIDATES)))
     part = at - chord
-    image = projection.image(view, _on_chords(curves, chord, part))
+    image = sight_lines.image(view, _on_chords(curves, chord, part))
     contour = np.tile(edge_on[pieces.curve], len(CANDIDATES))
     clear = np.empty(len(at))
     clear[~contour] = _clearance(view, edges, image[~contour])
     # A contour is an edge itself: what counts is the way to the ends of the piece.
-    ends = [projection.image(view, _on_chords(curves, c, p)) for c, p in _ends(pieces)]
+    ends = [sight_lines.image(view, _on_chords(curves, c, p)) for c, p in _ends(pieces)]
     away = [np.linalg.norm(image - np.tile(e, (len(CANDIDATES), 1)), axis=1) for e in ends]
     clear[contour] = np.minimum(*away)[contour]
     best = np.argmax(clear.reshape(len(CANDIDATES), count), axis=0) * count + np.arange(count)
@@ -155,7 +155,7 @@ def _clearance(view: View, edges: Curves, image: Floats) -> Floats:
     chord = edges.chords
     if not len(chord):
         return np.full(len(image), np.inf)
-    ends = projection.image(view, edges.points)
+    ends = sight_lines.image(view, edges.points)
     lines = shapely.linestrings(np.stack([ends[chord], ends[chord + 1]], axis=1))
     tree = shapely.STRtree(lines)
     distance = np.zeros(len(image))

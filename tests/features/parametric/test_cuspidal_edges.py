@@ -5,7 +5,7 @@ import pytest
 
 from vectorplot.errors import InputError
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.singular_lines import singular_lines
+from vectorplot.features.parametric.cuspidal_edges import singular_lines
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
