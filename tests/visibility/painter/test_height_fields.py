@@ -101,8 +101,6 @@ def test_what_is_in_front_comes_later_always(seed: int, parallel: bool, make) ->
 
 @pytest.mark.parametrize("parallel", [False, True])
 def test_what_else_is_in_the_picture_is_compared_and_only_that(monkeypatch, parallel: bool) -> None:
-    from vectorplot.visibility.painter import painters_order
-
     compared = []
 
     def counted(faces, first, second, tolerance):
