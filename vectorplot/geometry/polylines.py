@@ -35,7 +35,7 @@ DOUBTS = {_BELONGS_TO: "doubts"}
 """Marks a field with sentences about all polylines."""
 
 
-class Lines(Protocol):
+class LineRecord(Protocol):
     """A frozen dataclass with polylines that may be open only."""
 
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
@@ -45,7 +45,7 @@ class Lines(Protocol):
         """(m+1,): polyline i has the points offsets[i] to offsets[i+1]."""
 
 
-class Rings(Lines, Protocol):
+class RingRecord(LineRecord, Protocol):
     """A frozen dataclass with polylines that may be closed."""
 
     @property
@@ -53,7 +53,7 @@ class Rings(Lines, Protocol):
         """(m,): the last point joins the first, which is not repeated."""
 
 
-L = TypeVar("L", bound=Lines)
+L = TypeVar("L", bound=LineRecord)
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +89,7 @@ class Rounds:
     start: Ints
 
 
-def closed_round(lines: Rings) -> Rounds:
+def closed_round(lines: RingRecord) -> Rounds:
     """The polylines as open ones: closed ones come back to their first point."""
     sizes = np.diff(lines.offsets)
     goes_round = lines.closed & (sizes > 0)
@@ -100,13 +100,13 @@ def closed_round(lines: Rings) -> Rounds:
     return Rounds(index, offsets, again, start)
 
 
-def indices_along(lines: Rings, line: int) -> Ints:
+def indices_along(lines: RingRecord, line: int) -> Ints:
     """(k,) the points of one polyline in order; a closed one ends with its first point."""
     first, end = lines.offsets[line : line + 2]
     return np.append(np.arange(first, end), [first] * bool(lines.closed[line] and end > first)).astype(np.intp)
 
 
-def segments(lines: Rings) -> Ints:
+def segments(lines: RingRecord) -> Ints:
     """(s,2) the points at which the segments of polylines begin and end, those that close them in their places."""
     rounds = closed_round(lines)
     begins = np.ones(len(rounds.index), dtype=np.bool_)

@@ -49,7 +49,7 @@ class ImplicitMesh:
 
 
 @dataclass(frozen=True, eq=False)
-class Sheets:
+class SheetsApart:
     """Triangles (t,3) of nodes; vertex (n,): that of the mesh which a node stands for. One on a singular line has a
     node in every sheet that ends there; inner (n,3): the middle of its neighbours in this sheet; itself for others."""
 
@@ -103,7 +103,7 @@ def mesh_with_lines(surface: ImplicitSurface, mesh: Mesh, lines: SingularLines, 
     return ImplicitMesh(led, on_line, lines, doubts)
 
 
-def sheets_apart(mesh: Mesh, on_line: Bools) -> Sheets:
+def sheets_apart(mesh: Mesh, on_line: Bools) -> SheetsApart:
     """The triangles of a mesh cut apart along singular lines; on_line (v,): the vertices on them."""
     triangles = mesh.corners.reshape(-1, 3).copy()
     count = len(mesh.vertices)
@@ -123,4 +123,4 @@ def sheets_apart(mesh: Mesh, on_line: Bools) -> Sheets:
     np.add.at(total, number[corner], mesh.vertices[others[corner, which]])
     np.add.at(many, number[corner], 1.0)
     inner = np.concatenate([mesh.vertices, total / np.maximum(many, 1.0)[:, None]])
-    return Sheets(triangles, np.concatenate([np.arange(count), vertex[heads]]), inner)
+    return SheetsApart(triangles, np.concatenate([np.arange(count), vertex[heads]]), inner)
