@@ -135,7 +135,7 @@ def length_of(drawing, kind, hidden_by=0):
 def test_visible_lines_are_the_lines_hidden_by_nothing(case):
     scene, camera, _, _, drawing = drawn(*case)
     plain = draw(scene, camera, curves="polyline")
-    for kind in (LineKind.CONTOUR, LineKind.CREASE):
+    for kind in (LineKind.CONTOUR, LineKind.CREASE, LineKind.PARAMETER):
         assert length_of(plain, kind) == pytest.approx(length_of(drawing, kind), rel=1e-3)
 
 
@@ -147,7 +147,7 @@ def test_neither_size_nor_place_changes_anything(scale, shift):
         draw(heap(3, False, *how)[0], camera_of(3, 9.0, False, *how), curves="polyline")
         for how in ((1.0, 0.0), (scale, shift))
     )
-    for kind in (LineKind.CONTOUR, LineKind.CREASE):
+    for kind in (LineKind.CONTOUR, LineKind.CREASE, LineKind.PARAMETER):
         assert length_of(one, kind) == pytest.approx(length_of(two, kind), rel=1e-6)
 
 
@@ -170,7 +170,7 @@ def test_both_engines_draw_the_same(eye, parallel, monkeypatch):
     one = draw(scene, camera, curves="polyline")
     monkeypatch.setattr(first_engine, "capped_quadric_of", lambda shape: None)
     two = draw(scene, camera, curves="polyline")
-    for kind in (LineKind.CONTOUR, LineKind.CREASE):
+    for kind in (LineKind.CONTOUR, LineKind.CREASE, LineKind.PARAMETER):
         assert length_of(one, kind) == pytest.approx(length_of(two, kind), rel=3e-4)
 
 
@@ -204,6 +204,16 @@ def test_bodies_lie_to_the_side_of_their_traced_outlines_that_is_said(eye, paral
     left = way[0] * arm[1] - way[1] * arm[0] > 0.0
     assert len(lines) > 8
     assert np.array_equal(lines.side, np.where(left, 1, -1))
+
+
+def test_rulings_on_outlines_are_drawn_once():
+    can = Item("can", Capped(Cylinder(1.0, 0.0, 2.0)), curves=SurfaceLines(columns=6, rows=1))
+    drawing = draw(Scene((can,)), Camera((1, -2, -11), (0, 0, 0.5)))
+    rulings = [
+        paths.points3d[paths.offsets[k]] for paths, k in strokes_of(drawing) if paths.kind[k] == LineKind.PARAMETER
+    ]
+    # The one at angle 0 lies on the contour.
+    assert sorted(np.round([x for x, _, _ in rulings], 9).tolist()) == [-0.5, 0.5]
 
 
 def test_bodies_on_a_ground_are_drawn_in_closed_form():

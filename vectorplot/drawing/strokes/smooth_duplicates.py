@@ -35,7 +35,8 @@ def without_smooth_duplicates(paths: Paths, rank: Ints, tolerance_mm: float) -> 
     own arc lie on arcs of smaller rank, within tolerance_mm and a little of the arcs' height, and so does all
     of its curve, or TOUCHING_MM of it in a row; chords without length go too. Strokes keep their order.
     Degenerate: curves that overlap in part may go on doing so over less than a chord at the ends of the common part.
-    Source: cubic Hermite arcs over the chords, with the tangents of circles through three neighbouring points.
+    Source: cubic Hermite arcs over the chords, with the tangents of the curves, or where these are not known of circles
+    through three neighbouring points.
     """
     along = paths.points[paths.offsets[1:] - 1] - paths.points[paths.offsets[:-1]]
     long = ~paths.smooth | along.any(axis=1)
@@ -48,7 +49,8 @@ def without_smooth_duplicates(paths: Paths, rank: Ints, tolerance_mm: float) -> 
     group = np.unique(rank[smooth], return_inverse=True)[1].astype(np.intp)
     ends = chords.points.reshape(-1, 2, 2)
     mate = linked_ends(chords, group, tolerance_mm)
-    arcs = _arcs(ends, _slopes(ends, mate), group, tolerance_mm)
+    directions = chords.directions.reshape(-1, 2, 2)[:, [0, 1], [1, 0]]
+    arcs = _arcs(ends, _slopes(ends, mate, directions), group, tolerance_mm)
     covered = _covered(arcs, tolerance_mm)
     if not covered.any():
         return paths
@@ -62,10 +64,11 @@ def without_smooth_duplicates(paths: Paths, rank: Ints, tolerance_mm: float) -> 
     return chosen(paths, kept)
 
 
-def _slopes(ends: Floats, mate: Ints) -> Floats:
-    """(m,2) slopes of the curve against its chords (m,2,2) at their ends; mate (2m,) as linked_ends gives it.
+def _slopes(ends: Floats, mate: Ints, directions: Floats) -> Floats:
+    """(m,2) slopes of the curve against its chords (m,2,2) at their ends.
 
-    Where a curve ends its last arc is one of a circle; a chord alone is straight.
+    mate (2m,): as linked_ends gives it; directions (m,2): the angles of the curve there, NaN where they are not known.
+    Where they are not, and the curve ends, its last arc is one of a circle; a chord alone is straight.
     """
     along = ends[:, 1] - ends[:, 0]
     far = ends.reshape(-1, 2)[mate ^ 1].reshape(-1, 2, 2)
@@ -79,6 +82,8 @@ def _slopes(ends: Floats, mate: Ints) -> Floats:
         run = (along * tangent).sum(axis=1)
         good = linked[:, side] & (np.abs(rise) < _STEEPEST * run)
         slopes[good, side] = rise[good] / run[good]
+    angle = directions - np.arctan2(along[:, 1], along[:, 0])[:, None]
+    slopes = np.where((np.cos(angle) > 0.0) & (np.abs(np.tan(angle)) < _STEEPEST), np.tan(angle), slopes)
     slopes = np.where(np.isnan(slopes), -slopes[:, ::-1], slopes)
     return np.nan_to_num(slopes, nan=0.0)
 
