@@ -35,7 +35,7 @@ def test_chords_are_within_the_tolerance_at_any_scale(tolerance, scale):
 
     whole = Traces(np.concatenate([polygon(5), polygon(4, 0.4)]) * scale, np.isin(np.arange(11), [5, 10]))
     found = refined(whole, between, same, tolerance * scale, most=1 << 20)
-    assert found.enough and not found.unsure
+    assert found.enough.all() and not found.unsure.any()
     assert farthest_chord(Traces(found.lines.points / scale, found.lines.last)) <= tolerance
     assert found.lines.last.sum() == 2
     assert np.array_equal(found.lines.points[found.lines.starts], whole.points[whole.starts])
@@ -61,7 +61,7 @@ def test_all_that_is_known_of_a_point_goes_with_it():
 
 def test_points_may_run_short_and_that_is_said():
     found = refined(Traces(polygon(3), np.arange(4) == 3), on_circle, same, 1e-12, most=100)
-    assert not found.enough
+    assert not found.enough.any()
     assert 100 < len(found.lines.points) < 400
 
 
@@ -71,7 +71,7 @@ def test_a_chord_beside_which_the_curve_is_not_found_stays_and_is_counted():
         return x, found & (x[:, 1] > 0.0)
 
     found = refined(Traces(polygon(4), np.arange(5) == 4), blind, same, 1e-4, most=1 << 20)
-    assert found.unsure == 2 and found.enough
+    assert found.unsure.tolist() == [2] and found.enough.all()
     assert (found.lines.points[:, 1] < -1e-9).sum() == 1
 
 
@@ -80,7 +80,7 @@ def test_where_there_is_no_image_nothing_is_refined():
         return np.where(points[:, :1] > 0.0, points, np.nan)
 
     found = refined(Traces(polygon(8), np.arange(9) == 8), on_circle, behind, 1e-4, most=1 << 20)
-    assert found.enough
+    assert found.enough.all()
     assert (found.lines.points[:, 0] < -0.1).sum() == 3
 
 
@@ -109,7 +109,7 @@ def test_closed_lines_without_their_repeated_points():
 def test_nothing_to_refine():
     nothing = Traces(np.zeros((0, 3)), np.zeros(0, dtype=bool))
     found = refined(nothing, straight_between, same, 1.0, most=10)
-    assert found.enough and not len(found.lines.points)
+    assert found.enough.all() and not len(found.lines.points)
     assert not len(torn(nothing, same, 1.0, np.ones(3)).points)
 
 

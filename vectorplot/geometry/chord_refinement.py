@@ -72,12 +72,12 @@ class Traces:
 
 @dataclass(frozen=True, eq=False)
 class Refined:
-    """The polylines with points put in; unsure: at how many long chords the curve was not found; enough: whether as
-    many points as there may be were enough."""
+    """The polylines with points put in; unsure (m,): at how many long chords of each the curve was not found; enough
+    (m,): whether as many points as there may be were enough for it."""
 
     lines: Traces
-    unsure: int
-    enough: bool
+    unsure: Ints
+    enough: Bools
 
 
 def straight_between(start: Floats, end: Floats, part: Floats) -> tuple[Floats, Bools]:
@@ -85,34 +85,55 @@ def straight_between(start: Floats, end: Floats, part: Floats) -> tuple[Floats, 
     return start + part[:, None] * (end - start), np.ones(len(start), dtype=np.bool_)
 
 
-def refined(lines: Traces, between: Between, image: Image, tolerance: float, most: float) -> Refined:
+def refined(
+    lines: Traces,
+    between: Between,
+    image: Image,
+    tolerance: float | Floats,
+    most: float,
+    share: Ints | None = None,
+) -> Refined:
     """The polylines with points of their curves put in until chords deviate from these by no more than the tolerance,
-    measured in the image, or there are most points.
+    one for all or one for each (m,), measured in the image, or there are most points.
 
+    share (m,): polylines with the same number have most points together; where None all have.
     Where the curve is not found beside a chord, or has no finite image (behind an eye), refinement ends.
     """
     points, last = lines.points, lines.last
+    count = int(last.sum())
+    share = np.zeros(count, dtype=np.intp) if share is None else share
+    limit = np.broadcast_to(np.asarray(tolerance, dtype=np.float64), count)
     # A chord belongs to the point it starts at; open ones are still to be looked at.
-    open_, unsure = ~last, 0
+    open_, unsure = ~last, np.zeros(count, dtype=np.intp)
     for _ in range(ROUNDS):
         first = np.flatnonzero(open_)
-        if not len(first) or len(points) > most:
+        line = _line(last)
+        used = np.bincount(share, weights=np.bincount(line, minlength=count))
+        first = first[used[share[line[first]]] <= most]
+        if not len(first):
             break
+        of = line[first]
         a, b = points[first], points[first + 1]
         starts, ends = (np.concatenate([x] * len(PROBES)) for x in (a, b))
         places, on = between(starts, ends, np.repeat(PROBES, len(first)))
         probes, found = places.reshape(len(PROBES), *a.shape), on.reshape(len(PROBES), -1).all(axis=0)
         far, long = deviation(image, a, b, probes)
-        unsure += int((~found & (long > tolerance)).sum())
-        bad = found & (far > MISSED * tolerance)
+        unsure += np.bincount(of[~found & (long > limit[of])], minlength=count)
+        bad = found & (far > MISSED * limit[of])
         split = first[bad]
-        open_[:] = False
+        open_[first] = False
         open_[split] = True
         at = np.repeat(split + 1, len(PROBES))
         new = probes[:, bad].transpose(1, 0, 2).reshape(-1, a.shape[1])
         points = np.insert(points, at, new, axis=0)
         last, open_ = np.insert(last, at, False), np.insert(open_, at, True)
-    return Refined(Traces(points, last), unsure, not open_.any())
+    enough = np.bincount(_line(last)[open_], minlength=count) == 0
+    return Refined(Traces(points, last), unsure, np.asarray(enough))
+
+
+def _line(last: Bools) -> Ints:
+    """(n,) the polyline that each point belongs to."""
+    return np.asarray(np.cumsum(last) - last, dtype=np.intp)
 
 
 def with_standstills(lines: Traces, slopes: Callable[[Floats], Floats]) -> Traces:
@@ -158,14 +179,17 @@ def deviation(image: Image, start: Floats, end: Floats, probes: Floats) -> tuple
     return most, np.nan_to_num(np.sqrt(square))
 
 
-def torn(lines: Traces, image: Image, tolerance: float, size: Floats) -> Traces:
-    """The polylines, interrupted where their image jumps, without what is only a point then; size (c,): of the domain
-    of the points."""
+def torn(lines: Traces, image: Image, tolerance: float | Floats, size: Floats) -> Traces:
+    """The polylines, interrupted where their image jumps by more than the tolerance, one for all or one for each (m,),
+    without what is only a point then; size (c,) or (m,c): of the domain of the points."""
     p, last = lines.points, lines.last.copy()
+    line = _line(last)[:-1]
+    size = np.broadcast_to(size, (int(last.sum()), p.shape[1]))[line]
+    limit = np.broadcast_to(np.asarray(tolerance, dtype=np.float64), int(last.sum()))[line]
     step = np.abs(np.diff(p, axis=0)) / size
     at = np.flatnonzero((step <= JUMP_OF_DOMAIN).all(axis=1) & (step > 0.0).any(axis=1) & ~last[:-1])
     way = _seen(image, p[at + 1]) - _seen(image, p[at])
-    at = at[np.sqrt((way * way).sum(axis=1)) > tolerance]
+    at = at[np.sqrt((way * way).sum(axis=1)) > limit[at]]
     if not len(at):
         return lines
     last[at] = True

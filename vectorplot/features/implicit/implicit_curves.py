@@ -542,8 +542,8 @@ def _border(
         points = finer.lines.points.copy()
         points[:, axis] = box[side, axis]
         texts = [
-            (finer.unsure > 0, f"{finer.unsure} chords of a border could not be refined"),
-            (not finer.enough, unresolved("borders are off by more than the tolerance")),
+            (finer.unsure.any(), f"{finer.unsure.sum()} chords of a border could not be refined"),
+            (not finer.enough.all(), unresolved("borders are off by more than the tolerance")),
         ]
         doubts = tuple(text for said, text in texts if said)
         families.append(curves_of_lines(Traces(points, finer.lines.last), branches.closed, doubts=doubts))

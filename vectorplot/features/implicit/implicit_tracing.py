@@ -191,10 +191,10 @@ def curves_in_space(
     lines, closed = without_folds(lines, closed)
     lines, closed = joined_at_nodes(lines, closed, special)
     finer = refined_chords(curve, lines, tolerance, tracing.picture, tracing.budget.points)
-    if not finer.enough:
+    if not finer.enough.all():
         doubts += (unresolved("curves of an implicit surface are off by more than the tolerance"),)
-    if finer.unsure:
-        doubts += (f"{finer.unsure} chords of a curve on an implicit surface could not be refined",)
+    if finer.unsure.any():
+        doubts += (f"{finer.unsure.sum()} chords of a curve on an implicit surface could not be refined",)
     if len(special.unclear):
         doubts += (f"{len(special.unclear)} places where a curve on an implicit surface is finer than the resolution",)
     isolated = np.concatenate([special.isolated, dots[_apart(dots, special.isolated, APART_OF_EXTENT * extent)]])

@@ -29,5 +29,5 @@ def refined_line(equations: SingularEquations, lines: Polylines, tracing: Implic
     tolerance = CHORD_OF_EXTENT * equations.extent if tracing.tolerance is None else tracing.tolerance
     start = Traces.of(lines.points, closed_round(lines))
     finer = refined(start, between, tracing.picture or (lambda points: points), tolerance, tracing.budget.points)
-    short = () if finer.enough else (unresolved("singular lines are off by more than the tolerance"),)
+    short = () if finer.enough.all() else (unresolved("singular lines are off by more than the tolerance"),)
     return curves_of_lines(finer.lines, lines.closed, doubts=short)

@@ -175,7 +175,7 @@ def refined_courses(
 
     whole = Traces(np.concatenate([courses.one, courses.two], axis=1), courses.last)
     found = refined(whole, between, image, tolerance, MOST_POINTS)
-    return Courses(*both(found.lines.points), found.lines.last), found.unsure
+    return Courses(*both(found.lines.points), found.lines.last), int(found.unsure.sum())
 
 
 def _between(

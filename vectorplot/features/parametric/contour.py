@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import vector
 from vectorplot.features.parametric.conditions import CentralContour, ParallelContour
-from vectorplot.features.parametric.curve_tracing import Tracing, curves_where_zero, samples
+from vectorplot.features.parametric.curve_tracing import Tracing, curves_on_each, samples_of_each
+from vectorplot.features.parametric.stacked_conditions import StackedConditions, for_each, stacked
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.surfaces.surface import Surface
@@ -54,14 +58,26 @@ def contour(surface: Surface, eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> 
     >>> curves.closed.tolist(), bool(np.allclose(curves.points[:, 0], 0.25))  # a circle in front of the centre
     ([True], True)
     """
+    return contours([surface], eye, tracing=tracing)[0]
+
+
+def contours(surfaces: Sequence[Surface], eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> list[SurfaceCurves]:
+    """The contours of many surfaces for one eye, as of `contour`: those of placed surfaces traced at once."""
     centre = vector("contour: eye", eye)
-    points = samples(surface)[2]
-    if not len(points):
-        return no_curves()
-    size = float(np.linalg.norm(points - centre, axis=1).max())
-    large = float(np.abs(points).max() + np.abs(centre).max())
-    condition = CentralContour(surface, centre)
-    return curves_where_zero(surface, condition, size=size, rounding=ROUNDING_OF_TERMS * large, tracing=tracing)
+
+    def found(stack: tuple[Surface, ...]) -> list[SurfaceCurves]:
+        return _contours(stacked(stack, CentralContour(stack[0], centre)), centre, tracing)
+
+    return for_each(surfaces, tracing.nodes, found)
+
+
+def _contours(conditions: StackedConditions[CentralContour], centre: Floats, tracing: Tracing) -> list[SurfaceCurves]:
+    points = samples_of_each(conditions)
+    # Of what has no points f has no size.
+    far = [float(np.linalg.norm(own - centre, axis=1).max(initial=0.0)) for own in points]
+    large = [float(np.abs(own).max(initial=0.0) + np.abs(centre).max()) for own in points]
+    curves = curves_on_each(conditions, far, [ROUNDING_OF_TERMS * size for size in large], tracing)
+    return [found if len(own) else no_curves() for found, own in zip(curves, points, strict=True)]
 
 
 def parallel_contour(surface: Surface, direction: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
@@ -101,8 +117,20 @@ def parallel_contour(surface: Surface, direction: ArrayLike, *, tracing: Tracing
     >>> curves.closed.tolist(), bool(np.allclose(np.abs(curves.points[:, 1]), 1.0))  # two rulings
     ([False, False], True)
     """
-    condition = ParallelContour(surface, direction)
-    return curves_where_zero(surface, condition, size=1.0, rounding=ROUNDING_OF_TERMS, tracing=tracing)
+    return parallel_contours([surface], direction, tracing=tracing)[0]
+
+
+def parallel_contours(
+    surfaces: Sequence[Surface], direction: ArrayLike, *, tracing: Tracing = DEFAULT
+) -> list[SurfaceCurves]:
+    """The contours of many surfaces for one direction, as of `parallel_contour`: those of placed surfaces traced at
+    once."""
+
+    def found(stack: tuple[Surface, ...]) -> list[SurfaceCurves]:
+        conditions = stacked(stack, ParallelContour(stack[0], direction))
+        return curves_on_each(conditions, [1.0] * len(stack), [ROUNDING_OF_TERMS] * len(stack), tracing)
+
+    return for_each(surfaces, tracing.nodes, found)
 
 
 def contour_in_view(surface: Surface, camera: Camera, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Floats, Ints
 from vectorplot.features.parametric.conditions import Condition
 from vectorplot.features.parametric.poles import through_poles
+from vectorplot.features.parametric.stacked_conditions import C, StackedConditions, alone
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
-from vectorplot.features.zeros.zero_manifold import zero_manifold_of_f_uv
+from vectorplot.features.zeros.zero_manifold import ZeroManifold, zero_manifolds
+from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT
@@ -60,10 +62,18 @@ class Tracing:
     picture: Picture | None = None
     budget: Budget = USUAL
 
+    @property
+    def nodes(self) -> int:
+        """How many points the grid has."""
+        return (self.columns + 1) * (self.rows + 1)
+
 
 def extent(surface: Surface) -> tuple[float, float]:
     """The diagonal of the box around points of the surface, and their largest coordinate."""
-    points = samples(surface)[2]
+    return _extent(samples(surface)[2])
+
+
+def _extent(points: Floats) -> tuple[float, float]:
     if not len(points):
         return 0.0, 0.0
     return float(np.linalg.norm(np.ptp(points, axis=0))), float(np.abs(points).max())
@@ -75,6 +85,13 @@ def samples(surface: Surface) -> tuple[Floats, Floats, Floats]:
     points = surface.points(u, v)
     good = np.isfinite(points).all(axis=1)
     return u[good], v[good], points[good]
+
+
+def samples_of_each(conditions: StackedConditions[C]) -> list[Floats]:
+    """For each of the surfaces the points (k,3) on a coarse grid; none in holes."""
+    u, v, of = conditions.on_grids(16, 16)
+    points = np.split(conditions.surface(of).points(u, v), len(conditions))
+    return [own[np.isfinite(own).all(axis=1)] for own in points]
 
 
 def wrapped(domain: Domain, u: Floats, v: Floats) -> tuple[Floats, Floats]:
@@ -103,48 +120,79 @@ def curves_where_zero(
     everywhere, so that an area where f is zero is not filled with lines.
     Errors: InputError for a grid that is too coarse.
     """
-    domain = surface.domain
-    u, v = (a.ravel() for a in np.meshgrid(*domain.grid(tracing.columns, tracing.rows), indexing="ij"))
-    on_grid = np.asarray(condition.values(u, v), dtype=np.float64)
-    small = (np.abs(on_grid) <= FLAT_OF_VALUES * size).reshape(tracing.columns + 1, tracing.rows + 1)
-    flat = (small[1:, 1:] & small[1:, :-1] & small[:-1, 1:] & small[:-1, :-1]).any()
-    noise = max(rounding, FLAT_OF_VALUES * size if flat else 0.0)
+    (found,) = curves_on_each(alone(surface, condition), [size], [rounding], tracing)
+    return replace(found, levels=np.full(len(found), level))
 
-    def snapped(u: Floats, v: Floats) -> Floats:
-        w = np.asarray(condition.values(*wrapped(domain, u, v)), dtype=np.float64)
-        return np.where(np.abs(w) <= noise, 0.0, w)
 
-    def space(u: Floats, v: Floats) -> Floats:
-        points = surface.points(*wrapped(domain, u, v))
+def curves_on_each(
+    conditions: StackedConditions[C], sizes: Sequence[float], roundings: Sequence[float], tracing: Tracing
+) -> list[SurfaceCurves]:
+    """For each of the surfaces the curves on it along which its condition holds, all traced at once.
+
+    sizes, roundings (s,): those of `curves_where_zero`, one for each.
+    Errors: InputError for a grid that is too coarse.
+    """
+    u, v, of = conditions.on_grids(tracing.columns, tracing.rows)
+    on_grid = np.asarray(conditions.at(of).values(u, v), dtype=np.float64)
+    tiny = FLAT_OF_VALUES * np.array(sizes)
+    shape = (len(conditions), tracing.columns + 1, tracing.rows + 1)
+    small = np.abs(on_grid).reshape(shape) <= tiny[:, None, None]
+    flat = (small[:, 1:, 1:] & small[:, 1:, :-1] & small[:, :-1, 1:] & small[:, :-1, :-1]).any(axis=(1, 2))
+    noise = np.maximum(np.array(roundings), np.where(flat, tiny, 0.0))
+
+    def snapped(u: Floats, v: Floats, of: Ints) -> Floats:
+        w = np.asarray(conditions.at(of).values(*wrapped(conditions.surface(of).domain, u, v)), dtype=np.float64)
+        return np.where(np.abs(w) <= noise[of], 0.0, w)
+
+    def slopes(u: Floats, v: Floats, of: Ints) -> tuple[Floats, Floats]:
+        return conditions.at(of).slopes(*wrapped(conditions.surface(of).domain, u, v))
+
+    def space(u: Floats, v: Floats, of: Ints) -> Floats:
+        surface = conditions.surface(of)
+        points = surface.points(*wrapped(surface.domain, u, v))
         return points if tracing.picture is None else tracing.picture(points)
 
-    tolerance = CHORD_OF_EXTENT * extent(surface)[0] if tracing.tolerance is None else tracing.tolerance
-    found = zero_manifold_of_f_uv(
+    if tracing.tolerance is None:
+        tolerances = [CHORD_OF_EXTENT * _extent(points)[0] or np.inf for points in samples_of_each(conditions)]
+    else:
+        tolerances = [tracing.tolerance or np.inf] * len(conditions)
+    found = zero_manifolds(
         snapped,
-        _turned(domain),
+        [_turned(domain) for domain in conditions.domains],
         columns=tracing.columns,
         rows=tracing.rows,
-        gradient=lambda u, v: condition.slopes(*wrapped(domain, u, v)),
+        gradient=slopes,
         resolution=tracing.resolution,
         positions=space,
-        tolerance=tolerance or None,
+        tolerances=tolerances,
         budget=tracing.budget,
     )
-    curves = through_poles(surface, found)
-    own = curves.points
-    return SurfaceCurves(
-        own[:, 0],
-        own[:, 1],
-        surface.points(*wrapped(domain, own[:, 0], own[:, 1])),
-        curves.offsets,
-        curves.closed,
-        curves.turns,
-        np.full(len(curves.closed), level),
-        _at_home(domain, curves.isolated),
-        _at_home(domain, curves.nodes),
-        _at_home(domain, curves.touching),
-        curves.doubts,
-    )
+    led = [through_poles(surface, curves) for surface, curves in zip(conditions.surfaces, found, strict=True)]
+    return _in_space(conditions, led)
+
+
+def _in_space(conditions: StackedConditions[C], found: Sequence[ZeroManifold]) -> list[SurfaceCurves]:
+    """The curves of the surfaces, with their points."""
+    own = np.concatenate([curves.points for curves in found])
+    sizes = [len(curves.points) for curves in found]
+    surface = conditions.surface(ragged.owner(sizes))
+    points = np.split(surface.points(*wrapped(surface.domain, own[:, 0], own[:, 1])), ragged.starts(sizes)[1:])
+    return [
+        SurfaceCurves(
+            curves.points[:, 0],
+            curves.points[:, 1],
+            points[k],
+            curves.offsets,
+            curves.closed,
+            curves.turns,
+            np.zeros(len(curves.closed)),
+            _at_home(domain, curves.isolated),
+            _at_home(domain, curves.nodes),
+            _at_home(domain, curves.touching),
+            curves.doubts,
+        )
+        for k, (domain, curves) in enumerate(zip(conditions.domains, found, strict=True))
+    ]
 
 
 def _turned(domain: Domain) -> Domain:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.parametric.conditions import Contour
 from vectorplot.features.parametric.curve_tracing import wrapped
+from vectorplot.features.parametric.stacked_conditions import StackedConditions, alone
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, with_points
-from vectorplot.geometry import records
+from vectorplot.geometry import ragged, records
+from vectorplot.geometry.polylines import joined
 from vectorplot.geometry.vectors import dot, length
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Domain
@@ -111,16 +115,7 @@ def contour_cusps(contour: Contour, curves: SurfaceCurves) -> Cusps:
     >>> len(curves), len(cusps.u)  # the outer outline, and the inner one with its four cusps
     (2, 4)
     """
-    domain = contour.surface.domain
-    pieces = _changing(contour, curves)
-    at, found = _by_newton(contour, pieces)
-    lost = np.flatnonzero(~found)
-    if len(lost):
-        at[lost] = _by_bisection(contour, pieces.chosen(lost))
-    first, size = np.stack([curves.u, curves.v], axis=1)[pieces.after], np.array(domain.size)
-    along = ((at - first) / size * (pieces.end - pieces.start) / size).sum(axis=1)
-    order = np.lexsort((along, pieces.after))
-    return Cusps(at[order, 0], at[order, 1], pieces.after[order])
+    return _cusps_of_each(alone(contour.surface, contour), [curves])[0]
 
 
 def contour_with_cusps(contour: Contour, curves: SurfaceCurves) -> tuple[SurfaceCurves, Ints]:
@@ -152,16 +147,48 @@ def contour_with_cusps(contour: Contour, curves: SurfaceCurves) -> tuple[Surface
     >>> curves.points[at].shape
     (4, 3)
     """
-    cusps = contour_cusps(contour, curves)
-    points = contour.surface.points(*wrapped(contour.surface.domain, cusps.u, cusps.v))
-    return with_points(curves, cusps.after, cusps.u, cusps.v, points)
+    return contours_with_cusps(alone(contour.surface, contour), [curves])[0]
+
+
+def contours_with_cusps(
+    contours: StackedConditions[Contour], curves: Sequence[SurfaceCurves]
+) -> list[tuple[SurfaceCurves, Ints]]:
+    """For the contour (s,) of each of several surfaces what `contour_with_cusps` gives."""
+    cusps = _cusps_of_each(contours, curves)
+    u, v = (np.concatenate([getattr(own, name) for own in cusps]) for name in ("u", "v"))
+    sizes = [len(own.u) for own in cusps]
+    surface = contours.surface(ragged.owner(sizes))
+    points = np.split(surface.points(*wrapped(surface.domain, u, v)), ragged.starts(sizes)[1:])
+    return [
+        with_points(own, found.after, found.u, found.v, there)
+        for own, found, there in zip(curves, cusps, points, strict=True)
+    ]
+
+
+def _cusps_of_each(contours: StackedConditions[Contour], curves: Sequence[SurfaceCurves]) -> list[Cusps]:
+    """The cusps of the contour (s,) of each of several surfaces."""
+    # Positions in all curves together, of which each surface has its own.
+    first = ragged.offsets([len(own.u) for own in curves])
+    all_curves = joined(curves)
+    pieces = _changing(contours, all_curves, ragged.owner(np.diff(first)))
+    at, found = _by_newton(contours, pieces)
+    lost = np.flatnonzero(~found)
+    if len(lost):
+        at[lost] = _by_bisection(contours, pieces.chosen(lost))
+    start, size = np.stack([all_curves.u, all_curves.v], axis=1)[pieces.after], _sizes(contours, pieces.of)
+    along = ((at - start) / size * (pieces.end - pieces.start) / size).sum(axis=1)
+    order = np.lexsort((along, pieces.after))
+    at, after = at[order], pieces.after[order]
+    bounds = np.searchsorted(after, first)
+    return [Cusps(at[a:b, 0], at[a:b, 1], after[a:b] - first[k]) for k, (a, b) in enumerate(pairwise(bounds.tolist()))]
 
 
 @dataclass(frozen=True, eq=False)
 class _Pieces:
-    """Pieces of curves: parameters start, end (k,2) and curvatures low, high (k,) there; after (k,): the last point of
-    the curves before them."""
+    """Pieces of curves on surfaces with the numbers of (k,): parameters start, end (k,2) and curvatures low, high (k,)
+    there; after (k,): the last point of the curves before them."""
 
+    of: Ints
     start: Floats
     end: Floats
     low: Floats
@@ -173,24 +200,30 @@ class _Pieces:
         return records.some(self, which)
 
 
-def _changing(contour: Contour, curves: SurfaceCurves) -> _Pieces:
-    """The pieces along which the curvature changes its sign."""
-    pieces = _segments(contour, curves)
-    sizes = np.abs(np.stack([pieces.low, pieces.high]))
-    flat = LEVEL_CURVATURE * np.nanmax(sizes, initial=0.0)
-    doubtful = pieces.chosen(np.flatnonzero(_may_dip(contour.surface.domain, curves, pieces)))
-    change = ((pieces.low < 0.0) != (pieces.high < 0.0)) & (sizes.max(axis=0) > flat)
+def _sizes(contours: StackedConditions[Contour], of: Ints) -> Floats:
+    """(k,2) the sizes of the domains of the surfaces with these numbers."""
+    return np.array([domain.size for domain in contours.domains])[of]
+
+
+def _changing(contours: StackedConditions[Contour], curves: SurfaceCurves, of: Ints) -> _Pieces:
+    """The pieces along which the curvature changes its sign; of (n,): the surface on which each point of the curves
+    lies."""
+    pieces = _segments(contours, curves, of)
+    larger = np.abs(np.stack([pieces.low, pieces.high])).max(axis=0, initial=0.0)
+    largest = np.zeros(len(contours))
+    np.maximum.at(largest, pieces.of, larger)
+    doubtful = pieces.chosen(np.flatnonzero(_may_dip(_sizes(contours, pieces.of), curves, pieces)))
+    change = ((pieces.low < 0.0) != (pieces.high < 0.0)) & (larger > LEVEL_CURVATURE * largest[pieces.of])
     plain = pieces.chosen(np.flatnonzero(change))
     if not len(doubtful.after):
         return plain
-    cut = _cut_at_least(contour, doubtful)
+    cut = _cut_at_least(contours, doubtful)
     fine = cut.chosen(np.flatnonzero(cut.low * cut.high < 0.0))
     return records.joined((plain, fine))
 
 
-def _segments(contour: Contour, curves: SurfaceCurves) -> _Pieces:
+def _segments(contours: StackedConditions[Contour], curves: SurfaceCurves, of: Ints) -> _Pieces:
     """The pieces between neighbouring points, without those that stay at a pole."""
-    domain = contour.surface.domain
     first = np.arange(len(curves.u))
     second, last = first + 1, curves.offsets[1:] - 1
     second[last] = curves.offsets[:-1]
@@ -199,20 +232,20 @@ def _segments(contour: Contour, curves: SurfaceCurves) -> _Pieces:
     real = np.ones(len(first), dtype=np.bool_)
     real[last] = curves.closed
     at = np.stack([curves.u, curves.v], axis=1)
-    start, end = at[first], at[second] + periods * np.array(domain.size)
-    curvature = _curvatures(contour, at)
+    start, end = at[first], at[second] + periods * _sizes(contours, of)
+    curvature = _curvatures(contours, of, at)
     low, high = curvature[first], curvature[second]
     for ends, own, other in ((low, start, end), (high, end, start)):
         # Right beside a pole there is a curvature.
         pole = np.isnan(ends)
-        ends[pole] = _curvatures(contour, (own + BESIDE_POLE * (other - own))[pole])
+        ends[pole] = _curvatures(contours, of[pole], (own + BESIDE_POLE * (other - own))[pole])
     real &= np.isfinite(low) & np.isfinite(high)
-    return _Pieces(start, end, low, high, first).chosen(np.flatnonzero(real))
+    return _Pieces(of, start, end, low, high, first).chosen(np.flatnonzero(real))
 
 
-def _may_dip(domain: Domain, curves: SurfaceCurves, pieces: _Pieces) -> Bools:
+def _may_dip(size: Floats, curves: SurfaceCurves, pieces: _Pieces) -> Bools:
     """(k,) pieces along which the curvature has one sign at both ends and may have the other between: a parabola
-    through three points in a row comes near zero."""
+    through three points in a row comes near zero; size (k,2): of their domains."""
     second = pieces.after + 1
     curve = np.searchsorted(curves.offsets, second)
     back = curves.offsets[curve] == second
@@ -220,8 +253,7 @@ def _may_dip(domain: Domain, curves: SurfaceCurves, pieces: _Pieces) -> Bools:
     following = np.searchsorted(pieces.after, second)
     with_next = np.flatnonzero(np.isin(second, pieces.after))
     following = following[with_next]
-    size = np.array(domain.size)
-    first, last = (np.linalg.norm((pieces.end[k] - pieces.start[k]) / size, axis=1) for k in (with_next, following))
+    first, last = (np.linalg.norm((pieces.end[k] - pieces.start[k]) / size[k], axis=1) for k in (with_next, following))
     before, middle, after = pieces.low[with_next], pieces.high[with_next], pieces.high[following]
     sign = np.sign(middle)
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -236,20 +268,21 @@ def _may_dip(domain: Domain, curves: SurfaceCurves, pieces: _Pieces) -> Bools:
     return found & (pieces.low * pieces.high > 0.0)
 
 
-def _cut_at_least(contour: Contour, pieces: _Pieces) -> _Pieces:
+def _cut_at_least(contours: StackedConditions[Contour], pieces: _Pieces) -> _Pieces:
     """The pieces cut in two where, on the contour beside them, the curvature is least or has changed its sign."""
     sign = np.sign(pieces.low)
     low, high = np.zeros(len(sign)), np.ones(len(sign))
-    each = np.arange(len(sign))
+    each, of = np.arange(len(sign)), np.tile(pieces.of, PARTS + 1)
     for _ in range(ROUNDS):
         t = low + np.linspace(0.0, 1.0, PARTS + 1)[:, None] * (high - low)
         at = pieces.start + t[..., None] * (pieces.end - pieces.start)
-        at = _onto(contour, at.reshape(-1, 2)).reshape(at.shape)
-        curvature = _curvatures(contour, at.reshape(-1, 2)).reshape(t.shape)
+        at = _onto(contours, of, at.reshape(-1, 2)).reshape(at.shape)
+        curvature = _curvatures(contours, of, at.reshape(-1, 2)).reshape(t.shape)
         least = np.argmin(np.where(np.isfinite(curvature), curvature * sign, np.inf), axis=0)
         low, high = t[np.maximum(least - 1, 0), each], t[np.minimum(least + 1, PARTS), each]
     cut, between = at[least, each], curvature[least, each]
     return _Pieces(
+        np.tile(pieces.of, 2),
         np.concatenate([pieces.start, cut]),
         np.concatenate([cut, pieces.end]),
         np.concatenate([pieces.low, between]),
@@ -258,15 +291,17 @@ def _cut_at_least(contour: Contour, pieces: _Pieces) -> _Pieces:
     )
 
 
-def _curvatures(contour: Contour, at: Floats) -> Floats:
-    """(k,) curvatures along the sight at parameters (k,2) that run on over seams."""
+def _curvatures(contours: StackedConditions[Contour], of: Ints, at: Floats) -> Floats:
+    """(k,) curvatures along the sight at parameters (k,2), of surfaces with the numbers of (k,), that run on over
+    seams."""
+    contour = contours.at(of)
     return sight_curvatures(contour, *wrapped(contour.surface.domain, at[:, 0], at[:, 1]))
 
 
-def _onto(contour: Contour, at: Floats) -> Floats:
+def _onto(contours: StackedConditions[Contour], of: Ints, at: Floats) -> Floats:
     """(k,2) parameters moved onto the contour, along the gradient of its condition."""
+    contour, size = contours.at(of), _sizes(contours, of)
     domain = contour.surface.domain
-    size = np.array(domain.size)
     for _ in range(4):
         u, v = wrapped(domain, at[:, 0], at[:, 1])
         slopes = np.stack(contour.slopes(u, v), axis=1) * size
@@ -285,10 +320,9 @@ def _inside(domain: Domain, at: Floats) -> Floats:
     return np.stack([u, v], axis=1)
 
 
-def _by_newton(contour: Contour, pieces: _Pieces) -> tuple[Floats, Bools]:
+def _by_newton(contours: StackedConditions[Contour], pieces: _Pieces) -> tuple[Floats, Bools]:
     """(k,2) parameters where condition and curvature are both zero, and which of them were found in their piece."""
-    domain = contour.surface.domain
-    size = np.array(domain.size)
+    size = _sizes(contours, pieces.of)
     with np.errstate(invalid="ignore", divide="ignore"):
         part = (pieces.low / (pieces.low - pieces.high))[:, None]
     start = pieces.start + np.where(np.isfinite(part), part, 0.5) * (pieces.end - pieces.start)
@@ -297,17 +331,19 @@ def _by_newton(contour: Contour, pieces: _Pieces) -> tuple[Floats, Bools]:
     for _ in range(12):
         if not len(active):
             break
-        here = at[active]
+        here, own = at[active], size[active]
+        contour = contours.at(pieces.of[active])
+        domain = contour.surface.domain
         u, v = wrapped(domain, here[:, 0], here[:, 1])
         f = contour.values(u, v)
-        f_u, f_v = (slope * side for slope, side in zip(contour.slopes(u, v), size, strict=True))
-        g, g_u, g_v = _curvatures_and_slopes(contour, here)
+        f_u, f_v = (slope * side for slope, side in zip(contour.slopes(u, v), own.T, strict=True))
+        g, g_u, g_v = _curvatures_and_slopes(contours, pieces.of[active], here)
         with np.errstate(invalid="ignore", divide="ignore"):
             det = f_u * g_v - f_v * g_u
             step = np.stack([(g_v * f - f_v * g) / det, (f_u * g - g_u * f) / det], axis=1)
         step = np.where(np.isfinite(step), step, 0.0)
         travel[active] = np.where(np.isfinite(det) & (det != 0.0), np.abs(step).max(axis=1), np.inf)
-        at[active] = _inside(domain, here - step * size)
+        at[active] = _inside(domain, here - step * own)
         active = active[travel[active] > CUSP_SETTLED]
     # The root beside a piece is that of its neighbour.
     way = (pieces.end - pieces.start) / size
@@ -321,24 +357,25 @@ def _by_newton(contour: Contour, pieces: _Pieces) -> tuple[Floats, Bools]:
     return at, np.asarray((travel <= CUSP_FOUND) & own & near, dtype=np.bool_)
 
 
-def _curvatures_and_slopes(contour: Contour, at: Floats) -> tuple[Floats, Floats, Floats]:
+def _curvatures_and_slopes(contours: StackedConditions[Contour], of: Ints, at: Floats) -> tuple[Floats, Floats, Floats]:
     """(k,) curvatures along the sight, and their derivatives for parameters of which the domain spans one."""
-    domain = contour.surface.domain
-    steps = np.diag(CURVATURE_DIFFERENCE * np.array(domain.size))
+    domain, size = contours.surface(of).domain, _sizes(contours, of)
+    steps = [CURVATURE_DIFFERENCE * size * axis for axis in np.eye(2)]
     ends = [_inside(domain, at + side * step) for step in steps for side in (-1.0, 1.0)]
     # All of them at once: a user's function takes longer to call than to compute.
-    here, low_u, high_u, low_v, high_v = _curvatures(contour, np.concatenate([at, *ends])).reshape(5, -1)
-    span_u, span_v = (((b - a) / np.array(domain.size)).sum(axis=1) for a, b in zip(ends[::2], ends[1::2], strict=True))
+    everywhere = _curvatures(contours, np.tile(of, 5), np.concatenate([at, *ends]))
+    here, low_u, high_u, low_v, high_v = everywhere.reshape(5, -1)
+    span_u, span_v = (((b - a) / size).sum(axis=1) for a, b in zip(ends[::2], ends[1::2], strict=True))
     return here, (high_u - low_u) / span_u, (high_v - low_v) / span_v
 
 
-def _by_bisection(contour: Contour, pieces: _Pieces) -> Floats:
+def _by_bisection(contours: StackedConditions[Contour], pieces: _Pieces) -> Floats:
     """(k,2) parameters where the curvature changes its sign along pieces, slow and sure."""
     low, high = np.zeros(len(pieces.after)), np.ones(len(pieces.after))
     at = pieces.start
     for _ in range(50):
         t = (low + high) / 2.0
-        at = _onto(contour, pieces.start + t[:, None] * (pieces.end - pieces.start))
-        same = (_curvatures(contour, at) < 0.0) == (pieces.low < 0.0)
+        at = _onto(contours, pieces.of, pieces.start + t[:, None] * (pieces.end - pieces.start))
+        same = (_curvatures(contours, pieces.of, at) < 0.0) == (pieces.low < 0.0)
         low, high = np.where(same, t, low), np.where(same, high, t)
     return at

@@ -239,7 +239,7 @@ def _refined(surface: Surface, axis: int, lines: Traces, tracing: Tracing, size:
     found = refined(lines, straight_between, image, tolerance, most)
     domain = np.array(surface.domain.size)
     whole = torn(found.lines, image, tolerance, domain if axis == 0 else domain[::-1])
-    return with_standstills(whole, slopes), found.enough
+    return with_standstills(whole, slopes), bool(found.enough.all())
 
 
 def _curves(surface: Surface, axis: int, lines: Traces) -> SurfaceCurves:

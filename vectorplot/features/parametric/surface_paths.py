@@ -41,7 +41,7 @@ def surface_path(
     good: Bools = np.asarray(np.isfinite(_points(surface, path, t)).all(axis=1))
     ends = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(np.int8)))
     runs = [t[low:high] for low, high in ends.reshape(-1, 2).tolist() if high > low + 1]
-    doubts = () if found.enough else (unresolved("a path is off by more than the tolerance"),)
+    doubts = () if found.enough.all() else (unresolved("a path is off by more than the tolerance"),)
     return together([no_curves(doubts), *(_run(surface, path, run, size) for run in runs)])
 
 

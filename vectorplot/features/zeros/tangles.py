@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.features.zeros.scalar_field import number
 from vectorplot.features.zeros.zero_cells import Cells, Subdivision
 from vectorplot.features.zeros.zero_segments import Segments
 
@@ -15,30 +16,33 @@ REACH = 3
 line that it touches, fewer stay odd."""
 
 
-def without_tangles(subdivision: Subdivision, traced: Segments) -> tuple[Subdivision, Segments, float]:
-    """The subdivision without the odd cells of tangles, the segments without those inside them, and the part of the
-    domain that tangles cover.
+def without_tangles(subdivision: Subdivision, traced: Segments) -> tuple[Subdivision, Segments, Floats]:
+    """The subdivision without the odd cells of tangles, the segments without those inside them, and (s,) the part of
+    each domain that tangles cover.
 
     A tangle is the opening of the odd cells of the last level by a square. Across seams it does not go on.
     Source: Serra, Image Analysis and Mathematical Morphology, 1982, chapter II (opening).
     """
     lattice, odd = subdivision.lattice, subdivision.odd
     columns, rows = lattice.columns << lattice.levels, lattice.rows << lattice.levels
-    # A margin of cells on all sides: no run of cells goes over into the next column.
+    # A margin of cells on all sides: no run of cells goes over into the next column, or into another domain.
     m, n = columns + 2 * REACH, rows + 2 * REACH
-    core = _eroded(np.unique((odd.i + REACH) * n + odd.j + REACH))
-    core = _turned(_eroded(_turned(core, n, m)), m, n)
+    tall = len(lattice.field) * m
+    core = _eroded(np.unique((odd.of * m + odd.i + REACH) * n + odd.j + REACH))
+    core = _turned(_eroded(_turned(core, n, tall)), tall, n)
     if not len(core):
-        return subdivision, traced, 0.0
-    tangle = _turned(_dilated(_turned(_dilated(core), n, m)), m, n)
-    i, j = np.divmod(tangle, n)
-    tangle = (i - REACH) * rows + j - REACH
-    kept = ~np.isin(odd.i * rows + odd.j, tangle)
-    part: Floats = (traced.points[traced.pairs].mean(axis=1) - lattice.field.start) / lattice.field.size
+        return subdivision, traced, np.zeros(len(lattice.field))
+    column, j = np.divmod(_turned(_dilated(_turned(_dilated(core), n, tall)), tall, n), n)
+    cells = Cells(column // m, column % m - REACH, j - REACH)
+    tangle = lattice.keys(cells, lattice.levels)
+    kept = ~np.isin(lattice.keys(odd, lattice.levels), tangle)
+    middle = traced.points[traced.pairs].mean(axis=1)
+    of = number(middle)
+    part: Floats = (middle[:, :2] - lattice.field.start[of]) / lattice.field.size[of]
     at = np.clip((part * (columns, rows)).astype(np.intp), 0, (columns - 1, rows - 1))
-    inside = np.isin(at[:, 0] * rows + at[:, 1], tangle)
-    subdivision = replace(subdivision, odd=Cells(odd.i[kept], odd.j[kept]))
-    return subdivision, replace(traced, pairs=traced.pairs[~inside]), len(tangle) / (columns * rows)
+    inside = np.isin(lattice.keys(Cells(of, at[:, 0], at[:, 1]), lattice.levels), tangle)
+    covered = np.bincount(cells.of, minlength=len(lattice.field)) / (columns * rows)
+    return replace(subdivision, odd=odd.some(kept)), replace(traced, pairs=traced.pairs[~inside]), covered
 
 
 def _eroded(keys: Ints) -> Ints:

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.zeros.scalar_field import ScalarField, next_to
+from vectorplot.features.zeros.scalar_field import ScalarFields, next_to, number
+from vectorplot.geometry import records
 
 ALIGNED = 0.25
 """Cosine down to which the gradients in a cell count as pointing the same way: then the curve is one arc there."""
@@ -21,14 +22,22 @@ all gradients but the vanishing one point the same way."""
 INSIDE = ((0.382, 0.236), (0.618, 0.854))
 """Where in a cell f is looked at when it is zero at all corners: on no lattice point and no line of symmetry."""
 
-Pair = tuple[Ints, Ints]
+QUARTERS = np.array([(0, 0), (0, 1), (1, 0), (1, 1)])
+"""Steps to the four cells that a cell is cut into, from the first of them."""
+
+AROUND = np.array([(a, b) for a in (-1, 0, 1) for b in (-1, 0, 1)])
+"""Steps to a cell and its eight neighbours."""
+
+Place = tuple[Ints, Ints, Ints]
+"""The number of a lattice, and steps i, j along it, of shapes that broadcast."""
 
 
 @dataclass(frozen=True, eq=False)
 class Lattice:
-    """All points that corners of cells can be: the grid, every cell of it divided into units x units."""
+    """All points that corners of cells can be, for each of the fields: the grid, every cell of it divided into units x
+    units."""
 
-    field: ScalarField
+    field: ScalarFields
     columns: int
     rows: int
     levels: int
@@ -43,60 +52,101 @@ class Lattice:
         """Steps along the whole domain."""
         return self.columns * self.units, self.rows * self.units
 
-    def ids(self, at: Pair) -> Ints:
+    def cell(self) -> Floats:
+        """(s,2) the size of the cells of the last level."""
+        return np.asarray(self.field.size / (self.columns << self.levels, self.rows << self.levels))
+
+    def ids(self, at: Place) -> Ints:
         """Numbers that tell lattice points apart; a point on a seam has one number."""
-        (i, j), (m, n) = at, self.shape
+        (of, i, j), (m, n) = at, self.shape
         i = i % m if self.field.closed[0] else i
         j = j % n if self.field.closed[1] else j
-        return np.asarray(i * (n + 1) + j, dtype=np.intp)
+        return np.asarray((of * (m + 1) + i) * (n + 1) + j, dtype=np.intp)
 
-    def points(self, at: Pair) -> Floats:
-        """(..., 2) parameters of lattice points."""
-        m, n = self.shape
-        return np.asarray(self.field.start + np.stack([at[0] / m, at[1] / n], axis=-1) * self.field.size)
+    def points(self, at: Place) -> Floats:
+        """(..., 3) lattice points as the fields take them."""
+        (of, i, j), (m, n) = at, self.shape
+        start, size = self.field.start, self.field.size
+        u, v = start[of, 0] + i / m * size[of, 0], start[of, 1] + j / n * size[of, 1]
+        return np.stack(np.broadcast_arrays(u, v, of), axis=-1)
 
-    def values(self, at: Pair) -> Floats:
+    def values(self, at: Place) -> Floats:
         """f at lattice points (...), each point evaluated once."""
-        _, first, back = np.unique(self.ids(at).ravel(), return_index=True, return_inverse=True)
-        points = self.points((at[0].ravel()[first], at[1].ravel()[first]))
-        return self.values_beside(points)[back].reshape(at[0].shape)
+        ids = self.ids(at)
+        _, first, back = np.unique(ids.ravel(), return_index=True, return_inverse=True)
+        of, i, j = (x.ravel()[first] for x in np.broadcast_arrays(*at))
+        return self.values_beside(self.points((of, i, j)))[back].reshape(ids.shape)
 
     def values_beside(self, points: Floats) -> Floats:
-        """(k,) f at points (k,2), or right beside them where it is not defined; NaN in a hole."""
+        """(k,) f at points (k,3), or right beside them where it is not defined; NaN in a hole."""
         w = self.field.values(points)
         holes = np.isnan(w)
         if holes.any():
-            w[holes] = next_to(self.field, points[holes], self.field.size / self.shape)
+            w[holes] = next_to(self.field, points[holes], self.field.size[number(points[holes])] / self.shape)
         return w
+
+    def keys(self, cells: Cells, level: int) -> Ints:
+        """(k,) numbers that tell cells of a level apart."""
+        rows = self.rows << level
+        return np.asarray((cells.of * (self.columns << level) + cells.i) * rows + cells.j)
+
+    def cells(self, keys: Ints, level: int) -> Cells:
+        """The cells of a level with these keys (k,)."""
+        column, j = np.divmod(keys, self.rows << level)
+        return Cells(*np.divmod(column, self.columns << level), j)
+
+    def at_home(self, cells: Cells, level: int) -> tuple[Cells, Bools]:
+        """Cells moved over the seams into the domain, and which of them are in it."""
+        m, n = self.columns << level, self.rows << level
+        i = cells.i % m if self.field.closed[0] else cells.i
+        j = cells.j % n if self.field.closed[1] else cells.j
+        return Cells(cells.of, i, j), np.asarray((i >= 0) & (i < m) & (j >= 0) & (j < n))
 
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """Cells i, j (k,) of one level, level 0 being the grid."""
+    """Cells i, j (k,) of lattices with the numbers of (k,), all of one level, level 0 being the grid."""
 
+    of: Ints
     i: Ints
     j: Ints
+
+    def __len__(self) -> int:
+        return len(self.of)
+
+    def some(self, which: Ints | Bools) -> Cells:
+        """Some of the cells."""
+        return records.some(self, which)
+
+    def beside(self, steps: Ints) -> Cells:
+        """(k n,) the cells that these steps (n,2) lead to from each."""
+        i, j = (x[:, None] + steps[:, axis] for axis, x in enumerate((self.i, self.j)))
+        return Cells(np.repeat(self.of, len(steps)), i.ravel(), j.ravel())
+
+    def quarters(self) -> Cells:
+        """(4k,) the cells of the next level."""
+        return Cells(self.of, 2 * self.i, 2 * self.j).beside(QUARTERS)
 
 
 @dataclass(frozen=True, eq=False)
 class Subdivision:
-    """split: for each level the keys i (rows 2^level) + j, ascending, of the cells that are cut into four; odd: the
-    smallest cells in which the curve may still be more than one arc; complete:
-    whether no more of one size were called for than were allowed."""
+    """split: for each level the keys, ascending, of the cells that are cut into four; odd: the smallest cells in which
+    the curve may still be more than one arc; complete (s,): whether no more of one size were called for than were
+    allowed."""
 
     lattice: Lattice
     split: list[Ints]
     odd: Cells
-    complete: bool
+    complete: Bools
 
 
 def near_cells(w: Floats, closed: tuple[bool, bool]) -> tuple[Bools, Bools]:
-    """(m-1,n-1) cells of a grid of values (m,n) in which f may be zero, and those of them where the curve may be
+    """(s,m-1,n-1) cells of grids of values (s,m,n) in which f may be zero, and those of them where the curve may be
     more than one arc, a small closed one for example.
 
     f may be zero where a corner's value is no more than what the slopes at the corners let it change in the cell.
     """
-    by_u, by_v = _slopes(w, 0, closed[0]), _slopes(w, 1, closed[1])
+    by_u, by_v = _slopes(w, 1, closed[0]), _slopes(w, 2, closed[1])
     size, change = np.abs(w), np.abs(by_u)
     change += np.abs(by_v)
     if np.isnan(w).any():
@@ -107,11 +157,12 @@ def near_cells(w: Floats, closed: tuple[bool, bool]) -> tuple[Bools, Bools]:
     near |= _over_corners(negative, np.logical_or) & ~_over_corners(negative, np.logical_and)
     if np.isnan(w).any():
         near &= np.isfinite(_over_corners(size, np.minimum))
-    i, j = np.nonzero(near)
-    g = np.stack([corner_values(by_u, i, j), corner_values(by_v, i, j)], axis=-1)
+    cells = Cells(*np.nonzero(near))
+    g = np.stack([corner_values(by_u, cells), corner_values(by_v, cells)], axis=-1)
     odd = np.zeros_like(near)
-    turning = _turning_at_border(g[[[0, 3], [1, 2]]], i, j, near.shape, closed)
-    odd[i, j] = ~_aligned(np.concatenate([g, _own_slopes(corner_values(w, i, j), g)])) | turning
+    turning = _turning_at_border(g[[[0, 3], [1, 2]]], cells, near.shape[1:], closed)
+    simple = _aligned(np.concatenate([g, _own_slopes(corner_values(w, cells), g)]))
+    odd[cells.of, cells.i, cells.j] = ~simple | turning
     return near, odd
 
 
@@ -126,24 +177,26 @@ def _own_slopes(w: Floats, otherwise: Floats) -> Floats:
     return np.where(np.isnan(own), otherwise, own)
 
 
-def flat_cells(lattice: Lattice, w: Floats, noise: float) -> Bools:
-    """(columns,rows) cells of the grid of values w in which f is zero all over: at the corners, and within."""
+def flat_cells(lattice: Lattice, w: Floats, noise: Floats) -> Bools:
+    """(s,columns,rows) cells of the grids of values w in which f is zero all over, up to noise (s,): at the corners,
+    and within."""
     flat = _over_corners(w == 0.0, np.logical_and)
-    i, j = np.nonzero(flat)
-    for place in INSIDE if len(i) else ():
-        points = lattice.field.start + (np.stack([i, j], axis=1) + place) / flat.shape * lattice.field.size
-        flat[i, j] &= np.abs(lattice.field.values(points)) <= noise
+    of, i, j = np.nonzero(flat)
+    for a, b in INSIDE if len(i) else ():
+        (m, n), start, size = flat.shape[1:], lattice.field.start, lattice.field.size
+        u, v = start[of, 0] + (i + a) / m * size[of, 0], start[of, 1] + (j + b) / n * size[of, 1]
+        flat[of, i, j] &= np.abs(lattice.field.values(np.stack([u, v, of], axis=1))) <= noise[of]
     return flat
 
 
 def beside(cells: Bools, closed: tuple[bool, bool]) -> Bools:
-    """(columns,rows) the cells and those that have a corner in common with one of them."""
+    """(s,columns,rows) the cells and those that have a corner in common with one of them."""
     if not cells.any():
         return cells
-    corners = np.pad(cells, 1)
+    corners = np.pad(cells, [(0, 0), (1, 1), (1, 1)])
     for axis in (0, 1):
         if closed[axis]:
-            ends = np.moveaxis(corners, axis, 0)
+            ends = np.moveaxis(corners, axis + 1, 0)
             ends[0], ends[-1] = ends[-2].copy(), ends[1].copy()
     return _over_corners(_over_corners(corners, np.logical_or), np.logical_or)
 
@@ -164,13 +217,14 @@ def _slopes(w: Floats, axis: int, closed: bool) -> Floats:
 
 
 def _over_corners(x: NDArray[Any], best: np.ufunc) -> NDArray[Any]:
-    rows = best(x[:-1], x[1:])
-    return np.asarray(best(rows[:, :-1], rows[:, 1:]))
+    rows = best(x[:, :-1], x[:, 1:])
+    return np.asarray(best(rows[:, :, :-1], rows[:, :, 1:]))
 
 
-def corner_values(x: Floats, i: Ints, j: Ints) -> Floats:
-    """(4,k) values at the corners of cells."""
-    return np.stack([x[i, j], x[i + 1, j], x[i + 1, j + 1], x[i, j + 1]])
+def corner_values(x: Floats, cells: Cells) -> Floats:
+    """(4,k) values, of those (s,m,n) on grids, at the corners of cells."""
+    of, i, j = cells.of, cells.i, cells.j
+    return np.stack([x[of, i, j], x[of, i + 1, j], x[of, i + 1, j + 1], x[of, i, j + 1]])
 
 
 def _aligned(g: Floats) -> Bools:
@@ -184,46 +238,42 @@ def _aligned(g: Floats) -> Bools:
     return np.asarray((product > ALIGNED * sizes).all(axis=0) & steady, dtype=np.bool_)
 
 
-def _turning_at_border(g: Floats, i: Ints, j: Ints, ends: tuple[int, int], closed: tuple[bool, bool]) -> Bools:
+def _turning_at_border(g: Floats, cells: Cells, ends: tuple[int, ...], closed: tuple[bool, bool]) -> Bools:
     """(k,) cells with a side on an open border of the domain along which f stops rising or falling: there the curve
     may leave the domain and come back. g (p,p,k,2) are gradients at nodes of the cells, ends the numbers of cells."""
-    found = np.zeros(len(i), dtype=np.bool_)
-    for axis, at in ((0, i), (1, j)):
+    found = np.zeros(len(cells), dtype=np.bool_)
+    for axis, at in ((0, cells.i), (1, cells.j)):
         for side, last in ((0, 0), (-1, ends[axis] - 1)):
             along = np.take(g, side, axis=axis)[..., 1 - axis]
             found |= (at == last) & (along.min(axis=0) * along.max(axis=0) <= 0.0) & (not closed[axis])
     return found
 
 
-def subdivided(lattice: Lattice, odd: Bools, noise: float, most: int) -> Subdivision:
-    """The cells of the grid that are odd (columns, rows), cut into four again and again as long as they stay odd, down
-    to the lattice's last level; neighbours differ by one level at most. Values up to noise count as zero; most: cells
-    of one size that are cut."""
-    i, j = np.nonzero(odd)
+def subdivided(lattice: Lattice, odd: Bools, noise: Floats, most: int) -> Subdivision:
+    """The cells of the grids that are odd (s, columns, rows), cut into four again and again as long as they stay odd,
+    down to the lattice's last level; neighbours differ by one level at most. Values up to noise (s,) count as zero;
+    most: cells of one size of a lattice that are cut."""
+    cells = Cells(*np.nonzero(odd))
     marked: list[Cells] = []
-    complete = True
+    complete = np.ones(len(odd), dtype=np.bool_)
     for level in range(lattice.levels):
-        if not len(i):
+        if not len(cells):
             break
-        if len(i) > most:
-            complete = False
-            i, j = i[:0], j[:0]
-        marked.append(Cells(i, j))
-        i, j = (
-            (2 * x[:, None] + step).ravel() for x, step in ((i, np.array([0, 0, 1, 1])), (j, np.array([0, 1, 0, 1])))
-        )
-        still = _odd(lattice, Cells(i, j), level + 1, noise)
-        i, j = i[still], j[still]
-    return Subdivision(lattice, _graded(lattice, marked), Cells(i, j), complete)
+        too_many = np.bincount(cells.of, minlength=len(odd)) > most
+        complete &= ~too_many
+        cells = cells.some(~too_many[cells.of])
+        marked.append(cells)
+        quarters = cells.quarters()
+        cells = quarters.some(_odd(lattice, quarters, level + 1, noise))
+    return Subdivision(lattice, _graded(lattice, marked), cells, complete)
 
 
-def _odd(lattice: Lattice, cells: Cells, level: int, noise: float) -> Bools:
+def _odd(lattice: Lattice, cells: Cells, level: int, noise: Floats) -> Bools:
     """(k,) cells in which f may be zero and the curve more than one arc, judged by nine values each."""
     step = lattice.units >> level + 1
     a, b = np.meshgrid(np.arange(3), np.arange(3), indexing="ij")
-    at = (step * (2 * cells.i + a[..., None]), step * (2 * cells.j + b[..., None]))
-    w = lattice.values(at)
-    w[np.abs(w) <= noise] = 0.0
+    w = lattice.values((cells.of, step * (2 * cells.i + a[..., None]), step * (2 * cells.j + b[..., None])))
+    w[np.abs(w) <= noise[cells.of]] = 0.0
     holes = np.isnan(w)
     by_u, by_v = np.diff(w, axis=0), np.diff(w, axis=1)
     change = _most(by_u) + _most(by_v)
@@ -232,7 +282,7 @@ def _odd(lattice: Lattice, cells: Cells, level: int, noise: float) -> Bools:
     crossed = negative.any(axis=(0, 1)) & (~negative & ~holes).any(axis=(0, 1))
     g = np.stack([_at_nodes(by_u, 0), _at_nodes(by_v, 1)], axis=-1)
     ends = (lattice.columns << level, lattice.rows << level)
-    turning = _turning_at_border(g, cells.i, cells.j, ends, lattice.field.closed)
+    turning = _turning_at_border(g, cells, ends, lattice.field.closed)
     simple = _aligned(g.reshape(9, -1, 2)) & ~turning
     return np.asarray((np.isfinite(least) & (least <= change) | crossed) & ~simple & (w != 0.0).any(axis=(0, 1)))
 
@@ -251,21 +301,11 @@ def _most(differences: Floats) -> Floats:
 def _graded(lattice: Lattice, marked: list[Cells]) -> list[Ints]:
     """Keys of the cells to split by level, more of them than marked: around a split cell everything has its size."""
     split: list[Ints] = []
-    above = Cells(*np.zeros((2, 0), dtype=np.intp))
+    above = Cells(*np.zeros((3, 0), dtype=np.intp))
     for level in reversed(range(len(marked))):
-        i, j = (np.concatenate([x, y]) for x, y in ((marked[level].i, above.i), (marked[level].j, above.j)))
-        keys = np.unique(i * (lattice.rows << level) + j)
+        keys = np.unique(lattice.keys(records.joined([marked[level], above]), level))
         split.append(keys)
-        i, j = np.divmod(keys, lattice.rows << level)
-        near = np.array([(a, b) for a in (-1, 0, 1) for b in (-1, 0, 1)])
-        i, j, inside = in_domain(lattice, i[:, None] + near[:, 0], j[:, None] + near[:, 1], level)
-        above = Cells(i[inside] >> 1, j[inside] >> 1)
+        near, inside = lattice.at_home(lattice.cells(keys, level).beside(AROUND), level)
+        near = near.some(inside)
+        above = Cells(near.of, near.i >> 1, near.j >> 1)
     return split[::-1]
-
-
-def in_domain(lattice: Lattice, i: Ints, j: Ints, level: int) -> tuple[Ints, Ints, Bools]:
-    """Cells moved over the seams into the domain, and which of them are in it."""
-    m, n = lattice.columns << level, lattice.rows << level
-    i = i % m if lattice.field.closed[0] else i
-    j = j % n if lattice.field.closed[1] else j
-    return i, j, np.asarray((i >= 0) & (i < m) & (j >= 0) & (j < n))

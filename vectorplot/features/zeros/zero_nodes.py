@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.zeros.scalar_field import ScalarField
+from vectorplot.features.zeros.scalar_field import ScalarFields, moved, number
 from vectorplot.geometry import ragged
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.tolerances.of_lengths import NODE_SETTLED_OF_CELL
@@ -25,14 +26,14 @@ BENT = 0.1
 """Part of the curvature at the start of a search below which that at its end shows a node of more than two branches."""
 
 MOST_ALONE = 16
-"""More flat double points than this are a line of them."""
+"""More flat double points of one function than this are a line of them."""
 
 
 @dataclass(frozen=True, eq=False)
 class DoublePoints:
-    """points (k,2) where f and its gradient vanish; flat (k,): f has no curvature in some direction there, as along a
+    """points (k,3) where f and its gradient vanish; flat (k,): f has no curvature in some direction there, as along a
     line where f touches zero, or in a cusp. radii (k,): smallest cells within which branches are not told apart.
-    ovals (o,2): middles of closed branches smaller than a cell."""
+    ovals (o,3): middles of closed branches smaller than a cell."""
 
     points: Floats
     flat: Bools
@@ -40,17 +41,20 @@ class DoublePoints:
     ovals: Floats
 
 
-def double_points(field: ScalarField, starts: Floats, cell: Floats, zero: float, noise: float) -> DoublePoints:
-    """The double points near starts (k,2), found by Newton on the gradient.
+def double_points(field: ScalarFields, starts: Floats, cell: Floats, zero: Floats, noise: Floats) -> DoublePoints:
+    """The double points near starts (k,3), found by Newton on the gradient.
 
-    cell (2,) is the size of the cells that the starts are the middles of; values up to zero count as zero; points
-    around which values up to noise fill a whole sector lie in or at an area where f is zero, and are none.
+    cell (s,2) is the size of the cells of each domain that the starts are the middles of; values up to zero (s,) count
+    as zero; points around which values up to noise (s,) fill a whole sector lie in or at an area where f is zero, and
+    are none.
     """
     if not len(starts):
         none = np.zeros(0)
         return DoublePoints(starts, none > 0.0, none, starts)
     points, curvature, bent = _critical(field, starts, cell)
-    away = np.abs((points - starts) / cell).max(axis=1, initial=0.0)
+    of = number(starts)
+    zero = zero[of]
+    away = np.abs((points - starts)[:, :2] / cell[of]).max(axis=1, initial=0.0)
     with np.errstate(invalid="ignore"):
         w, least = field.values(points), np.abs(curvature).min(axis=1)
         good = (away <= 3.0) & (np.abs(w) <= zero) & np.isfinite(curvature).all(axis=1)
@@ -62,17 +66,21 @@ def double_points(field: ScalarField, starts: Floats, cell: Floats, zero: float,
     size = np.sort(np.abs(curvature), axis=1)
     flat = size[:, 0] <= FLAT_NODE * size[:, 1]
     many = (size[:, 1] <= BENT * bent) & ~flat
-    kept = _singled(field, points, cell, flat | many, flat.sum() > MOST_ALONE)
+    in_line = in_crowds(number(points), flat)
+    kept = _singled(field, points, cell, flat | many, in_line)
     return DoublePoints(points[kept], np.asarray(flat[kept], dtype=np.bool_), _radii(curvature[kept]), ovals)
 
 
-def _singled(field: ScalarField, points: Floats, cell: Floats, slow: Bools, line: bool) -> Ints:
-    """Positions of points (k,2), one of each; along a line of flat ones many."""
+def in_crowds(of: Ints, some: Bools) -> Bools:
+    """(k,) whether the function with this number has more than MOST_ALONE of what is marked among them (k,)."""
+    return np.asarray((np.bincount(of[some], minlength=int(of.max(initial=0)) + 1) > MOST_ALONE)[of], dtype=np.bool_)
+
+
+def _singled(field: ScalarFields, points: Floats, cell: Floats, slow: Bools, line: Bools) -> Ints:
+    """Positions of points (k,3), one of each; along a line of flat ones many."""
     first = _apart(field, points, cell, 0.05)
-    if line:
-        return first
     # Newton comes to a flat point, and to one of many branches, slowly and from several sides.
-    slow = slow[first]
+    slow = (slow & ~line)[first]
     kept = first[slow][_apart(field, points[first[slow]], cell, 1.0)]
     return np.sort(np.concatenate([first[~slow], kept]))
 
@@ -88,40 +96,47 @@ def _radii(curvature: Floats) -> Floats:
     return np.where(crossing, radii, NODE_RADIUS)
 
 
-def _apart(field: ScalarField, points: Floats, cell: Floats, cells: float) -> Ints:
+def _apart(field: ScalarFields, points: Floats, cell: Floats, cells: float) -> Ints:
     """Positions of points that are further apart than a number of cells: the first of each cluster."""
-    group = close_points(np.pad(_around(field, points) / cell, ((0, 0), (0, 1))), cells)
-    return np.unique(group, return_index=True)[1]
+    of = number(points)
+    # Those of different functions are farther apart than any number of cells that is asked for.
+    at = np.concatenate([_around(field, points) / cell[of], 4.0 * of[:, None]], axis=1)
+    return np.unique(close_points(at, cells), return_index=True)[1]
 
 
-def _in_area(field: ScalarField, points: Floats, cell: Floats, noise: float) -> Bools:
+def _in_area(field: ScalarFields, points: Floats, cell: Floats, noise: Floats) -> Bools:
     """(k,) whether f is zero in three or more of eight places around points; off the axes, where nodes have zeros."""
-    angle = 0.4142 + np.arange(8) * np.pi / 4.0
-    ring = points[:, None] + np.stack([np.cos(angle), np.sin(angle)], axis=1) * cell
-    w = field.values(ring.reshape(-1, 2)).reshape(-1, 8)
-    return np.asarray((np.abs(w) <= noise).sum(axis=1) >= 3, dtype=np.bool_)
+    angle, of = 0.4142 + np.arange(8) * np.pi / 4.0, number(points)
+    steps = np.stack([np.cos(angle), np.sin(angle)], axis=1) * cell[of, None]
+    ring = moved(np.repeat(points[:, None], 8, axis=1), steps)
+    w = field.values(ring.reshape(-1, 3)).reshape(-1, 8)
+    return np.asarray((np.abs(w) <= noise[of, None]).sum(axis=1) >= 3, dtype=np.bool_)
 
 
-def _around(field: ScalarField, points: Floats) -> Floats:
-    """Points wrapped into the domain, those at the end of a closed direction at its start."""
-    at = field.wrapped(points) - field.start
+def _around(field: ScalarFields, points: Floats) -> Floats:
+    """(k,2) the parameters of points from the start of their domains, those at the end of a closed direction at its
+    start."""
+    of = number(points)
+    at, size = field.wrapped(points)[:, :2] - field.start[of], field.size[of]
     for axis in (0, 1):
         if field.closed[axis]:
-            at[:, axis] = np.where(at[:, axis] > field.size[axis] * (1.0 - ON_BORDER_OF_DOMAIN), 0.0, at[:, axis])
+            at[:, axis] = np.where(at[:, axis] > size[:, axis] * (1.0 - ON_BORDER_OF_DOMAIN), 0.0, at[:, axis])
     return at
 
 
-def _critical(field: ScalarField, starts: Floats, cell: Floats) -> tuple[Floats, Floats, Floats]:
+def _critical(field: ScalarFields, starts: Floats, cell: Floats) -> tuple[Floats, Floats, Floats]:
     """Points where the gradient vanishes, the two principal curvatures of f there, and the larger one at the starts,
     all in units of cells."""
     points, curvature = starts.copy(), np.full((len(starts), 2), np.nan)
-    bent = np.full(len(starts), np.nan)
+    bent, of = np.full(len(starts), np.nan), number(starts)
+    low, high = np.where(field.closed, -np.inf, field.low), np.where(field.closed, np.inf, field.high)
     active = np.arange(len(starts))
     for _ in range(60):
         if not len(active):
             break
-        g = field.gradients(points[active]) * cell
-        h = field.hessians(points[active]) * np.outer(cell, cell)
+        own = cell[of[active]]
+        g = field.gradients(points[active]) * own
+        h = field.hessians(points[active]) * (own[:, :, None] * own[:, None, :])
         sound = np.isfinite(g).all(axis=1) & np.isfinite(h).all(axis=(1, 2))
         active, g, h = active[sound], g[sound], h[sound]
         bend, axes = np.linalg.eigh(h)
@@ -133,20 +148,17 @@ def _critical(field: ScalarField, starts: Floats, cell: Floats) -> tuple[Floats,
         step = -np.einsum("kij,kj->ki", axes, np.where(steep, along / np.where(steep, bend, 1.0), 0.0))
         length = np.sqrt((step * step).sum(axis=1))
         step /= np.maximum(length, 1.0)[:, None]
-        points[active] = np.clip(
-            points[active] + step * cell,
-            np.where(field.closed, -np.inf, field.low),
-            np.where(field.closed, np.inf, field.high),
-        )
-        strayed = np.abs((points[active] - starts[active]) / cell).max(axis=1, initial=0.0) > 4.0
+        own, whose = cell[of[active]], of[active]
+        points[active, :2] = np.clip(points[active, :2] + step * own, low[whose], high[whose])
+        strayed = np.abs((points[active] - starts[active])[:, :2] / own).max(axis=1, initial=0.0) > 4.0
         active = active[(length > NODE_SETTLED_OF_CELL) & ~strayed]
     return points, curvature, bent
 
 
 @dataclass(frozen=True, eq=False)
 class Joined:
-    """points (p,2) and segments (s,2) of a curve whose branches meet in nodes; meets (k,): how many branches end at
-    each double point; around (q,): the double point within whose reach each of the points before lay, or -1."""
+    """points (p,3) and segments (q,2) of a curve whose branches meet in nodes; meets (k,): how many branches end at
+    each double point; around (r,): the double point within whose reach each of the points before lay, or -1."""
 
     points: Floats
     segments: Ints
@@ -154,8 +166,8 @@ class Joined:
     around: Ints
 
 
-def joined_at_nodes(field: ScalarField, points: Floats, segments: Ints, nodes: Floats, reach: Floats) -> Joined:
-    """The curve with its branches led through nodes (k,2): what lies within reach (k,2) of one is dropped, and the
+def joined_at_nodes(field: ScalarFields, points: Floats, segments: Ints, nodes: Floats, reach: Floats) -> Joined:
+    """The curve with its branches led through nodes (k,3): what lies within reach (k,2) of one is dropped, and the
     ends left over are joined to the node.
 
     Ends that are opposite in the cyclic order around a node are joined to each other, so that branches go straight on.
@@ -186,7 +198,7 @@ def joined_at_nodes(field: ScalarField, points: Floats, segments: Ints, nodes: F
     )
 
 
-def _node_around(field: ScalarField, points: Floats, nodes: Floats, reach: Floats) -> Ints:
+def _node_around(field: ScalarFields, points: Floats, nodes: Floats, reach: Floats) -> Ints:
     """(p,) the node within whose reach a point lies, the last of several, or -1."""
     inside = np.full(len(points), -1)
     node, point = within(field, points, nodes, reach)
@@ -194,18 +206,21 @@ def _node_around(field: ScalarField, points: Floats, nodes: Floats, reach: Float
     return inside
 
 
-def within(field: ScalarField, points: Floats, centres: Floats, reach: Floats) -> tuple[Ints, Ints]:
-    """Pairs of a centre and a point (p,2) in the ellipse about it with the half axes reach (k,2), seams or not."""
+def within(field: ScalarFields, points: Floats, centres: Floats, reach: Floats) -> tuple[Ints, Ints]:
+    """Pairs of a centre (k,3) and a point (p,3) in the ellipse about it with the half axes reach (k,2), seams or
+    not."""
     if not len(centres) or not len(points):
         return np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp)
-    at = field.wrapped(points)
-    order = np.argsort(at[:, 0], kind="stable")
+    of, at = number(centres), _sort_keys(number(points), field.wrapped(points)[:, 0])
+    order = np.argsort(at, kind="stable")
+    at = at[order]
     low, high = (field.wrapped(centres)[:, 0] + sign * reach[:, 0] for sign in (-1.0, 1.0))
+    ends = np.searchsorted(at.real, of, side="right")
     pairs = []
     for turn in (-1.0, 0.0, 1.0) if field.closed[0] else (0.0,):
-        first, last = (np.searchsorted(at[order, 0], x + turn * field.size[0]) for x in (low, high))
+        first, last = (np.searchsorted(at, _sort_keys(of, x + turn * field.size[of, 0])) for x in (low, high))
         # One place more: the bounds are rounded.
-        last = np.minimum(last + 1, len(order))
+        last = np.minimum(last + 1, ends)
         count = np.maximum(last - first, 0)
         centre = ragged.owner(count)
         place = ragged.place(count) + first[centre]
@@ -216,14 +231,21 @@ def within(field: ScalarField, points: Floats, centres: Floats, reach: Floats) -
     return centre[near], point[near]
 
 
-def without_points_near(field: ScalarField, centres: Floats, points: Floats, reach: Floats) -> Bools:
-    """(k,) centres (k,2) with none of the points (p,2) in the ellipse with the half axes reach (2,) or (k,2)."""
+def _sort_keys(of: Ints, x: Floats) -> NDArray[np.complex128]:
+    """(k,) keys that sort by the numbers of (k,), and those of one number by x (k,)."""
+    keys = np.zeros(len(x), dtype=np.complex128)
+    keys.real, keys.imag = of, x
+    return keys
+
+
+def without_points_near(field: ScalarFields, centres: Floats, points: Floats, reach: Floats) -> Bools:
+    """(k,) centres (k,3) with none of the points (p,3) in the ellipse with the half axes reach (k,2)."""
     free = np.ones(len(centres), dtype=np.bool_)
-    free[within(field, points, centres, np.broadcast_to(reach, centres.shape))[0]] = False
+    free[within(field, points, centres, reach)[0]] = False
     return free
 
 
-def _difference(field: ScalarField, points: Floats, origin: Floats) -> Floats:
-    """Points minus origin, the short way round in closed directions."""
-    d = points - origin
-    return np.asarray(d - np.where(field.closed, np.round(d / field.size), 0.0) * field.size)
+def _difference(field: ScalarFields, points: Floats, origin: Floats) -> Floats:
+    """(k,2) points minus origin, the short way round in closed directions."""
+    d, size = (points - origin)[:, :2], field.size[number(origin)]
+    return np.asarray(d - np.where(field.closed, np.round(d / size), 0.0) * size)

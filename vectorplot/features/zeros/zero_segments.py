@@ -19,33 +19,34 @@ SETTLED = ZERO_RESIDUAL / 16.0
 
 @dataclass(frozen=True, eq=False)
 class Segments:
-    """points (p,2); pairs (s,2) of points, f positive on the left of first to second; poles: how many changes of sign
-    are no zeros."""
+    """points (p,3); pairs (q,2) of points, f positive on the left of first to second; poles (s,): how many changes of
+    sign of each field are no zeros."""
 
     points: Floats
     pairs: Ints
-    poles: int
+    poles: Ints
 
 
 @dataclass(frozen=True, eq=False)
 class Sides:
-    """Sides of triangles that change sign: lattice positions start and along (k,2), values and slopes (k,2) at both
-    ends, slopes by the parameter that runs from 0 to 1."""
+    """Sides of triangles that change sign, of lattices with the numbers of (k,): lattice positions start and along
+    (k,2), values and slopes (k,2) at both ends, slopes by the parameter that runs from 0 to 1."""
 
+    of: Ints
     start: Ints
     along: Ints
     w: Floats
     slope: Floats
 
 
-def crossing_segments(lattice: Lattice, corners: Corners, scale: float, zero: float) -> Segments:
-    """The piece of the curve in every triangle that changes sign.
+def crossing_segments(lattice: Lattice, corners: Corners, scale: Floats, zero: Floats) -> Segments:
+    """The piece of the curve in every triangle that changes sign; scale and zero (s,): of the fields.
 
     A side is one for both its triangles, and so is the point on it. Zero counts as positive, so a curve through a
     corner or along a side is met in one triangle of those around it, as one line.
     Source: Glaeser, section 8.4; errata G8-08, G8-14.
     """
-    w = np.where(np.abs(corners.w) <= GRID_NOISE * scale, 0.0, corners.w)
+    w = np.where(np.abs(corners.w) <= GRID_NOISE * scale[corners.of, None], 0.0, corners.w)
     negative = w < 0.0
     count = negative.sum(axis=1)
     row = np.flatnonzero((count % 3 != 0) & ~np.isnan(w).any(axis=1))
@@ -54,7 +55,7 @@ def crossing_segments(lattice: Lattice, corners: Corners, scale: float, zero: fl
     # The two sides at the lone corner; a positive one is on the left on the way from the first to the second.
     a, b = np.concatenate([lone, lone]), np.concatenate([(lone + 1) % 3, (lone + 2) % 3])
     rows = np.concatenate([row, row])
-    ids = lattice.ids((corners.i[rows], corners.j[rows]))
+    ids = lattice.ids((corners.of[rows, None], corners.i[rows], corners.j[rows]))
     each = np.arange(len(rows))
     swap = ids[each, a] > ids[each, b]
     a, b = np.where(swap, b, a), np.where(swap, a, b)
@@ -63,7 +64,8 @@ def crossing_segments(lattice: Lattice, corners: Corners, scale: float, zero: fl
     points, genuine = _zeros(lattice, sides, scale, zero)
     one, two = side[: len(row)], side[len(row) :]
     pairs = np.stack([np.where(alone, two, one), np.where(alone, one, two)], axis=1)
-    return Segments(points, pairs[genuine[pairs].all(axis=1)], int((~genuine).sum()))
+    poles = np.bincount(sides.of[~genuine], minlength=len(scale))
+    return Segments(points, pairs[genuine[pairs].all(axis=1)], poles)
 
 
 def _distinct(low: Ints, high: Ints) -> tuple[Ints, Ints]:
@@ -79,18 +81,19 @@ def _sides(corners: Corners, w: Floats, row: Ints, a: Ints, b: Ints) -> Sides:
     start, end = (np.stack([corners.i[row, k], corners.j[row, k]], axis=1) for k in (a, b))
     along = end - start
     slope = [corners.slope_u[row, k] * along[:, 0] + corners.slope_v[row, k] * along[:, 1] for k in (a, b)]
-    return Sides(start, along, np.stack([w[row, a], w[row, b]], axis=1), np.stack(slope, axis=1))
+    return Sides(corners.of[row], start, along, np.stack([w[row, a], w[row, b]], axis=1), np.stack(slope, axis=1))
 
 
-def _zeros(lattice: Lattice, sides: Sides, scale: float, zero: float) -> tuple[Floats, Bools]:
-    """The points (k,2) of the curve on the sides, and which of them are zeros of f indeed."""
+def _zeros(lattice: Lattice, sides: Sides, scale: Floats, zero: Floats) -> tuple[Floats, Bools]:
+    """The points (k,3) of the curve on the sides, and which of them are zeros of f indeed."""
     w0, w1 = sides.w.T
     size = np.maximum(np.abs(w0), np.abs(w1))
+    scale, zero = scale[sides.of], zero[sides.of]
     small = np.minimum(np.maximum(ZERO_RESIDUAL / 8.0 * size, SETTLED * scale), zero)
 
     def at(t: Floats, which: Ints) -> Floats:
         i, j = (sides.start[which] + t[:, None] * sides.along[which]).T
-        return lattice.values_beside(lattice.points((i, j)))
+        return lattice.values_beside(lattice.points((sides.of[which], i, j)))
 
     t, rest = bracketed_zeros(at, w0, w1, _guess(sides), small)
     exact = (w0 == 0.0) | (w1 == 0.0)
@@ -99,18 +102,15 @@ def _zeros(lattice: Lattice, sides: Sides, scale: float, zero: float) -> tuple[F
         FALLS_BESIDE * np.minimum(np.abs(w0), np.abs(w1)), _rounding(lattice, sides) + zero
     )
     i, j = (sides.start + t[:, None] * sides.along).T
-    return lattice.points((i, j)), np.asarray(exact | falls, dtype=np.bool_)
+    return lattice.points((sides.of, i, j)), np.asarray(exact | falls, dtype=np.bool_)
 
 
 def _rounding(lattice: Lattice, sides: Sides) -> Floats:
     """(k,) what the rounding of the parameters alone makes of f: far from zero there are few of them in a cell."""
     field = lattice.field
-    part = (
-        np.spacing(np.abs(field.start) + field.size)
-        * lattice.shape
-        / field.size
-        / np.abs(sides.along).max(axis=1)[:, None]
-    )
+    part = (np.spacing(np.abs(field.start) + field.size) * lattice.shape / field.size)[sides.of] / np.abs(
+        sides.along
+    ).max(axis=1)[:, None]
     return np.asarray(4.0 * part.sum(axis=1) * np.abs(sides.w[:, 1] - sides.w[:, 0]))
 
 

@@ -14,7 +14,6 @@ from vectorplot.features.intersections.self_intersection import self_intersectio
 from vectorplot.features.intersections.sheets import SurfaceGrids
 from vectorplot.features.intersections.surface_intersection import intersection_of_grids
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.geometry.boxes import overlapping_boxes
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.scene.scene import Scene
@@ -29,14 +28,12 @@ from vectorplot.visibility.smooth.tracing.implicit_meetings import (
     implicit_with_mesh,
     parametrised_with_implicit,
 )
+from vectorplot.visibility.smooth.tracing.near_sheets import SLACK, near_sheets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves, no_curves, together
 from vectorplot.visibility.smooth.tracing.traced_surface_curves import as_curves
 from vectorplot.words import LineKind
 
 SmoothSheet = ParametricSheet | ImplicitSheet
-
-SLACK = 0.01
-"""Part of its size that a tessellation may lie inside of its sheet."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +54,6 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
     """
     parts, doubts = [], []
     itself = np.zeros(len(sheets), dtype=np.bool_)
-    boxes = [_box(sheet.vertices) for sheet in sheets]
     for number, sheet in enumerate(sheets):
         # Where an implicit surface meets itself its gradient vanishes; these lines are not looked for.
         itself[number] = isinstance(sheet, ParametricSheet) and not is_embedded(sheet.surface)
@@ -67,7 +63,7 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
             doubts += [f"{scene.items[sheet.item].name}: {text}" for text in found.doubts]
             parts.append(_double(found, sheet, number, sheet, number, sheet.item))
     grids = [SurfaceGrids(sheet.surface) if isinstance(sheet, ParametricSheet) else None for sheet in sheets]
-    for one, two in _neighbours(boxes):
+    for one, two in near_sheets([sheet.vertices for sheet in sheets]):
         items = [i for i in sorted((sheets[one].item, sheets[two].item)) if wants[i]]
         # The sheets of one item are parts of one surface, which meet at its sharp edges only.
         if items and sheets[one].item != sheets[two].item:
@@ -75,30 +71,19 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
             names = " and ".join(scene.items[sheets[k].item].name for k in (one, two))
             doubts += [f"{names}: {text}" for text in unsure]
             parts.append(part)
+    boxes = [_box(sheet.vertices) for sheet in sheets]
     for other, item in enumerate(scene.items):
         if not isinstance(item.shape, Mesh) or not item.shape.face_count:
             continue
         mesh = Mesh(view.points_of(item.shape.vertices).T, item.shape.corners, item.shape.offsets, item.shape.present)
+        box = _box(mesh.vertices)
         for number, sheet in enumerate(sheets):
             items = [i for i in sorted((sheet.item, other)) if wants[i]]
-            if items and _overlap(boxes[number], _box(mesh.vertices)):
+            if items and _overlap(boxes[number], box):
                 part, unsure = _with_mesh(sheet, number, mesh, items[0], tracing)
                 doubts += [f"{scene.items[sheet.item].name} and {item.name}: {text}" for text in unsure]
                 parts.append(part)
     return Meetings(together(parts), itself, tuple(doubts))
-
-
-def _neighbours(boxes: Sequence[Floats]) -> list[tuple[int, int]]:
-    """The pairs of boxes (2,3), each once, that overlap as `_overlap` says."""
-    if not boxes:
-        return []
-    known = np.flatnonzero([np.isfinite(box).all() for box in boxes])
-    low, high = np.array(boxes)[known].transpose(1, 2, 0)
-    slack = SLACK * (high - low).max(axis=0, initial=0.0)
-    one, two = overlapping_boxes(low - slack, high + slack, low - slack, high + slack)
-    one, two = known[one[one < two]], known[two[one < two]]
-    order = np.lexsort((two, one))
-    return list(zip(one[order].tolist(), two[order].tolist(), strict=True))
 
 
 def _pair(

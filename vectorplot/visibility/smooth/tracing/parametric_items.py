@@ -2,28 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from vectorplot.features.parametric.conditions import (
     CentralContour,
-    Condition,
+    Contour,
     Isophote,
     ParallelContour,
     PlaneSection,
     PointIsophote,
 )
-from vectorplot.features.parametric.contour import contour, parallel_contour
+from vectorplot.features.parametric.contour import contours, parallel_contours
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.cuspidal_edges import singular_lines
-from vectorplot.features.parametric.cusps import contour_with_cusps
+from vectorplot.features.parametric.cusps import contours_with_cusps
 from vectorplot.features.parametric.isophotes import isophotes, point_light_isophotes
 from vectorplot.features.parametric.parameter_lines import borders, parameter_lines
 from vectorplot.features.parametric.sections import plane_sections
+from vectorplot.features.parametric.stacked_conditions import stacked, stacks
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.features.parametric.surface_paths import surface_path
 from vectorplot.features.zeros.zero_manifold import JUMPS
+from vectorplot.geometry.budget import unheard
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
@@ -49,13 +52,44 @@ def sheets_of_parametrised(view: View, surface: Surface, item: int, hides: bool)
     return sheets
 
 
+def contours_of_parametrised(
+    view: View, sheets: Mapping[int, ParametricSheet], tracing: Tracing, done: Callable[[float], None] = unheard
+) -> dict[int, SurfaceCurves]:
+    """The contours of sheets with their cusps, those of many traced at once; all by the numbers of the sheets. done: is
+    told the part of the work that is done."""
+    numbers, found = list(sheets), dict[int, SurfaceCurves]()
+    for part in stacks([sheets[number].surface for number in numbers], tracing.nodes):
+        which = [numbers[k] for k in part.tolist()]
+        stack = [sheets[number].surface for number in which]
+        if view.eye is None:
+            curves = parallel_contours(stack, (0, 0, 1), tracing=tracing)
+        else:
+            curves = contours(stack, view.eye, tracing=tracing)
+        with_cusps = contours_with_cusps(stacked(stack, _turn(view, stack[0])), curves)
+        found.update({number: own for number, (own, _) in zip(which, with_cusps, strict=True)})
+        done(len(found) / len(sheets))
+    return found
+
+
+def _turn(view: View, surface: Surface) -> Contour:
+    """The condition of the contour."""
+    return ParallelContour(surface, (0.0, 0.0, 1.0)) if view.eye is None else CentralContour(surface, view.eye)
+
+
 def curves_of_parametrised(
-    scene: Scene, view: View, sheet: ParametricSheet, number: int, wanted: frozenset[LineKind], tracing: Tracing
+    scene: Scene,
+    view: View,
+    sheet: ParametricSheet,
+    number: int,
+    contour: SurfaceCurves,
+    wanted: frozenset[LineKind],
+    tracing: Tracing,
 ) -> tuple[list[Curves], tuple[str, ...]]:
     """The curves of an item, each list entry of one kind, and doubts about them; contour, borders and cuspidal edges
-    always, because they hide."""
+    always, because they hide. contour: that of the sheet."""
     item = scene.items[sheet.item]
-    found = [*_edges(view, sheet, number, tracing), *_asked_for(scene, view, item, sheet, number, wanted, tracing)]
+    found: list[Found] = [(LineKind.CONTOUR, ConditionCurves(sheet, number, _turn(view, sheet.surface)), contour)]
+    found += [*_edges(sheet, number, tracing), *_asked_for(scene, view, item, sheet, number, wanted, tracing)]
     doubts = tuple(text for _, _, curves in found for text in curves.doubts)
     if any(kind == LineKind.CREASE and (len(curves) or len(curves.isolated)) for kind, _, curves in found):
         # At an apex or a cuspidal edge the normal jumps: that is known, and no doubt.
@@ -63,20 +97,10 @@ def curves_of_parametrised(
     return [as_curves(curves, kind, sheet.item, family) for kind, family, curves in found], doubts
 
 
-def _edges(view: View, sheet: ParametricSheet, number: int, tracing: Tracing) -> list[Found]:
-    """Contour, borders and cuspidal edges."""
-    surface = sheet.surface
-    straight = ParameterCurves(sheet, number)
-    turn: Condition
-    if view.eye is None:
-        turn, found = ParallelContour(surface, (0.0, 0.0, 1.0)), parallel_contour(surface, (0, 0, 1), tracing=tracing)
-    else:
-        turn, found = CentralContour(surface, view.eye), contour(surface, view.eye, tracing=tracing)
-    found, _ = contour_with_cusps(turn, found)
-    result: list[Found] = [
-        (LineKind.CONTOUR, ConditionCurves(sheet, number, turn), found),
-        (LineKind.BOUNDARY, straight, borders(surface, tracing=tracing)),
-    ]
+def _edges(sheet: ParametricSheet, number: int, tracing: Tracing) -> list[Found]:
+    """Borders and cuspidal edges."""
+    surface, straight = sheet.surface, ParameterCurves(sheet, number)
+    result: list[Found] = [(LineKind.BOUNDARY, straight, borders(surface, tracing=tracing))]
     if not is_embedded(surface):
         result.append((LineKind.CREASE, straight, singular_lines(surface, tracing=tracing)))
     return result
@@ -115,7 +139,7 @@ def _asked_for(
 
 def _isophotes(scene: Scene, view: View, item: Item, sheet: ParametricSheet, number: int, tracing: Tracing) -> Found:
     light, surface = curve_light(scene, view, item), sheet.surface
-    condition: Condition
+    condition: Isophote | PointIsophote
     if light.parallel:
         towards = view.axes @ np.asarray(light.position)
         condition = Isophote(surface, towards, 0.0)

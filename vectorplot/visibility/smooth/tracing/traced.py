@@ -22,7 +22,11 @@ from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.tracing.implicit_items import curves_of_implicit
 from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet, meetings
 from vectorplot.visibility.smooth.tracing.merged_families import with_merged_families
-from vectorplot.visibility.smooth.tracing.parametric_items import curves_of_parametrised, sheets_of_parametrised
+from vectorplot.visibility.smooth.tracing.parametric_items import (
+    contours_of_parametrised,
+    curves_of_parametrised,
+    sheets_of_parametrised,
+)
 from vectorplot.visibility.smooth.tracing.rims import with_rims
 from vectorplot.visibility.smooth.tracing.space_items import space_curve
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves, together
@@ -84,15 +88,17 @@ def traced_scene(
     """
     tracing = tracing_of(view, tolerance, budget)
     drawn, edges, doubts = [], [], []
+    own = {number: sheet for number, sheet in enumerate(sheets) if isinstance(sheet, ParametricSheet)}
+    contours = contours_of_parametrised(view, own, tracing, lambda part: done(part / 2.0))
     for number, sheet in enumerate(sheets):
         item = scene.items[sheet.item]
         wanted = kinds_of(item, kinds)
         if isinstance(sheet, ParametricSheet):
-            parts, unsure = curves_of_parametrised(scene, view, sheet, number, wanted, tracing)
+            parts, unsure = curves_of_parametrised(scene, view, sheet, number, contours[number], wanted, tracing)
         else:
             parts, unsure = curves_of_implicit(scene, view, sheet, number, wanted, tracing)
         doubts += [f"{item.name}: {text}" for text in in_one_line(unsure)]
-        done((number + 1) / (len(sheets) + 1))
+        done((1.0 + (number + 1) / (len(sheets) + 1)) / 2.0)
         lines = with_rims(view, sheets, number, parts)
         drawn += [part.some(np.flatnonzero(np.isin(part.kind, list(wanted)))) for part in lines]
         if item.hides:
