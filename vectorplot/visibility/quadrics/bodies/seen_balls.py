@@ -107,7 +107,8 @@ def balls_of(view: View, items: Sequence[Item], which: Ints, balls: Sequence[Bal
 
 def same_numbers(numbers: Floats, tolerance: float) -> Ints:
     """(n,) the first of the rows (n,k) that are equal to each, but for the tolerance."""
-    key = np.round(numbers / (4.0 * tolerance)).astype(np.int64)
+    # Floats have room for the numbers of an eye far away, and zero has two signs.
+    key = np.round(numbers / (4.0 * tolerance)) + 0.0
     _, first, group = np.unique(key, axis=0, return_index=True, return_inverse=True)
     return np.asarray(first[group.reshape(-1)])
 
