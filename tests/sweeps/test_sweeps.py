@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from stability.all_sweeps import SWEEPS
-from stability.sweep import Sweep
+from sweeps.all_sweeps import SWEEPS
+from sweeps.sweep import Sweep
 
 FEW = 4
 """Values of each sweep that are tried with the other tests; docs/stability.py tries all."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from stability import curved, meshes, scenes, verbs
-from stability.sweep import Sweep
+from sweeps import curved, meshes, scenes, verbs
+from sweeps.sweep import Sweep
 
 SWEEPS: tuple[Sweep, ...] = (*meshes.SWEEPS, *curved.SWEEPS, *scenes.SWEEPS, *verbs.SWEEPS)

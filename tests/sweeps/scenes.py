@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
-from stability.sweep import Sweep
 from support.drawn import drawn, plate
+from sweeps.sweep import Sweep
 
 import vectorplot as vp
 from vectorplot.surfaces.families.ellipsoid import Sphere

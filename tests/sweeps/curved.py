@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from stability.sweep import Sweep
 from support.drawn import drawn, on_page, plate
+from sweeps.sweep import Sweep
 
 import vectorplot as vp
 from vectorplot.curves.line import Line
@@ -188,7 +188,7 @@ SWEEPS = (
         lambda offset: TOLERANCE,
     ),
     Sweep(
-        "contour of a torus that gets cusps",
+        "torus contour that gets cusps",
         (29,),
         "angle beyond that of the first cusps",
         "distance of the cusps from true ones, mm",

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from stability.sweep import Sweep
 from support.drawn import plate
 from support.top_fills import covering, fills_of, last_at, pixel_places
+from sweeps.sweep import Sweep
 
 import vectorplot as vp
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from stability.sweep import Sweep
 from support.drawn import EVERY_EDGE, Drawn, drawn, plate
+from sweeps.sweep import Sweep
 
 import vectorplot as vp
 from vectorplot.testing.shapes import box, scene_of
