@@ -158,8 +158,8 @@ def different(one: Floats, two: Floats) -> float:
 
 
 DIFFERENT = {"paint": 0.015, "render": 0.002}
-"""The largest share of pixels that differ: facets of smooth surfaces, whose borders are seen through antialiasing, may be
-other ones."""
+"""The largest share of pixels that differ: facets of smooth surfaces, whose borders are seen through antialiasing, may
+be other ones."""
 
 VERBS: dict[str, Callable[[Seen], Floats]] = {"paint": painted, "render": rendered}
 

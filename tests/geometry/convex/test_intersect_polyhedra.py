@@ -173,6 +173,20 @@ def test_open_bodies_and_two_that_are_not_convex_are_refused():
         polyhedron_intersection(ring, ring)
 
 
+def test_boxes_without_digits_left_are_cut_or_refused_in_one_line():
+    random, refused = np.random.default_rng(0), []
+    for _ in range(70):
+        place = np.tile(np.eye(4), (2, 1, 1))
+        place[:, :3, :3] = random.normal(size=(2, 3, 3)) * 10.0 ** random.integers(-3, 20, size=(2, 3, 3))
+        try:
+            polyhedron_intersection(
+                box((1.1, 3.7, 5.0)).transformed(place[0]), box((4.9, 0.3, 1)).transformed(place[1])
+            )
+        except InputError as error:
+            refused.append(str(error))
+    assert any("no digits left" in line for line in refused)
+
+
 def area(points):
     if not len(points):
         return 0.0

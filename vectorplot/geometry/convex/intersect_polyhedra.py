@@ -38,7 +38,7 @@ def polyhedron_intersection(body: Mesh, convex: Mesh) -> Mesh:
     ------
     InputError
         If a mesh is not closed with all its faces (also those not present) turned outwards, or neither is convex; for a
-        convex one of too many faces.
+        convex one of too many faces; where coordinates have no digits left to tell what lies in what.
 
     Notes
     -----
@@ -260,6 +260,8 @@ def _perforated(flat: Floats, outer: list[Ints], holes: list[Ints]) -> list[Ints
     for hole in holes:
         shape = shapely.Polygon(flat[hole])
         around = [k for k, candidate in enumerate(shapes) if candidate.covers(shape)]
+        if not around:
+            raise InputError("coordinates have no digits left to tell in which face of the intersection a hole lies")
         inside[min(around, key=lambda k: shapes[k].area)].append(hole)
     faces: list[Ints] = []
     for loop, cut_out in zip(outer, inside, strict=True):
