@@ -37,6 +37,7 @@ from vectorplot.shading.light.flat_regions import plane_numbers
 from vectorplot.shading.light.painted_colours import Lighting, opacities
 from vectorplot.shading.light.painted_normals import painted_normals
 from vectorplot.shading.light.palettes import PALETTE_SIZE
+from vectorplot.tolerances.of_the_page import SIDE_BY_SIDE_MM
 from vectorplot.visibility.painter.gathering import side_by_side
 from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import ImageFaces
@@ -174,15 +175,16 @@ def paint(
     faces = painted.faces
     if walk.calls_for("unseen facets"):
         faces = walk.run("unseen facets", without_unseen_facets, facets, view, projected, painted)
+    placement = placement_of_faces(view, faces, page, fit)
     if walk.calls_for("transparent sheets"):
-        from vectorplot.visibility.painter.gathering import gathered
+        from vectorplot.visibility.painter.transparent_sheets import in_sheets
 
         item = view.face_item[faces.source]
-        sheet = np.where(opacities(facets.scene.items)[item] < 1.0, item, -1)
-        faces = faces.some(walk.run("transparent sheets", gathered, faces, sheet, view.tolerance))
+        opacity = opacities(facets.scene.items)[item]
+        clear, width = np.where(opacity < 1.0, item, -1), SIDE_BY_SIDE_MM / placement.scale
+        faces = walk.run("transparent sheets", in_sheets, faces, clear, opacity, width, view.tolerance)
     plane = plane_numbers(view)
     faces = faces.some(side_by_side(faces, _planes_of(facets.scene, view, faces, plane), view.tolerance))
-    placement = placement_of_faces(view, faces, page, fit)
     seen = Seen(facets.scene, view, projected, shown_faces(faces, placement), placement)
     world = placement.page_from_world
     here = view_lights(view, scene.lights)

@@ -57,3 +57,6 @@ numbers."""
 
 INFINITE = float("inf")
 """Where parallel lines meet, and how far away the centre of a parallel projection is."""
+
+NEGLIGIBLE_PART = 1e-6
+"""Regions that differ in so small a part of their area are the same: where they were cut on a grid digits are gone."""

@@ -21,5 +21,9 @@ CLEARANCE_MM = 1e-3
 """What is cut away is wider by this than what lies above it: of two sides that nearly coincide nothing is left between
 them, which would be drawn as wide as a seam."""
 
+SIDE_BY_SIDE_MM = 0.01
+"""Transparent polygons that overlap in strips narrower than this lie side by side: a strip of it is a tenth of a pixel
+of a screen wide at most, on most of them less."""
+
 ARC_DECIMAL_MM = 1e-5
 """Unit of the numbers of arcs: their radii and centres are kept better than their ends."""

@@ -39,15 +39,30 @@ def inner(picture, middle, radius, dpi=300):
     return picture[np.hypot(x - middle[0], y - middle[1]) < radius]
 
 
-def test_neighbours_of_one_item_kind_and_opacity_share_a_group():
+def test_neighbours_of_one_opacity_share_a_group():
     assert groups([SQUARE, BESIDE]) == [0, 0]
-    assert groups([SQUARE, BESIDE], item=[0, 1]) == [-1, -1]
-    assert groups([SQUARE, BESIDE], kind=[FillKind.FACE, FillKind.GLASS]) == [-1, -1]
+    assert groups([SQUARE, BESIDE], kind=[FillKind.FACE, FillKind.GLASS]) == [0, 0]
     assert groups([SQUARE, BESIDE], opacity=[0.5, 0.4]) == [-1, -1]
     assert groups([SQUARE, BESIDE], opacity=1.0) == [-1, -1]
     assert groups([SQUARE, BESIDE], kind=FillKind.BACKGROUND) == [-1, -1]
     assert groups([SQUARE, moved(BESIDE, 5.0, 0.0)]) == [-1, -1]  # apart
     assert groups([SQUARE, SQUARE[:2], BESIDE]) == [-1, -1, -1]  # a line between them
+
+
+def test_what_lies_beside_another_item_goes_on_under_it():
+    found = areas(flat([SQUARE, BESIDE], [DARK] * 2, opacity=0.5, item=[0, 1]), 60.0, 40.0)
+    assert (found.group == 0).all() and found.fringe.tolist() == [True] * 8 + [False] * 2
+    assert found.part.tolist() == [-1] * 9 + [0]
+    corners, _ = found.outline(0, len(found))
+    assert corners.min(axis=0).tolist() == [5000, 5000] and corners.max(axis=0).tolist() == [25000, 15000]
+    corners, _ = found.outline(*found.part_ends[0])
+    assert corners.min(axis=0).tolist() == [15000, 5000]
+
+
+def test_an_item_that_overlaps_another_one_is_not_cut():
+    # Of three in a row the second one overlaps the one of the other item.
+    row = [OVER, moved(SQUARE, 30.0, 0.0), moved(SQUARE, 14.0, 3.0), moved(SQUARE, 40.0, 0.0)]
+    assert groups([SQUARE, BESIDE, *row[1:], OVER], item=[0, 0, 1, 1, 1, 1])[2:] == [1, 1, 1, 1]
 
 
 def test_a_polygon_over_another_one_begins_a_new_group():
@@ -78,10 +93,11 @@ def test_polygons_of_a_group_never_overlap(seed):
     shapes = [shapely.Polygon(found.microns[a:b]) for a, b in pairwise(found.offsets)]
     for number, (first, last) in enumerate(found.group_ends.tolist()):
         assert (found.group[first:last] == number).all() and last - first > 1
-        total = sum(shape.area for shape in shapes[first:last])
-        corners, offsets = found.group_outline(number)
+        inside = [shapes[k] for k in range(first, last) if not found.fringe[k]]
+        total = sum(shape.area for shape in inside)
+        corners, offsets = found.outline(first, last)
         rings = [shapely.Polygon(corners[a:b]) for a, b in pairwise(offsets)]
-        assert shapely.union_all(shapes[first:last]).area == pytest.approx(total, rel=1e-3)
+        assert shapely.union_all(inside).area == pytest.approx(total, rel=1e-3)
         # All corners are even: no ring of a border crosses another one, so that holes count as holes.
         together = rings[0]
         for ring in rings[1:]:
@@ -100,7 +116,7 @@ def test_the_outline_of_a_ring_has_its_hole():
 
 def test_none_of_nothing():
     none = np.zeros(0, dtype=np.intp)
-    assert groups_of(none.reshape(0, 2), np.zeros(1, dtype=np.intp), none).shape == (0,)
+    assert groups_of(none.reshape(0, 2), np.zeros(1, dtype=np.intp), none, none).shape == (0,)
 
 
 @pytest.mark.slow

@@ -39,14 +39,17 @@ def paint(
     points, starts = place.of(outlines), offsets.tolist()
     colours = [(r, g, b) for r, g, b in (areas.colours[areas.offsets[:-1]] / 255.0).tolist()]
     meshed, line, open_ = areas.meshed.tolist(), (areas.sizes == 2).tolist(), laps.open
-    opacity, bare, group = areas.own_opacity.tolist(), areas.bare.tolist(), areas.group.tolist()
-    ends = dict(areas.group_ends.tolist())
-    end, clip = -1, None
+    opacity, bare = areas.own_opacity.tolist(), areas.bare.tolist()
+    ends, part_ends = dict(areas.group_ends.tolist()), dict(areas.part_ends.tolist())
+    end, part_end, clip = -1, -1, None
     for first, last in pairwise(areas.runs.tolist()):
         if first in ends:
-            corners, border = areas.group_outline(group[first])
-            end, clip = ends[first], (place.of(corners), border.tolist())
+            end = ends[first]
+            clip = _clip_of(areas, place, first, end)
             _begin_group(context, clip[0])
+        if first in part_ends:
+            part_end = part_ends[first]
+            _begin_part(context, *_clip_of(areas, place, first, part_end))
         if meshed[first]:
             _paint_mesh(context, areas, place, laps, (first, last), seam)
         else:
@@ -62,6 +65,9 @@ def paint(
                 context.set_line_width(seam)
                 context.fill_preserve()
                 context.stroke()
+        if last == part_end:
+            context.restore()
+            part_end = -1
         if clip is not None and last == end:
             _end_group(context, *clip, areas.opacity[first])
             clip = None
@@ -150,6 +156,23 @@ def _underlaps_of(areas: Areas, laps: Underlaps, corners: tuple[int, int], borde
     side, near, far = side[which], laps.near[low:high][which], laps.far[low:high][which]
     end = np.where((side - corners[0]) % 3 == 2, side - 2, side + 1)
     return np.stack((areas.microns[end], areas.microns[side], near, far), axis=1)
+
+
+def _clip_of(areas: Areas, place: _Place, first: int, last: int) -> tuple[Corners, list[int]]:
+    """Corners of the outline of polygons from first to before last on the device, and where its rings begin."""
+    corners, border = areas.outline(first, last)
+    return place.of(corners), border.tolist()
+
+
+def _begin_part(context: cairo.Context[Any], corners: Corners, rings: list[int]) -> None:
+    """Paint inside of an outline from now on."""
+    import cairo
+
+    context.save()
+    _outline(context, corners, rings)
+    context.set_fill_rule(cairo.FILL_RULE_EVEN_ODD)
+    context.clip()
+    context.set_fill_rule(cairo.FILL_RULE_WINDING)
 
 
 def _begin_group(context: cairo.Context[Any], corners: Corners) -> None:

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.backends.page.fringes import clipped_parts_of, fringes
 from vectorplot.backends.page.transparency_groups import groups_of, outline
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import SEAM_MM, Colours, FillKind, Fills
@@ -30,10 +31,11 @@ class Areas:
 
     microns (p,2) int64, y upwards; offsets (m+1,); colours (p,3) of the corners; opacity (m,), more than 0; bare (m,):
     those without a line around them: transparent ones, and blank ones that are there to hide things; group (m,): the
-    transparency groups, ascending, -1 for none: those of a group are opaque, and their opacity is that of all; item
-    (m,): of the drawing. A
-    polygon of two corners is a line. All others are counter-clockwise, have an area, and no two neighbouring corners
-    that are equal; they are flat, or triangles that are shaded linearly.
+    transparency groups, ascending, -1 for none: those of a group are opaque, and their opacity is that of all; part
+    (m,): of those of several items in a group, ascending, the runs that are clipped to their own outlines, -1 for the
+    first one and outside of groups; fringe (m,): what is painted first in a group, under others, and is no part of its
+    outline; item (m,): of the drawing. A polygon of two corners is a line. All others are counter-clockwise, have an
+    area, and no two neighbouring corners that are equal; they are flat, or triangles that are shaded linearly.
     """
 
     microns: Ints
@@ -42,6 +44,8 @@ class Areas:
     opacity: Floats
     bare: Bools
     group: Ints
+    part: Ints
+    fringe: Bools
     item: Ints
 
     def __len__(self) -> int:
@@ -68,6 +72,7 @@ class Areas:
         able = self.solid & (self.sizes == 3)
         new = np.ones(len(self), dtype=np.bool_)
         new[1:] = (able[1:] != able[:-1]) | (self.group[1:] != self.group[:-1])
+        new[1:] |= self.part[1:] != self.part[:-1]
         run = np.cumsum(new) - 1
         some = np.bincount(run, weights=self.shaded, minlength=int(new.sum())) > 0.0
         return np.asarray(self.shaded | (able & some[run]), dtype=np.bool_)
@@ -80,15 +85,19 @@ class Areas:
     @cached_property
     def group_ends(self) -> Ints:
         """(g,2) the first polygon of every group, and the one behind its last."""
-        inside = np.flatnonzero(self.group >= 0)
-        _, first, count = np.unique(self.group[inside], return_index=True, return_counts=True)
-        return np.stack((inside[first], inside[first] + count), axis=1)
+        return _ends(self.group)
 
-    def group_outline(self, number: int) -> tuple[Floats, Ints]:
-        """The borders of all polygons of a group together, see transparency_groups.outline."""
-        first, last = self.group_ends[number].tolist()
-        start, end = self.offsets[[first, last]].tolist()
-        return outline(self.microns[start:end], self.offsets[first : last + 1] - start)
+    @cached_property
+    def part_ends(self) -> Ints:
+        """(q,2) the first polygon of every part that is clipped, and the one behind its last."""
+        return _ends(self.part)
+
+    def outline(self, first: int, last: int) -> tuple[Floats, Ints]:
+        """The borders of polygons from first to before last together, but for fringes, see
+        transparency_groups.outline."""
+        which = first + np.flatnonzero(~self.fringe[first:last])
+        position, offsets = ragged.take(self.offsets, which)
+        return outline(self.microns[position], offsets)
 
     @cached_property
     def runs(self) -> Ints:
@@ -100,7 +109,8 @@ class Areas:
         colour = np.where(self.meshed, -1, 4 * colour + 2 * self.bare + (self.sizes == 2))
         alone = self.own_opacity < 1.0
         new = np.ones(len(self), dtype=np.bool_)
-        new[1:] = (colour[1:] != colour[:-1]) | (self.group[1:] != self.group[:-1]) | alone[1:] | alone[:-1]
+        new[1:] = (colour[1:] != colour[:-1]) | alone[1:] | alone[:-1]
+        new[1:] |= (self.group[1:] != self.group[:-1]) | (self.part[1:] != self.part[:-1])
         starts = np.flatnonzero(new)
         since = np.arange(len(self)) - np.repeat(starts, np.diff(np.append(starts, len(self))))
         length = np.where(self.meshed, MESH_LENGTH, RUN_LENGTH)
@@ -121,17 +131,63 @@ def areas(fills: Fills, width_mm: float, height_mm: float) -> Areas:
     microns, offsets, colours, kept = rounded(drawn)
     source = drawn.source[kept]
     opacity, blank = solid.opacity[source], solid.kind[source] == FillKind.BACKGROUND
-    group = groups_of(microns, offsets, _alike(solid, source, np.diff(offsets)))
-    return Areas(microns, offsets, colours, opacity, blank | ((opacity < 1.0) & (group < 0)), group, solid.item[source])
+    item = solid.item[source]
+    run, part = _alike(solid, source, np.diff(offsets))
+    group = groups_of(microns, offsets, run, part)
+    bare = blank | ((opacity < 1.0) & (group < 0))
+    none = np.full(len(group), -1), np.zeros(len(group), dtype=np.bool_)
+    return with_fringes(Areas(microns, offsets, colours, opacity, bare, group, *none, item))
 
 
-def _alike(fills: Fills, source: Ints, sizes: Ints) -> Ints:
-    """(m,) numbers of the runs of transparent neighbours of one item, kind and opacity, -1 for all other polygons."""
-    alike = np.stack((fills.opacity, fills.item, fills.kind), axis=1)[source]
-    new = np.ones(len(source), dtype=np.bool_)
-    new[1:] = (alike[1:] != alike[:-1]).any(axis=1)
-    clear = (alike[:, 0] < 1.0) & (alike[:, 2] != FillKind.BACKGROUND) & (sizes > 2)
-    return np.where(clear, np.cumsum(new), -1)
+def with_fringes(areas: Areas) -> Areas:
+    """The same, groups of several items with fringes, and told which of their parts are clipped."""
+    part = clipped_parts_of(areas.group, areas.item)
+    if not (part >= 0).any():
+        return areas
+    several = np.isin(areas.group, areas.group[part >= 0])
+    corners, owner, colours = fringes(areas.microns, areas.offsets, areas.colours, np.flatnonzero(several), part)
+    first = areas.group_ends[np.searchsorted(areas.group_ends[:, 1], owner, side="right"), 0]
+    order = np.argsort(np.concatenate((np.arange(len(areas)), first - 0.5)), kind="stable")
+    sizes = np.concatenate((areas.sizes, np.full(len(owner), 4)))
+    starts = np.concatenate((areas.offsets[:-1], areas.offsets[-1] + 4 * np.arange(len(owner))))
+    corner = ragged.ranges(starts[order], sizes[order])
+    every = np.concatenate((np.arange(len(areas)), owner))[order]
+    fringe = order >= len(areas)
+    return Areas(
+        np.concatenate((areas.microns, corners.reshape(-1, 2)))[corner],
+        ragged.offsets(sizes[order]),
+        np.concatenate((areas.colours, np.repeat(colours, 4, axis=0)))[corner],
+        areas.opacity[every],
+        areas.bare[every] | fringe,
+        areas.group[every],
+        np.where(fringe, -1, part[every]),
+        fringe,
+        areas.item[every],
+    )
+
+
+def _ends(number: Ints) -> Ints:
+    """(k,2) the first of those of each number of at least 0, and the one behind their last."""
+    inside = np.flatnonzero(number >= 0)
+    _, first, count = np.unique(number[inside], return_index=True, return_counts=True)
+    return np.stack((inside[first], inside[first] + count), axis=1)
+
+
+def _alike(fills: Fills, source: Ints, sizes: Ints) -> tuple[Ints, Ints]:
+    """(m,) numbers of the runs of neighbours that are equally transparent, -1 for all other polygons, and (m,) of those
+    of neighbours that are of one item and kind as well."""
+    clear = (fills.opacity[source] < 1.0) & (fills.kind[source] != FillKind.BACKGROUND) & (sizes > 2)
+    run = _runs(fills.opacity[source, None])
+    return np.where(clear, run, -1), _runs(
+        np.stack((run, fills.item[source], fills.kind[source]), axis=1).astype(np.float64)
+    )
+
+
+def _runs(rows: Floats) -> Ints:
+    """(m,) numbers of the runs of equal rows (m,k)."""
+    new = np.ones(len(rows), dtype=np.bool_)
+    new[1:] = (rows[1:] != rows[:-1]).any(axis=1)
+    return np.cumsum(new) - 1
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 
-ROUNDING_MICRONS = 2.0
+SIDE_BY_SIDE_MICRONS = 30.0
 """Polygons that overlap by no more than a strip of about this width lie side by side: their corners are rounded to
-microns."""
+microns, and a tenth of a pixel of a screen that is blended once, not twice, is not seen."""
 
 MOST_NEIGHBOURS = 64
 """With more boxes than this across that of a polygon, in the mean, they lie over each other in heaps, and stay alone:
@@ -23,12 +23,14 @@ to compare all pairs would take longer than to draw them."""
 _SHAPES_AT_ONCE = 256
 
 
-def groups_of(microns: Ints, offsets: Ints, run: Ints) -> Ints:
+def groups_of(microns: Ints, offsets: Ints, run: Ints, part: Ints) -> Ints:
     """(m,) the transparency groups of polygons, ascending from 0, and -1 for polygons that are in none.
 
     microns (p,2) corners, counter-clockwise; run (m,): neighbours of one number of at least 0 may share a group, as
-    they are of one item and equally transparent. Polygons of one group follow each other, and do not overlap, as what
-    is seen through two of them is to be seen through both; at least two of a group touch.
+    they are equally transparent; part (m,): neighbours of one number are of one item. Polygons of one group follow each
+    other, and do not overlap, as what is seen through two of them is to be seen through both; at least two of a group
+    touch. A group ends before an item of which a polygon overlaps it, or, where it begins amid one, before that
+    polygon.
     Degenerate: polygons that cross themselves are in none, nor are those of a heap.
     """
     group = np.full(len(run), -1, dtype=np.intp)
@@ -46,15 +48,16 @@ def groups_of(microns: Ints, offsets: Ints, run: Ints) -> Ints:
     rings = shapely.linearrings(microns[corner], indices=ragged.owner(sizes))
     raw = shapely.polygons(rings)
     shapes = shapely.make_valid(raw)
-    simple = np.abs(shapely.area(shapes) - shapely.area(raw)) <= 0.5
+    twisted = np.abs(shapely.area(shapes) - shapely.area(raw))
+    simple = twisted <= np.maximum(SIDE_BY_SIDE_MICRONS * shapely.length(raw) / 2.0, 0.5)
     one, other = _neighbours(shapes, np.where(simple, run[which], -1))
     if not len(one):
         return group
     common = shapely.intersection(shapes[one], shapes[other])
-    over = shapely.area(common) > ROUNDING_MICRONS * shapely.length(common) / 2.0
+    over = shapely.area(common) > SIDE_BY_SIDE_MICRONS * shapely.length(common) / 2.0
     new = np.append(True, (np.diff(which) > 1) | (np.diff(run[which]) != 0))
     new |= ~simple | np.append(False, ~simple[:-1])
-    number = _split(new, one[over], other[over])
+    number = _split(new, part[which], one[over], other[over])
     touching = np.unique(number[one][number[one] == number[other]])
     member = np.isin(number, touching)
     group[which[member]] = np.searchsorted(touching, number[member])
@@ -80,28 +83,35 @@ def _neighbours(shapes: NDArray[np.object_], run: Ints) -> tuple[Ints, Ints]:
     return first, second
 
 
-def _split(new: Bools, one: Ints, other: Ints) -> Ints:
-    """(n,) numbers of groups, ascending, that begin where new is true and before each polygon (other) that overlaps an
-    earlier one of its group (one). They are as long as they can be."""
-    latest = np.where(new, np.arange(len(new)) - 1, -1)
+def _split(new: Bools, part: Ints, one: Ints, other: Ints) -> Ints:
+    """(n,) numbers of groups, ascending, that begin where new is true, and before each polygon (other) that overlaps an
+    earlier one of its group (one), or before the part (n,) that it is of. They are as long as they can be."""
+    number = np.arange(len(new))
+    begins = np.maximum.accumulate(np.where(np.append(True, part[1:] != part[:-1])[: len(new)], number, 0))
+    latest = np.where(new, number - 1, -1)
     np.maximum.at(latest, other, one)
     latest = np.maximum.accumulate(latest)
     starts, at = [], 0
     while at < len(new):
         starts.append(at)
-        at = int(np.searchsorted(latest, at))
-    return np.searchsorted(np.array(starts), np.arange(len(new)), side="right") - 1
+        end = int(np.searchsorted(latest, at))
+        at = int(begins[end]) if end < len(new) and not new[end] and begins[end] > at else end
+    return np.searchsorted(np.array(starts), number, side="right") - 1
 
 
 def outline(microns: Ints, offsets: Ints) -> tuple[Floats, Ints]:
     """The borders of the union of polygons, as rings to be filled by the rule of even and odd: corners (q,2) in whole
-    microns, the first of each ring not repeated, and offsets (r+1,)."""
+    microns, the first of each ring not repeated, and offsets (r+1,). Holes narrower than SIDE_BY_SIDE_MICRONS, which
+    rounding leaves between neighbours, are filled, and parts that narrow beside others left out."""
     import shapely
 
     rings = shapely.linearrings(microns, indices=ragged.owner(np.diff(offsets)))
     united = shapely.union_all(shapely.make_valid(shapely.polygons(rings)))
     parts = shapely.get_parts(united)
     borders = shapely.get_rings(parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON])
+    enclosed = shapely.polygons(borders)
+    wide = shapely.area(enclosed) > SIDE_BY_SIDE_MICRONS * shapely.length(enclosed) / 2.0
+    borders = borders[wide] if wide.any() else borders
     corners, ring = shapely.get_coordinates(borders, return_index=True)
     first = np.append(True, ring[1:] != ring[:-1])[: len(ring)]
     return np.rint(corners[~first]), ragged.offsets(np.bincount(ring[~first], minlength=len(borders)))

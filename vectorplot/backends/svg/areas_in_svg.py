@@ -51,26 +51,29 @@ def area_elements(areas: Areas, pen_mm: float, name: str, height: int) -> bytes:
         heads[k] = head
     microns, offsets, parts = grown(pieces.microns, pieces.offsets, laps)
     bodies = _data(microns, offsets, parts[starts], height).split(_RUN)[1:]
-    begins, ends = np.searchsorted(starts, pieces.group_ends.T).tolist()
-    numbers = pieces.group[pieces.group_ends[:, 0]].tolist()
-    for number, begin, end in zip(numbers, begins, ends, strict=True):
-        heads[begin] = _group_head(areas, number, name, height) + heads[begin]
-        bodies[end - 1] += b"</g>\n"
+    # Parts lie within groups: they begin after them, and end before.
+    for letter, rows in (("p", pieces.part_ends), ("g", pieces.group_ends)):
+        begins, ends = np.searchsorted(starts, rows.T).tolist()
+        for number, (begin, end) in enumerate(zip(begins, ends, strict=True)):
+            first, last = rows[number].tolist()
+            faint = f'opacity="{pieces.opacity[first]:.3g}" ' if letter == "g" else ""
+            heads[begin] = _clip_head(pieces, first, last, f"{name}{letter}{number}", faint, height) + heads[begin]
+            bodies[end - 1] += b"</g>\n"
     paths = b"".join([part for pair in zip(heads, bodies, strict=True) for part in pair])
     return f'<g stroke="none" stroke-width="{SEAM_MM:g}">\n'.encode() + paths + b"</g>\n"
 
 
-def _group_head(areas: Areas, number: int, name: str, height: int) -> bytes:
-    """The outline of a transparency group, which clips it, and the beginning of its element."""
-    corners, offsets = areas.group_outline(number)
+def _clip_head(areas: Areas, first: int, last: int, name: str, opacity: str, height: int) -> bytes:
+    """The outline of polygons from first to before last, which clips them, and the beginning of the element of their
+    group."""
+    corners, offsets = areas.outline(first, last)
     flipped = corners.astype(np.int64) * (1, -1) + (0, height)
     letters = (np.full(len(offsets) - 1, ord(letter), np.uint8) for letter in "MZ")
-    identity = f"{ID_PREFIX.decode()}{name}-{number}"
-    opacity = areas.opacity[areas.group_ends[number, 0]]
+    identity = f"{ID_PREFIX.decode()}{name}"
     return (
         f'<clipPath id="{identity}"><path clip-rule="evenodd" d="'.encode()
         + path_data(flipped, offsets[:-1], *letters)
-        + f'"/></clipPath>\n<g opacity="{opacity:.3g}" clip-path="url(#{identity})">\n'.encode()
+        + f'"/></clipPath>\n<g {opacity}clip-path="url(#{identity})">\n'.encode()
     )
 
 
@@ -216,6 +219,8 @@ def _with_strips(areas: Areas) -> tuple[Areas, Strips, Ints, Ramps]:
         areas.opacity[source[order]],
         areas.bare[source[order]],
         areas.group[source[order]],
+        areas.part[source[order]],
+        areas.fringe[source[order]],
         areas.item[source[order]],
     )
     place = np.empty(len(order), dtype=np.intp)

@@ -1,4 +1,4 @@
-"""Painter's orders in which polygons stand together that are one thing: of transparent items, or of one plane."""
+"""Painter's orders in which polygons of one plane stand together."""
 
 from __future__ import annotations
 
@@ -6,8 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Ints
 from vectorplot.visibility.painter.image_faces import ImageFaces
-from vectorplot.visibility.painter.mikado import Links
-from vectorplot.visibility.painter.pairs.box_pairs import box_pairs, boxes_over
+from vectorplot.visibility.painter.pairs.box_pairs import boxes_over
 from vectorplot.visibility.painter.pairs.outlines import Outlines, overlapping
 
 MOST_OVERLAPS = 32
@@ -16,25 +15,6 @@ the image is not worth more."""
 
 MOST_TURNS = 8
 """So many times polygons of planes are moved both ways at most."""
-
-
-def gathered(faces: ImageFaces, item: Ints, tolerance: float) -> Ints:
-    """(n,) an order of polygons, given back to front, that shows the same: those that overlap stay in their order.
-
-    item (n,): the transparent item of each polygon, -1 for what is opaque. Polygons of one item that do not overlap
-    follow each other, as far as nothing has to be painted between them: they can be taken together then, as one
-    transparent sheet. Opaque ones stand as they stood, as far as that allows.
-    Degenerate: where items lie on one another in circles some of them come in several parts.
-    """
-    clear = np.flatnonzero(item >= 0)
-    if not len(clear):
-        return np.arange(len(item))
-    between = np.arange(clear[0], clear[-1] + 1)
-    before, after = _overlaps(faces.some(between), tolerance)
-    stage = _stages(item[between], before, after)
-    order = np.arange(len(item))
-    order[between] = between[np.lexsort((between, item[between] >= 0, stage))]
-    return order
 
 
 def side_by_side(faces: ImageFaces, plane: Ints, tolerance: float) -> Ints:
@@ -132,65 +112,3 @@ def _overlaps_of(faces: ImageFaces, some: Ints, tolerance: float) -> tuple[Ints,
         found.append(pair[:, overlapping(outlines, pair[0], pair[1], tolerance)])
     before, after = np.concatenate(found, axis=1)
     return before, after, some[:known]
-
-
-def _overlaps(faces: ImageFaces, tolerance: float) -> tuple[Ints, Ints]:
-    """Pairs of polygons whose images overlap, the earlier one first."""
-    outlines = Outlines.of(faces.points, faces.offsets, tolerance)
-    none = np.zeros(0, dtype=np.intp)
-    found = [(none, none)]
-    for first, second in box_pairs(faces.box, tolerance):
-        common = overlapping(outlines, first, second, tolerance)
-        found.append((first[common], second[common]))
-    first, second = (np.concatenate([pair[k] for pair in found]) for k in (0, 1))
-    return first, second
-
-
-def _stages(item: Ints, before: Ints, after: Ints) -> Ints:
-    """(n,) ascending numbers: in each stage come the opaque polygons that can, and then polygons of one item."""
-    count = len(item)
-    links = Links(count, before, after)
-    waiting = np.bincount(after, minlength=count)
-    stage = np.full(count, -1, dtype=np.intp)
-    layer = _layers(item, before, after)
-    ready = np.flatnonzero(waiting == 0)
-    for number in range(count):
-        while len(opaque := ready[item[ready] < 0]):
-            stage[opaque] = number
-            ready = np.concatenate([ready[item[ready] >= 0], _freed(links, waiting, opaque)])
-        if not len(ready):
-            break
-        taken = _fullest(layer, ready, stage < 0)
-        stage[ready[taken]] = number
-        ready = np.concatenate([ready[~taken], _freed(links, waiting, ready[taken])])
-    return stage
-
-
-def _freed(links: Links, waiting: Ints, done: Ints) -> Ints:
-    """What waits for nothing any more once some polygons are painted; waiting (n,) is brought up to date."""
-    after = links.of(done)
-    np.subtract.at(waiting, after, 1)
-    candidates = np.unique(after)
-    return np.asarray(candidates[waiting[candidates] == 0], dtype=np.intp)
-
-
-def _layers(item: Ints, before: Ints, after: Ints) -> Ints:
-    """(n,) numbers of the layers of items: the polygons of one that lie on as many layers of the same item."""
-    own = (item[before] == item[after]) & (item[before] >= 0)
-    before, after = before[own], after[own]
-    depth = np.zeros(len(item), dtype=np.intp)
-    while True:
-        deeper = depth.copy()
-        np.maximum.at(deeper, after, depth[before] + 1)
-        if (deeper == depth).all():
-            break
-        depth = deeper
-    return np.unique(np.stack([item, depth]), axis=1, return_inverse=True)[1].ravel()
-
-
-def _fullest(layer: Ints, ready: Ints, left: Bools) -> Bools:
-    """(r,) the polygons, among those that are ready, of the layer of which the largest part is."""
-    size = int(layer.max()) + 1
-    there = np.bincount(layer[ready], minlength=size)
-    part = there / np.maximum(np.bincount(layer[left], minlength=size), 1)
-    return np.asarray(layer[ready] == int(part.argmax()))

@@ -1,0 +1,323 @@
+"""Painter's orders in which transparent polygons stand together as sheets, each of which is blended once.
+
+Blended one by one, polygons with a common side let the paper through along it. So those of one item are taken together
+as sheets, from behind: on each lies what has as many other parts of the item behind it. Items that pierce one another,
+or lie on one another in circles, have no order as wholes. Where they are equally transparent they make common sheets:
+in the line in which two pierce one another one goes on where the other ends, on every sheet. Otherwise the one that is
+most transparent is cut where others end or pierce it: at lines that are to be seen anyway.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.polylines import joined
+from vectorplot.geometry.regions import corners_of, insides_of, polygons_of, triangles_of, unions
+from vectorplot.tolerances.of_numbers import NEGLIGIBLE_PART
+from vectorplot.visibility.painter.image_faces import ImageFaces
+from vectorplot.visibility.painter.mikado import Links, component_ranks
+from vectorplot.visibility.painter.pairs.box_pairs import box_pairs
+from vectorplot.visibility.painter.pairs.outlines import Outlines, overlapping
+
+GRID_OF_WIDTH = 1.0 / 128.0
+"""New corners lie on a grid of so much of a width that is not seen."""
+
+FULL = 1.0 - NEGLIGIBLE_PART
+"""What is covered over so much of its area is covered."""
+
+
+def in_sheets(faces: ImageFaces, item: Ints, opacity: Floats, width: float, tolerance: float) -> ImageFaces:
+    """The polygons, given back to front, in an order that shows the same, those of transparent items in sheets.
+
+    item (n,): the transparent item of each polygon, -1 for what is opaque; opacity (n,). A sheet is a run of polygons
+    that do not overlap, of one item, or of several that are equally transparent, which are in conflict. Polygons are
+    cut where parts of them belong to different sheets. Opaque ones stand as they stood, as far as that allows. width:
+    what overlaps by less lies side by side.
+    Degenerate: without transparent polygons they are the same.
+    """
+    clear = np.flatnonzero(item >= 0)
+    if not len(clear):
+        return faces
+    between = slice(int(clear[0]), int(clear[-1]) + 1)
+    number = np.arange(len(faces))
+    some = faces.some(number[between])
+    names, unit = np.unique(item[between], return_inverse=True)
+    unit = unit.ravel() - int((names < 0).sum())
+    region = polygons_of(some.points, some.offsets)
+    heap = _Heap(region, unit, opacity[between], width, *_overlaps(some, tolerance))
+    laid = _listed(some, item[between], heap.sheets())
+    return joined((faces.some(number[: between.start]), laid, faces.some(number[between.stop :])))
+
+
+def _overlaps(faces: ImageFaces, tolerance: float) -> tuple[Ints, Ints]:
+    """Pairs of polygons whose images overlap, the earlier one first."""
+    outlines = Outlines.of(faces.points, faces.offsets, tolerance)
+    none = np.zeros(0, dtype=np.intp)
+    found = [(none, none)]
+    for first, second in box_pairs(faces.box, tolerance):
+        common = overlapping(outlines, first, second, tolerance)
+        found.append((first[common], second[common]))
+    first, second = (np.concatenate([pair[k] for pair in found]) for k in (0, 1))
+    return first, second
+
+
+@dataclass(frozen=True, eq=False)
+class _Parts:
+    """Parts of polygons: the numbers of these (k,), regions (k,), whether these are whole polygons (k,), and the stages
+    (k,) at which they are painted."""
+
+    polygon: Ints
+    region: Any
+    whole: Bools
+    stage: Ints
+
+
+class _Heap:
+    """What is left of polygons while sheets are taken off from behind, and what lies on what."""
+
+    def __init__(self, region: Any, unit: Ints, opacity: Floats, width: float, before: Ints, after: Ints) -> None:
+        count = len(unit)
+        self.region, self.unit, self.opacity, self.width = region, unit.copy(), opacity, width
+        self.before, self.after = before, after
+        # Pairs that are known to overlap by more than strips.
+        self.real = np.zeros(len(before), dtype=np.bool_)
+        self.left = np.ones(count, dtype=np.bool_)
+        self.whole = np.ones(count, dtype=np.bool_)
+        # What nothing of its own unit lies behind: of all polygons, or of parts of them.
+        self.front, self.free = np.zeros(count, dtype=np.bool_), region.copy()
+        self.stale = np.ones(int(unit.max()) + 1, dtype=np.bool_)
+        self.stage = 0
+
+    def sheets(self) -> _Parts:
+        """All polygons, or parts of them, and at which stage they are painted."""
+        found = []
+        while self.left.any():
+            found.append(self._opaque())
+            self._find_fronts()
+            ready = self._ready()
+            if ready.any():
+                found.append(self._taken(self.front & ready[self.unit] & (self.unit >= 0), self.free))
+            elif self.left.any() and not self._forget_strips() and not self._united():
+                found.append(self._cut())
+        return _Parts(*(np.concatenate([getattr(p, row) for p in found]) for row in _Parts.__annotations__))
+
+    def _opaque(self) -> _Parts:
+        """The opaque polygons that nothing left lies behind, again and again."""
+        count = len(self.unit)
+        waiting = np.bincount(self.after, minlength=count)
+        links = Links(count, self.before, self.after)
+        ready = np.flatnonzero(self.left & (self.unit < 0) & (waiting == 0))
+        found = [ready]
+        while len(ready):
+            self.left[ready] = False
+            freed = links.of(ready)
+            np.subtract.at(waiting, freed, 1)
+            candidates = np.unique(freed)
+            ready = candidates[(waiting[candidates] == 0) & (self.unit[candidates] < 0)]
+            found.append(ready)
+        self._forget()
+        self.stage += 1
+        polygon = np.concatenate(found)
+        ones = np.ones(len(polygon), dtype=np.bool_)
+        return _Parts(polygon, self.region[polygon], ones, np.full(len(polygon), self.stage))
+
+    def _forget(self) -> None:
+        """Leave out pairs of which one is gone."""
+        self._keep(self.left[self.before] & self.left[self.after])
+
+    def _keep(self, which: Bools) -> None:
+        """Keep some of the pairs."""
+        self.before, self.after, self.real = self.before[which], self.after[which], self.real[which]
+
+    def _find_fronts(self) -> None:
+        """Find what nothing of its own unit lies behind, of units of which something has changed."""
+        import shapely
+
+        mine = self.left & (self.unit >= 0) & self.stale[self.unit]
+        own = np.flatnonzero(mine[self.after] & (self.unit[self.before] == self.unit[self.after]))
+        below, above = self.before[own], self.after[own]
+        covered = np.zeros(len(mine), dtype=np.bool_)
+        covered[above] = True
+        self.front[mine] = ~covered[mine]
+        self.free[mine] = self.region[mine]
+        # Two on neither of which anything lies do not overlap: what they cover together is what each does.
+        first = ~covered[below]
+        common = shapely.area(shapely.intersection(self.region[below[first]], self.region[above[first]]))
+        area = np.bincount(above[first], common, minlength=len(mine))
+        some = covered & (area < shapely.area(self.region) * FULL)
+        which = some[above]
+        polygon, free, beneath = self._apart(self.region, above[which], below[which])
+        # What is covered by next to nothing is not covered.
+        bare = polygon[self._thin(beneath)]
+        gone = np.zeros(len(mine), dtype=np.bool_)
+        gone[bare] = True
+        self._keep(~(gone[self.after] & (self.unit[self.before] == self.unit[self.after])))
+        self.front[bare] = True
+        part = ~self._thin(beneath) & ~self._thin(free)
+        self.front[polygon[part]] = True
+        self.free[polygon[part]] = free[part]
+        self.stale[:] = False
+
+    def _apart(self, region: Any, polygon: Ints, below: Ints) -> tuple[Ints, Any, Any]:
+        """Of regions of polygons (k,) what lies beside others (k,), and what lies on them: numbers of polygons,
+        ascending, and both."""
+        import shapely
+
+        number, of = np.unique(polygon, return_inverse=True)
+        if not len(number):
+            return number, region[:0], region[:0]
+        grid = self.width * GRID_OF_WIDTH
+        covers = unions(self.region[below], of, grid)
+        free = shapely.difference(region[number], covers, grid_size=grid)
+        return number, insides_of(free), insides_of(shapely.intersection(region[number], covers, grid_size=grid))
+
+    def _thin(self, region: Any) -> Bools:
+        """(k,) which regions are so narrow that they are not seen."""
+        import shapely
+
+        return np.asarray(shapely.area(region) <= 0.5 * self.width * shapely.length(region), dtype=np.bool_)
+
+    def _ready(self) -> Bools:
+        """(u,) the units whose fronts lie on nothing else that is left."""
+        import shapely
+
+        found = np.zeros(len(self.stale), dtype=np.bool_)
+        found[self.unit[self.front]] = True
+        mine = self.front[self.after] & (self.unit[self.before] != self.unit[self.after])
+        below, above = self.before[mine], self.after[mine]
+        part = self.free[above] != self.region[above]
+        blocked = self.unit[above[~part]]
+        found[blocked[blocked >= 0]] = False
+        open_ = np.flatnonzero(part & found[self.unit[above]])
+        both = shapely.intersection(self.free[above[open_]], self.region[below[open_]])
+        found[self.unit[above[open_[~self._thin(both)]]]] = False
+        return found
+
+    def _taken(self, which: Bools, region: Any) -> _Parts:
+        """Polygons, or the given regions of them, as a sheet of each unit; what is left of them stays."""
+        import shapely
+
+        polygon = np.flatnonzero(which)
+        taken = region[polygon]
+        names, sheet = np.unique(self.unit[polygon], return_inverse=True)
+        stage = self.stage + 1 + sheet.ravel()
+        self.stage += len(names)
+        part = taken != self.region[polygon]
+        whole = self.whole[polygon] & ~part
+        rest = insides_of(
+            shapely.difference(self.region[polygon[part]], taken[part], grid_size=self.width * GRID_OF_WIDTH)
+        )
+        self.region[polygon[part]] = rest
+        self.whole[polygon] = False
+        self.left[polygon] = False
+        self.left[polygon[part][~self._thin(rest)]] = True
+        self.front[polygon] = False
+        self.stale[names] = True
+        self._forget()
+        smaller = np.zeros(len(self.left), dtype=np.bool_)
+        smaller[polygon[part]] = True
+        self.real &= ~(smaller[self.before] | smaller[self.after])
+        return _Parts(polygon, taken, whole, stage)
+
+    def _forget_strips(self) -> bool:
+        """Leave out pairs that overlap in strips only; whether there were any."""
+        import shapely
+
+        pair = np.flatnonzero(~self.real)
+        both = shapely.intersection(self.region[self.before[pair]], self.region[self.after[pair]])
+        thin = self._thin(both)
+        self.real[pair[~thin]] = True
+        self.stale[self.unit[self.after[pair[thin]]]] = True
+        self._keep(self.real)
+        return bool(thin.any())
+
+    def _circles(self) -> list[Ints]:
+        """The units of each circle that lies on nothing else; of opaque polygons in them nothing is told."""
+        units = len(self.stale)
+        held = self.front[self.after] | (self.unit[self.after] < 0)
+        ends = [
+            np.where(self.unit[some] >= 0, self.unit[some], units + some)
+            for some in (self.before[held], self.after[held])
+        ]
+        apart = ends[0] != ends[1]
+        below, above = ends[0][apart], ends[1][apart]
+        rank = component_ranks(units + len(self.unit), below, above)
+        based = np.ones(len(rank), dtype=np.bool_)
+        based[rank[above[rank[below] != rank[above]]]] = False
+        named = np.unique(np.concatenate([below, above]))
+        named = named[(named < units) & based[rank[named]]]
+        return [named[rank[named] == k] for k in np.unique(rank[named])]
+
+    def _united(self) -> bool:
+        """Whether units that lie on one another in circles, and are equally transparent, became one."""
+        unit_opacity = np.zeros(len(self.stale))
+        clear = self.unit >= 0
+        unit_opacity[self.unit[clear]] = self.opacity[clear]
+        name = np.arange(len(self.stale))
+        for circle in self._circles():
+            _, first, of = np.unique(unit_opacity[circle], return_index=True, return_inverse=True)
+            name[circle] = circle[first[of.ravel()]]
+        changed = name != np.arange(len(name))
+        if not changed.any():
+            return False
+        self.stale[name[changed]] = True
+        self.unit[clear] = name[self.unit[clear]]
+        self.front[clear & self.stale[self.unit]] = False
+        return True
+
+    def _cut(self) -> _Parts:
+        """What lies on nothing else of one unit of a circle, the one that is most transparent."""
+        opacity = np.zeros(len(self.stale))
+        opacity[self.unit[self.unit >= 0]] = self.opacity[self.unit >= 0]
+        circled = np.concatenate(self._circles())
+        for unit in circled[np.argsort(opacity[circled], kind="stable")].tolist():
+            mine = self.front & (self.unit == unit)
+            others = mine[self.after] & (self.unit[self.before] != unit)
+            polygon, free, on = self._apart(self.free, self.after[others], self.before[others])
+            region = self.free.copy()
+            region[polygon] = np.where(self._thin(on), region[polygon], free)
+            mine[polygon[self._thin(free)]] = False
+            if mine.any():
+                return self._taken(mine, region)
+        # Next to nothing of any of them is free: the first polygon of all lies on nothing.
+        first = np.zeros(len(self.left), dtype=np.bool_)
+        first[np.flatnonzero(self.left)[0]] = True
+        return self._taken(first, self.region)
+
+
+def _listed(faces: ImageFaces, item: Ints, parts: _Parts) -> ImageFaces:
+    """The parts in the order in which they are painted; those that are not convex as triangles."""
+    order = np.lexsort((parts.polygon, item[parts.polygon] * (item[parts.polygon] >= 0), parts.stage))
+    polygon, region, whole = parts.polygon[order], parts.region[order], parts.whole[order]
+    if whole.all():
+        return faces.some(polygon)
+    pieces, of = _convex(region[~whole])
+    points, offsets = corners_of(pieces)
+    place, source = np.flatnonzero(~whole)[of], polygon[~whole][of]
+    height = faces.heights(np.repeat(source, np.diff(offsets)), *points)
+    made = ImageFaces(
+        np.concatenate([points, height[None]]),
+        offsets,
+        faces.planes[:, source],
+        faces.source[source],
+        faces.rank[source],
+    )
+    place = np.concatenate([np.flatnonzero(whole), place])
+    return joined((faces.some(polygon[whole]), made)).some(np.argsort(place, kind="stable"))
+
+
+def _convex(regions: Any) -> tuple[Any, Ints]:
+    """Convex polygons that regions consist of, and the region of each."""
+    import shapely
+
+    parts, of = shapely.get_parts(regions, return_index=True)
+    area = shapely.area(parts)
+    hollow = shapely.area(shapely.convex_hull(parts)) - area > NEGLIGIBLE_PART * area
+    triangles, part = triangles_of(parts[hollow])
+    pieces, number = np.concatenate([parts[~hollow], triangles]), np.concatenate([of[~hollow], of[hollow][part]])
+    order = np.argsort(number, kind="stable")
+    return pieces[order], number[order]
