@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry.boxes import overlapping_boxes
+from vectorplot.geometry.boxes import overlapping_boxes, overlapping_pairs
 
 
 def boxes(rng, count, size):
@@ -29,3 +29,19 @@ def test_boxes_that_begin_at_one_place_are_found_once():
     low, high = np.zeros((3, 4)), np.ones((3, 4))
     i, j = overlapping_boxes(low, high, low, high)
     assert sorted(zip(i.tolist(), j.tolist(), strict=True)) == [(a, b) for a in range(4) for b in range(4)]
+
+
+@pytest.mark.parametrize(
+    ("count", "size"), [(800, 0.15), (500, np.array([[0.9], [0.01], [0.01]])), (300, 0.0), (120, np.inf), (0, 1.0)]
+)
+@pytest.mark.parametrize("steps", [10.0, 1e6])
+def test_pairs_are_those_of_all_pairs_in_crowds_and_long_boxes_too(count, size, steps):
+    """Strips, intervals that begin at one place, boxes without end: what is found is what all pairs say."""
+    rng = np.random.default_rng(count)
+    low = np.round(rng.uniform(0.0, 1.0, (3, count)) * steps) / steps
+    high = low + size * np.round(rng.uniform(0.1, 1.0, (3, count)) * steps) / steps
+    touch = ((low[:, :, None] <= high[:, None]) & (low[:, None] <= high[:, :, None])).all(axis=0)
+    found = list(zip(*(side.tolist() for side in overlapping_pairs(low, high)), strict=True))
+    assert sorted(found) == [(i, j) for i, j in np.argwhere(touch).tolist() if i < j]
+    i, j = overlapping_boxes(low, high, low, high)
+    assert sorted(zip(i.tolist(), j.tolist(), strict=True)) == [tuple(pair) for pair in np.argwhere(touch).tolist()]

@@ -92,15 +92,17 @@ def complement(count: int, owner: Ints, low: Floats, high: Floats, gap: Floats) 
     >>> [(int(i), float(a), float(b)) for i, a, b in zip(owner, low, high)]
     [(0, 0.0, 0.25), (0, 0.75, 1.0), (1, 0.0, 1.0)]
     """
-    owners = np.arange(count)
-    start_owner = np.concatenate([owners, owner])
-    start = np.concatenate([np.zeros(count), high])
-    order = np.lexsort((start, start_owner))
-    start_owner, start = start_owner[order], start[order]
-    end = np.concatenate([low, np.ones(count)])
-    end = end[np.lexsort((end, np.concatenate([owner, owners])))]
-    kept = end - start > gap[start_owner]
-    return start_owner[kept], start[kept], end[kept]
+    rising = (owner[1:] > owner[:-1]) | (owner[1:] == owner[:-1]) & (low[1:] >= low[:-1])
+    if not rising.all():
+        order = np.lexsort((low, owner))
+        owner, low, high = owner[order], low[order], high[order]
+    # Before every interval, and after the last one of every owner, something is left.
+    place = np.arange(len(owner)) + owner
+    start, end = np.zeros(len(owner) + count), np.ones(len(owner) + count)
+    start[place + 1], end[place] = high, low
+    of = np.repeat(np.arange(count), np.bincount(owner, minlength=count) + 1)
+    kept = np.flatnonzero(end - start > gap[of])
+    return of[kept], start[kept], end[kept]
 
 
 def coverage(owner: Ints, low: Floats, high: Floats, side: Ints) -> tuple[Ints, Floats, Floats, Ints]:

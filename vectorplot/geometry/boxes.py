@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal
 
@@ -14,14 +15,23 @@ PAIRS_AT_ONCE = 1 << 18
 """Pairs of boxes, or of what is in them, handled at once."""
 
 
+CROWDED = 4
+"""Where more than so many intervals on the sweep's axis overlap each box, on the average, boxes are looked at in
+strips."""
+
+STRIP = 2.0
+"""Width of a strip in mean widths of boxes."""
+
+
 def overlapping_boxes(low: Floats, high: Floats, other_low: Floats, other_high: Floats) -> tuple[Ints, Ints]:
     """All (i, j) whose boxes overlap: box i of the first kind (3,n), box j of the second (3,m).
 
-    Sweeps along the axis on which the fewest intervals overlap: of two that do, one begins within the other.
+    Sweeps along the axis on which the fewest intervals overlap, within strips across another one where these are many:
+    of two intervals that overlap, one begins within the other.
     """
     totals = [
-        _starting_within(low[k], high[k], np.sort(other_low[k]), "left")[1].sum()
-        + _starting_within(other_low[k], other_high[k], np.sort(low[k]), "right")[1].sum()
+        _starting_within(low[k], high[k], np.sort(other_low[k]), "left")
+        + _starting_within(other_low[k], other_high[k], np.sort(low[k]), "right")
         for k in range(3)
     ]
     axis = int(np.argmin(totals))
@@ -30,29 +40,98 @@ def overlapping_boxes(low: Floats, high: Floats, other_low: Floats, other_high: 
     return np.concatenate([i, more_i]), np.concatenate([j, more_j])
 
 
-def _starting_within(low: Floats, high: Floats, starts: Floats, side: Literal["left", "right"]) -> tuple[Ints, Ints]:
-    """For every interval the first of the sorted starts in it, and how many there are; side right: beyond its low
-    end."""
+def overlapping_pairs(low: Floats, high: Floats) -> tuple[Ints, Ints]:
+    """All (i, j), i < j, of boxes (3,n) that overlap: those of which the second one begins within the first come
+    first."""
+    axis = int(np.argmin([_starting_within(low[k], high[k], np.sort(low[k]), "left") for k in range(3)]))
+    i, j = _sweep(axis, low, high, low, high, "left")
+    # Of two that begin at one place each begins within the other.
+    once = np.flatnonzero((i < j) | (i > j) & (low[axis][i] != low[axis][j]))
+    i, j = i[once], j[once]
+    order = np.argsort(i > j, kind="stable")
+    i, j = i[order], j[order]
+    return np.minimum(i, j), np.maximum(i, j)
+
+
+def _starting_within(low: Floats, high: Floats, starts: Floats, side: Literal["left", "right"]) -> int:
+    """How many of the sorted starts intervals hold, all in all; side right: beyond their low ends."""
     begin = np.searchsorted(starts, low, side=side)
-    return begin, np.maximum(np.searchsorted(starts, high, side="right") - begin, 0)
+    return int(np.maximum(np.searchsorted(starts, high, side="right") - begin, 0).sum())
 
 
 def _sweep(
     axis: int, low: Floats, high: Floats, other_low: Floats, other_high: Floats, side: Literal["left", "right"]
 ) -> tuple[Ints, Ints]:
-    """Pairs (i, j) of overlapping boxes of which j begins within i on the axis."""
+    """Pairs (i, j) of overlapping boxes of which j begins within i on the axis, by i and then by where j begins."""
     order = np.argsort(other_low[axis], kind="stable")
-    begin, count = _starting_within(low[axis], high[axis], other_low[axis][order], side)
+    starts = other_low[axis][order]
+    begin, end = np.searchsorted(starts, low[axis], side=side), np.searchsorted(starts, high[axis], side="right")
     rest = [k for k in range(3) if k != axis]
+    i, strip, thing, place = np.arange(len(begin)), np.zeros(len(begin), dtype=np.intp), order, np.arange(len(order))
+    crowded = int(np.maximum(end - begin, 0).sum()) > CROWDED * (len(begin) + len(order))
+    strips = [_strips(k, low, high, other_low, other_high) for k in rest] if crowded else []
+    across = max(strips, key=lambda those: those.count, default=ONE_STRIP)
+    first, other_first = (across.first(edge[across.axis]) for edge in (low, other_low))
+    if across.count > 1:
+        i, strip = across.entries(low, high)
+        place, other_strip = across.entries(other_low[:, order], other_high[:, order])
+        by_strip = np.argsort(other_strip, kind="stable")
+        place, other_strip = place[by_strip], other_strip[by_strip]
+        # Places count strip after strip.
+        key, base = other_strip * (len(order) + 1) + place, strip * (len(order) + 1)
+        begin, end = (np.searchsorted(key, base + edge[i]) for edge in (begin, end))
+        thing = order[place]
+    count = np.maximum(end - begin, 0)
     found = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
     cuts = np.searchsorted(np.cumsum(count), np.arange(PAIRS_AT_ONCE, int(count.sum()), PAIRS_AT_ONCE)) + 1
     edges = np.unique(np.concatenate([[0], cuts, [len(count)]]))
-    for first, last in pairwise(edges.tolist()):
-        size = count[first:last]
-        i = np.repeat(np.arange(first, last), size)
-        j = order[ragged.place(size) + begin[i]]
-        keep = np.ones(len(i), dtype=np.bool_)
+    for from_, to in pairwise(edges.tolist()):
+        size = count[from_:to]
+        at, j = np.repeat(i[from_:to], size), thing[ragged.ranges(begin[from_:to], size)]
+        keep = np.ones(len(j), dtype=np.bool_)
         for k in rest:
-            keep &= (low[k, i] <= other_high[k, j]) & (high[k, i] >= other_low[k, j])
-        found.append((i[keep], j[keep]))
-    return np.concatenate([f[0] for f in found]), np.concatenate([f[1] for f in found])
+            keep &= (low[k][at] <= other_high[k][j]) & (high[k][at] >= other_low[k][j])
+        if across.count > 1:
+            # Two boxes that share several strips are met in the first of these.
+            keep &= np.repeat(strip[from_:to], size) == np.maximum(first[at], other_first[j])
+        found.append((at[keep], j[keep]))
+    one, two = (np.concatenate(column) for column in zip(*found, strict=True))
+    if across.count > 1:
+        rank = np.empty(len(order), dtype=np.intp)
+        rank[order] = np.arange(len(order))
+        by_box = np.argsort(one * len(order) + rank[two], kind="stable")
+        one, two = one[by_box], two[by_box]
+    return one, two
+
+
+@dataclass(frozen=True)
+class _Strips:
+    """Strips across an axis: so many (count) of a width, from a base on."""
+
+    axis: int
+    base: float
+    width: float
+    count: int
+
+    def first(self, at: Floats) -> Ints:
+        """(n,) the strips in which places on the axis are."""
+        return np.clip((at - self.base) / self.width, 0, self.count - 1).astype(np.intp)
+
+    def entries(self, low: Floats, high: Floats) -> tuple[Ints, Ints]:
+        """The boxes (3,n) in each strip that they touch: box (e,), strip (e,)."""
+        first = self.first(low[self.axis])
+        many = self.first(high[self.axis]) - first + 1
+        return ragged.owner(many), ragged.ranges(first, many)
+
+
+ONE_STRIP = _Strips(0, 0.0, 1.0, 1)
+
+
+def _strips(axis: int, low: Floats, high: Floats, other_low: Floats, other_high: Floats) -> _Strips:
+    """Strips in which boxes of two kinds (3,n) lie, not many of them in several; one for boxes without end."""
+    both_low, both_high = np.concatenate([low[axis], other_low[axis]]), np.concatenate([high[axis], other_high[axis]])
+    base, reach = float(both_low.min()), float(both_high.max())
+    width = max(STRIP * float((both_high - both_low).mean()), (reach - base) / len(both_low))
+    if not 0.0 < width < np.inf:
+        return ONE_STRIP
+    return _Strips(axis, base, width, max(int((reach - base) / width), 1))

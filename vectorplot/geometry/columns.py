@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Bools, Floats
 
 
 def dot(a: Floats, b: Floats) -> Floats:
@@ -19,3 +19,27 @@ def dot(a: Floats, b: Floats) -> Floats:
 def cross(a: Floats, b: Floats) -> Floats:
     """(3,n,...) the vector products of vectors (3,n,...), or of one (3,) with all."""
     return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+
+
+_MIX = (np.uint64(0x9E3779B97F4A7C15), np.uint64(0xC2B2AE3D27D4EB4F))
+
+
+def first_of_equal(columns: Floats) -> Bools:
+    """(n,) the columns (k,n) that are equal to none before them."""
+    columns = columns + 0.0  # the two zeros are one
+    key = np.zeros(columns.shape[1], dtype=np.uint64)
+    for row in columns:
+        key = ((key ^ key >> np.uint64(29)) + row.view(np.uint64)) * _MIX[0]
+    key = (key ^ key >> np.uint64(32)) * _MIX[1]
+    order = np.argsort(key, kind="stable")
+    again = np.zeros(len(order), dtype=np.bool_)
+    again[1:] = key[order][1:] == key[order][:-1]
+    head = order[np.maximum.accumulate(np.where(again, 0, np.arange(len(order))))]
+    first = np.ones(len(order), dtype=np.bool_)
+    first[order[again]] = False
+    if (columns.take(order[again], axis=1) == columns.take(head[again], axis=1)).all():
+        return first
+    # Different columns with one key: as good as never.
+    first[:] = False
+    first[np.unique(columns, axis=1, return_index=True)[1]] = True
+    return first

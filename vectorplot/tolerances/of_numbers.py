@@ -26,6 +26,10 @@ SINGLE_BOX_SHARE, SINGLE_BOX_LEAST = 3e-7, 1e-7
 """Boxes in single precision grow by so much, relative to their coordinates, and by so much of the scene, which is about
 1 large: a little more than two steps of singles, so that rounding never moves a face out of its box."""
 
+SINGLE_LINE_SHARE = 1e-6
+"""A line in the image, in single precision, moves outwards by so much of the largest of its terms: three times what
+the rounding of its coefficients, of a point and of their products may come to."""
+
 SINGLE_DEPTH_SHARE, SINGLE_DEPTH_LEAST = 2e-7, 1e-7
 """Largest depths in single precision are moved away by so much, relative and of the scene: more than one step of
 singles, so that rounding never moves an occluder in front of what it is behind."""

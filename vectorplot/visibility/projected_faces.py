@@ -165,7 +165,7 @@ def _through_near_plane(view: View, faces: ProjectedFaces) -> None:
     if not len(touched):
         return
     normal, arm_length, first = newell(view, touched)
-    toward = view.eye[:, None] - view.points[:, first]
+    toward = view.eye[:, None] - view.points.take(first, axis=1)
     distance = np.sqrt((toward * toward).sum(axis=0))
     area = (normal * toward).sum(axis=0)
     limit = view.tolerance * arm_length * np.maximum(distance, view.tolerance)
@@ -178,12 +178,12 @@ def newell(view: View, faces: Ints) -> tuple[Floats, Floats, Ints]:
     """Area vectors (3,n) of some faces, the length of the longest arm from their first corner, and that corner."""
     start, size = view.offsets[faces], view.face_sizes[faces]
     first = view.corners[start]
-    a = view.points[:, first]
-    before = view.points[:, view.corners[start + 1]] - a
+    a = view.points.take(first, axis=1)
+    before = view.points.take(view.corners[start + 1], axis=1) - a
     normal, longest = np.zeros_like(a), _square(before)
     for step in range(2, int(size.max(initial=0))):
         # Where a face has no such corner the arm stays, and adds nothing.
-        arm = view.points[:, view.corners[start + np.minimum(step, size - 1)]] - a
+        arm = view.points.take(view.corners[start + np.minimum(step, size - 1)], axis=1) - a
         normal += cross(before, arm)
         longest = np.maximum(longest, _square(arm))
         before = arm

@@ -94,15 +94,22 @@ class _Segments:
         shorter = self.length[loser] <= self.length[winner]
         short, long = np.where(shorter, loser, winner), np.where(shorter, winner, loser)
         close = np.minimum(self.tolerance, COLLINEAR_OF_LENGTH * self.length[short])
-        origin, unit = self.start[long], self.unit[long]
+        origin, unit = self.start.take(long, axis=0), self.unit.take(long, axis=0)
         collinear = np.ones(len(winner), dtype=np.bool_)
-        for end in (self.start[short], self.end[short]):
-            arm = end - origin
+        for ends in (self.start, self.end):
+            arm = ends.take(short, axis=0) - origin
             collinear &= np.abs(arm[:, 0] * unit[:, 1] - arm[:, 1] * unit[:, 0]) <= close
-        origin, unit, size = self.start[loser], self.unit[loser], self.length[loser]
-        places = [((end - origin) * unit).sum(axis=1) / size for end in (self.start[winner], self.end[winner])]
-        low, high = np.clip(np.minimum(*places), 0.0, 1.0), np.clip(np.maximum(*places), 0.0, 1.0)
-        return collinear & ((high - low) * size > self.tolerance), low, high
+        low, high = np.zeros(len(winner)), np.zeros(len(winner))
+        some = np.flatnonzero(collinear)
+        winner, loser = winner[some], loser[some]
+        origin, unit, size = self.start.take(loser, axis=0), self.unit.take(loser, axis=0), self.length[loser]
+        places = []
+        for ends in (self.start, self.end):
+            arm = ends.take(winner, axis=0) - origin
+            places.append((arm[:, 0] * unit[:, 0] + arm[:, 1] * unit[:, 1]) / size)
+        low[some], high[some] = np.clip(np.minimum(*places), 0.0, 1.0), np.clip(np.maximum(*places), 0.0, 1.0)
+        collinear[some] = (high[some] - low[some]) * size > self.tolerance
+        return collinear, low, high
 
 
 def _by_importance(start: Floats, end: Floats, length: Floats, rank: Ints) -> Ints:

@@ -65,13 +65,13 @@ def _ends_of(paths: Paths, open_: Ints) -> Ints:
 
 def _nodes_of(paths: Paths, open_: Ints, group: Ints, tolerance_mm: float) -> Ints:
     alike = 2 * group + paths.smooth
-    return _nodes(paths.points[_ends_of(paths, open_)], np.repeat(alike[open_], 2), tolerance_mm)
+    return _nodes(paths.points.take(_ends_of(paths, open_), axis=0), np.repeat(alike[open_], 2), tolerance_mm)
 
 
 def _linked(paths: Paths, open_: Ints, node: Ints, tolerance_mm: float) -> Ints:
     ends = _ends_of(paths, open_)
     reach = SAME_PLACE * tolerance_mm * world_per_mm(paths)
-    return _mates(paths, ends[::2], ends[1::2], _parted(node, paths.points3d[ends], reach))
+    return _mates(paths, ends[::2], ends[1::2], _parted(node, paths.points3d.take(ends, axis=0), reach))
 
 
 def _parted(node: Ints, ends: Floats, reach: float) -> Ints:
@@ -110,7 +110,7 @@ def _mates(paths: Paths, first: Ints, last: Ints, node: Ints) -> Ints:
     if len(ends):
         stroke, at_end = ends >> 1, ends & 1
         here = np.where(at_end, last[stroke], first[stroke])
-        inward = paths.points[here + np.where(at_end, -1, 1)] - paths.points[here]
+        inward = paths.points.take(here + np.where(at_end, -1, 1), axis=0) - paths.points.take(here, axis=0)
         angle = np.rint(np.arctan2(inward[:, 1], inward[:, 0]) * (_TURN / (2.0 * np.pi))).astype(np.intp) % _TURN
         _pair_straightest(mate, ends, np.unique(node[ends], return_inverse=True)[1] * _TURN + angle)
     return mate

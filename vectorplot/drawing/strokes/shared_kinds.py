@@ -30,7 +30,7 @@ def with_shared_kinds(view: View, lines: Lines) -> Lines:
     which = np.flatnonzero(straight & _in_front(view, lines))
     if not len(which) or (lines.item[which] == lines.item[which[0]]).all():
         return lines
-    start, end = (np.ascontiguousarray(view.image_of(p[:, which]).T) for p in (lines.start, lines.end))
+    start, end = (np.ascontiguousarray(view.image_of(p.take(which, axis=1)).T) for p in (lines.start, lines.end))
     long = np.flatnonzero(np.hypot(*(end - start).T) > ONE_LINE_OF_EXTENT)
     which, start, end = which[long], start[long], end[long]
     contour = lines.kind[which] == LineKind.CONTOUR
@@ -61,7 +61,7 @@ def _in_front(view: View, lines: Lines) -> Bools:
 
 def _common(lines: Lines, one: Ints, other: Ints) -> tuple[Bools, Floats, Floats]:
     """Which pairs of lines lie on each other in space, and from where to where (of each other) they do."""
-    ends = [np.stack([lines.start[:, which], lines.end[:, which]]) for which in (one, other)]
+    ends = [np.stack([lines.start.take(which, axis=1), lines.end.take(which, axis=1)]) for which in (one, other)]
     ways = [pair[1] - pair[0] for pair in ends]
     lengths = [np.sqrt((way * way).sum(axis=0)) for way in ways]
     shorter = lengths[0] <= lengths[1]

@@ -62,20 +62,19 @@ def sections(
     images are the points on the page: for a central projection the fraction differs from that on the page. Directions
     are those of the points; in the middle of a segment none is known.
     """
-    inner = last - first
-    counts = inner + 2
-    offsets = ragged.offsets(counts)
-    points = np.empty((offsets[-1], 2))
-    points3d = np.empty((offsets[-1], 3))
-    directions = np.full((offsets[-1], 2), np.nan)
-    between = ragged.ranges(first + 1, inner)
-    places = ragged.ranges(offsets[:-1] + 1, inner)
-    points[places], points3d[places] = paths.points[between], paths.points3d[between]
-    directions[places] = paths.directions[between]
+    offsets = ragged.offsets(last - first + 2)
+    index = ragged.ranges(first, last - first + 2)
+    points, points3d = paths.points.take(index, axis=0), paths.points3d.take(index, axis=0)
+    directions = paths.directions.take(index, axis=0)
     for places, segment, t in ((offsets[:-1], first, t_first), (offsets[1:] - 1, last, t_last)):
-        points[places], points3d[places] = _divided(paths, segment, t, page_from_world)
+        inside = np.flatnonzero((t != 0.0) & (t != 1.0))
+        cut = places[inside]
+        points[cut], points3d[cut] = _divided(paths, segment[inside], t[inside], page_from_world)
+        directions[cut] = np.nan
         for point, there in ((segment, t == 0.0), (segment + 1, t == 1.0)):
-            directions[places[there]] = paths.directions[point[there]]
+            at, of = places[there], point[there]
+            points[at], points3d[at] = paths.points.take(of, axis=0), paths.points3d.take(of, axis=0)
+            directions[at] = paths.directions.take(of, axis=0)
     open_ = np.zeros(len(stroke), dtype=np.bool_)
     return Paths(
         points,
@@ -93,8 +92,8 @@ def sections(
 
 def _divided(paths: Paths, segment: Ints, t: Floats, page_from_world: Floats) -> tuple[Floats, Floats]:
     """The points at the fractions t of the segments, on the page and in the world; exact at 0 and 1."""
-    a, b = paths.points[segment], paths.points[segment + 1]
-    a3, b3 = paths.points3d[segment], paths.points3d[segment + 1]
+    a, b = paths.points.take(segment, axis=0), paths.points.take(segment + 1, axis=0)
+    a3, b3 = paths.points3d.take(segment, axis=0), paths.points3d.take(segment + 1, axis=0)
     # Depths count by their ratio alone: powers of two keep what is very large within range, and all digits.
     reach, weight = (int(np.frexp(np.abs(some).max(initial=1.0))[1]) for some in (paths.points3d, page_from_world[3]))
     row = np.ldexp(page_from_world[3], (-weight, -weight, -weight, -weight - reach))

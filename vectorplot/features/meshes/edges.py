@@ -183,7 +183,7 @@ def _sharp_pairs(faces: Faces, face: Ints, forward: Bools, first: Ints, angle_de
     used[face[first]] = used[face[first + 1]] = True
     number = np.cumsum(used) - 1
     normals = unit_normals(faces, np.flatnonzero(used))
-    one, two = normals[:, number[face[first]]], normals[:, number[face[first + 1]]]
+    one, two = normals.take(number[face[first]], axis=1), normals.take(number[face[first + 1]], axis=1)
     cosine = one[0] * two[0] + one[1] * two[1] + one[2] * two[2]
     cosine = np.where(forward[first] == forward[first + 1], -cosine, cosine)
     return np.asarray(cosine < np.cos(np.radians(angle_deg)), dtype=np.bool_)
@@ -214,12 +214,12 @@ def unit_normals(faces: Faces, which: Ints) -> Floats:
     """(3,n) unit normals of some faces; zero for a face without area."""
     p, start = faces.points, faces.offsets[which]
     size = faces.offsets[which + 1] - start
-    a = p[:, faces.corners[start]]
+    a = p.take(faces.corners[start], axis=1)
     normal = np.zeros_like(a)
-    before = p[:, faces.corners[start + 1]] - a
+    before = p.take(faces.corners[start + 1], axis=1) - a
     for step in range(2, int(size.max(initial=0))):
         # Where a face has no such corner the arm stays, and adds nothing.
-        arm = p[:, faces.corners[start + np.minimum(step, size - 1)]] - a
+        arm = p.take(faces.corners[start + np.minimum(step, size - 1)], axis=1) - a
         normal += cross(before, arm)
         before = arm
     length = np.sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2])

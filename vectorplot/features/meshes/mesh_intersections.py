@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.meshes.edges import Faces, unit_normals
 from vectorplot.geometry import ragged, records
-from vectorplot.geometry.boxes import overlapping_boxes
+from vectorplot.geometry.boxes import overlapping_boxes, overlapping_pairs
 from vectorplot.geometry.chunks import mapped, slices
-from vectorplot.geometry.columns import cross, dot
+from vectorplot.geometry.columns import cross, dot, first_of_equal
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -19,7 +21,7 @@ from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 SLIM_FACES, FEWEST_PAIRS = 12, 1024
 """Parts of so few faces are looked at more closely where so many pairs of boxes overlap."""
 
-FACES_AT_ONCE = 1 << 17
+FACES_AT_ONCE = 1 << 15
 """Pairs of faces, or of slim parts, looked at at once."""
 
 AXIS_SHIFT = 16.0
@@ -110,8 +112,8 @@ def _normals_of(faces: Faces, one: Ints, two: Ints) -> Floats:
 
 def _first_of_equal(start: Floats, end: Floats, tolerance: float) -> Ints:
     """The segments of which no earlier one is the same: many faces may meet in one edge."""
-    steps = np.round(np.concatenate([start + end, np.abs(end - start)]) / (8.0 * tolerance)).T
-    return np.asarray(np.sort(np.unique(steps, axis=0, return_index=True)[1]), dtype=np.intp)
+    steps = np.round(np.concatenate([start + end, np.abs(end - start)]) / (8.0 * tolerance))
+    return np.flatnonzero(first_of_equal(steps))
 
 
 def _pairs_of_faces(faces: Faces, part: Ints, tolerance: float) -> tuple[Ints, Ints]:
@@ -122,8 +124,7 @@ def _pairs_of_faces(faces: Faces, part: Ints, tolerance: float) -> tuple[Ints, I
         return none, none
     low, high = _part_boxes(faces, part, parts)
     low, high = low - tolerance, high + tolerance
-    a, b = overlapping_boxes(low, high, low, high)
-    a, b = a[a < b], b[a < b]
+    a, b = overlapping_pairs(low, high)
     near = _may_meet(faces, part, a, b, tolerance)
     a, b = a[near], b[near]
     meeting = np.zeros(parts, dtype=np.bool_)
@@ -144,15 +145,16 @@ def _may_meet(faces: Faces, part: Ints, one: Ints, two: Ints, tolerance: float) 
     if not len(slim) or len(one) < FEWEST_PAIRS:
         return close
     position, face, _ = _corners_of(faces, slim)
-    order = np.argsort(part[slim[face]], kind="stable")
-    corner = faces.corners[position][order]
-    offsets = np.searchsorted(part[slim[face]][order], np.arange(int(part.max()) + 2))
+    of, corner = np.divmod(
+        np.unique(part[slim[face]] * faces.points.shape[1] + faces.corners[position]), faces.points.shape[1]
+    )
+    offsets = np.searchsorted(of, np.arange(int(part.max()) + 2))
     along = _longest_edges(faces, part)
     kept = np.flatnonzero((np.diff(offsets)[one] > 0) & (np.diff(offsets)[two] > 0))
 
     def apart(some: slice) -> Ints:
         pair = kept[some]
-        axis = cross(along[:, one[pair]], along[:, two[pair]])
+        axis = cross(along.take(one[pair], axis=1), along.take(two[pair], axis=1))
         spans = [_spans(faces, corner, offsets, which[pair], axis) for which in (one, two)]
         gap = tolerance * np.sqrt(dot(axis, axis))
         away = (spans[0][0] > spans[1][1] + gap) | (spans[1][0] > spans[0][1] + gap)
@@ -166,17 +168,20 @@ def _may_meet(faces: Faces, part: Ints, one: Ints, two: Ints, tolerance: float) 
 def _longest_edges(faces: Faces, part: Ints) -> Floats:
     """(3,p) a longest edge of every part."""
     after = next_positions(faces.offsets, np.arange(len(faces.corners)))
-    edge = faces.points[:, faces.corners[after]] - faces.points[:, faces.corners]
+    edge = faces.points.take(faces.corners[after], axis=1) - faces.points.take(faces.corners, axis=1)
     owner = np.repeat(part, np.diff(faces.offsets))
-    order = np.lexsort((dot(edge, edge), owner))
-    last = np.searchsorted(owner[order], np.arange(int(part.max()) + 1), side="right") - 1
-    return edge[:, order[last]]
+    length, most = dot(edge, edge), np.zeros(int(part.max()) + 1)
+    np.maximum.at(most, owner, length)
+    longest = np.flatnonzero(length == most[owner])
+    last = np.zeros(len(most), dtype=np.intp)
+    last[owner[longest]] = longest
+    return edge.take(last, axis=1)
 
 
 def _spans(faces: Faces, corner: Ints, offsets: Ints, which: Ints, axis: Floats) -> tuple[Floats, Floats]:
     """From where to where (n,) parts reach along axes (3,n); corner: of all parts, one after the other."""
     size = offsets[which + 1] - offsets[which]
-    points = faces.points[:, corner[ragged.ranges(offsets[which], size)]]
+    points = faces.points.take(corner[ragged.ranges(offsets[which], size)], axis=1)
     height = dot(points, np.repeat(axis, size, axis=1))
     starts = ragged.starts(size)
     return np.minimum.reduceat(height, starts), np.maximum.reduceat(height, starts)
@@ -197,7 +202,7 @@ def _part_boxes(faces: Faces, part: Ints, parts: int) -> tuple[Floats, Floats]:
 def _boxes(faces: Faces, which: Ints, tolerance: float) -> tuple[Floats, Floats]:
     """Smallest and largest coordinates (3,n) of some faces, widened by the tolerance."""
     position, _, starts = _corners_of(faces, which)
-    at_corner = faces.points[:, faces.corners[position]]
+    at_corner = faces.points.take(faces.corners[position], axis=1)
     return np.minimum.reduceat(at_corner, starts, axis=1) - tolerance, np.maximum.reduceat(
         at_corner, starts, axis=1
     ) + tolerance
@@ -210,17 +215,21 @@ def _within_pairs(
     a, b = pairs
     by_part = np.argsort(part, kind="stable")
     first = np.searchsorted(part[by_part], np.arange(part_low.shape[1] + 1))
-    common_low, common_high = np.maximum(part_low[:, a], part_low[:, b]), np.minimum(part_high[:, a], part_high[:, b])
+    common_low = np.maximum(part_low.take(a, axis=1), part_low.take(b, axis=1))
+    common_high = np.minimum(part_high.take(a, axis=1), part_high.take(b, axis=1))
     sides = []
     for which in (a, b):
         size = first[which + 1] - first[which]
         pair = ragged.owner(size)
         face = by_part[np.arange(len(pair)) - np.repeat(ragged.starts(size) - first[which], size)]
-        near = (low[:, face] <= common_high[:, pair]).all(axis=0) & (high[:, face] >= common_low[:, pair]).all(axis=0)
+        near = np.ones(len(pair), dtype=np.bool_)
+        for axis in range(3):
+            near &= low[axis, face] <= common_high[axis, pair]
+            near &= high[axis, face] >= common_low[axis, pair]
         sides.append((pair[near], face[near]))
     # Faces of different pairs are kept apart by a shift on one axis: so one sweep serves all pairs.
     boxes = [
-        [np.concatenate([ends[:1, face] + AXIS_SHIFT * pair, ends[1:, face]]) for ends in (low, high)]
+        [np.stack([ends[0, face] + AXIS_SHIFT * pair, ends[1, face], ends[2, face]]) for ends in (low, high)]
         for pair, face in sides
     ]
     one, two = overlapping_boxes(*boxes[0], *boxes[1])
@@ -230,21 +239,27 @@ def _within_pairs(
 def _meet(faces: Faces, normals: Floats, one: Ints, two: Ints, tolerance: float) -> Intersections:
     """The segments of these pairs of faces that do meet: the first face cut by the second's plane, then clipped by the
     second's edges."""
-    normal_one, normal_two = normals[:, one], normals[:, two]
-    origin_one, origin_two = (faces.points[:, faces.corners[faces.offsets[f]]] for f in (one, two))
+    normal_one, normal_two = normals.take(one, axis=1), normals.take(two, axis=1)
+    origin_one, origin_two = (faces.points.take(faces.corners[faces.offsets[f]], axis=1) for f in (one, two))
     across = cross(normal_one, normal_two)
     meet = _reaches_over(faces, two, normal_one, origin_one, tolerance) & (dot(across, across) > 0.0)
     some = np.flatnonzero(meet)
-    kept = some[_reaches_over(faces, one[some], normal_two[:, some], origin_two[:, some], tolerance)]
-    one, two, across = one[kept], two[kept], across[:, kept]
-    start, end, cuts = _cut_by_plane(faces, one, normal_two[:, kept], origin_two[:, kept], across, tolerance)
-    kept_two = normal_two[:, kept][:, cuts]
-    one, two, start, end = one[cuts], two[cuts], start[:, cuts], end[:, cuts]
-    low, high = _clip_by_edges(faces, two, kept_two, start, end, tolerance)
+    one, two, across, normal_two, origin_two = _picked(some, one, two, across, normal_two, origin_two)
+    kept = np.flatnonzero(_reaches_over(faces, one, normal_two, origin_two, tolerance))
+    one, two, across, normal_two, origin_two = _picked(kept, one, two, across, normal_two, origin_two)
+    start, end, cut = _cut_by_plane(faces, one, normal_two, origin_two, across, tolerance)
+    one, two, start, end, normal_two = _picked(np.flatnonzero(cut), one, two, start, end, normal_two)
+    low, high = _clip_by_edges(faces, two, normal_two, start, end, tolerance)
     length = np.sqrt(dot(end - start, end - start))
     met = np.flatnonzero((high - low) * length > tolerance)
-    along = (end - start)[:, met]
-    return Intersections(start[:, met] + low[met] * along, start[:, met] + high[met] * along, one[met], two[met])
+    one, two, start, end, low, high = _picked(met, one, two, start, end, low, high)
+    along = end - start
+    return Intersections(start + low * along, start + high * along, one, two)
+
+
+def _picked(which: Ints, *arrays: NDArray[Any]) -> list[NDArray[Any]]:
+    """Some of the columns, or elements, of each of the arrays."""
+    return [values.take(which, axis=-1) for values in arrays]
 
 
 def _corners_of(faces: Faces, which: Ints) -> tuple[Ints, Ints, Ints]:
@@ -261,19 +276,28 @@ def _heights(
 ) -> tuple[Floats, Ints, Ints, Ints]:
     """Distances of the corners of some faces from planes, snapped to zero, with _corners_of."""
     position, owner, starts = _corners_of(faces, which)
-    arm = faces.points[:, faces.corners[position]] - origin[:, owner]
-    height = dot(arm, normal[:, owner])
-    height[np.abs(height) <= tolerance] = 0.0
-    return height, position, owner, starts
+    arm = faces.points.take(faces.corners[position], axis=1) - origin.take(owner, axis=1)
+    return _snapped(dot(arm, normal.take(owner, axis=1)), tolerance), position, owner, starts
+
+
+def _snapped(height: Floats, tolerance: float) -> Floats:
+    height *= np.abs(height) > tolerance
+    return height
 
 
 def _reaches_over(faces: Faces, which: Ints, normal: Floats, origin: Floats, tolerance: float) -> Bools:
     """Which faces reach both sides of a plane, or have an edge in it without lying in it."""
-    if not len(which):
-        return np.zeros(0, dtype=np.bool_)
-    height, _, _, starts = _heights(faces, which, normal, origin, tolerance)
-    low, high = np.minimum.reduceat(height, starts), np.maximum.reduceat(height, starts)
-    in_plane = np.add.reduceat((height == 0.0).astype(np.intp), starts)
+    first, size = faces.offsets[which], faces.offsets[which + 1] - faces.offsets[which]
+    low, high, in_plane = np.full(len(which), np.inf), np.full(len(which), -np.inf), np.zeros(len(which), dtype=np.int8)
+    left = np.arange(len(which))
+    for step in range(int(size.max(initial=0))):
+        if step:
+            left = left[size[left] > step]
+        corner = faces.corners[first[left] + step]
+        arm = faces.points.take(corner, axis=1) - origin.take(left, axis=1)
+        height = _snapped(dot(arm, normal.take(left, axis=1)), tolerance)
+        low[left], high[left] = np.minimum(low[left], height), np.maximum(high[left], height)
+        in_plane[left] = np.minimum(in_plane[left] + (height == 0.0), 2)
     return np.asarray((low < 0.0) & (high > 0.0) | (in_plane > 1) & (low < high), dtype=np.bool_)
 
 
@@ -284,13 +308,13 @@ def _cut_by_plane(
     if not len(which):
         return np.zeros((3, 0)), np.zeros((3, 0)), np.zeros(0, dtype=np.bool_)
     height, position, owner, starts = _heights(faces, which, normal, origin, tolerance)
-    here = faces.points[:, faces.corners[position]]
+    here = faces.points.take(faces.corners[position], axis=1)
     after = ragged.following(np.append(starts, len(position)))
     step = np.where(
         height * height[after] < 0.0, height / np.where(height == height[after], 1.0, height - height[after]), 0.0
     )
-    on_plane = here + step * (here[:, after] - here)
-    along = dot(on_plane, across[:, owner])
+    on_plane = here + step * (here.take(after, axis=1) - here)
+    along = dot(on_plane, across.take(owner, axis=1))
     hit = (height == 0.0) | (height * height[after] < 0.0)
     first, last = np.where(hit, along, np.inf), np.where(hit, along, -np.inf)
     low, high = np.minimum.reduceat(first, starts), np.maximum.reduceat(last, starts)
@@ -298,7 +322,7 @@ def _cut_by_plane(
     start, end = np.zeros_like(across), np.zeros_like(across)
     for extreme, value, into in ((low, first, start), (high, last, end)):
         at = np.flatnonzero(value == extreme[owner])
-        into[:, owner[at]] = on_plane[:, at]
+        into[:, owner[at]] = on_plane.take(at, axis=1)
     lowest, highest = np.minimum.reduceat(height, starts), np.maximum.reduceat(height, starts)
     return start, end, np.asarray(some & (lowest < highest), dtype=np.bool_)
 
@@ -312,13 +336,11 @@ def _clip_by_edges(
     for step in range(int(size.max(initial=0))):
         here = np.minimum(step, size - 1)
         there = np.where(here + 1 < size, here + 1, 0)
-        a, b = (faces.points[:, faces.corners[faces.offsets[which] + place]] for place in (here, there))
+        a, b = (faces.points.take(faces.corners[faces.offsets[which] + place], axis=1) for place in (here, there))
         side = b - a
         inward = cross(normal, side)
         inward /= np.maximum(np.sqrt(dot(inward, inward)), LEAST_DIVISOR)
-        at_start, at_end = (dot(inward, p - a) for p in (start, end))
-        at_start[np.abs(at_start) <= tolerance] = 0.0
-        at_end[np.abs(at_end) <= tolerance] = 0.0
+        at_start, at_end = (_snapped(dot(inward, p - a), tolerance) for p in (start, end))
         crossing = at_start * at_end < 0.0
         where = at_start / np.where(crossing, at_start - at_end, 1.0)
         low = np.where(crossing & (at_end > 0.0), np.maximum(low, where), low)

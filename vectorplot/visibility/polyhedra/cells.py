@@ -14,9 +14,12 @@ from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra.grid import MAX_COVER_TESTS, Entries, Floats32, Grid
 from vectorplot.visibility.polyhedra.occluders import Occluders
 
-LARGE_LEVEL, FINER = 2, 3
-"""What is entered at this level or a coarser one is entered so many levels finer, but only in cells that its outline
-touches: a long thin thing would be met by everything in its box."""
+LARGE_LEVEL = 2
+"""What would be entered at this level or a coarser one is entered in finer cells, but only in those that its outline
+touches, as long as it leaves many of them out: a long thin thing would be met by everything in its box."""
+
+THIN = 0.8
+"""A thing that touches at most so many of the finer cells in the cells it touches is entered in these."""
 
 
 def covered_cells(view: View, grid: Grid, occluders: Occluders) -> Floats32:
@@ -36,21 +39,44 @@ def covered_cells(view: View, grid: Grid, occluders: Occluders) -> Floats32:
     return table[: grid.first[1]]
 
 
-def entered(view: View, grid: Grid, occluders: Occluders, which: Ints) -> Entries:
-    """Some of the occluders, entered in the cells where they could hide something."""
-    box = occluders.box[:, which]
+def entered(view: View, grid: Grid, occluders: Occluders, which: Ints, most: int) -> Entries:
+    """Some of the occluders, entered in the cells where they could hide something, in finer ones as long as there are
+    not many more of these than most."""
+    box = occluders.box.take(which, axis=1)
     level = grids.entry_level(grid, box)
-    large = level >= LARGE_LEVEL
-    level = np.where(large, np.maximum(level - FINER, 0), level)
     thing, column, row = grids.touched(grid, box, level)
     occluder, level = which[thing], level[thing]
-    doubtful = np.flatnonzero(large[thing])
-    if len(doubtful):
-        cells = tuple(part[doubtful] for part in (occluder, column, row, level))
-        kept = np.ones(len(thing), dtype=np.bool_)
-        kept[doubtful] = _inside_outline(view, grid, occluders, cells, np.maximum, -COVERED_MARGIN)
-        occluder, column, row, level = occluder[kept], column[kept], row[kept], level[kept]
-    return grids.entries(grid, occluder, column, row, level)
+    large = level >= LARGE_LEVEL
+    kept: list[tuple[Ints, ...]] = [(occluder[~large], column[~large], row[~large], level[~large])]
+    thing, *cells = (part[large] for part in (thing, occluder, column, row, level))
+    touching = _inside_outline(view, grid, occluders, tuple(cells), np.maximum, -COVERED_MARGIN)
+    thing, *cells = (part.compress(touching) for part in (thing, *cells))
+    while len(thing):
+        owner, finer = _finer(grid, *cells)
+        if len(owner) > most:
+            break
+        touching = _inside_outline(view, grid, occluders, finer, np.maximum, -COVERED_MARGIN)
+        owner = owner.compress(touching)
+        count, made = np.bincount(thing, minlength=len(which)), np.bincount(thing[owner], minlength=len(which))
+        thin = (made <= THIN * 4.0 * count)[thing]
+        kept.append(tuple(part[~thin] for part in cells))
+        goes_on = thin[owner]
+        thing, cells = thing[owner[goes_on]], [part.compress(touching)[goes_on] for part in finer]
+        last = cells[-1] == 0
+        kept.append(tuple(part[last] for part in cells))
+        thing, *cells = (part[~last] for part in (thing, *cells))
+    kept.append(tuple(cells))
+    return grids.entries(grid, *(np.concatenate(part) for part in zip(*kept, strict=True)))
+
+
+def _finer(grid: Grid, occluder: Ints, column: Ints, row: Ints, level: Ints) -> tuple[Ints, tuple[Ints, ...]]:
+    """The four cells below each of some cells, none of them of the finest level, that are in the grid; and which cell
+    each is below."""
+    owner = np.repeat(np.arange(len(occluder)), 4)
+    step = np.tile(np.arange(4), len(occluder))
+    finer = (occluder[owner], 2 * column[owner] + (step & 1), 2 * row[owner] + (step >> 1), level[owner] - 1)
+    inside = (finer[1] < grid.columns[finer[3]]) & (finer[2] < grid.rows[finer[3]])
+    return owner.compress(inside), tuple(part.compress(inside) for part in finer)
 
 
 def _inside_outline(
@@ -77,7 +103,7 @@ def _inside_outline(
     for step in range(int((count - occluders.behind).max())):
         which = occluder[kept]
         number = np.minimum(occluders.behind[which] + step, count[which] - 1)
-        a, b, c, d = occluders.planes[:, occluders.first[which] + number]
+        a, b, c, d = occluders.planes.take(occluders.first[which] + number, axis=1)
         distance = a * base[0, kept] + b * base[1, kept] + c * base[2, kept] - d
         distance += (extreme(a, 0.0) + extreme(b, 0.0)) * size[kept]
         kept = kept[distance > margin]

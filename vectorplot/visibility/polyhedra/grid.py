@@ -92,13 +92,15 @@ class Grid:
 @dataclass(frozen=True, eq=False)
 class Pieces:
     """Segments cut at the borders of the finest cells: segment (p,), parameters low and high (p,) along the segment in
-    space, column and row of its cell, box (4,p) in the image, nearest and farthest (p,) depth."""
+    space, column and row of its cell, ends (4,p) in the image, x and y of the first, then of the last, box (4,p) around
+    them, nearest and farthest (p,) depth."""
 
     segment: Ints
     low: Floats
     high: Floats
     column: Ints
     row: Ints
+    ends: Floats32 = field(metadata=IN_COLUMNS)
     box: Floats32 = field(metadata=IN_COLUMNS)
     nearest: Floats32
     farthest: Floats32
@@ -159,18 +161,20 @@ def _pieces(
     x0, y0 = start[0][segment], start[1][segment]
     dx, dy = end[0][segment] - x0, end[1][segment] - y0
     middle = 0.5 * (at + after)
-    xs, ys = (x0 + at * dx, x0 + after * dx), (y0 + at * dy, y0 + after * dy)
+    ends = np.empty((4, len(segment)), dtype=np.float32)
+    ends[0], ends[1], ends[2], ends[3] = x0 + at * dx, y0 + at * dy, x0 + after * dx, y0 + after * dy
     near, far = start_depth[segment], end_depth[segment]
     low, high = (in_space(t, near, far) if central else t for t in (at, after))
     z0, z1 = near + low * (far - near), near + high * (far - near)
-    box = np.stack([np.minimum(*xs), np.maximum(*xs), np.minimum(*ys), np.maximum(*ys)])
+    box = np.stack([pick(ends[k], ends[k + 2]) for k in (0, 1) for pick in (np.minimum, np.maximum)])
     return Pieces(
         segment,
         low,
         high,
         grid.column_of(x0 + middle * dx),
         grid.row_of(y0 + middle * dy),
-        box.astype(np.float32),
+        ends,
+        box,
         np.minimum(z0, z1).astype(np.float32),
         np.maximum(z0, z1).astype(np.float32),
     )

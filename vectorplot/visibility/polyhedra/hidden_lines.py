@@ -8,7 +8,6 @@ from functools import partial
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.exact import intervals
@@ -21,6 +20,7 @@ from vectorplot.visibility.polyhedra.cells import covered_cells, entered
 from vectorplot.visibility.polyhedra.grid import Entries, Floats32, Grid, Pieces
 from vectorplot.visibility.polyhedra.occluders import Occluders, face_occluders, joined, solid_occluders
 from vectorplot.visibility.polyhedra.pairs import Hits, Segments, clip_pairs
+from vectorplot.visibility.polyhedra.sieve import sieve
 from vectorplot.visibility.projected_faces import CHUNK, ProjectedFaces
 
 PAIRS_AT_ONCE = 1 << 17
@@ -30,8 +30,9 @@ MOST_SLABS, IN_SLAB = 24, 4000
 """Occluders are tried front to back in slabs of equal number: hidden lines drop out early, near lines are not tried
 against what is far. Each slab costs a little: there are at most so many, for so many occluders and pieces each."""
 
-FEWEST_CELLS = 16.0
-"""The finest grid has at least so many cells along the longer side of the picture, however large the things in it."""
+FEWEST_CELLS, SEGMENTS_IN_CELL = 16.0, 64.0
+"""The finest grid has at least so many cells along the longer side of the picture, however large the things in it; or
+as many as would give each cell of a square so many segments."""
 
 SLIVER = 10.0
 """Parts shorter than so many tolerances are none."""
@@ -232,7 +233,8 @@ def _pieces(view: View, faces: ProjectedFaces, segments: Segments) -> tuple[Grid
     low, high = np.minimum(start, end).min(axis=1), np.maximum(start, end).max(axis=1)
     extent = np.float32(max(high - low))
     sizes = np.minimum(np.maximum(faces.box[1] - faces.box[0], faces.box[3] - faces.box[2]), extent)
-    typical = min(float(np.median(sizes)), float(extent) / FEWEST_CELLS) if len(sizes) else float(extent)
+    fewest = max(FEWEST_CELLS, float(np.sqrt(len(segments) / SEGMENTS_IN_CELL)))
+    typical = min(float(np.median(sizes)), float(extent) / fewest) if len(sizes) else float(extent)
     cell = grids.cell_size(start, end, typical)
     area = float(np.prod(high - low))
     cell = max(cell, np.sqrt(area / (4.0 * (len(segments) + len(sizes)) + 1024.0)))
@@ -272,15 +274,12 @@ def _all_hits(
     Pieces that the caller marks as no longer alive are not tried again.
     """
     order = np.argsort(occluders.nearest, kind="stable")
-    left, right, bottom, top = occluders.box
-    boxes = _packed(np.stack([left, -right, bottom, -top]))
-    left, right, bottom, top = pieces.box
-    piece_boxes = _packed(np.stack([right, -left, top, -bottom]))
+    in_image = sieve(view, grid, pieces, occluders)
 
     def clipped(entries: Entries, pairs: tuple[Ints, Ints]) -> tuple[Ints, Hits, Ints]:
         piece, occluder = pairs[0], entries.thing[pairs[1]]
-        close = np.flatnonzero(_overlapping(piece_boxes[piece], boxes[occluder]))
-        piece, occluder = piece[close], occluder[close]
+        passing = in_image.passing(piece, occluder)
+        piece, occluder = piece[passing], occluder[passing]
         close = np.flatnonzero(occluders.nearest[occluder] < pieces.farthest[piece])
         piece, occluder = piece[close], occluder[close]
         segment, low, high = pieces.segment[piece], pieces.low[piece], pieces.high[piece]
@@ -292,7 +291,7 @@ def _all_hits(
         if begin == end:
             continue
         slab = order[begin:end]
-        entries = entered(view, grid, occluders, slab)
+        entries = entered(view, grid, occluders, slab, len(pieces))
         for level in entries.levels():
             which = np.flatnonzero(alive & (pieces.farthest > occluders.nearest[slab[0]]))
             at = grid.numbers(pieces.column[which] >> level, pieces.row[which] >> level, level)
@@ -313,18 +312,6 @@ def _expanded(begin: Ints, counts: Ints, which: Ints) -> Iterator[tuple[Ints, In
         owner = np.repeat(np.arange(low, high), size)
         step = ragged.place(size)
         yield which[owner], begin[owner] + step
-
-
-def _packed(box: Floats32) -> NDArray[np.complex128]:
-    """(n,) boxes (4,n), each packed into one value of 16 bytes: so the processor fetches it at once."""
-    return np.ascontiguousarray(box.T).view(np.complex128).ravel()
-
-
-def _overlapping(piece_box: NDArray[np.complex128], box: NDArray[np.complex128]) -> Bools:
-    """Which pairs of packed boxes overlap; the first ones as (right, -left, top, -bottom), the second ones as
-    (left, -right, bottom, -top)."""
-    below = box.view(np.float32) < piece_box.view(np.float32)
-    return np.asarray(below.view(np.uint32) == np.uint32(0x01010101), dtype=np.bool_)
 
 
 def _resolved(segment: Ints, low: Floats, high: Floats, side: Ints, gap: Floats) -> tuple[Ints, Floats, Floats]:

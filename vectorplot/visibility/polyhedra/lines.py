@@ -99,9 +99,11 @@ class Lines:
         Lines
             With all that is said of them.
         """
+        if which.dtype == np.bool_:
+            which = np.flatnonzero(which)
         return Lines(
-            self.start[:, which],
-            self.end[:, which],
+            self.start.take(which, axis=1),
+            self.end.take(which, axis=1),
             self.kind[which],
             self.item[which],
             self.side[which],
@@ -130,7 +132,7 @@ class Lines:
         (3, k) array of float
             The second ends.
         """
-        start, end = _divided(self.start[:, which], self.end[:, which], low, high)
+        start, end = _divided(self.start.take(which, axis=1), self.end.take(which, axis=1), low, high)
         if self.chords:
             self.chords.some(which).cut(view, low, high, start, end)
         return start, end
@@ -234,7 +236,7 @@ def edge_lines(
         item = view.face_item[which[edges.face]]
         kept = edges.front | backs[item]
         start, end = edges.start[kept], edges.end[kept]
-        ends = view.points[:, start], view.points[:, end]
+        ends = view.points.take(start, axis=1), view.points.take(end, axis=1)
         parts.append(straight_lines(*ends, edges.kind[kept], item[kept], edges.side[kept]))
     return joined_lines(parts)
 
@@ -272,7 +274,9 @@ def intersection_lines(
     kept = wants[one] | wants[two]
     owner = np.where(wants[one], one, two)[kept]
     kind = np.full(int(kept.sum()), int(LineKind.INTERSECTION))
-    return straight_lines(met.start[:, kept], met.end[:, kept], kind, owner, np.zeros_like(kind))
+    return straight_lines(
+        met.start.compress(kept, axis=1), met.end.compress(kept, axis=1), kind, owner, np.zeros_like(kind)
+    )
 
 
 def _beyond_two(first: Ints) -> Bools:
@@ -336,5 +340,5 @@ def _lines_of_curves(view: View, curves: MeshCurves, kind: LineKind, item: int, 
     begin, end = segments(curves).T
     numbers = np.full(len(begin), item)
     kinds = np.full(len(begin), int(kind))
-    lines = straight_lines(points[:, begin], points[:, end], kinds, numbers, np.zeros_like(numbers))
+    lines = straight_lines(points.take(begin, axis=1), points.take(end, axis=1), kinds, numbers, np.zeros_like(numbers))
     return replace(lines, smooth=np.full(len(begin), smooth))

@@ -25,7 +25,8 @@ class Occluders:
 
     Occluder k hides the points with a positive distance from its planes first[k] to first[k+1]: planes (4,p) unit
     normal and constant; of these the first behind[k] bound it towards the eye, the others are its outline's planes
-    through the eye. box (4,k), nearest (k,), farthest (k,): in the image, as in ProjectedFaces; item (k,)."""
+    through the eye, those of a solid by the lengths of their edges in the image, the longest first. box (4,k), nearest
+    (k,), farthest (k,): in the image, as in ProjectedFaces; item (k,)."""
 
     planes: Floats
     first: Ints
@@ -84,7 +85,7 @@ def solid_items(view: View, faces: ProjectedFaces, *, most_faces: int = MAX_SOLI
     normal, _, first = newell(view, face)
     length = np.sqrt((normal * normal).sum(axis=0))
     normal = normal / np.where(length > 0.0, length, 1.0)
-    constant = (normal * view.points[:, first]).sum(axis=0)
+    constant = (normal * view.points.take(first, axis=1)).sum(axis=0)
     for low, high in _blocks(vertex_counts[of]):
         pair_face = np.repeat(np.arange(low, high), vertex_counts[of[low:high]])
         starts = ragged.starts(vertex_counts[of[low:high]])
@@ -116,7 +117,7 @@ def face_occluders(view: View, faces: ProjectedFaces, which: Ints) -> Occluders:
     sizes = view.face_sizes[which]
     normal, _, first = newell(view, which)
     toward = -faces.facing[which].astype(np.float64)
-    depth_planes = _planes(normal * toward, view.points[:, first])
+    depth_planes = _planes(normal * toward, view.points.take(first, axis=1))
     position = ragged.ranges(view.offsets[which], sizes)
     side = _side_planes(view, view.corners[position], view.corners[view.after(position)])
     side *= np.repeat(-toward, sizes)
@@ -135,7 +136,7 @@ def solid_occluders(view: View, faces: ProjectedFaces, items: Ints) -> Occluders
     which = np.flatnonzero((faces.facing > 0) & (number[view.face_item] >= 0))
     owner = number[view.face_item[which]]
     normal, _, first = newell(view, which)
-    depth_planes = _planes(-normal, view.points[:, first])
+    depth_planes = _planes(-normal, view.points.take(first, axis=1))
     sizes = view.face_sizes[which]
     position = ragged.ranges(view.offsets[which], sizes)
     a, b = view.corners[position], view.corners[view.after(position)]
@@ -148,8 +149,11 @@ def solid_occluders(view: View, faces: ProjectedFaces, items: Ints) -> Occluders
     turned[order[begin]] = (net > 0) != (a < b)[order[begin]]
     outline = np.sort(order[begin[net != 0]])
     start, end = np.where(turned, b, a)[outline], np.where(turned, a, b)[outline]
-    side = _side_planes(view, start, end)
     side_owner = np.repeat(owner, sizes)[outline]
+    # The longest sides keep most things out.
+    along = view.image.take(end, axis=1) - view.image.take(start, axis=1)
+    longest = np.lexsort((-np.hypot(along[0], along[1]), side_owner))
+    side, side_owner = _side_planes(view, start[longest], end[longest]), side_owner[longest]
     depth_counts = np.bincount(owner, minlength=len(items))
     side_counts = np.bincount(side_owner, minlength=len(items))
     return _interleaved(view, depth_planes, depth_counts, side, side_counts, faces, which, items)
@@ -178,8 +182,8 @@ def _planes(normal: Floats, point: Floats) -> Floats:
 
 def _side_planes(view: View, start: Ints, end: Ints) -> Floats:
     """(4,n) planes through the eye and edges, positive on the left of start -> end as the eye sees it."""
-    a = view.points[:, start]
-    along = view.points[:, end] - a
+    a = view.points.take(start, axis=1)
+    along = view.points.take(end, axis=1) - a
     if view.eye is None:
         normal = np.stack([-along[1], along[0], np.zeros(len(start))])
     else:
@@ -206,7 +210,7 @@ def _interleaved(
     shift = first[:-1] + depth_counts - ragged.starts(side_counts)
     planes[:, np.arange(side.shape[1]) + np.repeat(shift, side_counts)] = side
     starts = ragged.starts(depth_counts)
-    box = faces.box[:, which]
+    box = faces.box.take(which, axis=1)
     if len(which) != len(item):
         smallest = np.minimum.reduceat(box[[0, 2]], starts, axis=1)
         largest = np.maximum.reduceat(box[[1, 3]], starts, axis=1)

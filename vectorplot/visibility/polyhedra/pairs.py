@@ -11,7 +11,7 @@ from vectorplot.geometry.columns import cross
 from vectorplot.scene.view import View
 from vectorplot.visibility.polyhedra.occluders import Occluders
 
-FULL = 0.6
+FULL = 0.75
 """Pairs that are done with are taken out when they are more than the rest of this part."""
 
 
@@ -71,7 +71,8 @@ def clip_pairs(
     skipped = np.where(beyond, occluders.behind[occluder], 0)
     pair, reach = _over_first_plane(view, segments, occluders, segment, occluders.first[occluder] + skipped, beyond)
     low, high, side = low[pair], high[pair], np.zeros(len(pair), dtype=np.intp)
-    ends = np.concatenate([segments.start[:, segment[pair]], segments.end[:, segment[pair]]])
+    of = segment[pair]
+    ends = np.concatenate([segments.start.take(of, axis=1), segments.end.take(of, axis=1)])
     occluder, skipped = occluder[pair], skipped[pair]
     first, behind = occluders.first[occluder] + skipped, occluders.behind[occluder] - skipped
     count = occluders.first[occluder + 1] - first
@@ -81,19 +82,21 @@ def clip_pairs(
         if step:
             reach = _heights(view, occluders, np.minimum(first + step, final), ends)
         at_start, at_end = reach
-        inside = (at_start > 0.0) | (at_end > 0.0)
-        along = np.flatnonzero((at_start == 0.0) & (at_end == 0.0) & (step >= behind))
+        product = at_start * at_end
+        inside = np.maximum(at_start, at_end) > 0.0
+        along = np.flatnonzero((product == 0.0) & (at_start == at_end) & (step >= behind))
         if len(along):
-            inward = occluders.planes[:3, np.minimum(first[along] + step, final)]
-            new = _shadow_side(view, ends[:3, along], ends[3:, along], inward)
+            inward = occluders.planes[:3].take(np.minimum(first[along] + step, final), axis=1)
+            new = _shadow_side(view, ends[:3].take(along, axis=1), ends[3:].take(along, axis=1), inward)
             inside[along] = (side[along] == 0) | (side[along] == new)
             side[along] = new
-        crossing = np.flatnonzero(at_start * at_end < 0.0)
+        crossing = np.flatnonzero(product < 0.0)
         if len(crossing):
-            where = at_start[crossing] / (at_start[crossing] - at_end[crossing])
-            leaving = at_start[crossing] > 0.0
-            low[crossing] = np.where(leaving, low[crossing], np.maximum(low[crossing], where))
-            high[crossing] = np.where(leaving, np.minimum(high[crossing], where), high[crossing])
+            begin, end = at_start[crossing], at_end[crossing]
+            where, leaving = begin / (begin - end), begin > 0.0
+            out, into = crossing[leaving], crossing[~leaving]
+            high[out] = np.minimum(high[out], where[leaving])
+            low[into] = np.maximum(low[into], where[~leaving])
         inside &= low < high
         last = inside & (count == step + 1)
         if last.any():
@@ -104,7 +107,7 @@ def clip_pairs(
             high[~inside] = -1.0
         else:
             kept = np.flatnonzero(inside)
-            pair, side, low, high, ends = pair[kept], side[kept], low[kept], high[kept], ends[:, kept]
+            pair, side, low, high, ends = pair[kept], side[kept], low[kept], high[kept], ends.take(kept, axis=1)
             first, count, behind = first[kept], count[kept], behind[kept]
     pair, low, high, side = (np.concatenate(column) for column in zip(*through, strict=True))
     return Hits(pair, low, high, side)
@@ -129,14 +132,22 @@ def _over_first_plane(
 
 def _heights(view: View, occluders: Occluders, plane: Ints, ends: Floats) -> tuple[Floats, Floats]:
     """Distances of both ends (6,n) of segments from planes, snapped to zero."""
-    a, b, c, d = (row[plane] for row in occluders.planes)
-    at_start = a * ends[0] + b * ends[1] + c * ends[2] - d
-    at_end = a * ends[3] + b * ends[4] + c * ends[5] - d
-    return _snapped(at_start, view.tolerance), _snapped(at_end, view.tolerance)
+    normals = occluders.planes.take(plane, axis=1)
+    return _height(normals, ends[:3], view.tolerance), _height(normals, ends[3:], view.tolerance)
+
+
+def _height(planes: Floats, points: Floats, tolerance: float) -> Floats:
+    """Distances of points (3,n) from planes (4,n), snapped to zero."""
+    height = planes[0] * points[0]
+    term = planes[1] * points[1]
+    height += term
+    height += np.multiply(planes[2], points[2], out=term)
+    height -= planes[3]
+    return _snapped(height, tolerance)
 
 
 def _snapped(distance: Floats, tolerance: float) -> Floats:
-    distance[np.abs(distance) <= tolerance] = 0.0
+    distance *= np.abs(distance) > tolerance
     return distance
 
 

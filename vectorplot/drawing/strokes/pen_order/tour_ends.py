@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -46,11 +48,11 @@ def _nearest_along_curves(spots: Places, other: Ints, layer: Ints) -> tuple[Ints
         best, best_apart = near[curve], apart[curve]
         for lag in range(1, REACH + 1):
             length = np.abs(along[lag:] - along[:-lag])
-            length[(opposite[lag:] == curve[:-lag]) | (own[lag:] != own[:-lag])] = np.inf
+            np.copyto(length, np.inf, where=(opposite[lag:] == curve[:-lag]) | (own[lag:] != own[:-lag]))
             for here, there in ((slice(lag, None), slice(None, -lag)), (slice(None, -lag), slice(lag, None))):
                 nearer = length < best_apart[here]
-                best[here] = np.where(nearer, curve[there], best[here])
-                best_apart[here] = np.where(nearer, length, best_apart[here])
+                np.copyto(best[here], curve[there], where=nearer)
+                np.copyto(best_apart[here], length, where=nearer)
         near[curve], apart[curve] = best, best_apart
     return near, apart
 
@@ -84,13 +86,34 @@ def _every_other_bit(x: Floats) -> NDArray[np.uint64]:
 
 def neighbours(spots: Places, layer: Ints) -> Ints:
     """(n,k) for every end some ends near it, most of them of its layer, perhaps itself, perhaps one twice."""
-    n = len(spots)
-    if n <= ALL_PAIRS:
-        return np.tile(np.arange(n), (n, 1))
-    columns = []
-    for curve in curves_through(spots, layer):
-        for lag in (*range(-REACH, 0), *range(1, REACH + 1)):
-            column = np.empty(n, dtype=np.intp)
-            column[curve] = np.roll(curve, lag)
-            columns.append(column)
-    return np.stack(columns, axis=1)
+    return neighbourhood(spots, layer).of(slice(0, len(spots)))
+
+
+@dataclass(frozen=True, eq=False)
+class Neighbourhood:
+    """Ends along curves that keep near places together, to look up what is near some of them.
+
+    around (c,n+2r): the ends along each curve, the last r of them once more before, the first r after them; place (c,n)
+    where along the curve each end is; steps (k,) from there to what counts as near.
+    """
+
+    around: Ints
+    place: Ints
+    steps: Ints
+
+    def of(self, some: slice) -> Ints:
+        """(m,k) the ends near some of the ends, as neighbours says."""
+        near = [row.take(place[some, None] + self.steps) for row, place in zip(self.around, self.place, strict=True)]
+        return np.concatenate(near, axis=1)
+
+
+def neighbourhood(spots: Places, layer: Ints) -> Neighbourhood:
+    """The ends at these places, those of one layer nearer to each other than to others."""
+    number = np.arange(len(spots))
+    if len(spots) <= ALL_PAIRS:
+        return Neighbourhood(number[None], np.zeros((1, len(spots)), dtype=np.intp), number)
+    curves = np.stack(curves_through(spots, layer))
+    place = np.empty_like(curves)
+    np.put_along_axis(place, curves, number[None], axis=1)
+    around = np.concatenate([curves[:, -REACH:], curves, curves[:, :REACH]], axis=1)
+    return Neighbourhood(around, place, np.delete(np.arange(2 * REACH, -1, -1), REACH))

@@ -15,10 +15,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.drawing.strokes.pen_order.tour_ends import Places, extent, neighbours
+from vectorplot.drawing.strokes.pen_order.tour_ends import Places, extent, neighbourhood
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
+# So many ends are looked at at once.
+_ENDS_AT_ONCE = 1 << 13
 # So many of the ends near an end are tried as its neighbours.
 _NEAREST = 10
 # A run of strokes that moves as one has at most this many.
@@ -98,24 +101,40 @@ def _row(ends: Places, tour: Ints, layer: Ints, near: Ints, apart: Floats, awake
     spots = np.append(ends, complex(np.nan, np.nan))
     gap = np.fmax(np.abs(spots[row[0::2]] - spots[row[1::2]]), 0.0)
     # A gap of no length has nothing to gain.
-    awake = awake[gap[place[awake] >> 1] > 0.0]
-    apart = apart[awake]
-    which = np.flatnonzero(apart < gap[place[awake] >> 1][:, None])
-    end = awake[which // apart.shape[1]]
-    return _Row(spots, tour, row, layer[tour], gap, place[end], place[near[awake].ravel()[which]], apart.ravel()[which])
+    own = gap[place[awake] >> 1]
+    some = np.flatnonzero(own > 0.0)
+    awake, own = awake[some], own[some]
+    count, apart = apart.shape[1], apart.take(awake, axis=0)
+    which = np.flatnonzero(apart < own[:, None])
+    of, column = np.divmod(which, count)
+    end = awake[of]
+    return _Row(
+        spots, tour, row, layer[tour], gap, place[end], place[near.take(end * count + column)], apart.take(which)
+    )
 
 
 def _neighbours(ends: Places, layer: Ints) -> tuple[Ints, Floats]:
     """For every end the nearest ends of other strokes, among some near it, and how far they are."""
-    near = np.sort(neighbours(ends, layer), axis=1)
-    apart = np.abs(ends[near] - ends[:, None])
-    apart[layer[near] != layer[:, None]] = np.inf
-    apart[near >> 1 == (np.arange(len(ends)) >> 1)[:, None]] = np.inf
-    apart[:, 1:][near[:, 1:] == near[:, :-1]] = np.inf
-    if near.shape[1] <= _NEAREST:
-        return near, apart
-    nearest = np.argpartition(apart, _NEAREST - 1, axis=1)[:, :_NEAREST]
-    return np.take_along_axis(near, nearest, axis=1), np.take_along_axis(apart, nearest, axis=1)
+    around = neighbourhood(ends, layer)
+    several = int(np.ptp(layer)) > 0
+
+    def nearest(block: slice) -> tuple[Ints, Floats]:
+        number = np.arange(block.start, block.stop)[:, None]
+        near = np.sort(around.of(block), axis=1)
+        apart = np.abs(ends.take(near) - ends[block, None])
+        without = near >> 1 == number >> 1
+        without[:, 1:] |= near[:, 1:] == near[:, :-1]
+        if several:
+            without |= layer[near] != layer[block, None]
+        apart[without] = np.inf
+        if near.shape[1] <= _NEAREST:
+            return near, apart
+        chosen = np.argpartition(apart, _NEAREST - 1, axis=1)[:, :_NEAREST]
+        chosen += np.arange(len(near))[:, None] * near.shape[1]
+        return near.take(chosen), apart.take(chosen)
+
+    near, apart = zip(*mapped(nearest, slices(len(ends), _ENDS_AT_ONCE)), strict=True)
+    return np.concatenate(near), np.concatenate(apart)
 
 
 def _stretches_turned(at: _Row, zero: float) -> tuple[Ints, Ints]:
@@ -192,8 +211,8 @@ def _run_moves(at: _Row, length: int, zero: float) -> tuple[Ints, Ints, Ints, Bo
     first = np.where(from_front, (at.near - 1) >> 1, (at.near >> 1) - length)
     into = at.to >> 1
     fits = (first >= 0) & (first + length < len(at.gap)) & ((into < first) | (into > first + length))
-    # A run is of one layer.
     some = np.flatnonzero(fits)
+    # A run is of one layer.
     some = some[at.layer[first[some]] == at.layer[first[some] + length - 1]]
     from_front, first, into = from_front[some], first[some], into[some]
     head, to, apart = at.near[some], at.to[some], at.apart[some]
