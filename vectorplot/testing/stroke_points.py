@@ -54,13 +54,13 @@ def stroke_points(drawing: Drawing, scene: Scene, camera: Camera, samples: int, 
         return _none()
     lines, owner, smooth, sag, at_end = (np.concatenate(columns) for columns in zip(*parts, strict=True))
     random = np.random.default_rng(seed)
-    at_end |= _where_strokes_meet(lines)
     index, share = some_of(lines, samples, random)
     if not len(index):
         return _none()
+    at_end = at_end[index] | _where_strokes_meet(lines, index)
     one_sheet = _on_one_sheet(scene, owner[index])
     vertex = smooth[index] & ((random.random(samples) < 0.5) | ~one_sheet)
-    ends = vertex & at_end[index, np.round(share).astype(np.intp)]
+    ends = vertex & at_end[np.arange(len(index)), np.round(share).astype(np.intp)]
     vertex &= ~(ends & one_sheet)
     useful = ~ends | one_sheet
     share = np.where(vertex, np.round(share), share)[:, None]
@@ -72,15 +72,14 @@ def stroke_points(drawing: Drawing, scene: Scene, camera: Camera, samples: int, 
     return _moved(found, moving, useful, lines[index, 1] - lines[index, 0], scene, camera)
 
 
-def _where_strokes_meet(lines: Floats) -> Bools:
-    """(n,2) whether more than two ends of segments (n,2,3) are where an end of one is."""
+def _where_strokes_meet(lines: Floats, some: Ints) -> Bools:
+    """(n,2) whether more than two ends of segments (m,2,3) are where an end of some of them is, (n,) their indices."""
     from scipy.spatial import cKDTree
 
-    if not len(lines):
-        return np.zeros((0, 2), dtype=np.bool_)
     ends = lines.reshape(-1, 3)
     near = ZERO_OF_EXTENT * float(np.ptp(ends, axis=0).max())
-    return np.asarray(cKDTree(ends).query_ball_point(ends, near, return_length=True).reshape(-1, 2) > 2)
+    tree = cKDTree(ends, balanced_tree=False, compact_nodes=False)
+    return np.asarray(tree.query_ball_point(lines[some].reshape(-1, 3), near, return_length=True).reshape(-1, 2) > 2)
 
 
 def some_of(lines: Floats, samples: int, random: np.random.Generator) -> tuple[Ints, Floats]:

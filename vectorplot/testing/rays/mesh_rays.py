@@ -11,11 +11,11 @@ from functools import cached_property
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.vectors import norm
+from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.scene.scene import Scene
 from vectorplot.testing.rays.triangles import triangulated
 from vectorplot.tolerances.of_angles import PARALLEL_SINE
@@ -132,11 +132,8 @@ def near_pairs(rays: Rays, solids: Solids) -> Iterator[tuple[Ints, Ints]]:
     cluster_centre, cluster_radius = (low + high) / 2.0, norm(high - low) / 2.0
     step = max(1, CHUNK // len(starts))
     for begin in range(0, len(rays.length), step):
-        block = np.arange(begin, min(begin + step, len(rays.length)))
-        ray, cluster = np.divmod(np.arange(len(block) * len(starts)), len(starts))
-        ray = block[ray]
-        kept = near(rays, ray, cluster_centre[cluster], cluster_radius[cluster])
-        ray, cluster = ray[kept], cluster[kept]
+        ray, cluster = np.nonzero(near_each(rays, slice(begin, begin + step), cluster_centre, cluster_radius))
+        ray += begin
         for part in range(0, len(ray), CHUNK // CLUSTER):
             some = slice(part, part + CHUNK // CLUSTER)
             count = sizes[cluster[some]]
@@ -150,10 +147,29 @@ def near_pairs(rays: Rays, solids: Solids) -> Iterator[tuple[Ints, Ints]]:
 def near(rays: Rays, ray: Ints, centre: Floats, radius: Floats) -> Ints:
     """Indices of the pairs whose ray comes nearer to the sphere than REACH_OF_CLEARANCE."""
     arm = centre - rays.origin[ray]
-    along = np.einsum("ij,ij->i", arm, rays.direction[ray])
+    along = dot(arm, rays.direction[ray])
     foot = np.clip(along, 0.0, rays.length[ray])
-    square = np.einsum("ij,ij->i", arm, arm) - foot * (2.0 * along - foot)
+    square = dot(arm, arm) - foot * (2.0 * along - foot)
     return np.flatnonzero(square <= (radius + 2.0 * REACH_OF_CLEARANCE) ** 2)
+
+
+def near_each(rays: Rays, some: slice, centre: Floats, radius: Floats) -> Bools:
+    """(r,m) whether each of some rays comes nearer to each sphere than REACH_OF_CLEARANCE."""
+    origin, direction = rays.origin[some], rays.direction[some]
+    # Products of matrices instead of differences: within the unit cube, rounding is far below the reach.
+    along = direction @ centre.T - dot(direction, origin)[:, None]
+    square = dot(centre, centre) - 2.0 * (origin @ centre.T) + dot(origin, origin)[:, None]
+    foot = np.clip(along, 0.0, rays.length[some, None])
+    return np.asarray(square - foot * (2.0 * along - foot) <= (radius + 2.0 * REACH_OF_CLEARANCE) ** 2)
+
+
+def near_any(rays: Rays, centre: Floats, radius: Floats) -> Bools:
+    """(m,) whether some ray comes nearer to a sphere than REACH_OF_CLEARANCE."""
+    found = np.zeros(len(radius), dtype=np.bool_)
+    step = max(1, CHUNK // max(len(radius), 1))
+    for begin in range(0, len(rays.length), step):
+        found |= near_each(rays, slice(begin, begin + step), centre, radius).any(axis=0)
+    return found
 
 
 def hits(rays: Rays, triangles: Solids, item_count: int) -> tuple[Ints, Floats]:
@@ -180,14 +196,14 @@ def hits(rays: Rays, triangles: Solids, item_count: int) -> tuple[Ints, Floats]:
 def meeting(origin: Floats, direction: Floats, a: Floats, b: Floats, c: Floats) -> Floats:
     """Signed distances along the lines to the closed triangles; NaN where they do not meet or are parallel."""
     u, v = b - a, c - a
-    normal = np.cross(u, v)
+    normal = cross(u, v)
     length = norm(normal)
     slope = np.einsum("ij,ij->i", normal, direction)
     crossing = np.abs(slope) > PARALLEL_SINE * length
     safe = np.where(crossing, slope, 1.0)
     arm = origin - a
     along = -np.einsum("ij,ij->i", normal, arm) / safe
-    turned = np.cross(direction, arm)
+    turned = cross(direction, arm)
     # Barycentric coordinates of the meeting point, from the volumes that the line spans with the edges.
     second = np.einsum("ij,ij->i", v, turned) / safe
     third = -np.einsum("ij,ij->i", u, turned) / safe
@@ -197,12 +213,12 @@ def meeting(origin: Floats, direction: Floats, a: Floats, b: Floats, c: Floats) 
 
 def distance_to_triangle(point: Floats, a: Floats, b: Floats, c: Floats) -> Floats:
     """Distances of points from triangles, pair by pair."""
-    normal = np.cross(b - a, c - a)
+    normal = cross(b - a, c - a)
     length = norm(normal)
     height = np.einsum("ij,ij->i", normal, point - a) / np.where(length > 0.0, length, 1.0)
     above = np.ones(len(point), dtype=np.bool_)
     for start, end in ((a, b), (b, c), (c, a)):
-        above &= np.einsum("ij,ij->i", np.cross(end - start, point - start), normal) >= 0.0
+        above &= np.einsum("ij,ij->i", cross(end - start, point - start), normal) >= 0.0
     border = np.minimum(distance_to_segment(point, a, b), distance_to_segment(point, b, c))
     border = np.minimum(border, distance_to_segment(point, c, a))
     return np.where(above & (length > 0.0), np.abs(height), border)
@@ -239,13 +255,13 @@ def edge_distances(rays: Rays, edges: Solids, own: Floats | None = None, off: Fl
 def distance_of_segments(a: Floats, b: Floats, c: Floats, d: Floats) -> Floats:
     """Distances of the segments ab from the segments cd, pair by pair."""
     u, v, w = b - a, d - c, c - a
-    normal = np.cross(u, v)
+    normal = cross(u, v)
     square = np.einsum("ij,ij->i", normal, normal)
     bound = np.einsum("ij,ij->i", u, u) * np.einsum("ij,ij->i", v, v)
     askew = square > PARALLEL_SINE**2 * bound
     safe = np.where(askew, square, 1.0)
-    s = np.einsum("ij,ij->i", np.cross(w, v), normal) / safe
-    t = np.einsum("ij,ij->i", np.cross(w, u), normal) / safe
+    s = np.einsum("ij,ij->i", cross(w, v), normal) / safe
+    t = np.einsum("ij,ij->i", cross(w, u), normal) / safe
     crossing = askew & (s >= 0.0) & (s <= 1.0) & (t >= 0.0) & (t <= 1.0)
     inner = np.abs(np.einsum("ij,ij->i", w, normal)) / np.sqrt(safe)
     ends = np.minimum(distance_to_segment(a, c, d), distance_to_segment(b, c, d))

@@ -1,22 +1,23 @@
 """Which points a parametrised surface hides, by rays against a fine net of triangles, every hit refined on the surface.
 
 The net only decides which sheets a ray meets. That is right wherever the ray keeps clear of the images of contour and
-borders by more than the net's error, and the clearance says whether it does.
+borders by more than the net's error, and the clearance says whether it does. Where no ray comes by there is no net.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry.vectors import dot, norm
+from vectorplot.geometry import ragged
+from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Surface, is_hole
-from vectorplot.testing.rays.mesh_rays import Rays, edge_distances, meeting, near_pairs, near_together
+from vectorplot.testing.rays.mesh_rays import Rays, Solids, edge_distances, meeting, near_any, near_pairs, near_together
 from vectorplot.testing.rays.nearest import inside, nearest_places
 from vectorplot.tolerances.of_angles import ON_CONTOUR_SINE
 from vectorplot.tolerances.of_extent import NET_ERROR, ON_SURFACE, OWN_HIT, REACH_OF_CLEARANCE, SAME_HIT, ZERO_OF_EXTENT
@@ -24,6 +25,8 @@ from vectorplot.tolerances.of_parameters import ON_BORDER_OF_DOMAIN, ROUNDING_OF
 
 MOST_CELLS = 120_000
 FIRST_CELLS = 64
+BLOCK = 8
+"""So many cells of the net along each parameter are kept or left out together."""
 
 STEEP = 0.1
 """Sine of an angle with the tangent plane above which a ray does not meet the surface next to its contour."""
@@ -54,13 +57,16 @@ class Feet(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Net:
-    """A surface in unit coordinates, (x - middle) / size, on a grid of parameters u (n,), v (m,)."""
+    """A surface in unit coordinates, (x - middle) / size, on a grid of parameters u (n,), v (m,): those of its cells
+    that are named by the indices column (c,) and row (c,) of their first corners; None: all."""
 
     surface: Surface
     middle: Floats
     size: float
     u: Floats
     v: Floats
+    column: Ints | None = None
+    row: Ints | None = None
 
     def at(self, u: Floats, v: Floats) -> Floats:
         """(..., 3) points."""
@@ -68,25 +74,25 @@ class Net:
 
     @cached_property
     def parameters(self) -> Floats:
-        """(n m, 2) u and v of the grid's points."""
-        return np.stack([x.ravel() for x in np.meshgrid(self.u, self.v, indexing="ij")], axis=1)
+        """(p,2) u and v of the grid's points that are corners of cells."""
+        column, row = np.divmod(self._grid_points, len(self.v))
+        return np.stack([self.u[column], self.v[row]], axis=1)
 
     @cached_property
     def points(self) -> Floats:
-        """(n m, 3) grid points; NaN in holes."""
+        """(p,3) grid points; NaN in holes."""
         return self.at(*self.parameters.T)
 
     @cached_property
     def triangles(self) -> Ints:
-        """(t,3) indices of grid points; none with a corner in a hole."""
-        a, b, c, d = self._cells.T
-        found = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+        """(t,3) indices of grid points, cell after cell; none with a corner in a hole."""
+        found = self._cells[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
         hole = is_hole(self.points)
         return np.asarray(found[~hole[found].any(axis=1)] if hole.any() else found)
 
     @cached_property
     def errors(self) -> Floats:
-        """(n m,) how far the surface is from the middles of the diagonals of the cells around a grid point, at most."""
+        """(p,) how far the surface is from the middles of the diagonals of the cells around a grid point, at most."""
         a, _, c, _ = self._cells.T
         middles = self.at(*(0.5 * (self.parameters[a] + self.parameters[c])).T)
         off = norm(middles - 0.5 * (self.points[a] + self.points[c]))
@@ -105,12 +111,12 @@ class Net:
     def borders(self) -> tuple[Floats, Floats]:
         """(b,2,3) segments of the borders of domain and holes, none at poles and where the domain closes; and (b,) how
         far they may be off."""
-        domain, n, m = self.surface.domain, len(self.u), len(self.v)
-        index = np.arange(n * m).reshape(n, m)
-        sides = [] if domain.closed_u else [index[0], index[-1]]
-        sides += [] if domain.closed_v else [index[:, 0], index[:, -1]]
-        ends = [np.zeros((0, 2), dtype=np.intp), *(np.stack([s[:-1], s[1:]], axis=1) for s in sides)]
+        domain = self.surface.domain
+        column, row = self._first_corners
         a, b, c, d = self._cells.T
+        sides = [] if domain.closed_u else [(a, d, column == 0), (b, c, column == len(self.u) - 2)]
+        sides += [] if domain.closed_v else [(a, b, row == 0), (d, c, row == len(self.v) - 2)]
+        ends = [np.zeros((0, 2), dtype=np.intp), *(np.stack([p, q], axis=1)[last] for p, q, last in sides)]
         hole = is_hole(self.points)
         mixed = hole[self._cells].any(axis=1)
         ends += [np.stack(pair, axis=1)[mixed] for pair in ((a, b), (b, c), (c, d), (d, a), (a, c), (b, d))]
@@ -145,14 +151,37 @@ class Net:
         return np.concatenate([np.stack(found, axis=1).reshape(-1, 2, 3), every]), errors
 
     @cached_property
-    def _cells(self) -> Ints:
-        n, m = len(self.u), len(self.v)
-        first = (np.arange(n - 1)[:, None] * m + np.arange(m - 1)).ravel()
+    def _first_corners(self) -> tuple[Ints, Ints]:
+        """The columns and rows (c,) of the cells."""
+        if self.column is not None and self.row is not None:
+            return self.column, self.row
+        column, row = np.divmod(np.arange((len(self.u) - 1) * (len(self.v) - 1)), len(self.v) - 1)
+        return column, row
+
+    @cached_property
+    def _corners(self) -> Ints:
+        """(c,4) the corners of the cells, counted on the whole grid."""
+        column, row = self._first_corners
+        first, m = column * len(self.v) + row, len(self.v)
         return np.stack([first, first + m, first + m + 1, first + 1], axis=1)
 
+    @cached_property
+    def _grid_points(self) -> Ints:
+        """(p,) which points of the whole grid are corners of cells."""
+        used = np.zeros(len(self.u) * len(self.v), dtype=np.bool_)
+        used[self._corners] = True
+        return np.flatnonzero(used)
 
-def fine_net(surface: Surface, middle: Floats, size: float) -> Net:
-    """The net of a surface that is as near to it as MOST_CELLS allow, finer where it bends more."""
+    @cached_property
+    def _cells(self) -> Ints:
+        """(c,4) indices of points."""
+        place = np.zeros(len(self.u) * len(self.v), dtype=np.intp)
+        place[self._grid_points] = np.arange(len(self._grid_points))
+        return np.asarray(place[self._corners])
+
+
+def fine_net(surface: Surface, middle: Floats, size: float, rays: Rays) -> Net:
+    """The net of a surface that is as near to it as MOST_CELLS allow, finer where it bends more, around the rays."""
     first = Net(surface, middle, size, *surface.domain.grid(FIRST_CELLS, FIRST_CELLS))
     p = first.points.reshape(FIRST_CELLS + 1, FIRST_CELLS + 1, 3)
     bends = [
@@ -167,7 +196,39 @@ def fine_net(surface: Surface, middle: Floats, size: float) -> Net:
         sag = np.maximum(np.append(sag, 0.0), np.append(0.0, sag)) + np.nanmax(twist, axis=1 - axis, initial=0.0)
         needs.append(np.clip(np.sqrt(sag / 8.0 / NET_ERROR), 1.0, MOST_CELLS / FIRST_CELLS**2))
     share = min(1.0, float(np.sqrt(MOST_CELLS / (needs[0].sum() * needs[1].sum()))))
-    return Net(surface, middle, size, _spread(first.u, share * needs[0]), _spread(first.v, share * needs[1]))
+    whole = Net(surface, middle, size, _spread(first.u, share * needs[0]), _spread(first.v, share * needs[1]))
+    return replace(whole, **_cells_around(whole, rays))
+
+
+def _cells_around(net: Net, rays: Rays) -> dict[str, Ints]:
+    """The columns and rows of the cells in blocks that a ray comes near to."""
+    starts, sizes, samples = zip(*(_blocks(t) for t in (net.u, net.v)), strict=True)
+    p = net.at(*(a.ravel() for a in np.meshgrid(*samples, indexing="ij"))).reshape(*map(len, samples), 3)
+    # Of each block the corners, the middles of the sides and the middle: nine points.
+    nine = np.stack([p[i : p.shape[0] - 2 + i : 2, j : p.shape[1] - 2 + j : 2] for i in range(3) for j in range(3)])
+    nine = nine.reshape(9, -1, 3)
+    centre = nine.mean(axis=0)
+    lines = [(0, 1, 2), (3, 4, 5), (6, 7, 8), (0, 3, 6), (1, 4, 7), (2, 5, 8), (0, 4, 8), (2, 4, 6)]
+    # What a block may stick out of its nine points, many times over.
+    bend = np.max([norm(nine[a] + nine[c] - 2.0 * nine[b]) for a, b, c in lines], axis=0)
+    radius = norm(nine - centre).max(axis=0) + bend
+    kept = near_any(rays, np.nan_to_num(centre), np.where(np.isnan(radius), np.inf, radius))
+    first, second = np.divmod(np.flatnonzero(kept), len(starts[1]))
+    across, along = sizes[0][first], sizes[1][second]
+    inner = ragged.place(across * along)
+    block = np.repeat(np.arange(len(first)), across * along)
+    column, row = np.divmod(inner, along[block])
+    return {"column": starts[0][first[block]] + column, "row": starts[1][second[block]] + row}
+
+
+def _blocks(t: Floats) -> tuple[Ints, Ints, Floats]:
+    """The first cells (b,) and numbers of cells (b,) of the blocks along one parameter t (n,), and the parameters
+    (2b+1,) of their ends and middles."""
+    starts = np.arange(0, len(t) - 1, BLOCK)
+    ends = np.append(starts, len(t) - 1)
+    at = np.empty(2 * len(starts) + 1)
+    at[::2], at[1::2] = t[ends], 0.5 * (t[ends[:-1]] + t[ends[1:]])
+    return starts, np.diff(ends), at
 
 
 def _spread(t: Floats, density: Floats) -> Floats:
@@ -178,7 +239,7 @@ def _spread(t: Floats, density: Floats) -> Floats:
 
 def surface_hides(surface: Surface, eye: Floats | None, rays: Rays, middle: Floats, size: float) -> Hiding:
     """Which points a parametrised surface hides; eye (3,) in unit coordinates, None for parallel rays."""
-    net = fine_net(surface, middle, size)
+    net = fine_net(surface, middle, size, rays)
     feet = feet_on(net, rays)
     hidden, clearance = _hits(net, rays, feet)
     direction = rays.direction[0] if len(rays.direction) else np.array([0.0, 0.0, 1.0])
@@ -193,7 +254,8 @@ def _hits(net: Net, rays: Rays, feet: Feet) -> tuple[Bools, Floats]:
     """Whether each ray meets the surface, and the distance from its point to the nearest sheet on its line."""
     hidden, clearance = np.zeros(len(rays.length), dtype=np.bool_), np.full(len(rays.length), REACH_OF_CLEARANCE)
     corners = net.triangles
-    solids = near_together(net.points[corners], np.arange(len(corners)))
+    # The cells come block by block, so their triangles lie near together.
+    solids = Solids(net.points[corners], np.arange(len(corners)))
     # A ray that touches the surface meets the net, which is a little beside it, well away from its point.
     own = np.where(feet.on_contour, AROUND, np.where(feet.on_surface, OWN_HIT, ZERO_OF_EXTENT))
     for ray, index in near_pairs(rays, solids):
@@ -224,15 +286,13 @@ def _refined(net: Net, rays: Rays, ray: Ints, along: Floats, start: Floats) -> t
     at, t = start.copy(), along.copy()
     for _ in range(NEWTON_STEPS):
         by_u, by_v = (by / net.size for by in net.surface.partials(at[:, 0], at[:, 1]))
-        normal = np.cross(by_u, by_v)
+        normal = cross(by_u, by_v)
         rest = origin + t[:, None] * direction - net.at(at[:, 0], at[:, 1])
         slope, square = (normal * direction).sum(axis=1), (normal * normal).sum(axis=1)
         with np.errstate(divide="ignore", invalid="ignore"):
             forward = -(normal * rest).sum(axis=1) / slope
             rest = rest + forward[:, None] * direction
-            step = np.stack(
-                [(np.cross(rest, by_v) * normal).sum(axis=1), (np.cross(by_u, rest) * normal).sum(axis=1)], 1
-            )
+            step = np.stack([(cross(rest, by_v) * normal).sum(axis=1), (cross(by_u, rest) * normal).sum(axis=1)], 1)
             at, t = at + step / square[:, None], t + forward
     rest = origin + t[:, None] * direction - net.at(at[:, 0], at[:, 1])
     good = (norm(rest) < ZERO_OF_EXTENT) & (np.abs(t - along) < max(8.0 * net.longest, OWN_HIT))
@@ -252,6 +312,8 @@ def feet_on(net: Net, rays: Rays) -> Feet:
 
     on_surface, on_contour, on_border, unsure = (np.zeros(len(rays.length), dtype=np.bool_) for _ in range(4))
     there = ~is_hole(net.points)
+    if not there.any():
+        return Feet(on_surface, on_contour, on_border, unsure)
     tree = cKDTree(net.points[there], balanced_tree=False, compact_nodes=False)
     distance, _ = tree.query(rays.origin)
     near = np.flatnonzero(distance <= 2.0 * net.longest + ZERO_OF_EXTENT)
@@ -281,12 +343,12 @@ def bending(net: Net, u: Floats, v: Floats, direction: Floats) -> tuple[Floats, 
     """Sine (n,) of the angle between directions and tangent planes, and second form (n,) of the directions' tangential
     parts, in unit coordinates; NaN at poles."""
     by_u, by_v = (by / net.size for by in net.surface.partials(u, v))
-    normal = np.cross(by_u, by_v)
+    normal = cross(by_u, by_v)
     with np.errstate(divide="ignore", invalid="ignore"):
         square = (normal * normal).sum(axis=1)
         unit = normal / np.sqrt(square)[:, None]
-        a = (np.cross(direction, by_v) * normal).sum(axis=1) / square
-        b = (np.cross(by_u, direction) * normal).sum(axis=1) / square
+        a = (cross(direction, by_v) * normal).sum(axis=1) / square
+        b = (cross(by_u, direction) * normal).sum(axis=1) / square
     uu, uv, vv = ((by / net.size * unit).sum(axis=1) for by in net.surface.second_partials(u, v))
     return (unit * direction).sum(axis=1), a * a * uu + 2.0 * a * b * uv + b * b * vv
 
