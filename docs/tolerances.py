@@ -8,6 +8,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -27,7 +28,8 @@ class Tolerance:
 
 def tolerances(path: Path) -> Iterator[Tolerance]:
     """The tolerances of one file of the table, in its order; reason is empty where none is given."""
-    body = ast.parse(path.read_text(encoding="utf-8")).body
+    text = path.read_text(encoding="utf-8")
+    body, lines = ast.parse(text).body, text.splitlines()
     for node, after in zip(body, [*body[1:], None], strict=True):
         if not isinstance(node, ast.Assign):
             continue
@@ -39,9 +41,11 @@ def tolerances(path: Path) -> Iterator[Tolerance]:
         else:
             pairs = iter([(target, node.value)])
         for name, value in pairs:
-            yield Tolerance(ast.unparse(name), ast.get_source_segment(path.read_text(encoding="utf-8"), value), reason)
+            written = lines[value.lineno - 1].encode()[value.col_offset : value.end_col_offset].decode()
+            yield Tolerance(ast.unparse(name), written, reason)
 
 
+@cache
 def uses() -> dict[str, list[str]]:
     """The files of the package that import each name of the table."""
     found: dict[str, list[str]] = {}

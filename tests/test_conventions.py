@@ -11,6 +11,7 @@ import warnings
 from pathlib import Path
 
 import pytest
+from support.sources import nodes_of, tree_of
 
 import vectorplot
 from vectorplot.cli.main import run
@@ -21,7 +22,7 @@ PACKAGE = Path(vectorplot.__file__).parent
 
 def trees():
     for path in PACKAGE.rglob("*.py"):
-        yield path.relative_to(PACKAGE), ast.parse(path.read_text(encoding="utf-8"))
+        yield path.relative_to(PACKAGE), tree_of(path)
 
 
 @pytest.mark.slow
@@ -29,7 +30,7 @@ def trees():
 def test_nobody_writes_pi_or_infinity_down_again():
     wrong = []
     for path, tree in trees():
-        for node in ast.walk(tree):
+        for node in nodes_of(tree):
             if isinstance(node, ast.Constant) and isinstance(node.value, int | float) and node.value is not True:
                 value = float(node.value)
                 pi = any(abs(value - times * math.pi) < 1e-3 for times in (0.25, 0.5, 1.0, 2.0))
@@ -93,7 +94,7 @@ def test_only_the_command_prints():
     for path, tree in trees():
         if path.parts[0] == "cli":
             continue
-        calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call) and isinstance(n.func, ast.Name)]
+        calls = [n for n in nodes_of(tree) if isinstance(n, ast.Call) and isinstance(n.func, ast.Name)]
         assert "print" not in {n.func.id for n in calls}, path
 
 

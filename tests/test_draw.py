@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.drawn import drawn
+from support.hard_shapes import HARD_SHAPES
 from support.paths import DATA, MODELS
 
 from vectorplot.draw import default_camera, draw
@@ -20,7 +21,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.read_file import read
 from vectorplot.plan import StageReport
 from vectorplot.scene.scene import Item, Page, Pattern, Scene
-from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, edge_points, hard_shapes
+from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, edge_points
 from vectorplot.testing.shapes import box, rotated_boxes
 from vectorplot.words import LineKind
 
@@ -96,7 +97,7 @@ def test_a_scene_that_reaches_behind_the_eye_shows_the_field_of_vision() -> None
 @pytest.mark.parametrize("name", ["rotated boxes", "hollow tube", "interpenetrating boxes", "L-shaped prisms"])
 @pytest.mark.parametrize("hidden", ["none", "solid"])
 def test_every_stroke_is_as_visible_as_it_says(name: str, hidden: str) -> None:
-    scene = hard_shapes()[name]
+    scene = HARD_SHAPES[name]
     camera = default_camera(scene)
     drawing = draw(scene, camera, hidden=hidden)
     points, _ = edge_points(scene, 200)

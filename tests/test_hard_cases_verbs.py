@@ -333,7 +333,8 @@ def loops(points: list[Floats]) -> list[Floats]:
 @pytest.mark.parametrize("verb", ["draw", "paint"])
 @pytest.mark.parametrize(("rings", "sectors"), [(4, 5), (9, 12), (24, 40), (60, 90)])
 def test_the_contour_of_a_ball_of_faces_is_one_convex_loop_from_everywhere(verb: str, rings: int, sectors: int) -> None:
-    for seed in range(3):
+    # Each seed is another ball; of those with many faces one has places enough to go wrong.
+    for seed in range(3 if rings < 60 else 1):
         scene = vp.Scene((vp.Item("BALL", faceted_sphere(rings, sectors, seed)),))
         for camera in cameras(scene):
             made = getattr(vp, verb)(scene, camera, lines=("contour",))

@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from support.sources import tree_of
+from support.sources import nodes_of, tree_of
 
 import vectorplot
 from vectorplot.save import _BACKENDS
@@ -50,7 +50,7 @@ def room(parts: tuple[str, ...]) -> str:
 def imported_modules(tree: ast.AST, package: tuple[str, ...]) -> set[tuple[str, ...]]:
     """The modules of vectorplot a file imports, at the top or inside a function."""
     found: set[tuple[str, ...]] = set()
-    for node in ast.walk(tree):
+    for node in nodes_of(tree):
         if isinstance(node, ast.Import):
             found |= {tuple(alias.name.split(".")) for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
@@ -143,7 +143,7 @@ def test_no_file_takes_what_another_keeps_to_itself():
     """Names with an underscore in front are a file's own."""
     taken = []
     for file in FILES:
-        for node in ast.walk(tree_of(PACKAGE / file)):
+        for node in nodes_of(tree_of(PACKAGE / file)):
             if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("vectorplot"):
                 taken += [
                     f"{file}: {alias.name}"

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.hard_shapes import HARD_SHAPES
 from support.strewn import STREWN
 from support.top_fills import assert_same_picture, blended, colours_at, covering, fills_of, top_at
 
@@ -22,7 +23,6 @@ from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.testing.shapes import (
     box,
     cyclic_bars,
-    hard_shapes,
     hollow_bodies,
     interpenetrating_boxes,
     numbered,
@@ -161,10 +161,10 @@ def test_an_empty_scene_is_an_empty_page(scene: Scene) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", sorted(hard_shapes()))
+@pytest.mark.parametrize("name", sorted(HARD_SHAPES))
 @pytest.mark.parametrize("lights", [(), (SUN, LAMP)], ids=["dark", "lit"])
 def test_hard_shapes_are_painted_with_finite_numbers(name: str, lights: tuple[Light, ...]) -> None:
-    scene = replace(hard_shapes()[name], lights=lights)
+    scene = replace(HARD_SHAPES[name], lights=lights)
     for camera in (None, Camera.view("top", (0.0, 0.0, 0.0), 9.0), Camera((0.1, 0.2, 0.3), (3.0, 1.0, 0.5))):
         fills = fills_of(paint(scene, camera, fit=camera is None))
         assert np.isfinite(fills.points).all() and np.isfinite(fills.points3d).all()

@@ -37,7 +37,7 @@ FAMILIES = {
 }
 """Random scenes without faces in one place, of which rays of single precision would find either."""
 
-SEEDS, SEEDS_OF_MIRRORS = several(5, long=64), several(4, long=32)
+SEEDS, SEEDS_OF_MIRRORS = several(4, long=64), several(4, long=32)
 """Each picture is ten thousand comparisons: a handful of scenes, with none to three lights, shows what is wrong."""
 
 

@@ -19,7 +19,7 @@ from vectorplot.curves.circle import Circle
 from vectorplot.draw import default_camera
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.plan import chosen_shadows, plan_render
+from vectorplot.plan import StageReport, chosen_shadows, plan_render
 from vectorplot.render import render
 from vectorplot.save import write
 from vectorplot.shading.light.illumination import AMBIENT, DARK_SIDE, DIRECT_SHARE, FINISHES
@@ -31,7 +31,9 @@ from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing.shapes import box
 
 SUN = vp.Light((-1.0, -2.0, 2.5), parallel=True, intensity=1.0)
-SIZE = (240, 180)
+SIZE = (160, 120)
+FINE = (240, 180)
+"""For borders of shadows."""
 
 
 def sphere(colour="gray", word="normal", radius=1.0):
@@ -189,9 +191,9 @@ def test_the_shadow_of_a_ball_is_where_geometry_puts_it(shadows, light):
     camera = vp.Camera((2.0, -9.0, 8.0), (0, 0, -1), fov_deg=35.0)
     scene = floor_scene((light,))
     with_, without = (
-        levels(render(scene, camera, size=SIZE, fit=False, shadows=how, shadow_size=1024)) for how in (shadows, "none")
+        levels(render(scene, camera, size=FINE, fit=False, shadows=how, shadow_size=1024)) for how in (shadows, "none")
     )
-    place, floor = floor_places(camera, SIZE)
+    place, floor = floor_places(camera, FINE)
     miss = off_the_ball(place, light)
     dark, lit = floor & (miss < 0.95), floor & (miss > 1.05)
     assert dark.sum() > 300
@@ -206,9 +208,9 @@ def test_shades_fall_with_the_number_of_lights_that_are_blocked(shadows):
         vp.Light((2.0 * np.cos(a), 2.0 * np.sin(a), 3.0), parallel=True, intensity=0.3) for a in (0.3, 1.0, 1.7)
     )
     camera = vp.Camera((0.0, -9.0, 9.0), (0, 0, -1), fov_deg=35.0)
-    options = {"size": SIZE, "fit": False, "samples": 1, "shadow_size": 1024}
+    options = {"size": FINE, "fit": False, "samples": 1, "shadow_size": 1024}
     shaded, lit = (levels(render(floor_scene(lights), camera, shadows=how, **options)) for how in (shadows, "none"))
-    place, floor = floor_places(camera, SIZE)
+    place, floor = floor_places(camera, FINE)
     miss = np.array([off_the_ball(place, light) for light in lights])
     sure, blocked = floor & (np.abs(miss - 1.0) > 0.06).all(axis=0), (miss < 1.0).sum(axis=0)
     share = [(shaded / np.maximum(lit, 1.0))[sure & (blocked == count)] for count in range(4)]
@@ -334,12 +336,12 @@ def test_glass_is_a_veil_before_what_is_behind_it():
     ]
     camera = vp.Camera((0, -12, 0), (0, 0, 0), fov_deg=20.0)
     light = vp.Light((0, -1, 0), parallel=True, intensity=1.0)
-    veiled = levels(render(vp.Scene((back, *panes), (light,)), camera, size=SIZE, fit=False, shadows="none"))
+    veiled = levels(render(vp.Scene((back, *panes), (light,)), camera, size=FINE, fit=False, shadows="none"))
     middle, rim = (90, 120), (90, 60)
     # Two panes halve the light twice: closed bodies are seen from outside only.
     assert veiled[rim] > 200.0
     assert veiled[middle] == pytest.approx(veiled[rim] / 4.0, abs=2.0)
-    turned = levels(render(vp.Scene((*panes[::-1], back), (light,)), camera, size=SIZE, fit=False, shadows="none"))
+    turned = levels(render(vp.Scene((*panes[::-1], back), (light,)), camera, size=FINE, fit=False, shadows="none"))
     assert np.abs(turned - veiled).max() <= 1.0, "whatever their order"
 
 
@@ -465,6 +467,10 @@ def test_smooth_surfaces_show_no_facets():
     assert np.quantile(across[inner[:, 1:-2]], 0.99) < 8.0
 
 
+class EnoughIsKnown(Exception):
+    """The rest of a picture need not be rendered."""
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("camera", [vp.Camera((0, -12, 9), fov_deg=170), vp.Camera((0, -1200, 900))])
 def test_triangles_are_small_in_fitted_pictures_from_afar_too(camera):
@@ -472,7 +478,14 @@ def test_triangles_are_small_in_fitted_pictures_from_afar_too(camera):
     for eye in (vp.Camera((0, -12, 9), fov_deg=30), camera):
         scene = vp.Scene((vp.Item("RING", Torus(3.0, 1.2), "gray"),), (SUN,))
         stages = {}
-        render(scene, eye, size=(400, 300), explain=lambda r, s=stages: s.setdefault(r.name, r.count))
+
+        def told(report: StageReport, found: dict[str, int] = stages) -> None:
+            found[report.name] = report.count
+            if report.name == "look":
+                raise EnoughIsKnown
+
+        with pytest.raises(EnoughIsKnown):
+            render(scene, eye, size=(400, 300), explain=told)
         counts.append(stages["look"])
     assert counts[1] > 0.7 * counts[0]
 
@@ -484,7 +497,7 @@ def test_meshes_look_round_up_to_the_crease_angle():
     scene = vp.Scene((vp.Item("RING", torus_mesh(36, 18), "gray"),), (SUN,))
     camera = default_camera(scene)
     round_, flat = (
-        levels(render(scene, camera, size=(480, 360), crease_angle_deg=angle, background="gray"))
+        levels(render(scene, camera, size=(240, 180), crease_angle_deg=angle, background="gray"))
         for angle in (30.0, 0.0)
     )
     # Within a flat face nothing changes, from face to face much does; a round one changes a little everywhere.

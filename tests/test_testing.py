@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.hard_shapes import HARD_SHAPES
 from support.triangle_rays import TriangleRays
 
 from vectorplot.draw import draw
@@ -17,7 +18,6 @@ from vectorplot.testing import (
     assert_drawing_is_right,
     assert_drawings_equal,
     edge_points,
-    hard_shapes,
     visible_by_rays,
 )
 from vectorplot.testing.curved_meshes import bumpy_icosphere, grid_graph, torus_mesh
@@ -184,15 +184,15 @@ def test_clearance_is_the_distance_to_the_edge_that_hides():
 
 
 def test_a_face_seen_edge_on_hides_nothing():
-    plate = hard_shapes()["edge-on plate"]
+    plate = HARD_SHAPES["edge-on plate"]
     sight = visible_by_rays(plate, Camera((-10.0, 0.0, 0.0), (0.0, 0.0, 0.0)), [(0.5, 0.0, 0.1), (0.5, 0.0, 0.2)])
     assert sight.hidden_by.tolist() == [0, 0]
 
 
-@pytest.mark.parametrize("name", sorted(hard_shapes()))
+@pytest.mark.parametrize("name", sorted(HARD_SHAPES))
 def test_every_family_is_seen_alike_by_embree(name):
     """Single precision is enough for points that keep their distance."""
-    scene = hard_shapes()[name]
+    scene = HARD_SHAPES[name]
     middle = scene.bounds.mean(axis=0)
     eye = middle + np.array([1.3, -2.1, 1.7]) * (scene.bounds[1] - scene.bounds[0]).max()
     random = np.random.default_rng(1)
@@ -227,9 +227,9 @@ def test_clusters_of_a_large_mesh_change_nothing():
         assert clearance < 1e-6 or bool(hidden) == bool(hit.any())
 
 
-@pytest.mark.parametrize("name", sorted(hard_shapes()))
+@pytest.mark.parametrize("name", sorted(HARD_SHAPES))
 def test_every_family_is_sound(name):
-    scene = hard_shapes()[name]
+    scene = HARD_SHAPES[name]
     for item in scene.items:
         assert item.shape.face_count > 0
         assert (np.linalg.norm(item.shape.area_vectors, axis=1) > 0.0).all()
@@ -252,7 +252,7 @@ def test_closed_families_are_closed_and_turned_outwards():
     assert volume(box((0, 0, 0), (1, 2, 3))) == pytest.approx(6.0)
     assert volume(torus_mesh(96, 48)) == pytest.approx(2.0 * np.pi**2 * 2.0 * 0.8**2, rel=0.01)
     assert volume(bumpy_icosphere(4, bump=0.0)) == pytest.approx(4.0 / 3.0 * np.pi, rel=0.01)
-    ell = hard_shapes()["L-shaped prisms"].items[0].shape
+    ell = HARD_SHAPES["L-shaped prisms"].items[0].shape
     assert volume(ell) == pytest.approx(3.0)
     for mesh in (torus_mesh(), bumpy_icosphere(3), ell, box((0, 0, 0), (1, 1, 1))):
         assert (edge_counts(mesh) == 2).all()
@@ -262,7 +262,7 @@ def test_closed_families_are_closed_and_turned_outwards():
 
 
 def test_a_moebius_strip_has_one_border():
-    strip = hard_shapes()["Moebius strip"].items[0].shape
+    strip = HARD_SHAPES["Moebius strip"].items[0].shape
     pairs = np.sort(np.stack([strip.corners, strip.corners[strip.next_corner]], axis=1), axis=1)
     edges, count = np.unique(pairs, axis=0, return_counts=True)
     border = edges[count == 1]
@@ -311,9 +311,9 @@ def test_a_visible_line_that_is_left_out_is_found():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("parallel", [False, True])
-@pytest.mark.parametrize("name", sorted(hard_shapes()))
+@pytest.mark.parametrize("name", sorted(HARD_SHAPES))
 def test_every_family_is_drawn_as_rays_see_it(name, parallel):
-    scene = hard_shapes()[name]
+    scene = HARD_SHAPES[name]
     middle = scene.bounds.mean(axis=0)
     eye = middle + np.array([1.0, -2.0, 1.2]) * (scene.bounds[1] - scene.bounds[0]).max()
     camera = Camera(tuple(eye), tuple(middle), parallel=parallel)

@@ -81,7 +81,7 @@ def grid(cells) -> np.ndarray:
 @pytest.mark.parametrize("kind", ["flat", "shaded", "both"])
 @pytest.mark.parametrize("shape", ["fan", "grid"])
 def test_no_seam_between_dark_neighbours_on_white_paper(shape, kind, tmp_path):
-    triangles = fan((30, 20), 60, 97) if shape == "fan" else grid(40)
+    triangles = fan((30, 20), 60, 97) if shape == "fan" else grid(24)
     dark = [(DARK[0] + k % 2, *DARK[1:]) for k in range(len(triangles))]
     bright = [[(10, 10, 10), (30, 10, 25), (25, 40, 10)]] * len(triangles)
     fills = shaded(list(triangles), bright) if kind == "shaded" else flat(list(triangles), dark)

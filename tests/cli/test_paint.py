@@ -30,6 +30,21 @@ PANE blue transparent opacity 0.4 box solid 0.1 1.5 1.5 translation 2.5 -1 0
 """
 
 
+PLAIN = """page 100x80 margin 5
+light SUN direction 3 -4 5 intensity 0.8
+FLOOR lightgray box solid 8 7 0.3 translation -4 -3.5 -0.3
+PANE blue transparent opacity 0.4 box solid 0.1 1.5 1.5 translation 2.5 -1 0
+"""
+
+
+@pytest.fixture
+def plain(tmp_path: Path) -> Path:
+    """A scene for what does not depend on what is painted."""
+    path = tmp_path / "plain.scene"
+    path.write_text(PLAIN, encoding="utf-8")
+    return path
+
+
 @pytest.fixture
 def scene(tmp_path: Path) -> Path:
     path = tmp_path / "some.scene"
@@ -72,23 +87,23 @@ READERS = {
 @pytest.mark.slow
 @pytest.mark.parametrize("word", STARTS)
 def test_every_format_is_written_the_same_to_a_file_and_to_stdout(
-    word: str, scene: Path, capfdbinary: pytest.CaptureFixture[bytes]
+    word: str, plain: Path, capfdbinary: pytest.CaptureFixture[bytes]
 ) -> None:
-    out = scene.parent / f"out.{word}"
-    assert run(["paint", str(scene), "-o", str(out)]) == 0
+    out = plain.parent / f"out.{word}"
+    assert run(["paint", str(plain), "-o", str(out)]) == 0
     content = out.read_bytes()
     assert content.startswith(STARTS[word])
     capfdbinary.readouterr()
-    assert run(["paint", str(scene), "-o", "-", "--format", word]) == 0
+    assert run(["paint", str(plain), "-o", "-", "--format", word]) == 0
     assert capfdbinary.readouterr().out == content
-    assert sorted(path.name for path in scene.parent.iterdir()) == sorted([out.name, scene.name])
+    assert sorted(path.name for path in plain.parent.iterdir()) == sorted([out.name, plain.name])
 
 
 @pytest.mark.slow
-def test_through_a_pipe_come_the_same_bytes_and_no_word(scene: Path) -> None:
-    out = scene.parent / "out.png"
-    assert run(["paint", str(scene), "-o", str(out)]) == 0
-    piped = shell("paint", scene, "-o", "-", "--format", "png")
+def test_through_a_pipe_come_the_same_bytes_and_no_word(plain: Path) -> None:
+    out = plain.parent / "out.png"
+    assert run(["paint", str(plain), "-o", str(out)]) == 0
+    piped = shell("paint", plain, "-o", "-", "--format", "png")
     assert (piped.returncode, piped.stderr) == (0, b"")
     assert piped.stdout == out.read_bytes()
 

@@ -237,8 +237,8 @@ def test_eight_threads_at_once_give_the_same_bytes():
 
     def pictures(name: str) -> list[bytes]:
         scene = vp.read(ROOT / "data" / f"{name}.scene")
-        image = vp.render(scene, size=(80, 60))
-        return [write(vp.draw(scene), "svg"), write(vp.paint(scene, tolerance_mm=0.2), "pdf"), write(image, "png")]
+        image = vp.render(scene, size=(40, 30))
+        return [write(vp.draw(scene), "svg"), write(vp.paint(scene, tolerance_mm=1.0), "pdf"), write(image, "png")]
 
     alone = [pictures(name) for name in names]
     with ThreadPoolExecutor(8) as pool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
+from support.hard_shapes import HARD_SHAPES
 from support.paths import DATA
 from support.strewn import STREWN
 
@@ -13,9 +14,6 @@ from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.fills_without_overlaps import visible_fills
 from vectorplot.geometry.regions import polygons_of
 from vectorplot.paint import paint
-from vectorplot.testing import hard_shapes
-
-SHAPES = hard_shapes()
 
 FLAT = np.array([[1.0, 0, 0, 0], [0, 1.0, 0, 0], [0, 0, 1.0, 0], [0, 0, 0, 1.0]])
 
@@ -87,9 +85,9 @@ def test_strewn_faces_show_the_same_picture(kind: str, seed: int) -> None:
     assert_same_picture(paint(scene, camera_of(scene, seed), smooth=False))
 
 
-@pytest.mark.parametrize("name", SHAPES)
+@pytest.mark.parametrize("name", HARD_SHAPES)
 def test_hard_shapes_show_the_same_picture(name: str) -> None:
-    assert_same_picture(paint(SHAPES[name], camera_of(SHAPES[name], 4), smooth=False))
+    assert_same_picture(paint(HARD_SHAPES[name], camera_of(HARD_SHAPES[name], 4), smooth=False))
 
 
 def camera_of(scene: vp.Scene, seed: int) -> vp.Camera:

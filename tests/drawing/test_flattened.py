@@ -136,7 +136,7 @@ def test_no_light_between_faces_in_the_shadow(height: float, opacity: float) -> 
     material = Material("transparent", opacity) if opacity < 1.0 else Material()
     roof = Item("ROOF", box((-2.2, -2.2, 3.0), (2.2, 2.2, 3.3)), material=material)
     scene = Scene((Item("FLOOR", floor(height)), roof), (Light((0.3, 0.2, 1.0), parallel=True, intensity=1.0),))
-    drawing = paint(scene, Camera((9, -14, 11), (0, 0, 0.5), fov_deg=30.0), page=Page(90.0, 70.0, 4.0))
+    drawing = paint(scene, Camera((9, -14, 11), (0, 0, 0.5), fov_deg=30.0), page=Page(60.0, 47.0, 3.0))
     for dpi in (110, 170):
         # Borders of shaded triangles are drawn in more than one way. On even ones floor, shadow and roof are each
         # rounded by half a level.

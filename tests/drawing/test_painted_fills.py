@@ -70,7 +70,7 @@ def test_without_fit_the_target_is_in_the_middle_and_nothing_leaves_the_margins(
 def test_points_in_space_have_their_places_on_the_page(parallel: bool) -> None:
     scene = vp.read(DATA / "mixed.scene")
     camera = replace(scene.camera, parallel=parallel)
-    drawing = vp.paint(scene, camera)
+    drawing = vp.paint(scene, camera, tolerance_mm=0.5)
     fills = drawing.layers[0].fills[0]
     image = np.c_[fills.points3d, np.ones(len(fills.points3d))] @ drawing.page_from_world.T
     assert np.abs(image[:, :2] / image[:, 3:] - fills.points).max() < 1e-9

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.hard_shapes import HARD_SHAPES
 
 import vectorplot as vp
 from vectorplot.cli.main import run
@@ -12,7 +13,7 @@ from vectorplot.geometry.repair.adjacency import body_record
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.testing.shapes import box, hard_shapes, without
+from vectorplot.testing.shapes import box, without
 
 VERBS = ["draw", "paint", "render"]
 
@@ -52,9 +53,9 @@ def test_what_is_left_lies_between_the_planes_and_all_of_it_is_left(near, far, s
 
 @pytest.mark.slow
 @pytest.mark.capability("G3.L-scene")
-@pytest.mark.parametrize("name", sorted(hard_shapes()))
+@pytest.mark.parametrize("name", sorted(HARD_SHAPES))
 def test_both_sides_of_a_plane_together_have_the_area_of_the_whole(name):
-    scene = hard_shapes()[name]
+    scene = HARD_SHAPES[name]
     low, high = scene.bounds
     size = float(np.ptp(scene.bounds, axis=0).max())
     middle = tuple(((low + high) / 2 + 0.037 * size).tolist())

@@ -95,16 +95,17 @@ def test_reading_glb_of_many_takes_a_time_that_grows_with_the_file(tmp_path: Pat
     assert len(parts.names) == len(nodes)
 
 
-TEN_MEGABYTES = 10_000_000
+MEGABYTES = 3_000_000
+"""What takes a time that grows with the square would take hours."""
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["scene", "obj", "off", "ply", "stl", "glb"])
 @pytest.mark.parametrize("part", ["a", "1", "-", "\\", '"', "#", "v", ".", "OFF", "é", "\n"])
-def test_ten_megabytes_of_one_word_get_their_line_at_once(tmp_path: Path, suffix: str, part: str) -> None:
+def test_megabytes_of_one_word_get_their_line_at_once(tmp_path: Path, suffix: str, part: str) -> None:
     path = tmp_path / f"word.{suffix}"
-    path.write_bytes((part.encode() * TEN_MEGABYTES)[:TEN_MEGABYTES])
-    with cpu_seconds(4.0):
+    path.write_bytes((part.encode() * MEGABYTES)[:MEGABYTES])
+    with cpu_seconds(1.5):
         try:
             read(path)
         except InputError as error:
@@ -133,11 +134,11 @@ HEADS = {
 @pytest.mark.slow
 @pytest.mark.parametrize("suffix", list(HEADS))
 @pytest.mark.parametrize("part", ["1", "x", "1 "])
-def test_ten_megabytes_of_one_number_get_their_line_at_once(tmp_path: Path, suffix: str, part: str) -> None:
+def test_megabytes_of_one_number_get_their_line_at_once(tmp_path: Path, suffix: str, part: str) -> None:
     for head in HEADS[suffix]:
         path = tmp_path / f"number.{suffix}"
-        path.write_bytes(head.encode() + part.encode() * (TEN_MEGABYTES // (1 if len(part) == 1 else 40)))
-        assert finding(lambda path=path: read(path), 4.0) is None, head
+        path.write_bytes(head.encode() + part.encode() * (MEGABYTES // (1 if len(part) == 1 else 40)))
+        assert finding(lambda path=path: read(path), 1.5) is None, head
 
 
 def test_a_crowd_of_close_points_is_chained_at_once() -> None:

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from support.hard_shapes import HARD_SHAPES
 from support.paths import DATA
 
 import vectorplot as vp
@@ -10,7 +11,7 @@ from vectorplot.geometry.repair.adjacency import body_record, mesh_edges
 from vectorplot.io.read_file import read
 from vectorplot.scene.pools import pools
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.testing.shapes import box, hard_shapes
+from vectorplot.testing.shapes import box
 
 FILES = sorted(DATA.glob("*.scene"))
 
@@ -43,9 +44,9 @@ def test_total_counts_are_the_sums_over_the_items(path, capsys):
 
 
 @pytest.mark.capability("G3.1-pools")
-@pytest.mark.parametrize("name", sorted(hard_shapes()))
+@pytest.mark.parametrize("name", sorted(HARD_SHAPES))
 def test_edges_of_the_pool_are_pairs_of_points_of_their_items(name):
-    scene = hard_shapes()[name]
+    scene = HARD_SHAPES[name]
     pool = pools(scene)
     for k, item in enumerate(scene.items):
         own = pool.edges[pool.item_edges[k] : pool.item_edges[k + 1]]

@@ -145,15 +145,17 @@ def heights_on(view: View, source: Ints, x: Floats, y: Floats) -> Floats:
     """(s,) inverse depths, or heights, of faces of the view above points of the image; 0, or -inf, for face -1."""
     parallel = view.eye is None
     result = np.full(len(x), -np.inf if parallel else 0.0)
-    for k in np.flatnonzero(source >= 0):
-        corner = view.points[:, view.corners[view.offsets[source[k]] : view.offsets[source[k] + 1]]]
+    for face in np.unique(source[source >= 0]):
+        k = np.flatnonzero(source == face)
+        corner = view.points[:, view.corners[view.offsets[face] : view.offsets[face + 1]]]
         after = np.roll(corner, -1, axis=1)
         normal = np.cross(corner - corner[:, :1], after - corner[:, :1], axis=0).sum(axis=1)
+        still = np.zeros(len(k))
         if parallel:
-            start, along = np.array([x[k] + view.target[0], y[k] + view.target[1], 0.0]), np.array([0.0, 0.0, 1.0])
+            start, along = np.stack([x[k] + view.target[0], y[k] + view.target[1], still]), np.array([0.0, 0.0, 1.0])
         else:
-            start, along = view.eye, np.array([x[k] / view.focus, y[k] / view.focus, -1.0])
-        drop, slope = normal @ (corner[:, 0] - start), normal @ along
+            start, along = view.eye[:, None], np.stack([x[k] / view.focus, y[k] / view.focus, still - 1.0])
+        drop, slope = normal @ (corner[:, :1] - start), normal @ along
         result[k] = drop / slope if parallel else slope / drop
     return result
 

@@ -110,7 +110,7 @@ def images(view: View, chords: Chords, which: np.ndarray) -> list[np.ndarray]:
 def test_both_forms_of_a_surface_give_the_same_drawing(name: str) -> None:
     one, two = (lit(Item(name, shape, curves=LINES)) for shape in BOTH_FORMS[name])
     for camera in views(one, 2, len(name)):
-        a, b = (chords_seen(scene, camera, tolerance=2e-5) for scene in (one, two))
+        a, b = (chords_seen(scene, camera) for scene in (one, two))
         assert np.abs(a.lengths() - b.lengths()).max() < 1e-4 * a.length.sum()
         view = look(one, camera)
         for kind in (LineKind.CONTOUR, LineKind.BOUNDARY, LineKind.ISOPHOTE, LineKind.SECTION):
@@ -142,12 +142,14 @@ def shapes_seen(parallel: bool) -> Chords:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("scale", "offset"), [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e6)])
-def test_size_and_place_change_nothing(scale: float, offset: float) -> None:
+@pytest.mark.parametrize(
+    ("scale", "offset", "views"), [(1e-6, 0.0, (False,)), (1e6, 0.0, (True,)), (1.0, 1e6, (False, True))]
+)
+def test_size_and_place_change_nothing(scale: float, offset: float, views: tuple[bool, ...]) -> None:
     place = offset * np.array([1.0, -1.0, 1.0])
     moved = [PlacedImplicit(shape, scale * np.eye(3), place) for shape in SHAPES]
     there = lit(*(Item("item", shape, curves=FEW) for shape in moved))
-    for parallel in (False, True):
+    for parallel in views:
         eye, target = np.array([9.0, -11.0, 7.0]), np.array([0.1, 0.2, 0.0])
         eye, target = (tuple((scale * point + place).tolist()) for point in (eye, target))
         a, b = shapes_seen(parallel), chords_seen(there, Camera(eye, target, parallel=parallel))

@@ -79,11 +79,10 @@ def test_wherever_a_cone_stands_and_whatever_its_size(size: float, seed: int) ->
 def test_the_axis_of_a_cone_is_hidden_up_to_its_apex_from_every_side() -> None:
     axis = Item("AXIS", Line.through((0.0, 0.0, 0.0), (0.0, 0.0, 5.0)), lines=("curve",))
     scene = Scene((Item("CONE", Cone.standing(2.0, 4.0)), axis))
-    for eye in ((9.0, -14.0, 7.0), (-5.0, 11.0, 4.0), (0.0, -20.0, 9.0)):
-        for parallel in (True, False):
-            drawing = draw(scene, Camera(eye, (0.0, 0.0, 2.0), parallel=parallel))
-            height = drawn(drawing).of(1).world[..., 2]
-            assert np.isclose(height.min(), 4.0, atol=1e-6) and np.isclose(height.max(), 5.0), (eye, parallel, height)
+    for eye, parallel in (((9.0, -14.0, 7.0), True), ((-5.0, 11.0, 4.0), False), ((0.0, -20.0, 9.0), True)):
+        drawing = draw(scene, Camera(eye, (0.0, 0.0, 2.0), parallel=parallel))
+        height = drawn(drawing).of(1).world[..., 2]
+        assert np.isclose(height.min(), 4.0, atol=1e-6) and np.isclose(height.max(), 5.0), (eye, parallel, height)
 
 
 @pytest.mark.slow

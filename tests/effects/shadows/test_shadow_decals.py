@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from support.blocked_lights import face_points, scene_triangles, wrong_points
 from support.effort import several
+from support.hard_shapes import HARD_SHAPES
 from support.triangle_rays import blocked
 
 from vectorplot.arrays import Floats
@@ -21,7 +22,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.curved_meshes import bumpy_icosphere, grid_graph, torus_mesh
-from vectorplot.testing.shapes import box, hard_shapes, numbered, random_convex_solids, rotated_boxes, rotation
+from vectorplot.testing.shapes import box, numbered, random_convex_solids, rotated_boxes, rotation
 from vectorplot.textbook.graph_orders import graph_triangles
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.painter.slices import cut_into_slices
@@ -177,9 +178,9 @@ def test_sliced_surfaces_shade_themselves_where_rays_say(kind: str, size: float)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", hard_shapes())
+@pytest.mark.parametrize("name", HARD_SHAPES)
 def test_hard_shapes_have_right_shadows(name: str) -> None:
-    scene = hard_shapes()[name]
+    scene = HARD_SHAPES[name]
     random = np.random.default_rng(len(name))
     view = look(scene, random_camera(scene, random))
     for lights in (random_lights(scene, random), (Light((0.0, 0.0, 1.0), parallel=True), Light((1.0, 2.0, 3.0)))):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.hard_shapes import HARD_SHAPES
 from support.painted import compared, nearest, sample_points, top_polygon
 from support.strewn import STREWN, placed
 
@@ -14,7 +15,6 @@ from vectorplot.scene.view import look
 from vectorplot.testing.shapes import (
     box,
     cyclic_bars,
-    hard_shapes,
     hollow_bodies,
     interpenetrating_boxes,
     numbered,
@@ -23,8 +23,6 @@ from vectorplot.testing.shapes import (
     scene_of,
 )
 from vectorplot.visibility.painter.painters_order import painters_order
-
-SHAPES = hard_shapes()
 
 
 def camera_of(scene: Scene, seed: int) -> Camera:
@@ -68,10 +66,10 @@ def test_convex_bodies_as_rays_see_them(seed):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", SHAPES)
+@pytest.mark.parametrize("name", HARD_SHAPES)
 def test_hard_shapes_as_rays_see_them(name):
     for seed in range(7):
-        assert_right(SHAPES[name], camera_of(SHAPES[name], seed), 200)
+        assert_right(HARD_SHAPES[name], camera_of(HARD_SHAPES[name], seed), 200)
 
 
 @pytest.mark.capability("G5.1-hollow")

@@ -8,13 +8,12 @@ from functools import cache
 import numpy as np
 import pytest
 from support.effort import several
+from support.hard_shapes import HARD_SHAPES
 from support.seen import EVERY_EDGE, Seen, seen, wrong_samples
 
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Item, Scene
-from vectorplot.testing.shapes import hard_shapes, hollow_bodies, random_convex_solids, rotated_boxes
-
-SCENES = hard_shapes()
+from vectorplot.testing.shapes import hollow_bodies, random_convex_solids, rotated_boxes
 
 
 def cameras(scene: Scene, seed: int) -> Iterator[Camera]:
@@ -38,7 +37,7 @@ def cameras(scene: Scene, seed: int) -> Iterator[Camera]:
 @cache
 def views_of(name: str) -> list[tuple[Camera, Seen]]:
     """What is seen of a scene from all its cameras."""
-    return [(camera, seen(SCENES[name], camera, EVERY_EDGE)) for camera in cameras(SCENES[name], len(name))]
+    return [(camera, seen(HARD_SHAPES[name], camera, EVERY_EDGE)) for camera in cameras(HARD_SHAPES[name], len(name))]
 
 
 def assert_as_rays_say(scene: Scene, camera: Camera, result: Seen, samples: int) -> None:
@@ -48,10 +47,10 @@ def assert_as_rays_say(scene: Scene, camera: Camera, result: Seen, samples: int)
 
 @pytest.mark.slow
 @pytest.mark.capability("G7.2-exact", "G7.2-zones")
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", HARD_SHAPES)
 def test_hard_shapes_as_rays_see_them(name: str) -> None:
     for camera, result in views_of(name):
-        assert_as_rays_say(SCENES[name], camera, result, 120)
+        assert_as_rays_say(HARD_SHAPES[name], camera, result, 120)
 
 
 @pytest.mark.slow
@@ -68,7 +67,7 @@ def test_random_scenes_as_rays_see_them(seed: int) -> None:
 @pytest.mark.capability("G7.2-hollow1", "G7.2-hollow2")
 @pytest.mark.parametrize("name", ["hollow tube", "hollow bodies"])
 def test_one_sees_through_removed_faces(name: str) -> None:
-    scene = SCENES[name]
+    scene = HARD_SHAPES[name]
     for seed in range(several(4, long=40)):
         for camera in cameras(scene, seed):
             assert_as_rays_say(scene, camera, seen(scene, camera, EVERY_EDGE), 60)
@@ -82,7 +81,7 @@ def test_a_body_without_top_and_bottom_shows_its_inner_wall() -> None:
 
 @pytest.mark.slow
 @pytest.mark.capability("G7.2-visible")
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", HARD_SHAPES)
 def test_visible_and_hidden_parts_make_up_the_whole(name: str) -> None:
     for _, result in views_of(name):
         along = result.lines.end - result.lines.start
@@ -91,7 +90,7 @@ def test_visible_and_hidden_parts_make_up_the_whole(name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", HARD_SHAPES)
 def test_visible_parts_are_those_that_nothing_hides(name: str) -> None:
     for _, result in views_of(name):
         free = result.counted.hidden_by == 0
@@ -112,7 +111,7 @@ def lengths_by_count(result: Seen) -> np.ndarray:
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
 @pytest.mark.parametrize("name", ["rotated boxes", "box on table", "torus mesh", "nine touching cubes", "hollow tube"])
 def test_the_size_of_the_scene_changes_nothing(name: str, scale: float) -> None:
-    scene = SCENES[name]
+    scene = HARD_SHAPES[name]
     larger = Scene(tuple(moved(item, scale * np.eye(3), np.zeros(3)) for item in scene.items))
     for camera, result in views_of(name):
         far = Camera(
@@ -124,7 +123,7 @@ def test_the_size_of_the_scene_changes_nothing(name: str, scale: float) -> None:
 
 @pytest.mark.parametrize("name", ["rotated boxes", "box on table", "interpenetrating boxes", "hollow tube"])
 def test_a_million_units_off_the_origin_changes_nothing(name: str) -> None:
-    scene = SCENES[name]
+    scene = HARD_SHAPES[name]
     offset = np.array([1e6, -1e6, 1e6])
     away = Scene(tuple(moved(item, np.eye(3), offset) for item in scene.items))
     for camera, result in views_of(name)[:2]:
@@ -137,7 +136,7 @@ def test_a_million_units_off_the_origin_changes_nothing(name: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["rotated boxes", "coincident faces", "touching boxes", "cyclic bars"])
 def test_the_order_of_items_changes_nothing(name: str) -> None:
-    scene = SCENES[name]
+    scene = HARD_SHAPES[name]
     order = np.random.default_rng(0).permutation(len(scene.items))
     shuffled = Scene(tuple(scene.items[k] for k in order))
     for camera, result in views_of(name):

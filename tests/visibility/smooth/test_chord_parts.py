@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.effort import several
 from support.smooth_parts import around, polylines
 from support.smooth_scenes import implicit_surfaces, mixed_scenes, single_surfaces, views
 
@@ -44,7 +45,9 @@ def by_differences(view, parts):
 @pytest.mark.parametrize("name", SCENES)
 def test_directions_are_those_of_the_curves(name):
     scene = SCENES[name]
-    for number, camera in enumerate(views(scene, 2, seed=len(name))):
+    # Central and parallel views in turn: curves of every sort come in several scenes.
+    turn = list(SCENES).index(name) % 2
+    for number, camera in enumerate(list(views(scene, 2, seed=len(name)))[turn :: several(2, long=1)]):
         view = look(scene, camera)
         traced = traced_scene(scene, view, scene_sheets(scene, view), frozenset(LineKind), 1e-4)
         chords = whole_lines_and_chords(view, traced, joined_lines([])).chords

@@ -149,8 +149,11 @@ def _met(view: View, sight_ways: SightWays, frame: Floats, points: Floats, image
             break
         own, axes = sight_ways.of(going), frame[:, :, going]
         here, there, off_here = image[:, going], points[:, going], miss[:, going]
-        across, _, _ = _missed(view, own, axes, there, here + ACROSS)
-        along, _, _ = _missed(view, own, axes, there, here + ALONG)
+        # Both at once: of few points a ray takes no time, and a call of numpy's does.
+        beside = np.concatenate([here + ACROSS, here + ALONG], axis=1)
+        twice = np.tile(np.arange(len(going)), 2)
+        both, _, _ = _missed(view, own.of(twice), axes[:, :, twice], there[:, twice], beside)
+        across, along = both[:, : len(going)], both[:, len(going) :]
         step = _solved((across - off_here) / SIGHT_DIFFERENCE, (along - off_here) / SIGHT_DIFFERENCE, -off_here)
         length = np.sqrt((step * step).sum(axis=0))
         longest = np.inf if view.eye is None else LONGEST_STEP

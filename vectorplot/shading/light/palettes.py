@@ -99,6 +99,8 @@ def spectrum(lower: ArrayLike, upper: ArrayLike, count: int = PALETTE_SIZE, leve
     if levels < 2 or limits.shape != (2, 3) or not ((limits >= 0.0) & (limits <= 1.0)).all():
         raise InputError("a spectrum needs two levels or more, and limits from 0 to 1")
     shades = np.floor(ramp(limits[0], limits[1], count) * (levels - 1) + 0.5).astype(np.intp)
+    if not (shades[1:] == shades[:-1]).all(axis=1).any():
+        return shades
     growth = np.argsort(limits[0] - limits[1], kind="stable")
     for before, shade in pairwise(shades):
         if (before == shade).all():

@@ -197,10 +197,11 @@ def fine_net(surface: Surface, middle: Floats, size: float, rays: Rays) -> Net:
         needs.append(np.clip(np.sqrt(sag / 8.0 / NET_ERROR), 1.0, MOST_CELLS / FIRST_CELLS**2))
     share = min(1.0, float(np.sqrt(MOST_CELLS / (needs[0].sum() * needs[1].sum()))))
     whole = Net(surface, middle, size, _spread(first.u, share * needs[0]), _spread(first.v, share * needs[1]))
-    return replace(whole, **_cells_around(whole, rays))
+    column, row = _cells_around(whole, rays)
+    return replace(whole, column=column, row=row)
 
 
-def _cells_around(net: Net, rays: Rays) -> dict[str, Ints]:
+def _cells_around(net: Net, rays: Rays) -> tuple[Ints, Ints]:
     """The columns and rows of the cells in blocks that a ray comes near to."""
     starts, sizes, samples = zip(*(_blocks(t) for t in (net.u, net.v)), strict=True)
     p = net.at(*(a.ravel() for a in np.meshgrid(*samples, indexing="ij"))).reshape(*map(len, samples), 3)
@@ -218,7 +219,7 @@ def _cells_around(net: Net, rays: Rays) -> dict[str, Ints]:
     inner = ragged.place(across * along)
     block = np.repeat(np.arange(len(first)), across * along)
     column, row = np.divmod(inner, along[block])
-    return {"column": starts[0][first[block]] + column, "row": starts[1][second[block]] + row}
+    return starts[0][first[block]] + column, starts[1][second[block]] + row
 
 
 def _blocks(t: Floats) -> tuple[Ints, Ints, Floats]:
