@@ -128,7 +128,7 @@ install_all() {
     .venv/bin/python -m pip install --quiet --disable-pip-version-check -e "$what" ||
         fail "pip could not install the Python packages; is there a way to the package index?"
     # Compiled now, the package starts a tenth of a second sooner, also where Python may not write beside it later.
-    .venv/bin/python -m compileall -q vectorplot || true
+    .venv/bin/python -m compileall -q -j 0 vectorplot || true
     echo "$goal $key" >"$stamp"
 }
 

@@ -9,7 +9,9 @@ import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
@@ -102,6 +104,15 @@ def walked(arguments: list[str], monkeypatch) -> Walked:
     return found
 
 
+@cache
+def whole_walk(words: tuple[str, ...]) -> Walked:
+    """What a command does that nothing stops: the same for every test, wherever its files lie."""
+    with TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
+        scene = Path(folder) / "all.scene"
+        scene.write_text(SCENE, encoding="utf-8")
+        return walked(command(scene, list(words))[0], patch)
+
+
 def stop_at(number: int, what, before: Walked, monkeypatch) -> None:
     """From the stage with this number on, call what; in the middle of the stage's own work where that is the last. What
     the stages before it gave in a whole run need not be found again."""
@@ -130,7 +141,7 @@ def stop_at(number: int, what, before: Walked, monkeypatch) -> None:
 @pytest.mark.parametrize("words", COMMANDS, ids=" ".join)
 def test_a_signal_at_any_stage_leaves_one_line_and_the_old_file(words, place, monkeypatch, capsys):
     arguments, out = command(place, words)
-    whole = walked(arguments, monkeypatch)
+    whole = whole_walk(tuple(words))
     assert len(whole.stages) > 5 and whole.stages[-1] == "write"
     capsys.readouterr()
     for number in range(len(whole.stages)):
@@ -155,7 +166,7 @@ def test_a_signal_at_any_stage_leaves_one_line_and_the_old_file(words, place, mo
 )
 def test_what_runs_out_at_any_stage_is_said_in_one_line(words, error, line, place, monkeypatch, capsys):
     arguments, out = command(place, words)
-    whole = walked(arguments, monkeypatch)
+    whole = whole_walk(tuple(words))
     capsys.readouterr()
 
     def fail():
