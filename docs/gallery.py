@@ -27,6 +27,7 @@ LOOK_AT = {
     "curves": "Curves in space, some of them on surfaces that hide half of them: a course, a knot, borders of holes.",
     "cyclide": "A torus inverted in a sphere; all parameter lines are circles, before and after.",
     "cylinder": "One looks in at the open top: inside the faces show their back, and the near rim hides the bottom.",
+    "house": "The scene of the first page: a body and a ball, whose contour is a circle, not a polygon.",
     "implicit": "Surfaces by their equations alone: level lines on a rounded cube, isophotes on a pretzel.",
     "interpenetrating": "Beams driven through one another; the tips that come out of the die are small and complete.",
     "intersections": "Two cubes, a cylinder and a cube, a ring and a slab: only what each pair has in common is drawn.",

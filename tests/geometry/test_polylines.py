@@ -153,3 +153,11 @@ def test_strokes_of_a_page_are_chosen_and_put_together_likewise():
     for f in fields(Paths):
         assert np.array_equal(getattr(again, f.name), getattr(paths, f.name)), f.name
     assert len(concatenated(())) == 0
+
+
+def test_loops_over_polylines_end_and_count_from_the_end_too():
+    lines = Polylines(np.arange(10.0).reshape(5, 2), np.array([0, 2, 5]), np.array([False, True]))
+    assert [len(line) for line in lines] == [2, 4]
+    assert np.array_equal(lines[-1], lines[1])
+    with pytest.raises(IndexError):
+        lines[2]

@@ -257,3 +257,8 @@ def test_every_bending_of_the_minimal_spiral_surface_is_spiral(bending, a):
 def test_bad_numbers_are_input_errors(make):
     with pytest.raises(InputError):
         make()
+
+
+def test_a_catenoid_whose_cosine_is_out_of_range_is_refused():
+    with pytest.raises(InputError, match="width 1000: the hyperbolic cosine of it is out of range"):
+        helicoid_to_catenoid(np.pi / 2, width=1000.0)

@@ -101,9 +101,13 @@ def closed_round(lines: RingRecord) -> Rounds:
 
 
 def indices_along(lines: RingRecord, line: int) -> Ints:
-    """(k,) the points of one polyline in order; a closed one ends with its first point."""
-    first, end = lines.offsets[line : line + 2]
-    return np.append(np.arange(first, end), [first] * bool(lines.closed[line] and end > first)).astype(np.intp)
+    """(k,) the points of one polyline in order; a closed one ends with its first point.
+
+    Errors: IndexError for a number that no polyline has, so that loops over them end; -1 is the last one.
+    """
+    closed = bool(lines.closed[line])
+    first, end = lines.offsets[np.arange(len(lines.closed))[line] + np.array([0, 1])]
+    return np.append(np.arange(first, end), [first] * bool(closed and end > first)).astype(np.intp)
 
 
 def segments(lines: RingRecord) -> Ints:

@@ -137,7 +137,8 @@ def onto_lines(
             slopes = np.concatenate([slopes, across[active][:, None]], axis=1)
         step = _least_step(away, slopes, 2 if across is None else 3)
         length = np.linalg.norm(step, axis=1)
-        step *= np.minimum(1.0, reach[active] / np.maximum(length, LEAST_DIVISOR))[:, None]
+        with np.errstate(over="ignore"):
+            step *= np.minimum(1.0, reach[active] / np.maximum(length, LEAST_DIVISOR))[:, None]
         usable = np.isfinite(length)
         x[active[usable]] += step[usable]
         settled[active] = usable & (length <= digits[active])

@@ -58,7 +58,7 @@ def dupin_cyclide(major: float, minor: float, centre: ArrayLike, radius: float) 
 
 @dataclass(frozen=True, eq=False)
 class ImplicitCyclide:
-    """The polynomial of Dupin's cyclide: the torus' F at the inverse of x, times |x - centre|^4 / radius^4.
+    """The polynomial of Dupin's cyclide: the torus' F at the inverse of x, times (its distance / radius)^4.
 
     Parameters
     ----------

@@ -83,7 +83,7 @@ class Cylinder(EllipticSections):
 
 @dataclass(frozen=True, eq=False)
 class Cone(EllipticSections):
-    """The cone with its apex at the centre: at height v the radius is slope |v|.
+    """The cone with its apex at the centre: at height v the radius is slope * abs(v).
 
     Parameters
     ----------

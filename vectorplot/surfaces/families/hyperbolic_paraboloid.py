@@ -14,7 +14,7 @@ from vectorplot.surfaces.surface import Domain
 
 @dataclass(frozen=True, eq=False)
 class HyperbolicParaboloid:
-    """The saddle z = x^2/a^2 - y^2/b^2 above the rectangle |x| <= width, |y| <= depth.
+    """The saddle z = x^2/a^2 - y^2/b^2 above the rectangle from -width, -depth to width, depth.
 
     Parameters
     ----------

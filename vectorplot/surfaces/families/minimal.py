@@ -177,7 +177,7 @@ def helicoid_to_catenoid(
     Raises
     ------
     InputError
-        For an empty range, and numbers that are not finite.
+        For an empty range, numbers that are not finite, and a width whose hyperbolic cosine is out of range.
 
     Notes
     -----
@@ -191,6 +191,8 @@ def helicoid_to_catenoid(
     [False, True]
     """
     number("bending", bending)
+    if number("width", width) > np.arccosh(np.finfo(np.float64).max):
+        raise InputError(f"width {width:g}: the hyperbolic cosine of it is out of range")
     closed = bool(abs(np.cos(bending)) < RIGHT_ANGLE_COSINE) and is_whole_turns(end - start)
     return MinimalSurface(HelicoidCurve(), bending, Domain(-width, width, start, end, closed_v=closed))
 

@@ -165,7 +165,7 @@ def implicit_ellipsoid(semi_axes: ArrayLike, centre: ArrayLike = (0.0, 0.0, 0.0)
 
 
 def implicit_sphere(radius: float, centre: ArrayLike = (0.0, 0.0, 0.0)) -> Quadric:
-    """The sphere |x - centre|^2 = radius^2.
+    """The sphere (x - centre)^2 = radius^2.
 
     Parameters
     ----------

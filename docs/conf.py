@@ -1,0 +1,76 @@
+"""How the site is made of docs/: ``sphinx-build -W docs site``."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import re
+from pathlib import Path
+
+from sphinx.application import Sphinx
+
+ROOMS = (
+    "geometry curves surfaces features scene io visibility shading drawing effects textbook backends testing exact"
+).split()
+"""The rooms whose names the reference lists."""
+
+project = "vectorplot"
+copyright = "the vectorplot authors, MIT licence"
+release = importlib.metadata.version("vectorplot")
+extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc", "sphinx_copybutton"]
+exclude_patterns = ["_build"]
+source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
+root_doc = "index"
+html_theme = "furo"
+html_title = "vectorplot"
+html_static_path: list[str] = []
+html_show_sphinx = False
+myst_heading_anchors = 3
+myst_enable_extensions = ["colon_fence"]
+numpydoc_show_class_members = False
+autodoc_member_order = "alphabetical"
+autodoc_typehints = "none"
+
+
+CONTENTS = {
+    "Start": ("first-drawing", "how-to", "concepts", "gallery/README"),
+    "What it does": ("drawing", "paint", "render", "scene-language", "molecules", "textbook"),
+    "Reference": ("command", "python", "reference/vectorplot", *(f"reference/{room}" for room in ROOMS)),
+    "How exact, how fast": ("accuracy-and-limits", "speed", "tolerances"),
+    "About": ("errata", "bibliography", "coverage"),
+}
+"""The pages, by the headings they stand under."""
+
+
+def reference(app: Sphinx) -> None:
+    """A page for every room of the package, with what it exports: written before pages are read."""
+    folder = Path(app.srcdir) / "reference"
+    folder.mkdir(exist_ok=True)
+    for room in ("vectorplot", *ROOMS):
+        name, index = (room, "   :no-index:\n") if room == "vectorplot" else (f"vectorplot.{room}", "")
+        text = f"{name}\n{'=' * len(name)}\n\n.. automodule:: {name}\n   :members:\n   :imported-members:\n{index}"
+        page = folder / f"{room}.rst"
+        if not page.exists() or page.read_text(encoding="utf-8") != text:
+            page.write_text(text, encoding="utf-8")
+
+
+def with_contents(app: Sphinx, name: str, source: list[str]) -> None:
+    """The front page gets the table of contents that the site shows beside every page."""
+    if name == "index":
+        for heading, pages in CONTENTS.items():
+            source[0] += "\n```{toctree}\n:hidden:\n:caption: " + heading + "\n\n" + "\n".join(pages) + "\n```\n"
+
+
+def without_links_outside(app: Sphinx, name: str, source: list[str]) -> None:
+    """Links to files of the repository that are no pages become their texts."""
+
+    def shown(link: re.Match[str]) -> str:
+        return f"`{link[1].strip('`')}`"
+
+    source[0] = re.sub(r"(?<!!)\[([^\]]+)\]\(\.\./[^)]*\)", shown, source[0])
+
+
+def setup(app: Sphinx) -> None:
+    """What sphinx calls."""
+    app.connect("builder-inited", reference)
+    app.connect("source-read", without_links_outside)
+    app.connect("source-read", with_contents)

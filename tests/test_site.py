@@ -1,0 +1,30 @@
+"""The site: every page of docs/ is on it, and it is built without a warning."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support.paths import ROOT
+
+DOCS = ROOT / "docs"
+
+
+@pytest.mark.slow
+def test_the_site_is_built_without_a_warning_from_all_pages(tmp_path: Path) -> None:
+    source, site = tmp_path / "docs", tmp_path / "site"
+    shutil.copytree(DOCS, source, ignore=shutil.ignore_patterns("reference"))
+    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", str(source), str(site)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr[-3000:]
+    pages = [page.relative_to(DOCS).with_suffix(".html") for page in (*DOCS.glob("*.md"), *DOCS.glob("gallery/*.md"))]
+    assert all((site / page).stat().st_size > 1000 for page in pages)
+    front = (site / "index.html").read_text(encoding="utf-8")
+    assert all(f'href="{page.as_posix()}"' in front for page in pages if page.stem != "index")
+    surfaces = (site / "reference" / "surfaces.html").read_text(encoding="utf-8")
+    assert re.search(r"vectorplot\.surfaces.*Torus", surfaces, re.DOTALL)
+    assert "http-equiv" not in front and 'src="http' not in front, "nothing is loaded from elsewhere"
