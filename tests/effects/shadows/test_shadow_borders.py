@@ -103,3 +103,19 @@ def test_an_eye_over_the_shadow_has_a_border_too() -> None:
     single = cast_shadows(view, LIGHTS[:1])
     borders = shadow_borders(view, single, graded(view, single), 0.01)
     assert (view.depth_of(borders.points) >= view.near - 1e-9).all() and np.isfinite(borders.points).all()
+
+
+def test_shadows_of_many_pieces_have_one_border() -> None:
+    floor = Mesh.from_polygons([(-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0)], [[0, 1, 2, 3]])
+    u, v = np.meshgrid(np.linspace(-1.0, 1.0, 13), np.linspace(-1.0, 1.0, 13))
+    corners = np.stack([u.ravel(), v.ravel(), 1.0 + 0.2 * (u * v).ravel()], axis=1)
+    corner = np.arange(156).reshape(12, 13)[:, :-1].ravel()
+    roof = Mesh.from_polygons(
+        corners.tolist(), np.stack([corner, corner + 1, corner + 14, corner + 13], axis=1).tolist()
+    )
+    view = look(numbered([floor, roof]), Camera((5, -8, 12), (0, 0, 0)))
+    single = cast_shadows(view, LIGHTS[:1])
+    borders = shadow_borders(view, single, graded(view, single), 0.02)
+    on_floor = view.face_item[single.face] == 0
+    assert on_floor.sum() > 100
+    assert (view.face_item[borders.face] == 0).sum() == LEVELS - 1
