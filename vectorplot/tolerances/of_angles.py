@@ -52,9 +52,6 @@ points are known."""
 ON_CONTOUR_SINE = 1e-6
 """Test rays that make a smaller angle with the tangent plane touch the surface: the point is one of its contour."""
 
-STRAIGHT_SINE = 1e-3
-"""A corner of a shadow's border that turns by an angle with a smaller sine needs no bevel."""
-
 FOLDED_ANGLE_SQUARED = 1e-6
 """Halves of a quadrilateral that turn from each other by an angle with a square below this are one plane face."""
 
