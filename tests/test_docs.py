@@ -12,11 +12,13 @@ import pytest
 from support.paths import ROOT
 
 import vectorplot as vp
+from vectorplot.cli.accuracy import accuracy
 from vectorplot.cli.draw import draw
 from vectorplot.cli.info import info
 from vectorplot.cli.main import run
 from vectorplot.cli.paint import paint
 from vectorplot.cli.render import render
+from vectorplot.cli.speed import speed
 
 DOCS = ROOT / "docs"
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("*/*.md"))]
@@ -71,7 +73,7 @@ def test_the_commands_of_the_pages_work(command, checkout, capfdbinary):
         assert out
 
 
-@pytest.mark.parametrize("command", [draw, info, paint, render], ids=lambda command: command.name)
+@pytest.mark.parametrize("command", [accuracy, draw, info, paint, render, speed], ids=lambda command: command.name)
 def test_every_option_is_on_the_page_of_the_command(command):
     page = (DOCS / "command.md").read_text(encoding="utf-8")
     for parameter in command.params:

@@ -20,8 +20,8 @@ PACKAGE = Path(vectorplot.__file__).parent
 ORDER = [
     *("errors", "words", "arrays", "tolerances"),
     *("exact", "geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
-    *("drawing", "effects", "animation", "textbook", "backends"),
-    *("verbs", "testing", "speed", "cli"),
+    *("drawing", "charts", "effects", "animation", "textbook", "backends"),
+    *("verbs", "testing", "accuracy", "speed", "cli"),
 ]
 VERBS = {"draw", "paint", "painting", "read", "render", "save", "plan"}
 

@@ -1,3 +1,4 @@
+from .accuracy.verb import accuracy
 from .draw import draw
 from .drawing.drawing import Drawing, Layer, Paths, Pen
 from .errors import InputError, InputWarning
@@ -35,6 +36,7 @@ __all__ = [
     "Section",
     "Strokes",
     "SurfaceLines",
+    "accuracy",
     "draw",
     "paint",
     "read",

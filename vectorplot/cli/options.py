@@ -64,6 +64,12 @@ def point(text: str) -> tuple[float, float, float]:
     return (x, y, z)
 
 
+def numbers(text: str) -> tuple[float, ...]:
+    """Positive finite numbers with commas between them, such as 16,32,64."""
+    positive = between(0.0, math.inf)
+    return tuple(positive(part.strip()) for part in text.split(","))
+
+
 def page_size(text: str) -> tuple[float, float]:
     """Width and height in mm of a named page or of WIDTHxHEIGHT."""
     from vectorplot.scene.paper import sheet_size

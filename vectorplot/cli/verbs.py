@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from vectorplot import __version__
+from vectorplot.cli.accuracy import accuracy
 from vectorplot.cli.draw import draw
 from vectorplot.cli.info import info
 from vectorplot.cli.paint import paint
@@ -37,6 +38,7 @@ vectorplot.add_command(draw)
 vectorplot.add_command(paint)
 vectorplot.add_command(info)
 vectorplot.add_command(render)
+vectorplot.add_command(accuracy)
 vectorplot.add_command(speed)
 
 

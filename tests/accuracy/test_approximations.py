@@ -1,0 +1,137 @@
+"""Errors that are measured: they fall as knobs say, by the powers of theory, and exact results have none."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from vectorplot.accuracy.approximation import Approximation, check_values
+from vectorplot.accuracy.catalogue import APPROXIMATIONS
+from vectorplot.accuracy.curves_of_error import Accuracy
+from vectorplot.accuracy.measuring import measured
+
+FEW = {
+    "drawn-curves": (0.1, 0.01, 0.001),
+    "bezier-fit": (1.0, 0.1, 0.01),
+    "arc-fit": (0.01, 1e-3, 1e-4, 1e-5),
+    "zero-manifold": (12, 24, 48),
+    "mesh-contour": (16, 32, 64),
+    "polygonised": (16, 32, 64),
+    "painted-outline": (1.0, 0.3, 0.1),
+    "painted-colours": (1.0, 0.1),
+    "depth-buffer": (64, 256, 1024),
+    "sampled-visibility": (16, 64, 256),
+    "snapping": (1e-2, 1e-6, 1e-9, 1e-12),
+    "shadow-maps": (256, 1024),
+    "refraction": (1, 2, 3, 4, 5),
+}
+"""Values of each knob that take little time."""
+
+SLOPES = {
+    "drawn-curves": {"strokes": 1.0},
+    "bezier-fit": {"chords": 1.0, "Béziers": 1.0},
+    "arc-fit": {"cubic segments": 1.0},
+    "zero-manifold": {"linear": -2.0, "cubic parabola": -3.0, "with true slopes": -4.0},
+    "mesh-contour": {"along edges": -2.0, "across faces": -2.0},
+    "polygonised": {"triangles": -2.0},
+    "painted-outline": {"painted polygons": 1.0},
+    "depth-buffer": {"depth buffer": -1.0},
+    "sampled-visibility": {"samples": -1.0},
+    "shadow-maps": {"standard map": -1.0, "trapezoidal map": -1.0},
+}
+"""What theory says; where it says nothing there is no entry."""
+
+OFF = 0.25
+"""Slopes of so few and so coarse results are no farther from those of theory than this part of them."""
+
+EXACT = {
+    "zero-manifold": 2e-6,
+    "mesh-contour": 2e-4,
+    "depth-buffer": 0.0,
+    "sampled-visibility": 0.03,
+    "painted-colours": 0.0,
+    "shadow-maps": 0.0,
+    "refraction": 1e-15,
+}
+"""What the errors of exact results do not exceed, in their units."""
+
+
+def named(name: str) -> Approximation:
+    return next(one for one in APPROXIMATIONS if one.name == name)
+
+
+@cache
+def found(name: str) -> Accuracy:
+    return measured(named(name), FEW[name])
+
+
+def test_every_approximation_is_here_under_one_name():
+    assert [one.name for one in APPROXIMATIONS] == list(FEW)
+    for one in APPROXIMATIONS:
+        assert one.about.endswith(".") and one.title[0].isupper()
+        check_values(one, one.values)
+        check_values(one, FEW[one.name])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name, way", [(name, way) for name, ways in SLOPES.items() for way in ways])
+def test_errors_fall_by_the_power_that_theory_says(name, way):
+    curve = next(curve for curve in found(name).curves if curve.way == way)
+    theory = SLOPES[name][way]
+    assert curve.theory == theory
+    assert curve.falls and curve.samples[-1].error > 0.0
+    assert curve.slope == pytest.approx(theory, abs=OFF * abs(theory))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", FEW)
+def test_theories_are_those_that_are_tested(name):
+    theories = {curve.way: curve.theory for curve in found(name).curves if curve.theory is not None}
+    assert theories == SLOPES.get(name, {})
+    assert all(sample.count > 0 and sample.seconds >= 0.0 for curve in found(name).curves for sample in curve.samples)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", FEW)
+def test_exact_results_have_no_error(name):
+    exact = found(name).exact
+    assert (exact is None) == (name not in EXACT)
+    if exact is not None:
+        assert exact.error <= EXACT[name] and exact.count > 0 and exact.knob == 0.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["drawn-curves", "bezier-fit", "arc-fit"])
+def test_tolerances_of_curves_are_kept(name):
+    for curve in found(name).curves:
+        assert all(sample.error <= sample.knob for sample in curve.samples), curve.way
+
+
+@pytest.mark.slow
+def test_better_ways_are_better_at_every_value():
+    for name, ways in (("zero-manifold", 3), ("shadow-maps", 2), ("refraction", 2), ("mesh-contour", 2)):
+        errors = np.array([[sample.error for sample in curve.samples] for curve in found(name).curves])
+        assert len(errors) == ways and (np.diff(errors, axis=0) < 0.0).all(), name
+
+
+def test_newton_squares_the_error():
+    for curve in found("refraction").curves:
+        errors = np.array([sample.error for sample in curve.samples])
+        late = (errors[:-1] < 0.1) & (errors[1:] > 1e-12)
+        assert late.any() and (errors[1:][late] < 2.0 * errors[:-1][late] ** 2).all()
+
+
+@pytest.mark.slow
+def test_what_counts_as_zero_lies_between_noise_and_what_is_to_be_seen():
+    coarse, *right, fine = (sample.error for sample in found("snapping").curves[0].samples)
+    assert right == [0.0, 0.0] and coarse > 0.1 and fine > 0.1
+
+
+@pytest.mark.slow
+def test_errors_are_the_same_on_every_run():
+    for name in ("polygonised", "arc-fit", "refraction"):
+        again = measured(named(name), FEW[name][:2])
+        for curve, before in zip(again.curves, found(name).curves, strict=True):
+            assert [s.error for s in curve.samples] == [s.error for s in before.samples[:2]]

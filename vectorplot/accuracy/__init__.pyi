@@ -1,0 +1,17 @@
+from .approximation import Approximation, Study, Way
+from .catalogue import APPROXIMATIONS
+from .curves_of_error import Accuracy, ErrorCurve, Sample
+from .measuring import measured
+from .plots import plot
+
+__all__ = [
+    "APPROXIMATIONS",
+    "Accuracy",
+    "Approximation",
+    "ErrorCurve",
+    "Sample",
+    "Study",
+    "Way",
+    "measured",
+    "plot",
+]

@@ -1,0 +1,136 @@
+"""What an approximation is: a knob, ways that depend on it, and an error that can be measured."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from vectorplot.errors import InputError
+
+
+def decades(first: float, last: float, count: int) -> tuple[float, ...]:
+    """Powers of ten, the first and the last exponent included, in even steps of these: values of a knob."""
+    step = (last - first) / (count - 1)
+    return tuple(float(f"{10.0 ** (first + step * number):.3g}") for number in range(count))
+
+
+@dataclass(frozen=True)
+class Way:
+    """A way to an approximate result, which depends on the knob.
+
+    Parameters
+    ----------
+    name : str
+        What the curve of its errors is called.
+    result : callable
+        Takes a value of the knob; what it does is timed.
+    slope : float, optional
+        By theory errors go like the value of the knob to this power; None where theory knows no such power.
+
+    Examples
+    --------
+    >>> from vectorplot.accuracy import Way
+    >>> polygon = Way("polygon", lambda corners: corners, slope=-2.0)
+    >>> polygon.result(6.0)
+    6.0
+    """
+
+    name: str
+    result: Callable[[float], Any]
+    slope: float | None = None
+
+
+@dataclass(frozen=True)
+class Study:
+    """All that is needed to measure an approximation: its ways, and the truth.
+
+    Parameters
+    ----------
+    ways : tuple of Way
+        Compared with each other over the same knob.
+    error : callable
+        Takes a result, measures it against the truth, and returns a number that is not negative.
+    count : callable
+        Takes a result and returns how many things it consists of.
+    exact : callable, optional
+        Makes the exact result, or the finest one that there is; it is timed and measured too.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.accuracy import Study, Way
+    >>> polygon = Way("polygon", lambda corners: corners, slope=-2.0)
+    >>> sag = Study((polygon,), error=lambda corners: 1.0 - np.cos(np.pi / corners), count=int)
+    >>> round(float(sag.error(sag.ways[0].result(6.0))), 3)
+    0.134
+    """
+
+    ways: tuple[Way, ...]
+    error: Callable[[Any], float]
+    count: Callable[[Any], int]
+    exact: Callable[[], Any] | None = None
+
+
+@dataclass(frozen=True)
+class Approximation:
+    """An approximation of the package, and how its error is measured.
+
+    Parameters
+    ----------
+    name : str
+        What the command calls it: a word, with hyphens.
+    title : str
+        What it is, in a few words.
+    about : str
+        A sentence or two: what is approximated on what, and what the error is.
+    knob : str
+        What can be chosen, with its unit.
+    values : tuple of float
+        Positive values of the knob, from the coarsest result to the finest. If all of them are whole numbers, only such
+        are meant.
+    limits : (float, float)
+        The smallest and the largest value that makes sense and stays within a few seconds and a gigabyte.
+    unit : str
+        What errors are measured in.
+    counts : str
+        What a result consists of.
+    study : callable
+        Makes the Study; scenes and truth are made then, and not before.
+
+    Notes
+    -----
+    Nothing here is computed when it is imported.
+
+    Examples
+    --------
+    >>> from vectorplot.accuracy import APPROXIMATIONS
+    >>> fit = next(one for one in APPROXIMATIONS if one.name == "bezier-fit")
+    >>> fit.knob, fit.unit, fit.counts
+    ('tolerance in mm', 'mm', 'pieces')
+    """
+
+    name: str
+    title: str
+    about: str
+    knob: str
+    values: tuple[float, ...]
+    limits: tuple[float, float]
+    unit: str
+    counts: str
+    study: Callable[[], Study]
+
+
+def check_values(one: Approximation, values: Sequence[float]) -> None:
+    """Nothing, where these are values of the knob of an approximation.
+
+    Errors: InputError for none, for one outside of the limits, and for one that is not whole where only such are meant.
+    """
+    least, most = one.limits
+    whole = all(float(value).is_integer() for value in one.values)
+    said = f"{one.name}: expected {'whole numbers' if whole else 'numbers'} from {least:g} to {most:g}"
+    if not len(values):
+        raise InputError(f"{said} for the {one.knob}, one or more")
+    for value in values:
+        if not least <= value <= most or (whole and not float(value).is_integer()):
+            raise InputError(f"{said} for the {one.knob}, not {value:g}")

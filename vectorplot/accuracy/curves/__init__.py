@@ -1,0 +1,1 @@
+"""Approximations of curves, on the page and on surfaces."""

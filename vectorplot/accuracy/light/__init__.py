@@ -1,0 +1,1 @@
+"""Approximations of shadows and of refraction."""

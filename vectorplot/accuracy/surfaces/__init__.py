@@ -1,0 +1,1 @@
+"""Approximations of surfaces by triangles."""

@@ -1,0 +1,197 @@
+"""Charts as drawings: panels side by side, each with curves over logarithmic axes, and what the curves are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.charts.axes import LogAxis
+from vectorplot.charts.letters import letters, text_width
+from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
+from vectorplot.drawing.strokes.dashes import dashed
+from vectorplot.geometry import ragged
+from vectorplot.words import LineKind
+
+COLOURS = ("#1f4e8c", "#b8321f", "#2b7a3d", "#8a5a00", "#6a3d9a", "#00717a")
+"""Inks of curves, one after the other; they differ in print and for eyes that see few colours."""
+
+PANEL_MM = (84.0, 66.0)
+"""Width and height of the area between the axes of a panel."""
+
+LEFT_MM, BELOW_MM, ABOVE_MM, RIGHT_MM = 26.0, 18.0, 22.0, 6.0
+"""Room for the numbers of a panel, for those below it, for title and names, and at the right border of the page."""
+
+TITLE_MM, LABEL_MM, NUMBER_MM, EXPONENT_MM = 4.0, 2.8, 2.4, 1.8
+"""How high capitals are."""
+
+TICK_MM, SHORT_TICK_MM, MARKER_MM = 1.6, 0.8, 0.9
+DASH_MM, GAP_MM = 2.0, 1.4
+
+SAMPLE_MM = 8.0
+"""How long the pieces of curves in the legend are, and the gaps between its names."""
+
+AXES, GRID, LETTERS, CURVE = Pen(0.25), Pen(0.1, "#c8c8c8"), Pen(0.25), 0.45
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A curve of a chart: what it is called, its points, and whether these are marked; colour: which ink; dashed: it is
+    a dashed line. Points that are not positive interrupt it; where y is zero they are marked at the foot."""
+
+    name: str
+    x: Sequence[float]
+    y: Sequence[float]
+    colour: int
+    marked: bool = True
+    dashed: bool = False
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Curves over axes; uprights: values of x with a dashed line each, and what is written at it."""
+
+    x_label: str
+    y_label: str
+    curves: tuple[Curve, ...]
+    uprights: tuple[tuple[float, str], ...] = ()
+
+    def axes(self) -> tuple[LogAxis, LogAxis]:
+        """The axes around the marked curves."""
+        marked = [curve for curve in self.curves if curve.marked]
+        x = [value for curve in marked for value in curve.x] + [value for value, _ in self.uprights]
+        return LogAxis.around(self.x_label, x), LogAxis.around(
+            self.y_label, [value for curve in marked for value in curve.y]
+        )
+
+
+def chart(title: str, panels: Sequence[Panel], note: str = "") -> Drawing:
+    """Panels from left to right on a page that fits them, with a title, a legend of the marked curves of all of them,
+    each name once, and a note after that."""
+    width, height = PANEL_MM
+    step = LEFT_MM + width
+    page = (len(panels) * step + RIGHT_MM, BELOW_MM + height + ABOVE_MM)
+    grid: list[Floats] = []
+    frame: list[Floats] = []
+    inked: dict[int, list[Floats]] = {}
+    dashes: dict[int, list[Floats]] = {}
+    texts = letters(title, (LEFT_MM, page[1] - 2.0 - TITLE_MM), TITLE_MM)
+    for number, panel in enumerate(panels):
+        corner = np.array([number * step + LEFT_MM, BELOW_MM])
+        x, y = panel.axes()
+        frame.append(corner + np.array([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)]) * PANEL_MM)
+        for axis, along in ((x, 0), (y, 1)):
+            parts = _axis(axis, along, corner)
+            grid += parts[0]
+            frame += parts[1]
+            texts += parts[2]
+        for curve in panel.curves:
+            where = np.stack([x.place(np.asarray(curve.x)), y.place(np.asarray(curve.y))], axis=1)
+            mine = dashes if curve.dashed else inked
+            lines = _clipped(where) if curve.dashed else _runs(where)
+            mine.setdefault(curve.colour, []).extend(corner + line * PANEL_MM for line in lines)
+            if curve.marked:
+                where[np.asarray(curve.y) == 0.0, 1] = 0.0
+                seen = where[np.isfinite(where).all(axis=1)]
+                inked.setdefault(curve.colour, []).extend(_markers(corner + seen * PANEL_MM, curve.colour))
+        for value, text in panel.uprights:
+            right = float(corner[0] + x.place(value) * width)
+            dashes.setdefault(-1, []).append(np.array([(right, BELOW_MM), (right, BELOW_MM + height)]))
+            texts += letters(text, (right - 1.0, BELOW_MM + 2.0), NUMBER_MM, upwards=True)
+    names = _legend(panels, (LEFT_MM, BELOW_MM + height + 4.0), inked, note)
+    layers = [Layer("grid", GRID, (_paths(grid),)), Layer("axes", AXES, (_paths(frame),))]
+    for colour in sorted({*inked, *dashes}):
+        pen = Pen(CURVE, COLOURS[colour % len(COLOURS)]) if colour >= 0 else Pen(0.25)
+        broken = dashed(_paths(dashes.get(colour, [])), DASH_MM, GAP_MM)
+        layers.append(Layer(f"curve {colour + 1}", pen, (_paths(inked.get(colour, [])), broken)))
+    layers.append(Layer("letters", LETTERS, (_paths([*texts, *names]),)))
+    return Drawing(*page, tuple(layers), items=("chart",), title=title)
+
+
+def _axis(axis: LogAxis, along: int, corner: Floats) -> tuple[list[Floats], list[Floats], list[Floats]]:
+    """Lines across the panel, ticks and letters of an axis; along: 0 for x, 1 for y."""
+    unit, other = np.eye(2)[along], np.eye(2)[1 - along]
+    size = np.array(PANEL_MM)
+    lines, ticks, texts = [], [], []
+    for tick in axis.ticks():
+        foot = corner + float(axis.place(tick.value)) * unit * size
+        ticks.append(np.array([foot, foot + (TICK_MM if tick.text else SHORT_TICK_MM) * other]))
+        if tick.text:
+            lines.append(np.array([foot, foot + other * size]))
+            texts += _number(tick.text, foot, along)
+    middle = corner + 0.5 * unit * size
+    if along == 0:
+        texts += letters(axis.label, (middle[0], middle[1] - 11.0), LABEL_MM, along="middle")
+    else:
+        texts += letters(axis.label, (middle[0] - 16.0, middle[1]), LABEL_MM, along="middle", upwards=True)
+    return lines, ticks, texts
+
+
+def _number(text: str, foot: Floats, along: int) -> list[Floats]:
+    """The letters of a number at a tick, an exponent raised."""
+    base, _, exponent = text.partition("^")
+    width = text_width(base, NUMBER_MM) + (0.6 + text_width(exponent, EXPONENT_MM) if exponent else 0.0)
+    x = foot[0] - 0.5 * width if along == 0 else foot[0] - 1.5 - width
+    y = foot[1] - 2.0 - NUMBER_MM if along == 0 else foot[1] - 0.5 * NUMBER_MM
+    found = letters(base, (x, y), NUMBER_MM)
+    if exponent:
+        found += letters(exponent, (x + width, y + 0.55 * NUMBER_MM), EXPONENT_MM, along="right")
+    return found
+
+
+def _legend(
+    panels: Sequence[Panel], at: tuple[float, float], inked: dict[int, list[Floats]], note: str
+) -> list[Floats]:
+    """The letters of the names of marked curves, in a row; their samples of line join those of the curves."""
+    found: list[Floats] = []
+    x, y = at
+    named = {curve.name: curve for panel in panels for curve in panel.curves if curve.marked}
+    for name, curve in named.items():
+        middle = y + 0.5 * LABEL_MM
+        sample = np.array([(x, middle), (x + SAMPLE_MM, middle)])
+        marker = _markers(sample.mean(axis=0, keepdims=True), curve.colour)
+        inked.setdefault(curve.colour, []).extend([sample, *marker])
+        found += letters(name, (x + SAMPLE_MM + 2.0, y), LABEL_MM)
+        x += SAMPLE_MM + 2.0 + text_width(name, LABEL_MM) + SAMPLE_MM
+    return found + letters(note, (x, y), LABEL_MM)
+
+
+def _markers(points: Floats, colour: int) -> list[Floats]:
+    """A small figure around every point: a circle, a square, a triangle, a diamond, one for each ink."""
+    sides, turn = ((16, 0.0), (4, 0.25 * np.pi), (3, 0.5 * np.pi), (4, 0.0))[colour % 4]
+    angle = turn + np.linspace(0.0, 2.0 * np.pi, sides + 1)
+    figure = MARKER_MM * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return [point + figure for point in points]
+
+
+def _runs(places: Floats) -> list[Floats]:
+    """The parts of a polyline (n,2) between points that are not finite."""
+    known = np.isfinite(places).all(axis=1)
+    runs = [run[np.isfinite(run).all(axis=1)] for run in np.split(places, np.flatnonzero(~known))]
+    return [run for run in runs if len(run) > 1]
+
+
+def _clipped(places: Floats) -> list[Floats]:
+    """The part of a straight line from the first to the last of some places that is in the unit square, if any."""
+    start, way = places[0], places[-1] - places[0]
+    if not np.isfinite(places).all() or not way.any():
+        return []
+    with np.errstate(divide="ignore", invalid="ignore"):
+        sides = np.stack([-start / way, (1.0 - start) / way])
+    into, out = np.where(way == 0.0, 0.0, sides.min(axis=0)), np.where(way == 0.0, 1.0, sides.max(axis=0))
+    low, high = max(float(into.max()), 0.0), min(float(out.min()), 1.0)
+    return [np.stack([start + low * way, start + high * way])] if low < high else []
+
+
+def _paths(lines: Iterable[Floats]) -> Paths:
+    """Polylines on the page as strokes of item 0."""
+    parts = list(lines)
+    if not parts:
+        return Paths.empty()
+    count = np.array([len(part) for part in parts], dtype=np.intp)
+    points, zeros = np.concatenate(parts), np.zeros(len(parts), dtype=np.intp)
+    space = np.concatenate([points, np.zeros((len(points), 1))], axis=1)
+    kind = np.full(len(parts), LineKind.CURVE, dtype=np.intp)
+    return Paths(points, ragged.offsets(count), np.zeros(len(parts), dtype=np.bool_), kind, zeros, zeros, space)
