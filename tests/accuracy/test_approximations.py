@@ -111,7 +111,7 @@ def test_tolerances_of_curves_are_kept(name):
 
 @pytest.mark.slow
 def test_better_ways_are_better_at_every_value():
-    for name, ways in (("zero-manifold", 3), ("shadow-maps", 2), ("refraction", 2), ("mesh-contour", 2)):
+    for name, ways in (("zero-manifold", 3), ("shadow-maps", 2), ("refraction", 2)):
         errors = np.array([[sample.error for sample in curve.samples] for curve in found(name).curves])
         assert len(errors) == ways and (np.diff(errors, axis=0) < 0.0).all(), name
 

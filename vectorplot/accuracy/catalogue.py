@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from vectorplot.accuracy.approximation import Approximation
-from vectorplot.accuracy.curves.arc_fit import ARC_FIT
-from vectorplot.accuracy.curves.bezier_fit import BEZIER_FIT
-from vectorplot.accuracy.curves.drawn_curves import DRAWN_CURVES
-from vectorplot.accuracy.curves.zero_manifold import ZERO_MANIFOLD
-from vectorplot.accuracy.light.refraction import REFRACTION
-from vectorplot.accuracy.light.shadow_maps import SHADOW_MAPS
-from vectorplot.accuracy.surfaces.mesh_contour import MESH_CONTOUR
-from vectorplot.accuracy.surfaces.painted_facets import PAINTED_COLOURS, PAINTED_OUTLINE
-from vectorplot.accuracy.surfaces.polygonised import POLYGONISED
-from vectorplot.accuracy.visibility.depth_buffer import DEPTH_BUFFER
-from vectorplot.accuracy.visibility.sampled_visibility import SAMPLED_VISIBILITY
-from vectorplot.accuracy.visibility.snapping import SNAPPING
+from vectorplot.accuracy.of_curves.arc_fit import ARC_FIT
+from vectorplot.accuracy.of_curves.bezier_fit import BEZIER_FIT
+from vectorplot.accuracy.of_curves.drawn_curves import DRAWN_CURVES
+from vectorplot.accuracy.of_curves.zero_crossings_on_grids import ZERO_MANIFOLD
+from vectorplot.accuracy.of_light.refracted_rays import REFRACTION
+from vectorplot.accuracy.of_light.shadow_maps import SHADOW_MAPS
+from vectorplot.accuracy.of_surfaces.mesh_contour import MESH_CONTOUR
+from vectorplot.accuracy.of_surfaces.painted_facets import PAINTED_COLOURS, PAINTED_OUTLINE
+from vectorplot.accuracy.of_surfaces.polygonised import POLYGONISED
+from vectorplot.accuracy.of_visibility.buffered_lines import DEPTH_BUFFER
+from vectorplot.accuracy.of_visibility.sampled_visibility import SAMPLED_VISIBILITY
+from vectorplot.accuracy.of_visibility.snapping import SNAPPING
 
 APPROXIMATIONS: tuple[Approximation, ...] = (
     *(DRAWN_CURVES, BEZIER_FIT, ARC_FIT, ZERO_MANIFOLD),

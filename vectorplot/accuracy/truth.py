@@ -10,7 +10,7 @@ from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.scene.placement import box_corners, fitted_picture
 from vectorplot.scene.scene import Page
 from vectorplot.testing.curve_distance import Segments, Tree
-from vectorplot.testing.polylines import Curves
+from vectorplot.testing.curve_points import Curves
 
 
 def page_from_world(camera: Camera, bounds: Floats) -> Floats:

@@ -32,7 +32,7 @@ def accuracy(
     thread.
     """
     from vectorplot.accuracy.catalogue import APPROXIMATIONS
-    from vectorplot.accuracy.tables import as_text, listed
+    from vectorplot.accuracy.error_tables import as_text, listed
     from vectorplot.accuracy.verb import accuracy as measure
 
     if listing:

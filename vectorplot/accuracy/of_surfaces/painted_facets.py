@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.accuracy.approximation import Approximation, Study, Way
-from vectorplot.accuracy.pictures import pixels_of, wrong_share
 from vectorplot.accuracy.truth import on_page
+from vectorplot.accuracy.wrong_pixels import pixels_of, wrong_share
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.features.parametric.contour import contour

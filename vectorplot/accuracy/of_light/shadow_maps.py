@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from vectorplot.accuracy.approximation import Approximation, Study, Way
-from vectorplot.accuracy.pictures import wrong_share
+from vectorplot.accuracy.wrong_pixels import wrong_share
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.render import render
 from vectorplot.scene.scene import Item, Light, Scene

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.accuracy.approximation import Approximation, Study, Way, decades
-from vectorplot.accuracy.curves.chords import chords_of
+from vectorplot.accuracy.of_curves.curve_chords import chords_of
 from vectorplot.arrays import Floats
 from vectorplot.curves.bezier.fit import fitted_curve
 from vectorplot.curves.bezier.paths import BezierPath
