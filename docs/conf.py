@@ -9,7 +9,7 @@ from pathlib import Path
 from sphinx.application import Sphinx
 
 ROOMS = (
-    "geometry curves surfaces features scene io visibility shading drawing effects textbook backends testing exact"
+    "geometry curves surfaces features scene io visibility shading drawing effects textbook backends testing accuracy exact"
 ).split()
 """The rooms whose names the reference lists."""
 
@@ -35,7 +35,7 @@ CONTENTS = {
     "Start": ("first-drawing", "how-to", "concepts", "gallery/README"),
     "What it does": ("drawing", "paint", "render", "scene-language", "molecules", "textbook"),
     "Reference": ("command", "python", "reference/vectorplot", *(f"reference/{room}" for room in ROOMS)),
-    "How exact, how fast": ("accuracy-and-limits", "speed", "tolerances"),
+    "How exact, how fast": ("accuracy-and-limits", "accuracy", "speed", "tolerances"),
     "About": ("errata", "bibliography", "coverage"),
 }
 """The pages, by the headings they stand under."""
