@@ -104,7 +104,7 @@ class SurfaceRows:
         """Those of some of the pairs of parameters."""
         return SurfaceRows(self.stack, self.row[which])
 
-    @property
+    @cached_property
     def domain(self) -> Domain:
         """Columns in place of numbers."""
         first = self.stack.surfaces[0].domain
@@ -127,7 +127,12 @@ class SurfaceRows:
         return self._turned(uu), self._turned(uv), self._turned(vv)
 
     def _turned(self, vectors: Floats) -> Floats:
-        return np.asarray(np.einsum("ki,kij->kj", vectors, self.stack.matrices[self.row]))
+        return np.asarray(np.einsum("ki,kij->kj", vectors, self._matrices))
+
+    @cached_property
+    def _matrices(self) -> Floats:
+        """(k,3,3) of the placements."""
+        return self.stack.matrices[self.row]
 
     def _asked(
         self, question: Callable[[Surface, Floats, Floats], Sequence[Floats]], answers: int, u: Floats, v: Floats

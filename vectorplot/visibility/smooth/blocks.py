@@ -10,8 +10,9 @@ from vectorplot.arrays import Ints
 
 T = TypeVar("T")
 
-FIRST = 16
-"""Rows of the first block: how many partners rows have is not known yet."""
+FIRST, FASTER = 32, 8
+"""Rows of the first block: how many partners rows have is not known yet; and so many times as many rows as in a block
+there may be in the next one."""
 
 AT_ONCE = 1 << 18
 """Partners of a block, about."""
@@ -42,5 +43,5 @@ def in_blocks(rows: Ints, pairs: int, look: Callable[[Ints], Block[T]]) -> tuple
         done = min(done + size, len(rows))
         close += block.close
         # The next block may have more partners than this one had: it grows slowly.
-        size = max(1, min(4 * size, int(size * min(AT_ONCE, most) / max(block.partners, 1))))
+        size = max(1, min(FASTER * size, int(size * min(AT_ONCE, most) / max(block.partners, 1))))
     return found, done

@@ -17,7 +17,7 @@ from vectorplot.visibility.smooth.events.events import all_events
 from vectorplot.visibility.smooth.events.missed_events import missed_events
 from vectorplot.visibility.smooth.events.own_events import edge_on_curves, own_events
 from vectorplot.visibility.smooth.events.piercings import piercings
-from vectorplot.visibility.smooth.hidden_pieces import Pieces, carried, counted, cut
+from vectorplot.visibility.smooth.hidden_pieces import Counts, Pieces, carried, counted, cut, recounted
 from vectorplot.visibility.smooth.runs import without_short_runs
 from vectorplot.visibility.smooth.targets import targets_of
 from vectorplot.visibility.smooth.tracing.traced import TracedScene
@@ -67,12 +67,16 @@ def hidden_curves(
     done(0.6)
     events = all_events([own, crossed, pierced])
     pieces = cut(curves, events, items)
-    counts = counted(view, sheets, targets, curves, edges, edge_on, pieces, items, budget.pairs)
+
+    def count(pieces: Pieces) -> Counts:
+        return counted(view, sheets, targets, curves, edges, edge_on, pieces, items, budget.pairs)
+
+    counts = count(pieces)
     done(0.8)
     more, short_of_halvings = missed_events(view, sheets, targets, curves, edge_on, pieces, counts, items, budget.pairs)
     if len(more):
-        pieces = cut(curves, all_events([events, more]), items)
-        counts = counted(view, sheets, targets, curves, edges, edge_on, pieces, items, budget.pairs)
+        again = cut(curves, all_events([events, more]), items)
+        pieces, counts = again, recounted(pieces, counts, again, count)
     unlooked = [*short_of_piercings, *short_of_halvings, *np.flatnonzero(counts.unlooked).tolist()]
     short = {*short_of_crossings, *hiding[unlooked].tolist()} if unlooked else {*short_of_crossings}
     hidden_by = np.asarray((carried(pieces, counts) > 0).sum(axis=1))

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import records
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_extent import SAFE_IN_IMAGE
 from vectorplot.visibility.smooth.events.events import Events
@@ -97,6 +99,21 @@ def counted(
     in_front, looked = counts_in_front(view, sheets, targets, samples, items, pairs)
     unlooked = np.asarray((~looked).any(axis=0), dtype=np.bool_)
     return Counts(in_front, np.asarray((clearance > SAFE_IN_IMAGE) & looked.all(axis=1)), unlooked)
+
+
+def recounted(pieces: Pieces, counts: Counts, again: Pieces, count: Callable[[Pieces], Counts]) -> Counts:
+    """The sight lines of pieces that are cut again: of those that were there before what is known of them, of the
+    others what count finds."""
+    rows = [np.column_stack([p.curve, p.begin_chord, p.begin_part, p.end_chord, p.end_part]) for p in (pieces, again)]
+    number = np.unique(np.concatenate(rows), axis=0, return_inverse=True)[1].ravel()
+    known = np.full(len(number), -1)
+    known[number[: len(pieces)]] = np.arange(len(pieces))
+    source = known[number[len(pieces) :]]
+    new = np.flatnonzero(source < 0)
+    found = count(records.some(again, new))
+    in_front, safe = counts.in_front[source], counts.safe[source]
+    in_front[new], safe[new] = found.in_front, found.safe
+    return Counts(in_front, safe, counts.unlooked | found.unlooked)
 
 
 def carried(pieces: Pieces, counts: Counts) -> Ints:

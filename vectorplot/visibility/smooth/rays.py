@@ -135,10 +135,13 @@ def _second_meeting(sheets: Sheets, number: Ints, way: Floats, places: Floats) -
 def _meetings(
     view: View, sheets: Sheets, targets: Targets, samples: Samples, way: Floats, pairs: tuple[Ints, Ints]
 ) -> tuple[Ints, Ints, Floats, Floats]:
-    """All meetings of the sight lines with sheets, each once: the sample, the sheet, the part of the sight line, the
-    place."""
+    """All meetings of the sight lines with sheets in front of the points, each once, and some of those behind them: the
+    sample, the sheet, the part of the sight line, the place."""
     image = sight_lines.image(view, samples.points)
     sample, triangle = pairs
+    # What lies behind a point hides nothing of it.
+    before = targets.nearest[triangle] - targets.off[triangle] <= sight_lines.depth(view, samples.points)[sample]
+    sample, triangle = sample[before], triangle[before]
     weight = weights(targets.image[triangle], image[sample])
     spread = np.ptp(targets.image[triangle], axis=1).max(axis=1)
     near = distance_to(targets.image[triangle], weight, image[sample]) <= targets.margin[triangle] + 0.02 * spread

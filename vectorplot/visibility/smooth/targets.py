@@ -58,6 +58,11 @@ class Targets:
         return shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
 
     @cached_property
+    def nearest(self) -> Floats:
+        """(t,) the smallest depths of the corners."""
+        return np.asarray(self.depth.min(axis=1))
+
+    @cached_property
     def box(self) -> Floats:
         """(2,2) the box around the image, enlarged by the margins; empty without triangles."""
         low, high = self._boxes

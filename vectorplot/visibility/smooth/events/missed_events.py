@@ -55,7 +55,9 @@ def missed_events(
     below, above = found[piece, look], found[piece, look + 1]
     last = pieces.end_chord[suspects][piece]
     row = np.arange(len(piece))
-    inner = np.arange(1, PARTS) / PARTS
+    inner, change = np.arange(1, PARTS) / PARTS, above - below
+    # From here on nothing else is looked at than what changes.
+    targets = targets.some(np.isin(sheets.item[targets.sheet], np.flatnonzero((change != 0).any(axis=0))))
     for _ in range(ROUNDS):
         if not len(row):
             break
@@ -74,14 +76,15 @@ def missed_events(
         short |= ~looked.all(axis=0)
         # What the budget does not do for stays where it is.
         on = np.flatnonzero(looked.all(axis=1).reshape(-1, PARTS - 1).all(axis=1))
-        same = (counts_there.reshape(len(row), PARTS - 1, items) == below[row, None]).all(axis=2)[on]
+        alike = counts_there.reshape(len(row), PARTS - 1, items) == below[row, None]
+        same = (alike | (change[row, None] == 0)).all(axis=2)[on]
         row, between = row[on], between[on]
         first = np.where(same.all(axis=1), PARTS - 1, np.argmin(same, axis=1))
         ends = np.concatenate([low[row, None], between, high[row, None]], axis=1)
         low[row], high[row] = ends[np.arange(len(row)), first], ends[np.arange(len(row)), first + 1]
     chord = np.minimum(low.astype(np.intp), last)
-    which, item = np.nonzero(above - below)
-    events = Events(chord[which], (low - chord)[which], item, (above - below)[which, item])
+    which, item = np.nonzero(change)
+    events = Events(chord[which], (low - chord)[which], item, change[which, item])
     return events, tuple(np.flatnonzero(short).tolist())
 
 

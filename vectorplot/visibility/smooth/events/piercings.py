@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
-from vectorplot.geometry.boxes import overlapping_boxes
+from vectorplot.geometry.slab_hulls import SlabHulls
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import ALONG_SHEET_SINE, ROUGHLY_ALONG_SHEET_SINE
@@ -83,7 +83,7 @@ def _close(
     depth, image = sight_lines.depth(view, curves.points), sight_lines.image(view, curves.points)
     none = np.zeros(0, dtype=np.intp)
     parts, short = [_Close(none, none, np.zeros(0), np.zeros((0, 3)), np.zeros(0))], list[int]()
-    curve, of = _neighbours(targets, curves)
+    curve, of = _neighbours(sheets, targets, curves)
     stranger = (curves.sheet[curve] != of) & (curves.second_sheet[curve] != of) | meets_itself[of]
     curve, of = curve[stranger], of[stranger]
     order = np.argsort(of, kind="stable")
@@ -107,19 +107,18 @@ def _close(
     return records.joined(parts), tuple(short)
 
 
-def _neighbours(targets: Targets, curves: Curves) -> tuple[Ints, Ints]:
-    """Curves and sheets (n,) whose boxes in space overlap."""
+def _neighbours(sheets: Sheets, targets: Targets, curves: Curves) -> tuple[Ints, Ints]:
+    """Curves and sheets (n,) that their hulls in space do not separate."""
     first = np.flatnonzero(np.diff(targets.sheet, prepend=-1))
     if not len(first) or not len(curves):
         return np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp)
-    low, high = targets.corners.min(axis=1), targets.corners.max(axis=1)
+    size = np.ptp(targets.corners, axis=1).max(axis=1)
     # As far as a chord may be from a triangle that it comes close to.
-    within = np.maximum.reduceat(targets.off + NEAR * np.sqrt(3.0) * (high - low).max(axis=1), first)[:, None]
-    low, high = np.minimum.reduceat(low, first) - within, np.maximum.reduceat(high, first) + within
-    points, begin = curves.points, curves.offsets[:-1]
-    curve, sheet = overlapping_boxes(
-        np.minimum.reduceat(points, begin).T, np.maximum.reduceat(points, begin).T, low.T, high.T
-    )
+    within = np.maximum.reduceat(targets.off + NEAR * np.sqrt(3.0) * size, first)
+    vertices = [sheets[number].vertices for number in targets.sheet[first].tolist()]
+    finite = [own[np.isfinite(own).all(axis=1)] for own in vertices]
+    of_sheets = SlabHulls.of(np.concatenate(finite), np.array([len(own) for own in finite])).widened(within)
+    curve, sheet = SlabHulls.of(curves.points, np.diff(curves.offsets)).near(of_sheets)
     return curve, targets.sheet[first[sheet]]
 
 
