@@ -36,7 +36,7 @@ CONTENTS = {
     "Start": ("first-drawing", "how-to", "concepts", "gallery/README"),
     "What it does": ("drawing", "paint", "render", "scene-language", "molecules", "textbook"),
     "Reference": ("command", "python", "reference/vectorplot", *(f"reference/{room}" for room in ROOMS)),
-    "How exact, how fast": ("accuracy-and-limits", "accuracy", "speed", "tolerances"),
+    "How exact, how fast": ("accuracy-and-limits", "accuracy", "stability", "speed", "tolerances"),
     "About": ("errata", "bibliography", "coverage"),
 }
 """The pages, by the headings they stand under."""
