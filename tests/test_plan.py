@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from support.paths import DATA
 
+from vectorplot.draw import draw
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.io.read_file import read
 from vectorplot.paint import paint
 from vectorplot.plan import Stage, StageReport, Walk
+from vectorplot.render import render
 from vectorplot.scene.scene import Item, Light, Material, Pattern, Scene
 from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing.shapes import box
 
 PLAIN = ["look", "faces", "order", "shades", "fills"]
@@ -82,6 +86,24 @@ def test_each_scene_runs_the_stages_that_it_calls_for(scene: Scene, options: dic
 def test_each_stage_tells_why_it_ran_and_what_it_took() -> None:
     for report in reports_of(Scene((SPOT, MIRROR, GLASS, BALL), (SUN,)), tolerance_mm=1.0):
         assert report.why and 0.0 <= report.seconds < 60.0 and report.count >= 0 and report.peak_mb > 1.0
+
+
+def test_stages_that_approximate_say_how_far_off_they_may_be() -> None:
+    def said(verb: Callable[..., object], scene: Scene, **options: object) -> dict[str, str]:
+        reports: list[StageReport] = []
+        verb(scene, CAMERA, explain=reports.append, **options)
+        return {report.name: report.why for report in reports}
+
+    ring, small = Scene((Item("RING", Torus(2.0, 0.5)),), (SUN,)), {"size": (60, 40), "samples": 1}
+    drawn = said(draw, ring, lines="contour", tolerance_mm=0.2)
+    assert "chords within 0.1 mm" in drawn["curves"] and "curves within 0.1 mm" in drawn["pen"]
+    assert "exact: below 1e-09 of the extent" in drawn["visible lines"]
+    assert "curves" not in said(draw, ring, lines="contour", curves="polyline")["pen"]
+    assert "--tolerance" not in " ".join(said(draw, Scene((CUBE,))).values())
+    assert "within 0.5 mm" in said(paint, ring, tolerance_mm=0.5, shadows="none")["facets"]
+    rendered = said(render, ring, shadows="buffer", shadow_size=64, **small)
+    assert "a texel of 64 x 64" in rendered["shadows"] and "of a sample" in rendered["facets"]
+    assert "texel" not in said(render, ring, shadows="exact", **small)["shadows"]
 
 
 @pytest.mark.parametrize("name", ["pencil", "town"])

@@ -23,7 +23,7 @@ from vectorplot.geometry.cameras.camera import Camera, Point
 from vectorplot.geometry.chunks import threads_of
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, normalize
-from vectorplot.plan import StageReport, Walk, plan_cuts, plan_draw
+from vectorplot.plan import StageReport, Walk, accuracy_of_draw, plan_cuts, plan_draw, with_accuracy
 from vectorplot.scene.placement import Placement, mm_per_image
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.seamless_scene import without_seams
@@ -180,7 +180,9 @@ def draw(
     tell_what_is_cut_off(scene)
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
-    walk = Walk((*plan_cuts(camera), *plan_draw(scene, kinds, hidden, halo_mm, style)), explain, progress, threads)
+    smooth = curves == "bezier" and any(not isinstance(item.shape, Mesh) for item in scene.items)
+    stages = with_accuracy(plan_draw(scene, kinds, hidden, halo_mm, style), accuracy_of_draw(tolerance_mm, smooth))
+    walk = Walk((*plan_cuts(camera), *stages), explain, progress, threads)
     scene = seen_part(walk, scene, camera)
     view = walk.run("look", look, scene, camera)
     faces = walk.run("faces", project_faces, view)

@@ -23,7 +23,7 @@ from vectorplot.painting.erased import erased
 from vectorplot.painting.reports import tell_groups, tell_knots, tell_slices, warn_of_guesses
 from vectorplot.painting.ruler import PEN, Ruler
 from vectorplot.painting.seen import Seen, without_unseen_facets
-from vectorplot.plan import StageReport, Walk, plan_cuts, plan_paint
+from vectorplot.plan import StageReport, Walk, accuracy_of_paint, plan_cuts, plan_paint, with_accuracy
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seamless_scene import without_seams
@@ -147,7 +147,8 @@ def paint(
     camera = camera or scene.camera or default_camera(scene)
     page = page or scene.page or Page()
     kinds = line_kinds(lines)
-    walk = Walk((*plan_cuts(camera), *plan_paint(scene, shadows, fills, kinds)), explain, progress, threads)
+    stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
+    walk = Walk((*plan_cuts(camera), *stages), explain, progress, threads)
     scene = seen_part(walk, scene, camera)
     projection = projection_of(camera, scene.bounds)
     # Lines belong to each item, polygons to what is seen.

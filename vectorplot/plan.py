@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
@@ -18,6 +18,7 @@ from vectorplot.scene.placement import box_corners, field_of_vision
 from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.surfaces.balls import ball_of
 from vectorplot.surfaces.capped_quadrics import capped_quadric_of
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.words import LineKind
 
 P = ParamSpec("P")
@@ -55,6 +56,41 @@ class StageReport:
 
 STAGE_NAME = 16
 """So many letters names of stages have at most, mirror light and lines on meshes among them."""
+
+
+def with_accuracy(stages: Sequence[Stage], said: Mapping[str, str]) -> tuple[Stage, ...]:
+    """The stages; those that are named in what is said tell besides why they run how far off they may be, and which
+    option changes that."""
+    return tuple(
+        replace(stage, why=f"{stage.why}; {said[stage.name]}") if stage.name in said else stage for stage in stages
+    )
+
+
+def accuracy_of_draw(tolerance_mm: float, smooth: bool) -> dict[str, str]:
+    """What the stages of draw say of their accuracy. smooth: strokes of curves are drawn as such."""
+    half = f"within {0.5 * tolerance_mm:g} mm"
+    exact = f"exact: below {ZERO_OF_EXTENT:g} of the extent distances are zero"
+    said = {"curves": f"chords {half} of them (--tolerance)", "visible lines": exact, "counted lines": exact}
+    return said | ({"pen": f"curves {half} of their chords (--tolerance)"} if smooth else {})
+
+
+def accuracy_of_paint(tolerance_mm: float) -> dict[str, str]:
+    """What the stages of paint say of their accuracy."""
+    return {"facets": f"asked for within {tolerance_mm:g} mm (--tolerance)"}
+
+
+def accuracy_of_render(facet_pixels: float, shadows: str, texels: int) -> dict[str, str]:
+    """What the stages of render say of their accuracy: facet_pixels: how far triangles may be off smooth surfaces;
+    shadows: the way they are found; texels: along a side of the maps."""
+    said = {
+        "facets": f"within {facet_pixels:g} of a sample (--size, --samples)",
+        "depth": "decided in the middles of samples",
+    }
+    if shadows in ("buffer", "trapezoid"):
+        said["shadows"] = (
+            f"borders off by about a texel of {texels} x {texels} (--shadow-size; --shadows exact has none)"
+        )
+    return said
 
 
 def plan_cuts(camera: Camera) -> tuple[Stage, ...]:

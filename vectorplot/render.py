@@ -18,7 +18,17 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.projection import CoordinateSystem
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.chunks import threads_of
-from vectorplot.plan import StageReport, Walk, casts_shadow, chosen_shadows, dims_light, plan_cuts, plan_render
+from vectorplot.plan import (
+    StageReport,
+    Walk,
+    accuracy_of_render,
+    casts_shadow,
+    chosen_shadows,
+    dims_light,
+    plan_cuts,
+    plan_render,
+    with_accuracy,
+)
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seamless_scene import without_seams
@@ -186,7 +196,9 @@ def render(
     tell_what_is_cut_off(scene)
     camera = camera or scene.camera or default_camera(scene)
     how, why = chosen_shadows(scene, camera, size, fit) if shadows == "auto" else (shadows, "")
-    walk = Walk((*plan_cuts(camera), *plan_render(scene, how, bool(kinds), why)), explain, progress, threads)
+    said = accuracy_of_render(FACET_PIXELS, how, shadow_size)
+    stages = with_accuracy(plan_render(scene, how, bool(kinds), why), said)
+    walk = Walk((*plan_cuts(camera), *stages), explain, progress, threads)
     _tell_what_is_missing(walk, scene, kinds)
     scene = seen_part(walk, scene, camera)
     fine = (size[0] * samples, size[1] * samples)
