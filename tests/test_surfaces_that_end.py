@@ -5,16 +5,18 @@ from __future__ import annotations
 import resource
 import time
 import warnings
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from support.drawn import drawn as measured
 
 import vectorplot as vp
+from vectorplot.curves import Circle, Loxodrome
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.expressions.expression import parse_expression
 from vectorplot.io.scenes.scene_formulas import Formulas, formula_graph, formula_implicit
-from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces import Domain, Rotoid, Swept, minimal_spiral_surface
 from vectorplot.testing import assert_drawing_is_right
 from vectorplot.testing.stroke_points import stroke_points
 
@@ -163,3 +165,21 @@ def test_waves_without_an_end_are_painted_in_the_light_of_lamps(lamps: int) -> N
     assert line.startswith("WAVES: ") and ", ".join(light.name for light in lights) in line
     (fills,) = drawing.layers[0].marks
     assert len(fills) > 1 << 13
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "surface",
+    [
+        Swept(Loxodrome(3.2, np.pi / 2.0), Rotoid(3.9, -0.7), 0.0, 2.0 * np.pi),
+        Swept(Circle(radius=1.7), Rotoid(3.1, -1.0), 0.0, 2.0 * np.pi),
+        minimal_spiral_surface(5.0),
+    ],
+)
+def test_surfaces_that_cover_themselves_and_wind_into_points_end(surface: object) -> None:
+    _, _, drawing, _ = drawn(surface, lines=0)
+    # No chord leads across the picture from one round of the surface to another.
+    for points in (
+        mark.points[a:b] for layer in drawing.layers for mark in layer.strokes for a, b in pairwise(mark.offsets)
+    ):
+        assert np.linalg.norm(np.diff(points, axis=0), axis=1).max(initial=0.0) < 25.0

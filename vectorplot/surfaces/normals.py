@@ -49,6 +49,12 @@ def unit_normals(surface: Surface, u: Floats, v: Floats) -> Floats:
     return _unit(surface, u, v, surface.partials(u, v))
 
 
+def tangent_planes(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+    """Derivatives by u and by v, and unit normals as of `unit_normals`, each (k,3), at parameters u, v (k,)."""
+    partials = surface.partials(u, v)
+    return *partials, _unit(surface, u, v, partials)
+
+
 def _unit(surface: Surface, u: Floats, v: Floats, partials: tuple[Floats, Floats]) -> Floats:
     """(..., 3) the unit normals where the surface has these partials."""
     product = cross(*partials)

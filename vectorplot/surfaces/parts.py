@@ -1,17 +1,28 @@
-"""The smooth parts of surfaces with sharp edges."""
+"""Parts of surfaces: the smooth ones between sharp edges, and one that covers all of the surface once."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
+from vectorplot.surfaces.embedded import is_embedded
 from vectorplot.surfaces.families.capped import Capped
 from vectorplot.surfaces.placed import PlacedSurface
-from vectorplot.surfaces.surface import Surface
+from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.surfaces.trimmed import TrimmedSurface
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+
+MOST_ROUNDS = 16
+"""Rounds that a surface is seen to run in one direction, at most."""
+
+FEW, MANY = 8, 512
+"""Places at which a round is compared with the next one: at first, and where it agrees there."""
+
+SCATTERED = (0.7548776662466927, 0.5698402910980532)
+"""Powers of the root of x^3 = x + 1, inverted: their multiples lie scattered over the unit square."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,3 +69,71 @@ def _trimmed(part: SmoothPart, whole: TrimmedSurface) -> SmoothPart | None:
     except InputError:
         return None
     return SmoothPart(surface, tuple(c for c in part.creases if domain.v_start < c < domain.v_end), part.is_cap)
+
+
+@dataclass(frozen=True, eq=False)
+class OneRound:
+    """A surface over the part of its domain after which it repeats itself: closed there."""
+
+    surface: Surface
+    domain: Domain
+
+    def points(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) points."""
+        return self.surface.points(u, v)
+
+    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        """(..., 3) derivatives by u and by v."""
+        return self.surface.partials(u, v)
+
+    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+        """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
+        return self.surface.second_partials(u, v)
+
+
+def covered_once(surface: Surface) -> Surface:
+    """The surface over a part of its domain that covers it once, closed: itself, unless it runs along itself again, as
+    what a circle sweeps does that is run through four times.
+
+    In each direction it is compared with itself a full turn on, and a half, a third, ... of the domain on.
+    Degenerate: a surface that comes back mirrored, as a Möbius strip does, stays as it is, and so does one that repeats
+    itself after another way.
+    """
+    if is_embedded(surface):
+        return surface
+    domain = surface.domain
+    u, v = (_round(surface, axis) for axis in (0, 1))
+    if u:
+        domain = replace(domain, u_end=domain.u_start + u, closed_u=True)
+    if v:
+        domain = replace(domain, v_end=domain.v_start + v, closed_v=True)
+    return OneRound(surface, domain) if u or v else surface
+
+
+def _round(surface: Surface, axis: int) -> float:
+    """The shortest way along u (0) or v (1) after which the surface repeats itself, shorter than its domain; 0 where
+    there is none."""
+    size = surface.domain.size[axis]
+    ways = size / np.arange(MOST_ROUNDS, 1, -1)
+    if 2.0 * np.pi < size:
+        ways = np.sort(np.append(ways, 2.0 * np.pi))
+    alike = ways[_repeats(surface, axis, ways, FEW)]
+    return next((way for way in alike.tolist() if _repeats(surface, axis, np.array([way]), MANY).all()), 0.0)
+
+
+def _repeats(surface: Surface, axis: int, ways: Floats, count: int) -> Bools:
+    """(k,) whether the surface has the same points at so many places and these ways (k,) further on."""
+    domain = surface.domain
+    share = np.arange(1, count + 1)[:, None] * SCATTERED % 1.0
+    room = np.tile(domain.size, (len(ways), 1, 1))
+    room[:, 0, axis] -= ways
+    places = np.array([domain.u_start, domain.v_start]) + share * room
+    further = places.copy()
+    further[..., axis] += ways[:, None]
+    both = np.stack([places, further])
+    with np.errstate(all="ignore"):
+        one, two = np.asarray(surface.points(both[..., 0], both[..., 1]), dtype=np.float64)
+    known = np.isfinite(one).all(axis=-1)
+    extent = np.ptp(one[known], axis=0).max() if known.any() else 0.0
+    same = (np.abs(one - two) <= ZERO_OF_EXTENT * extent).all(axis=-1) | ~(known | np.isfinite(two).all(axis=-1))
+    return np.asarray(same.all(axis=1) & known.any(axis=1) & (extent > 0.0))

@@ -133,23 +133,27 @@ def without_copies(one: Sheet, two: Sheet, courses: list[Course], *, same: bool)
     points = [one.points(c.one) for c in courses]
     low, high = (np.array([f(p, axis=0) for p in points]).reshape(-1, 3) for f in (np.min, np.max))
     kept: list[int] = []
+
+    def is_copy(course: Course, own: Floats, near: list[int]) -> bool:
+        return any(_runs_along(one, two, course, own, courses[j], points[j]) for j in near)
+
     for k in np.argsort([-len(c) for c in courses], kind="stable").tolist():
         course = courses[k]
         # What a copy runs beside is wider than itself by part of a chord.
         gap = high[k] - low[k]
         near = [j for j in kept if (low[k] <= high[j] + gap).all() and (high[k] >= low[j] - gap).all()]
-        if len(course) > SHORT or not any(
-            _runs_along(one, two, course, courses[j])
-            or (same and _runs_along(one, two, course.exchanged(), courses[j]))
-            for j in near
-        ):
-            kept.append(k)
+        if len(course) <= SHORT and near:
+            if is_copy(course, points[k], near):
+                continue
+            if same and is_copy(course.exchanged(), one.points(course.two), near):
+                continue
+        kept.append(k)
     return [courses[k] for k in kept]
 
 
-def _runs_along(one: Sheet, two: Sheet, course: Course, other: Course) -> bool:
-    """Whether all points of a course lie beside chords of another, on both sheets in the same cells."""
-    points, ends = one.points(course.one), one.points(other.one)
+def _runs_along(one: Sheet, two: Sheet, course: Course, points: Floats, other: Course, ends: Floats) -> bool:
+    """Whether all points (k,3) of a course lie beside chords of another with its points, on both sheets in the same
+    cells."""
     chord = np.diff(ends, axis=0)
     square = (chord * chord).sum(axis=1)
     arm = points[:, None] - ends[None, :-1]
@@ -157,6 +161,8 @@ def _runs_along(one: Sheet, two: Sheet, course: Course, other: Course) -> bool:
         t = np.clip((arm * chord).sum(axis=2) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
     away = arm - t[..., None] * chord
     near = (away * away).sum(axis=2) <= BESIDE**2 * square
+    if not near.any(axis=1).all():
+        return False
     k, m = np.nonzero(near)
     there = one.cells_apart(course.one[k], other.one[m]) <= 2.0
     there &= two.cells_apart(course.two[k], other.two[m]) <= 2.0

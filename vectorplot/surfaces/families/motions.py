@@ -59,13 +59,19 @@ class Motion(Protocol):
 def turned(points: Floats, angle: Floats) -> Floats:
     """The points (..., 3) turned about the z-axis by angles (...)."""
     cosine, sine = np.cos(angle), np.sin(angle)
-    x, y, z = np.moveaxis(points, -1, 0)
-    return np.stack(np.broadcast_arrays(x * cosine - y * sine, x * sine + y * cosine, z), axis=-1)
+    x, y, z = points[..., 0], points[..., 1], points[..., 2]
+    result = np.empty((*np.broadcast_shapes(x.shape, np.shape(cosine)), 3))
+    result[..., 0] = x * cosine - y * sine
+    result[..., 1] = x * sine + y * cosine
+    result[..., 2] = z
+    return result
 
 
 def _quarter(p: Floats) -> Floats:
     """What turning about the z-axis begins with: (-y, x, 0)."""
-    return np.stack([-p[..., 1], p[..., 0], np.zeros(p.shape[:-1])], axis=-1)
+    result = np.zeros_like(p)
+    result[..., 0], result[..., 1] = -p[..., 1], p[..., 0]
+    return result
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,35 +195,43 @@ class Rotoid:
 
     def moved(self, points: Floats, weight: float, v: Floats) -> Floats:
         """(..., 3) images."""
-        return turned(self._rolled(points, weight, v)[0], v)
+        rolled = self._across(points, weight, v)
+        rolled[..., 0] += weight * self.distance
+        return turned(rolled, v)
 
     def velocities(self, points: Floats, weight: float, v: Floats) -> Floats:
         """(..., 3) derivatives by v."""
-        rolled, rolling, _ = self._rolled(points, weight, v)
-        return turned(_quarter(rolled) + rolling, v)
+        across, c = self._across(points, weight, v), self.ratio
+        moving = _quarter(across)
+        moving[..., 1] += weight * self.distance
+        moving[..., 0] += c * across[..., 2]
+        moving[..., 2] = -c * across[..., 0]
+        return turned(moving, v)
 
     def accelerations(self, points: Floats, weight: float, v: Floats) -> Floats:
         """(..., 3) second derivatives by v."""
-        rolled, rolling, bent = self._rolled(points, weight, v)
-        return turned(_quarter(_quarter(rolled) + 2.0 * rolling) + bent, v)
+        across, c = self._across(points, weight, v), self.ratio
+        result = np.empty_like(across)
+        x, y, z = across[..., 0], across[..., 1], across[..., 2]
+        result[..., 0] = -(weight * self.distance + x) - c * c * x
+        result[..., 1] = 2.0 * c * z - y
+        result[..., 2] = -c * c * z
+        return turned(result, v)
 
     def repeats(self, start: float, end: float) -> bool:
         """Whether both turns are whole ones."""
         angle = end - start
         return is_whole_turns(angle) and (self.ratio == 0.0 or is_whole_turns(self.ratio * angle))
 
-    def _rolled(self, p: Floats, weight: float, v: Floats) -> tuple[Floats, Floats, Floats]:
-        """Turned about b, with the first and second derivative by v."""
-        c, centre = self.ratio, weight * self.distance
-        cosine, sine = np.cos(c * v), np.sin(c * v)
-        across, y = p[..., 0] - centre, p[..., 1] + 0.0 * cosine
-        x, z = across * cosine + p[..., 2] * sine, p[..., 2] * cosine - across * sine
-        none = np.zeros_like(x)
-        return (
-            np.stack([centre + x, y, z], axis=-1),
-            c * np.stack([z, none, -x], axis=-1),
-            -c * c * np.stack([x, none, z], axis=-1),
-        )
+    def _across(self, p: Floats, weight: float, v: Floats) -> Floats:
+        """(..., 3) turned about b, seen from it."""
+        cosine, sine = np.cos(self.ratio * v), np.sin(self.ratio * v)
+        across, z = p[..., 0] - weight * self.distance, p[..., 2]
+        result = np.empty((*np.broadcast_shapes(across.shape, np.shape(cosine)), 3))
+        result[..., 0] = across * cosine + z * sine
+        result[..., 1] = p[..., 1]
+        result[..., 2] = z * cosine - across * sine
+        return result
 
 
 @dataclass(frozen=True)

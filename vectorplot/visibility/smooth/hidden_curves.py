@@ -69,7 +69,7 @@ def hidden_curves(
     pieces = cut(curves, events, items)
 
     def count(pieces: Pieces) -> Counts:
-        return counted(view, sheets, targets, curves, edges, edge_on, pieces, items, budget.pairs)
+        return counted(view, sheets, targets, curves, edges, edge_on, pieces, items, tolerance, budget.pairs)
 
     counts = count(pieces)
     done(0.8)

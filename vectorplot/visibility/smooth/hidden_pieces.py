@@ -88,17 +88,44 @@ def counted(
     edge_on: Bools,
     pieces: Pieces,
     items: int,
+    shortest: float,
     pairs: int,
 ) -> Counts:
-    """The sight line of the safest point of every piece.
+    """The sight line of the safest point of every piece that is not shorter than the shortest that can be seen: where a
+    surface winds into a point there may be any number of others, each behind all of its turns.
 
     edges: folds and borders, near whose images sight lines are not trusted; edge_on (m,): curves that are contours;
     pairs: what the budget has for all sight lines together.
     """
-    samples, clearance = _safest(view, curves, edges, edge_on, pieces)
-    in_front, looked = counts_in_front(view, sheets, targets, samples, items, pairs)
-    unlooked = np.asarray((~looked).any(axis=0), dtype=np.bool_)
-    return Counts(in_front, np.asarray((clearance > SAFE_IN_IMAGE) & looked.all(axis=1)), unlooked)
+    long = _seen(view, curves, pieces, shortest)
+    samples, clearance = _safest(view, curves, edges, edge_on, records.some(pieces, long))
+    found, looked = counts_in_front(view, sheets, targets, samples, items, pairs)
+    in_front, safe = np.zeros((len(pieces), items), dtype=np.intp), np.zeros(len(pieces), dtype=np.bool_)
+    in_front[long], safe[long] = found, (clearance > SAFE_IN_IMAGE) & looked.all(axis=1)
+    return Counts(in_front, safe, np.asarray((~looked).any(axis=0), dtype=np.bool_))
+
+
+def lengths_in_image(view: View, curves: Curves, pieces: Pieces) -> Floats:
+    """(p,) lengths of pieces in the image, along chords."""
+    image = sight_lines.image(view, curves.points)
+    step = np.zeros(len(image))
+    step[1:] = np.linalg.norm(np.diff(image, axis=0), axis=1)
+    reach = np.append(np.cumsum(step), 0.0)
+
+    def along(chord: Ints, part: Floats) -> Floats:
+        return np.asarray(reach[chord] + part * (reach[chord + 1] - reach[chord]))
+
+    return along(pieces.end_chord, pieces.end_part) - along(pieces.begin_chord, pieces.begin_part)
+
+
+def _seen(view: View, curves: Curves, pieces: Pieces, shortest: float) -> Ints:
+    """The pieces that are not shorter than the shortest in the image, and the longest one of every curve."""
+    length = lengths_in_image(view, curves, pieces)
+    if not len(pieces):
+        return np.zeros(0, dtype=np.intp)
+    first = np.flatnonzero(np.diff(pieces.curve, prepend=-1))
+    longest = np.maximum.reduceat(np.nan_to_num(length), first)[np.searchsorted(pieces.curve[first], pieces.curve)]
+    return np.flatnonzero(~(length < np.minimum(shortest, longest)))
 
 
 def recounted(pieces: Pieces, counts: Counts, again: Pieces, count: Callable[[Pieces], Counts]) -> Counts:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Ints
 from vectorplot.scene.view import View
-from vectorplot.visibility.smooth.hidden_pieces import Pieces
-from vectorplot.visibility.smooth.sheets import sight_lines
+from vectorplot.visibility.smooth.hidden_pieces import Pieces, lengths_in_image
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 
@@ -22,7 +21,7 @@ def without_short_runs(view: View, curves: Curves, pieces: Pieces, hidden_by: In
     new[1:] = (pieces.curve[1:] != pieces.curve[:-1]) | (hidden_by[1:] != hidden_by[:-1])
     run = np.cumsum(new) - 1
     curve, value = pieces.curve[new], hidden_by[new]
-    length = np.bincount(run, weights=_lengths(view, curves, pieces))
+    length = np.bincount(run, weights=lengths_in_image(view, curves, pieces))
     first, last = np.searchsorted(curve, curve), np.searchsorted(curve, curve, side="right") - 1
     # The first and the last run of a closed curve are one if they are equal.
     number = np.arange(len(curve))
@@ -37,16 +36,3 @@ def without_short_runs(view: View, curves: Curves, pieces: Pieces, hidden_by: In
     nearer = has_before & (~has_after | (number - before <= after - number))
     source = np.where(nearer, before, np.where(has_after, after, number))
     return np.asarray(value[source][run])
-
-
-def _lengths(view: View, curves: Curves, pieces: Pieces) -> Floats:
-    """(p,) lengths of pieces in the image, along chords."""
-    image = sight_lines.image(view, curves.points)
-    step = np.zeros(len(image))
-    step[1:] = np.linalg.norm(np.diff(image, axis=0), axis=1)
-    reach = np.append(np.cumsum(step), 0.0)
-
-    def along(chord: Ints, part: Floats) -> Floats:
-        return np.asarray(reach[chord] + part * (reach[chord + 1] - reach[chord]))
-
-    return along(pieces.end_chord, pieces.end_part) - along(pieces.begin_chord, pieces.begin_part)

@@ -44,10 +44,13 @@ def followed(turns: int, monkeypatch: pytest.MonkeyPatch) -> int:
     at = Curves.at
     with monkeypatch.context() as patched, pytest.warns(vp.InputWarning) if turns > 1 else contextlib.nullcontext():
         patched.setattr(Curves, "at", lambda self, chord, part: asked.append(len(chord)) or at(self, chord, part))
-        ellipsoid = surface_of_function(
-            lambda u, v: (np.cos(v) * np.cos(u), np.cos(v) * np.sin(u), 1.5 * np.sin(v)),
-            Domain(0.0, 2.0 * np.pi * turns, -1.0, 1.0),
-        )
+
+        def wound(u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, ...]:
+            # No way along u leads from every point to the same one again.
+            turn = 2.0 * np.pi * turns * (u + 0.02 * np.sin(2.0 * np.pi * u))
+            return np.cos(v) * np.cos(turn), np.cos(v) * np.sin(turn), 1.5 * np.sin(v)
+
+        ellipsoid = surface_of_function(wound, Domain(0.0, 1.0, -1.0, 1.0))
         vp.draw(vp.Scene((vp.Item("S", ellipsoid),)))
     return sum(asked)
 

@@ -95,3 +95,20 @@ def test_where_sheets_do_not_meet_near_a_chord_points_stay_on_the_first() -> Non
     at = family.between(turned, np.full(5, 0.5))
     assert np.isfinite(at.points).all() and np.isfinite(at.slopes).all()
     assert np.abs(np.linalg.norm(view.world_of(at.points.T), axis=1) - 1.0).max() < 1e-12
+
+
+def test_chords_whose_ends_lie_in_different_parts_of_the_domain_stay_chords() -> None:
+    _, curves = met(Sphere(1.0), Sphere(1.0, (1.0, 0.0, 0.0)))
+    family, number = curves.families[curves.family[0]], curves.chords[:5]
+    chords = curves._chords(number)
+    # As where two ends of curves are joined over a seam that the domain does not know of.
+    other = (
+        (chords.places[0], chords.places[1] + (2.0, 0.0, 0.0)),
+        (
+            chords.second_places[0],
+            chords.second_places[1] + (2.0, 0.0, 0.0),
+        ),
+    )
+    at = family.between(type(chords)(other[0], chords.points, other[1], chords.level), np.full(5, 0.5))
+    long = np.linalg.norm(chords.points[1] - chords.points[0], axis=1)
+    assert (np.linalg.norm(at.points - np.mean(chords.points, axis=0), axis=1) < long).all()

@@ -74,8 +74,7 @@ def crossings(
     or cuspidal edge (crease) there are two sheets more or less, by the side to which the sheet turns; behind a border
     one.
     """
-    close, short = _close_pairs(view, sheets, curves, edges, tolerance, allowed)
-    pairs = _roughly_met(view, curves, edges, close)
+    pairs, short = _close_pairs(view, sheets, curves, edges, tolerance, allowed)
     settled: list[Pairs] = []
     for hop in range(HOPS):
         pairs = _met(view, curves, edges, pairs)
@@ -98,26 +97,33 @@ def crossings(
 def _close_pairs(
     view: View, sheets: Sheets, curves: Curves, edges: Curves, tolerance: float, pairs: int
 ) -> tuple[Pairs, tuple[int, ...]]:
-    """The pairs of chords that come close to each other in the image, the edge not behind, and where they do; and the
-    items of chords for which the budget's pairs did not do."""
+    """The pairs of chords that come close to each other in the image, the edge not behind, where cubic arcs close to
+    the curves meet; and the items of chords for which the budget's pairs did not do."""
     one, two = _Boxes.of(view, curves), _Boxes.of(view, edges)
     margin = NEAR_MISSES * tolerance
-    found, done = in_blocks(np.arange(len(one.chord)), pairs, lambda rows: _close(one, two, rows, margin))
+    cusps = _near_cusps(view, sheets, edges)
+
+    def look(rows: Ints) -> Block[Pairs]:
+        near, far, part, edge_part, looked = _close(one, two, rows, margin)
+        # Near a cusp of an edge a curve may cross it twice close together: the search begins at several places.
+        own = curves.sheet[curves.owner[one.chord[near]]] == edges.sheet[edges.owner[two.chord[far]]]
+        again = np.flatnonzero(own & cusps[two.chord[far]])
+        starts = [(np.arange(len(near)), part, edge_part)]
+        starts += [(again, np.full(len(again), a), np.full(len(again), b)) for a, b in STARTS]
+        which, part, edge_part = (np.concatenate(column) for column in zip(*starts, strict=True))
+        begun = Pairs(one.chord[near[which]], part, two.chord[far[which]], edge_part)
+        return Block(_roughly_met(view, curves, edges, begun), looked, len(near))
+
+    found, done = in_blocks(np.arange(len(one.chord)), pairs, look)
     short = tuple(np.unique(curves.item[curves.owner[one.chord[done:]]]).tolist())
-    near, far = (np.concatenate([np.zeros(0, dtype=np.intp), *(pair[k] for pair in found)]) for k in (0, 1))
-    part, edge_part = (np.concatenate([np.zeros(0), *(pair[k] for pair in found)]) for k in (2, 3))
-    # Near a cusp of an edge a curve may cross it twice close together: the search begins at several places.
-    own = curves.sheet[curves.owner[one.chord[near]]] == edges.sheet[edges.owner[two.chord[far]]]
-    again = np.flatnonzero(own & _near_cusps(view, sheets, edges)[two.chord[far]])
-    starts = [(np.arange(len(near)), part, edge_part)]
-    starts += [(again, np.full(len(again), a), np.full(len(again), b)) for a, b in STARTS]
-    which, part, edge_part = (np.concatenate(column) for column in zip(*starts, strict=True))
-    return Pairs(one.chord[near[which]], part, two.chord[far[which]], edge_part), short
+    none = np.zeros(0, dtype=np.intp)
+    met = records.joined((Pairs(none, np.zeros(0), none, np.zeros(0)), *found))
+    return met.some(once(curves, met.chord, met.part, met.edge + met.edge_part)), short
 
 
-def _close(one: _Boxes, two: _Boxes, rows: Ints, margin: float) -> Block[tuple[Ints, Ints, Floats, Floats]]:
-    """Chords among rows (k,) and edges that come within a margin of each other, the edge not behind; and the parts of
-    both at which they do."""
+def _close(one: _Boxes, two: _Boxes, rows: Ints, margin: float) -> tuple[Ints, Ints, Floats, Floats, int]:
+    """Chords among rows (k,) and edges that come within a margin of each other, the edge not behind; the parts of both
+    at which they do; and how many pairs were looked at."""
     near, far = one.some(rows).overlapping(two, margin)
     looked, near = len(near), rows[near]
     # A chord that runs away from the eye may be off its curve in depth by some part of its length.
@@ -125,7 +131,7 @@ def _close(one: _Boxes, two: _Boxes, rows: Ints, margin: float) -> Block[tuple[I
     near, far = near[not_behind], far[not_behind]
     part, edge_part, apart = _approach(one.start[near], one.end[near], two.start[far], two.end[far])
     close = np.flatnonzero(apart <= margin)
-    return Block((near[close], far[close], part[close], edge_part[close]), looked, len(close))
+    return near[close], far[close], part[close], edge_part[close], looked
 
 
 def _near_cusps(view: View, sheets: Sheets, edges: Curves) -> Bools:
@@ -215,8 +221,7 @@ def _roughly_met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pai
     met = np.flatnonzero(
         (off <= np.minimum(MODEL_RESIDUAL, MODEL_RESIDUAL_OF_GAP * gap**2)) & (gap > 0.5 * GAP_IN_FRONT)
     )
-    found = Pairs(pairs.chord, part, pairs.edge, edge_part).some(met)
-    return found.some(once(curves, found.chord, found.part, found.edge + found.edge_part))
+    return Pairs(pairs.chord, part, pairs.edge, edge_part).some(met)
 
 
 def _step(gap: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.features.parametric.conditions import Slopes
+from vectorplot.geometry import records
 from vectorplot.geometry.vectors import dot
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_lengths import FAMILY_SETTLED, MISSED_OF_CHORD
@@ -22,7 +23,11 @@ from vectorplot.visibility.smooth.sheets.family import (
     no_longer,
 )
 from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
-from vectorplot.visibility.smooth.sheets.parametric_places import OnParametrised
+from vectorplot.visibility.smooth.sheets.parametric_places import OnParametrised, TangentPlanes
+
+LED_AWAY, LED_APART = 4.0, 0.1
+"""What is straight in the parameters between the ends of a chord leads elsewhere if it is more than the one times its
+length away from it, and on that way runs through more than the other part of the domain."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +45,7 @@ class SheetsMeet:
         Newton's method: the point of that plane and of both tangent planes.
         Source: as for `vectorplot.features.intersections.meeting_points.meetings`.
         """
-        one, two, (start, end) = self.surface, self.other, chords.points
+        start, end = chords.points
         way = end - start
         base, long = start + part[:, None] * way, np.sqrt(dot(way, way))
         at, there = (a + part[:, None] * (b - a) for a, b in (chords.places, chords.second_places))
@@ -50,31 +55,66 @@ class SheetsMeet:
             for _ in range(ROUNDS):
                 if not len(active):
                     break
-                a, b, w = at[active], there[active], way[active]
-                p, q = one.points(a), two.points(b)
-                n_a, m_a = one.normals(a), two.normals(b)
-                across_n, across_m = np.cross(m_a, w), np.cross(w, n_a)
-                x = base[active]
-                heights = dot(n_a, p - x)[:, None] * across_n + dot(m_a, q - x)[:, None] * across_m
-                aim = x + no_longer(heights / dot(n_a, across_n)[:, None], FARTHEST * long[active])
-                steps = [no_longer(aim - x, long[active]) for x in (p, q)]
-                at[active] = _finite(one.moved(a, steps[0]), a)
-                there[active] = _finite(two.moved(b, steps[1]), b)
-                n[active], m[active] = n_a, m_a
+                one, two = self._planes(at[active], there[active])
+                w, x = way[active], base[active]
+                across_n, across_m = np.cross(two.normals, w), np.cross(w, one.normals)
+                heights = (
+                    dot(one.normals, one.points - x)[:, None] * across_n
+                    + dot(two.normals, two.points - x)[:, None] * across_m
+                )
+                aim = x + no_longer(heights / dot(one.normals, across_n)[:, None], FARTHEST * long[active])
+                steps = [no_longer(aim - plane.points, long[active]) for plane in (one, two)]
+                at[active] = _finite(one.moved(steps[0]), one.places)
+                there[active] = _finite(two.moved(steps[1]), two.places)
+                n[active], m[active] = one.normals, two.normals
                 last[active] = np.sqrt(np.fmax(dot(steps[0], steps[0]), dot(steps[1], steps[1])))
                 active = active[last[active] > FAMILY_SETTLED * long[active]]
             tangent = np.cross(n, m)
             tangent *= (dot(way, way) / dot(tangent, way))[:, None]
-        p, q = one.points(at), two.points(there)
-        roughly = ParameterCurves(one, self.sheet).between(chords, part)
+        p, q = self._points(at, there)
         met = (last <= MISSED_OF_CHORD * long) & (np.sqrt(dot(p - q, p - q)) <= MISSED_OF_CHORD * long)
-        a, b = chords.second_places
-        places, second = (
-            np.where(met[:, None], at, roughly.places),
-            np.where(met[:, None], there, a + part[:, None] * (b - a)),
+        found, known = Along(at, p, tangent, there), np.isfinite(tangent).all(axis=1)
+        rough = np.flatnonzero(~(met & known))
+        if len(rough):
+            other, lost = self._roughly(chords.some(rough), part[rough]), ~met[rough]
+            found.slopes[rough] = other.slopes
+            rough, other = rough[lost], other.some(np.flatnonzero(lost))
+            at[rough], p[rough], there[rough] = other.places, other.points, other.second_places
+        return found
+
+    def _planes(self, places: Floats, second_places: Floats) -> tuple[TangentPlanes, TangentPlanes]:
+        """The tangent planes of both sheets: of one that meets itself all at once."""
+        if self.other is not self.surface:
+            return self.surface.planes(places), self.other.planes(second_places)
+        both, half = self.surface.planes(np.concatenate([places, second_places])), len(places)
+        return records.some(both, np.arange(half)), records.some(both, np.arange(half, 2 * half))
+
+    def _points(self, places: Floats, second_places: Floats) -> tuple[Floats, Floats]:
+        """The points of both sheets, likewise."""
+        if self.other is not self.surface:
+            return self.surface.points(places), self.other.points(second_places)
+        both, half = self.surface.points(np.concatenate([places, second_places])), len(places)
+        return both[:half], both[half:]
+
+    def _roughly(self, chords: Chords, part: Floats) -> Along:
+        """What is straight in the parameters of the first sheet at a part of the chords; where that leads away from a
+        chord, because its ends lie in different parts of the domain, the chord and the places of its nearer end."""
+        (start, end), (a, b) = chords.points, chords.second_places
+        way = end - start
+        straight = start + part[:, None] * way
+        found = ParameterCurves(self.surface, self.sheet).between(chords, part)
+        away = found.points - straight
+        led_away = np.sqrt(dot(away, away)) > LED_AWAY * np.sqrt(dot(way, way))
+        size = np.stack(np.broadcast_arrays(*self.surface.surface_at(chords.places[0]).domain.size), axis=-1)
+        apart = np.abs((chords.places[1] - chords.places[0])[:, :2] / size).max(axis=1)
+        beside = ~(led_away & (apart > LED_APART))[:, None]
+        nearer = [np.where((part < 0.5)[:, None], *ends) for ends in (chords.places, chords.second_places)]
+        return Along(
+            np.where(beside, found.places, nearer[0]),
+            np.where(beside, found.points, straight),
+            np.where(beside, found.slopes, way),
+            np.where(beside, a + part[:, None] * (b - a), nearer[1]),
         )
-        slopes = np.where((met & np.isfinite(tangent).all(axis=1))[:, None], tangent, roughly.slopes)
-        return Along(places, np.where(met[:, None], p, roughly.points), slopes, second)
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.parametric.curve_tracing import wrapped
 from vectorplot.geometry.vectors import cross, dot
-from vectorplot.surfaces.normals import unit_normals
+from vectorplot.surfaces.normals import tangent_planes, unit_normals
 from vectorplot.surfaces.stacked import StackedSurfaces
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -19,6 +19,22 @@ from vectorplot.visibility.smooth.sheets.sheet import solved
 
 LONGEST_STEP = 0.05
 """Part of the domain that one step of Newton may go: a longer one leads anywhere."""
+
+
+@dataclass(frozen=True, eq=False)
+class TangentPlanes:
+    """Tangent planes at places (k,3) of sheets: points (k,3) there, derivatives (k,3) by u and by v, unit normals
+    (k,3), NaN at singular points."""
+
+    places: Floats
+    points: Floats
+    along_u: Floats
+    along_v: Floats
+    normals: Floats
+
+    def moved(self, steps: Floats) -> Floats:
+        """(k,3) the places that small tangential steps (k,3) lead to."""
+        return _moved(self.places, self.along_u, self.along_v, steps)
 
 
 class OnParametrised(ABC):
@@ -43,6 +59,12 @@ class OnParametrised(ABC):
         surface = self.surface_at(places)
         return unit_normals(surface, *inside(surface.domain, places))
 
+    def planes(self, places: Floats) -> TangentPlanes:
+        """The tangent planes."""
+        surface = self.surface_at(places)
+        u, v = inside(surface.domain, places)
+        return TangentPlanes(places, surface.points(u, v), *tangent_planes(surface, u, v))
+
     def bends(self, places: Floats, directions: Floats) -> Floats:
         """(k,) normal parts of the accelerations along tangential directions; 0 at singular points."""
         surface = self.surface_at(places)
@@ -57,12 +79,7 @@ class OnParametrised(ABC):
 
     def moved(self, places: Floats, steps: Floats) -> Floats:
         """(k,3) the places that small tangential steps lead to."""
-        surface = self.surface_at(places)
-        u, v = inside(surface.domain, places)
-        along_u, along_v = surface.partials(u, v)
-        step = solved(along_u, along_v, cross(along_u, along_v), steps)
-        step[:, 2] = 0.0
-        return places + step
+        return _moved(places, *self.partials(places), steps)
 
     def inwards(self, places: Floats) -> Floats:
         """(k,3) tangents into the sheet at places on its border; 0 elsewhere."""
@@ -142,6 +159,13 @@ class StackedSheets(OnParametrised):
     def surface_at(self, places: Floats) -> Surface:
         """That of the sheet of each place."""
         return self.surfaces.at(places[:, 2].astype(np.intp))
+
+
+def _moved(places: Floats, along_u: Floats, along_v: Floats, steps: Floats) -> Floats:
+    """(k,3) the places that small steps (k,3) in the planes of the derivatives lead to."""
+    step = solved(along_u, along_v, cross(along_u, along_v), steps)
+    step[:, 2] = 0.0
+    return places + step
 
 
 def inside(domain: Domain, places: Floats) -> tuple[Floats, Floats]:

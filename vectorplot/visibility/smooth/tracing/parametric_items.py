@@ -31,7 +31,7 @@ from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.embedded import is_embedded
-from vectorplot.surfaces.parts import smooth_parts
+from vectorplot.surfaces.parts import covered_once, smooth_parts
 from vectorplot.surfaces.placed import placed_once
 from vectorplot.surfaces.surface import Surface
 from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves
@@ -48,6 +48,7 @@ def sheets_of_parametrised(view: View, surface: Surface, item: int, hides: bool)
     sheets = []
     for part in smooth_parts(surface):
         placed = placed_once(part.surface, view.axes.T / view.scale, np.zeros(3), view.centre)
+        placed = replace(placed, surface=covered_once(placed.surface))
         sheets.append(replace(parametric_sheet(placed, item, hides), creases=part.creases, is_cap=part.is_cap))
     return sheets
 
