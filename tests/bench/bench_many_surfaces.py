@@ -55,6 +55,17 @@ def heap(count: int, make: Make, lines: SurfaceLines = NO_LINES) -> tuple[Scene,
     return Scene(tuple(items)), Camera((5.3 * side, -9.6 * side, 5.3 * side), (0.0, 0.0, 0.0))
 
 
+def lattice(count: int) -> tuple[Scene, Camera]:
+    """Tori turned at random that do not meet, and a camera that sees them all."""
+    rng = np.random.default_rng(0)
+    side = np.arange(int(np.ceil(count ** (1.0 / 3.0))))
+    places = 3.0 * np.stack(np.meshgrid(side, side, side), axis=-1).reshape(-1, 3)[:count]
+    turned = [np.linalg.qr(rng.normal(size=(3, 3)))[0] for _ in range(count)]
+    items = (PlacedSurface(ring(rng), turn, place) for turn, place in zip(turned, places, strict=True))
+    far = 3.0 * len(side)
+    return Scene(tuple(Item(str(k), item) for k, item in enumerate(items))), Camera((1.5 * far, -3.0 * far, 1.5 * far))
+
+
 def seconds(scene: Scene, camera: Camera) -> float:
     """The shorter of two times, of the processor."""
     times = []
@@ -98,3 +109,14 @@ def test_cost_grows_with_the_number_of_surfaces(
     print(f"  exponent {exponent:.2f}, {each:,.0f} calls a surface")
     assert exponent < 1.15
     assert each < most_calls
+
+
+def test_surfaces_that_do_not_meet_are_traced_as_one() -> None:
+    """Each more of them costs next to no calls: contours, cusps and sight lines are those of all at once."""
+    few, many = (calls(*lattice(count)) for count in (8, 64))
+    times = [seconds(*lattice(count)) for count in (8, 64)]
+    exponent = float(np.log(times[1] / times[0]) / np.log(8.0))
+    print(f"\ntori apart\n  8: {times[0]:.2f} s, 64: {times[1]:.2f} s, exponent {exponent:.2f}")
+    print(f"  {(many - few) / 56:,.0f} calls for one more")
+    assert exponent < 1.15
+    assert (many - few) / 56 < 6_000
