@@ -118,10 +118,11 @@ def plan_draw(
         stages.append(Stage("patterns", "faces carry patterns"))
     if wanted & {LineKind.ISOPHOTE, LineKind.SECTION} and any(map(_has_mesh_lines, scene.items)):
         stages.append(Stage("lines on meshes", "polyhedra carry isophotes or sections"))
-    balls = any(ball_of(item.shape) or capped_quadric_of(item.shape) for item in scene.items)
+    smooth = [item.shape for item in scene.items if not isinstance(item.shape, Mesh)]
+    balls = any(ball_of(shape) or capped_quadric_of(shape) for shape in smooth)
     if balls:
         stages.append(Stage("balls", "spheres, ellipsoids and capped bodies, and the conics on them"))
-    if any(not isinstance(item.shape, Mesh) for item in scene.items):
+    if smooth:
         stages.append(Stage("curves", "items are smooth surfaces"))
         if style == "plain":
             stages.append(Stage("smooth surfaces", "they hide curves and lines"))

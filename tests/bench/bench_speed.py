@@ -15,10 +15,10 @@ from vectorplot.speed.scenes import SERIES
 pytestmark = pytest.mark.bench
 
 LIMITS = {
-    "boxes": (1.2, 1200, 150),
-    "boxes, a layer each": (1.2, 1500, 100),
-    "bars": (1.3, 8000, 150),
-    "weave": (1.2, 900, 300),
+    "boxes": (1.15, 1000, 300),
+    "boxes, a layer each": (1.15, 1500, 100),
+    "bars": (1.2, 6500, 300),
+    "weave": (1.15, 500, 700),
     "one mesh": (1.15, 6, 200),
     "spheres": (1.2, 1800, 200),
     "tori": (2.0, 4e6, 200),

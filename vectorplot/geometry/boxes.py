@@ -23,18 +23,21 @@ STRIP = 2.0
 """Width of a strip in mean widths of boxes."""
 
 
-def overlapping_boxes(low: Floats, high: Floats, other_low: Floats, other_high: Floats) -> tuple[Ints, Ints]:
+def overlapping_boxes(
+    low: Floats, high: Floats, other_low: Floats, other_high: Floats, axis: int | None = None
+) -> tuple[Ints, Ints]:
     """All (i, j) whose boxes overlap: box i of the first kind (3,n), box j of the second (3,m).
 
-    Sweeps along the axis on which the fewest intervals overlap, within strips across another one where these are many:
-    of two intervals that overlap, one begins within the other.
+    Sweeps along an axis, that on which the fewest intervals overlap where none is said, within strips across another
+    one where these are many: of two intervals that overlap, one begins within the other.
     """
-    totals = [
-        _starting_within(low[k], high[k], np.sort(other_low[k]), "left")
-        + _starting_within(other_low[k], other_high[k], np.sort(low[k]), "right")
-        for k in range(3)
-    ]
-    axis = int(np.argmin(totals))
+    if axis is None:
+        totals = [
+            _starting_within(low[k], high[k], np.sort(other_low[k]), "left")
+            + _starting_within(other_low[k], other_high[k], np.sort(low[k]), "right")
+            for k in range(3)
+        ]
+        axis = int(np.argmin(totals))
     i, j = _sweep(axis, low, high, other_low, other_high, "left")
     more_j, more_i = _sweep(axis, other_low, other_high, low, high, "right")
     return np.concatenate([i, more_i]), np.concatenate([j, more_j])

@@ -182,9 +182,12 @@ def mm_per_image(projection: Projection, points: Floats, page: Page, fit: bool) 
     """About how many mm a unit of the image will be on the page; points (3,n): of what is seen."""
     if not fit:
         return float(page.height_mm / projection.picture_height)
-    points = points[:, np.isfinite(points).all(axis=0)]
+    if not np.isfinite(points).all():
+        points = points.compress(np.isfinite(points).all(axis=0), axis=1)
     every = points.shape[1]
-    points = points[:, projection.depth_of(points) > projection.near]
+    ahead = projection.depth_of(points) > projection.near
+    if not ahead.all():
+        points = points.compress(ahead, axis=1)
     if not points.shape[1]:
         return float(page.height_mm / projection.picture_height)
     image = projection.image_of(points)

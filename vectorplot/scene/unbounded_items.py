@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from vectorplot.errors import InputWarning
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.function import FunctionSurface
 from vectorplot.surfaces.graphs import Graph, PolarGraph
@@ -16,8 +17,7 @@ from vectorplot.surfaces.graphs import Graph, PolarGraph
 def tell_what_is_cut_off(scene: Scene) -> None:
     """An InputWarning, with the name of the item, for every surface that is cut off because it runs to infinity."""
     for item in scene.items:
-        text = _cut_off(item.shape)
-        if text:
+        if not isinstance(item.shape, Mesh) and (text := _cut_off(item.shape)):
             warnings.warn(f"{item.name}: {text}", InputWarning, stacklevel=3)
 
 

@@ -87,10 +87,10 @@ _TRIANGLES = tuple(20 * 4**level for level in (5, 6, 7, 8))
 _FROM_AFAR = {"camera": Camera(eye=(30.0, -20.0, 18.0), target=(5.0, 5.0, 5.0))}
 
 SERIES = (
-    Series("boxes", "draw", {}, boxes, (1000, 3000, 9000), "box"),
+    Series("boxes", "draw", {}, boxes, (1000, 5000, 20000), "box"),
     Series("boxes, a layer each", "draw", {"layers": "object"}, boxes, (100, 300, 900), "box"),
-    Series("bars", "draw", {}, bars, (300, 600, 1200), "bar"),
-    Series("weave", "draw", {}, weave, (900, 2500, 6400), "crossing"),
+    Series("bars", "draw", {}, bars, (300, 1000, 3000), "bar"),
+    Series("weave", "draw", {}, weave, (2500, 14400, 90000), "crossing"),
     Series("one mesh", "draw", {"lines": "contour,crease"}, _lump_of, _TRIANGLES, "triangle"),
     Series("spheres", "draw", _FROM_AFAR, spheres, (500, 1500, 4500), "sphere"),
     Series("tori", "draw", {}, tori, (1, 2, 4), "torus"),

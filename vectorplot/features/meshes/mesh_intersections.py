@@ -228,11 +228,11 @@ def _within_pairs(
             near &= high[axis, face] >= common_low[axis, pair]
         sides.append((pair[near], face[near]))
     # Faces of different pairs are kept apart by a shift on one axis: so one sweep serves all pairs.
-    boxes = [
+    (one_low, one_high), (two_low, two_high) = (
         [np.stack([ends[0, face] + AXIS_SHIFT * pair, ends[1, face], ends[2, face]]) for ends in (low, high)]
         for pair, face in sides
-    ]
-    one, two = overlapping_boxes(*boxes[0], *boxes[1])
+    )
+    one, two = overlapping_boxes(one_low, one_high, two_low, two_high, axis=0)
     return sides[0][1][one], sides[1][1][two]
 
 
