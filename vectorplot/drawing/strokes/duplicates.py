@@ -114,6 +114,9 @@ class _Segments:
 
 def _by_importance(start: Floats, end: Floats, length: Floats, rank: Ints) -> Ints:
     """The order of the strokes, the most important first; it depends on how they are given for equal ones only."""
+    order = np.argsort(rank, kind="stable")
+    if (rank[order][1:] != rank[order][:-1]).all():
+        return order
     swapped = (end[:, 0] < start[:, 0]) | ((end[:, 0] == start[:, 0]) & (end[:, 1] < start[:, 1]))
     one, two = np.where(swapped[:, None], end, start), np.where(swapped[:, None], start, end)
     return np.lexsort((two[:, 1], two[:, 0], one[:, 1], one[:, 0], -length, rank))

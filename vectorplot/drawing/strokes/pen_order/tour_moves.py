@@ -37,7 +37,7 @@ _MORE_ROUNDS = 40000
 
 @dataclass(frozen=True, eq=False)
 class _Row:
-    """A tour in its row. spots: where the ends are, the last ones nowhere; layer: those of the strokes, -1 for those
+    """A tour in its row. spots: where the ends of the row are; layer: those of the strokes, -1 for those
     that are nowhere and stand between two layers; gap: the lengths of the gaps; near (p,) and
     to (p,): indices in the row of two ends that are apart (p,) from each other, less than the gap of the first one."""
 
@@ -53,7 +53,7 @@ class _Row:
     def between(self, s: Ints, t: Ints) -> Floats:
         """The distances of the ends at these indices in the row."""
         # fmax passes the number where the other is not one.
-        apart: Floats = np.fmax(np.abs(self.spots[self.row[s]] - self.spots[self.row[t]]), 0.0)
+        apart: Floats = np.fmax(np.abs(self.spots[s] - self.spots[t]), 0.0)
         return apart
 
 
@@ -98,8 +98,8 @@ def _row(ends: Places, tour: Ints, layer: Ints, near: Ints, apart: Floats, awake
     row[1:-1:2], row[2:-1:2] = tour, tour ^ 1
     place = np.empty(nowhere, dtype=np.intp)
     place[row[1:-1]] = np.arange(1, nowhere + 1)
-    spots = np.append(ends, complex(np.nan, np.nan))
-    gap = np.fmax(np.abs(spots[row[0::2]] - spots[row[1::2]]), 0.0)
+    spots = np.append(ends, complex(np.nan, np.nan))[row]
+    gap = np.fmax(np.abs(spots[0::2] - spots[1::2]), 0.0)
     # A gap of no length has nothing to gain.
     own = gap[place[awake] >> 1]
     some = np.flatnonzero(own > 0.0)
