@@ -17,7 +17,7 @@ pytestmark = pytest.mark.bench
 LIMITS = {
     "boxes": (1.15, 1000, 300),
     "boxes, a layer each": (1.15, 1500, 100),
-    "bars": (1.2, 6500, 300),
+    "bars": (1.15, 6500, 400),
     "weave": (1.15, 500, 700),
     "one mesh": (1.15, 6, 200),
     "spheres": (1.2, 1800, 200),
