@@ -51,8 +51,9 @@ def bumpy_sphere() -> FunctionSurface:
     return surface_of_function(points, Domain(0.0, TURN, -0.5 * np.pi, 0.5 * np.pi, closed_u=True))
 
 
-def few(columns: int = 7, rows: int = 5) -> SurfaceLines:
-    return SurfaceLines(columns, rows, (-0.5, 0.1, 0.6))
+def few(columns: int = 5, rows: int = 5) -> SurfaceLines:
+    """Lines of each sort, so few that the points compared lie close together on them."""
+    return SurfaceLines(columns, rows, (-0.5, 0.4))
 
 
 def single_surfaces() -> dict[str, Scene]:
@@ -88,7 +89,7 @@ def implicit_surfaces() -> dict[str, Scene]:
         "implicit cyclide": ImplicitCyclide(3.0, 1.0, (1.2, 0.7, 3.1), 4.0),
         "placed implicit torus": PlacedImplicit(ImplicitTorus(3.0, 1.0), turned, (1.0, 2.0, 3.0)),
     }
-    lines = SurfaceLines(isophotes=(-0.5, 0.1, 0.6), sections=(Section((0.0, 0.3, 1.0), (-0.5, 0.1, 0.4)),))
+    lines = SurfaceLines(isophotes=(-0.5, 0.4), sections=(Section((0.0, 0.3, 1.0), (-0.5, 0.1, 0.4)),))
     return {name: lit(Item(name, surface, curves=lines)) for name, surface in surfaces.items()}
 
 
@@ -111,7 +112,7 @@ def mixed_scenes() -> dict[str, Scene]:
     """Surfaces and polyhedra that hide and pierce each other."""
     upright = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
     turned = rotation(np.random.default_rng(5))
-    lines = few(8, 6)
+    lines = few(6, 5)
     return {
         "linked tori": lit(
             Item("one", Torus(3.0, 0.8), curves=lines),
