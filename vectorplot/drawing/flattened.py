@@ -24,6 +24,7 @@ from vectorplot.geometry import ragged, records
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.regions import (
     corners_of,
+    grown,
     insides_of,
     polygons_of,
     triangles_of,
@@ -217,7 +218,7 @@ def _cut_apart(base: Fills, stack: Ints, layers: _Layers, fills: Fills) -> _Laye
     some = base.some(below)
     parts = insides_of(polygons_of(some.points.T, some.offsets))
     ground = unions(parts, np.searchsorted(numbers, stack[below]), None)
-    inside = shapely.buffer(insides_of(ground), -MARGIN_MM, join_style="mitre")
+    inside = grown(insides_of(ground), -MARGIN_MM)
     above = _above(layers)
     hidden = shapely.covers(above, layers.region)
     cover = shapely.difference(above, inside[of])
@@ -239,7 +240,7 @@ def _above(layers: _Layers) -> NDArray[np.object_]:
     for depth in range(1, int(from_top.max(initial=0)) + 1):
         here = np.flatnonzero(from_top == depth)
         result[here] = insides_of(shapely.union(result[here + 1], layers.region[here + 1]))
-    return np.asarray(insides_of(shapely.buffer(result, CLEARANCE_MM, join_style="mitre")))
+    return np.asarray(insides_of(grown(result, CLEARANCE_MM)))
 
 
 def _mixed(layers: _Layers, fills: Fills) -> _Layers:

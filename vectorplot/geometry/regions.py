@@ -90,6 +90,18 @@ def areas_of(regions: Any) -> Any:
     return result
 
 
+def grown(regions: Any, distance: float) -> Any:
+    """(n,) regions and what is within a distance of them, with sharp corners; shrunk where it is negative.
+
+    Degenerate: the mitre of two sides that run back on each other is cut off; what floating point says of it is not
+    said on.
+    """
+    import shapely
+
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        return shapely.buffer(regions, distance, join_style="mitre")
+
+
 def insides_of(regions: Any) -> Any:
     """(n,) valid regions with the insides of others, which may touch or cross themselves."""
     import shapely

@@ -114,14 +114,12 @@ class _Cover:
 
 def _cover(glass: _Glass, inside: SeenThrough, scene: Scene) -> _Cover:
     """What opaque things in a solid hide, to the tolerance of bent sides."""
-    import shapely
-
     hides = opacities(scene.items)[glass.view.face_item[inside.source]] >= 1.0
     some = inside.some(np.flatnonzero(hides & (inside.decal < 0)))
     window, of = np.unique(some.window, return_inverse=True)
     polygons = regions.polygons_of(some.points, some.offsets)
     joined = regions.unions(polygons, of, glass.view.tolerance)
-    return _Cover(window, shapely.buffer(joined, max(glass.tolerance, glass.view.tolerance), join_style="mitre"))
+    return _Cover(window, regions.grown(joined, max(glass.tolerance, glass.view.tolerance)))
 
 
 @dataclass(frozen=True, eq=False)

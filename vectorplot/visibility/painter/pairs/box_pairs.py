@@ -15,7 +15,10 @@ FIRST_QUERIES = 1 << 10
 """So many are looked up first, to learn how many partners a box has."""
 
 PARTNERS_AT_ONCE = 1 << 23
-"""About so many partners are found at once at most: where everything lies on everything they would fill the memory."""
+"""About so many partners are found at once: where everything lies on everything they would fill the memory."""
+
+PAIRS_AT_MOST = 1 << 25
+"""So many pairs may be found at once, half a gigabyte, and no more."""
 
 
 def box_pairs(box: Floats, tolerance: float) -> Iterator[tuple[Ints, Ints]]:
@@ -57,12 +60,14 @@ def boxes_over(box: Floats, others: Floats, tolerance: float) -> Iterator[tuple[
         return
     tree = shapely.STRtree(shapely.box(left_2, bottom_2, right_2, top_2), node_capacity=16)
     rectangles = shapely.box(left, bottom, right, top)
-    low, step = 0, FIRST_QUERIES
+    # Even where all that is looked up lies on all the others, after much that does not.
+    most = int(np.clip(PAIRS_AT_MOST // len(left_2), 1, QUERIES_AT_ONCE))
+    low, step = 0, min(most, FIRST_QUERIES)
     while low < len(left):
         first, second = tree.query(rectangles[low : low + step])
         first = first + low
         wide = np.minimum(right[first], right_2[second]) - np.maximum(left[first], left_2[second]) > tolerance
         wide &= np.minimum(top[first], top_2[second]) - np.maximum(bottom[first], bottom_2[second]) > tolerance
         low += step
-        step = int(np.clip(PARTNERS_AT_ONCE * step // max(len(first), 1), 1, QUERIES_AT_ONCE))
+        step = int(np.clip(PARTNERS_AT_ONCE * step // max(len(first), 1), 1, most))
         yield first[wide], second[wide]
