@@ -13,15 +13,15 @@ from vectorplot.accuracy.curves_of_error import Accuracy
 from vectorplot.accuracy.measuring import measured
 
 FEW = {
-    "drawn-curves": (0.1, 0.01, 0.001),
-    "bezier-fit": (1.0, 0.1, 0.01),
+    "drawn-curves": (0.1, 0.001),
+    "bezier-fit": (1.0, 0.01),
     "arc-fit": (0.01, 1e-3, 1e-4, 1e-5),
     "zero-manifold": (12, 24, 48),
-    "mesh-contour": (16, 32, 64),
+    "mesh-contour": (16, 64),
     "polygonised": (16, 32, 64),
-    "painted-outline": (1.0, 0.3, 0.1),
+    "painted-outline": (1.0, 0.1),
     "painted-colours": (1.0, 0.1),
-    "depth-buffer": (64, 256, 1024),
+    "depth-buffer": (64, 256),
     "sampled-visibility": (16, 64, 256),
     "snapping": (1e-2, 1e-6, 1e-9, 1e-12),
     "shadow-maps": (256, 1024),

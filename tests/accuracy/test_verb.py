@@ -61,8 +61,7 @@ def test_what_does_not_fit_is_said_before_anything_is_measured(name, values, sai
         vp.accuracy(name, values=values)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["zero-manifold", "mesh-contour", "polygonised", "sampled-visibility", "refraction"])
+@pytest.mark.parametrize("name", ["polygonised", "arc-fit", "refraction"])
 def test_the_smallest_value_that_a_knob_takes_gives_a_result(name):
     one = next(one for one in APPROXIMATIONS if one.name == name)
     (found,) = vp.accuracy(name, values=one.limits[:1])
