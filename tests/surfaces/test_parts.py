@@ -100,3 +100,8 @@ def test_what_covers_itself_is_drawn_as_what_does_not(rounds: tuple[float, float
         strokes = [mark.points[a:b] for mark in marks for a, b in pairwise(mark.offsets)]
         lengths.append(sum(np.linalg.norm(np.diff(points, axis=0), axis=1).sum() for points in strokes))
     assert abs(lengths[0] - lengths[1]) < 0.002 * lengths[0]
+
+
+def test_domains_may_end_at_whole_numbers() -> None:
+    hill = surface_of_function(lambda u, v: (u, v, np.exp(-u * u - v * v)), Domain(-2, 2, -2, 2))
+    assert covered_once(hill) is hill

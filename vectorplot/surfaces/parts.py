@@ -125,7 +125,7 @@ def _repeats(surface: Surface, axis: int, ways: Floats, count: int) -> Bools:
     """(k,) whether the surface has the same points at so many places and these ways (k,) further on."""
     domain = surface.domain
     share = np.arange(1, count + 1)[:, None] * SCATTERED % 1.0
-    room = np.tile(domain.size, (len(ways), 1, 1))
+    room = np.tile(np.array(domain.size, dtype=np.float64), (len(ways), 1, 1))
     room[:, 0, axis] -= ways
     places = np.array([domain.u_start, domain.v_start]) + share * room
     further = places.copy()
