@@ -18,7 +18,7 @@ from vectorplot.drawing.layers import layers_by_colour, layers_by_kind, layers_b
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.drawing.strokes.shared_kinds import with_shared_kinds
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.budget import Budget, budget_of
+from vectorplot.geometry.budget import Budget, budget_of, line_each
 from vectorplot.geometry.cameras.camera import Camera, Point
 from vectorplot.geometry.chunks import threads_of
 from vectorplot.geometry.mesh import Mesh
@@ -393,15 +393,19 @@ def _lines_and_chords(
     tolerance = max(tolerance, FINEST_CHORD_OF_EXTENT)
     done = walk.fraction("curves")
     traced = walk.run("curves", _all_curves, scene, view, sheets, forms, kinds, tolerance, budget, done)
-    for doubt in traced.doubts:
-        warnings.warn(doubt, InputWarning, stacklevel=3)
     if not sheets or not walk.calls_for("smooth surfaces"):
+        _say(traced.doubts)
         return whole_lines_and_chords(view, traced, lines)
     done = walk.fraction("smooth surfaces")
     cut, unsure = walk.run("smooth surfaces", cut_lines_and_chords, view, traced, lines, tolerance, budget, done)
-    for item, text in unsure:
-        warnings.warn(f"{scene.items[item].name}: {text}", InputWarning, stacklevel=3)
+    _say([*traced.doubts, *((scene.items[item].name, text) for item, text in unsure)])
     return cut if not walk.calls_for("visible lines") else cut.some(cut.behind == 0)
+
+
+def _say(doubts: Iterable[tuple[str, str]]) -> None:
+    """An InputWarning for each item, or items, of which something is in doubt, given by name."""
+    for line in line_each(doubts):
+        warnings.warn(line, InputWarning, stacklevel=4)
 
 
 def _all_curves(

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.budget import USUAL, budget_of, in_one_line, unresolved
+from vectorplot.geometry.budget import USUAL, budget_of, in_one_line, line_each, unresolved
 from vectorplot.visibility.smooth.blocks import Block, in_blocks
 
 
@@ -15,10 +15,16 @@ def test_a_budget_is_so_many_times_the_usual_one() -> None:
             budget_of(wrong)
 
 
-def test_all_that_a_budget_did_not_do_for_is_one_line() -> None:
-    doubts = in_one_line(["a", unresolved("b"), unresolved("c"), "a", unresolved("b")])
-    assert doubts == ("a", unresolved("b; c")) and "--budget" in doubts[1]
-    assert in_one_line([]) == () and in_one_line(["a"]) == ("a",)
+def test_all_that_is_in_doubt_about_one_thing_is_one_line() -> None:
+    line = in_one_line([unresolved("b"), "a", unresolved("c"), "a", unresolved("b")])
+    assert line == f"a; {unresolved('b; c')}" and "--budget" in line
+    assert in_one_line([]) == "" and in_one_line(["a"]) == "a"
+
+
+def test_things_in_doubt_have_a_line_each() -> None:
+    doubts = [("one: S", "a"), ("two", unresolved("b")), ("one: S", unresolved("c")), ("one: S", "a")]
+    assert line_each(doubts) == (f"one: S: a; {unresolved('c')}", f"two: {unresolved('b')}")
+    assert line_each([]) == ()
 
 
 def test_blocks_hold_few_partners_and_end_with_the_budget() -> None:

@@ -97,9 +97,17 @@ def unheard(part: float) -> None:
     """Whom long work tells the part of it that is done when nobody wants to know."""
 
 
-def in_one_line(doubts: Iterable[str]) -> tuple[str, ...]:
-    """The doubts about one thing, each once; all that the budget did not do for in one sentence."""
+def in_one_line(doubts: Iterable[str]) -> str:
+    """The doubts about one thing, each once, as one sentence; what the budget did not do for comes last."""
     each = list(dict.fromkeys(doubts))
     spent = [text.removesuffix(f": {HOW}") for text in each if text.endswith(HOW)]
-    rest = tuple(text for text in each if not text.endswith(HOW))
-    return (*rest, unresolved("; ".join(spent))) if spent else rest
+    rest = [text for text in each if not text.endswith(HOW)]
+    return "; ".join([*rest, *([unresolved("; ".join(spent))] if spent else [])])
+
+
+def line_each(doubts: Iterable[tuple[str, str]]) -> tuple[str, ...]:
+    """The doubts about several things, each with the name of what it is about: one line for each of these."""
+    about: dict[str, list[str]] = {}
+    for name, text in doubts:
+        about.setdefault(name, []).append(text)
+    return tuple(f"{name}: {in_one_line(texts)}" for name, texts in about.items())

@@ -207,7 +207,10 @@ def doubts_about(all_: Joined) -> tuple[str, ...]:
             all_.close > 0,
             f"two curves run too close for the triangles at {all_.close} places: ask for more columns and rows",
         ),
-        (all_.unsure > 0, f"{all_.unsure} segments could not be refined: the curve was not found beside their chords"),
+        (
+            all_.unsure > 0,
+            f"{all_.unsure} chords may be off by more than the tolerance: the curve was not found beside them",
+        ),
     ]
     return tuple(text for said, text in texts if said)
 

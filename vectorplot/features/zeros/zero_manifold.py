@@ -565,7 +565,7 @@ def _doubts(
         ),
         (not complete, unresolved("branches of a curve are too small or too many")),
         (not enough, unresolved("curves are off by more than the tolerance")),
-        (unsure > 0, f"{unsure} segments could not be refined: the curve was not found beside their chords"),
+        (unsure > 0, f"{unsure} chords may be off by more than the tolerance: the curve was not found beside them"),
         (missed > 0, "closed branches smaller than the resolution are missing: ask for a finer one"),
         (
             beads > 0,

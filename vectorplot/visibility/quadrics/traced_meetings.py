@@ -37,8 +37,9 @@ class _Part:
 
 def traced_meetings(
     scene: Scene, view: View, forms: ClosedForms, kinds: frozenset[LineKind], tracing: Tracing
-) -> tuple[Curves, tuple[str, ...]]:
-    """The curves of the pairs of bodies, and of bodies and polyhedra, that meet in no circles; and doubts about them.
+) -> tuple[Curves, tuple[tuple[str, str], ...]]:
+    """The curves of the pairs of bodies, and of bodies and polyhedra, that meet in no circles; and doubts about them,
+    each with the name of the item or items.
 
     A curve belongs to the item, of those that want it, that comes first in the scene.
     """
@@ -57,7 +58,7 @@ def traced_meetings(
             for second in parts[two]:
                 curves, unsure = curves_of_pair((first.sheet, second.sheet), item, tracing)
                 found.append(_on_bodies(curves, (first, second)))
-                doubts += [f"{names}: {text}" for text in unsure]
+                doubts += [(names, text) for text in unsure]
     for body, other in forms.in_faces.tolist():
         shape = scene.items[other].shape
         assert isinstance(shape, Mesh)
@@ -65,7 +66,7 @@ def traced_meetings(
         for part in parts[body]:
             curves, unsure = curves_with_mesh(part.sheet, mesh, owner(int(bodies.item[body]), other), tracing)
             found.append(_on_bodies(curves, (part,)))
-            doubts += [f"{scene.items[int(bodies.item[body])].name}: {text}" for text in unsure]
+            doubts += [(scene.items[int(bodies.item[body])].name, text) for text in unsure]
     return together(found), tuple(dict.fromkeys(doubts))
 
 

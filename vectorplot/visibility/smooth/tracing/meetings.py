@@ -43,7 +43,7 @@ class Meetings:
 
     curves: Curves
     meets_itself: Bools
-    doubts: tuple[str, ...]
+    doubts: tuple[tuple[str, str], ...]
 
 
 def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: Bools, tracing: Tracing) -> Meetings:
@@ -60,7 +60,7 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
         if itself[number] and wants[sheet.item] and isinstance(sheet, ParametricSheet):
             found = self_intersections(sheet.surface, tracing=tracing)
             itself[number] = len(found) > 0 or bool(found.doubts)
-            doubts += [f"{scene.items[sheet.item].name}: {text}" for text in found.doubts]
+            doubts += [(scene.items[sheet.item].name, text) for text in found.doubts]
             parts.append(_double(found, sheet, number, sheet, number, sheet.item))
     grids = [SurfaceGrids(sheet.surface) if isinstance(sheet, ParametricSheet) else None for sheet in sheets]
     for one, two in near_sheets([sheet.vertices for sheet in sheets]):
@@ -69,7 +69,7 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
         if items and sheets[one].item != sheets[two].item:
             part, unsure = _pair(sheets, grids, one, two, items[0], tracing)
             names = " and ".join(scene.items[sheets[k].item].name for k in (one, two))
-            doubts += [f"{names}: {text}" for text in unsure]
+            doubts += [(names, text) for text in unsure]
             parts.append(part)
     boxes = [_box(sheet.vertices) for sheet in sheets]
     for other, item in enumerate(scene.items):
@@ -81,7 +81,7 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
             items = [i for i in sorted((sheet.item, other)) if wants[i]]
             if items and _overlap(boxes[number], box):
                 part, unsure = _with_mesh(sheet, number, mesh, items[0], tracing)
-                doubts += [f"{scene.items[sheet.item].name} and {item.name}: {text}" for text in unsure]
+                doubts += [(f"{scene.items[sheet.item].name} and {item.name}", text) for text in unsure]
                 parts.append(part)
     return Meetings(together(parts), itself, tuple(doubts))
 

@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.curve import is_curve
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.geometry.budget import USUAL, Budget, in_one_line, unheard
+from vectorplot.geometry.budget import USUAL, Budget, unheard
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
@@ -42,14 +42,14 @@ HIDING = (LineKind.CONTOUR, LineKind.BOUNDARY, LineKind.CREASE)
 @dataclass(frozen=True, eq=False)
 class TracedScene:
     """The sheets of all smooth items, and for each (s,) whether it may meet itself; the curves that are drawn; edges:
-    the folds, borders and cuspidal edges of the sheets that hide; doubts: what could not be decided, with the name of
-    the item."""
+    the folds, borders and cuspidal edges of the sheets that hide; doubts: of what item or items,
+    by name, what could not be decided."""
 
     sheets: Sheets
     meets_itself: Bools
     curves: Curves
     edges: Curves
-    doubts: tuple[str, ...]
+    doubts: tuple[tuple[str, str], ...]
 
     def __len__(self) -> int:
         return len(self.curves)
@@ -97,7 +97,7 @@ def traced_scene(
             parts, unsure = curves_of_parametrised(scene, view, sheet, number, contours[number], wanted, tracing)
         else:
             parts, unsure = curves_of_implicit(scene, view, sheet, number, wanted, tracing)
-        doubts += [f"{item.name}: {text}" for text in in_one_line(unsure)]
+        doubts += [(item.name, text) for text in unsure]
         done((1.0 + (number + 1) / (len(sheets) + 1)) / 2.0)
         lines = with_rims(view, sheets, number, parts)
         drawn += [part.some(np.flatnonzero(np.isin(part.kind, list(wanted)))) for part in lines]
