@@ -17,8 +17,8 @@ pytestmark = pytest.mark.bench
 LIMITS = {
     "boxes": (1.15, 1000, 300),
     "boxes, a layer each": (1.15, 1500, 100),
-    "bars": (1.15, 6500, 400),
-    "weave": (1.15, 500, 700),
+    "bars": (1.15, 8000, 400),
+    "weave": (1.15, 600, 700),
     "one mesh": (1.15, 6, 200),
     "spheres": (1.2, 1800, 200),
     "tori": (2.0, 4e6, 200),
