@@ -1,4 +1,4 @@
-"""Boxes on a floor under a lamp, painted, and what is seen of each: ``pytest tests/bench/bench_visible_fills.py -s``."""
+"""Boxes on a floor under a lamp, painted and as visible fills: ``pytest tests/bench/bench_visible_fills.py -s``."""
 
 from __future__ import annotations
 
