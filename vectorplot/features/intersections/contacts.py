@@ -1,4 +1,4 @@
-"""Where two sheets touch, or nearly do: the height of one above the other is stationary there."""
+"""Where two patches touch, or nearly do: the height of one above the other is stationary there."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.intersections.sheets import Sheet
+from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.intersections.triangle_pairs import overlapping_in_cells
 from vectorplot.geometry import records
 from vectorplot.geometry.repair.weld import close_points
@@ -17,7 +17,7 @@ from vectorplot.tolerances.of_numbers import LEAST_DIVISOR, ROUNDING
 from vectorplot.tolerances.of_values import FLAT_CONTACT
 
 NEAREST = 4
-"""Triangles of the other sheet from which the contact of a triangle is looked for."""
+"""Triangles of the other patch from which the contact of a triangle is looked for."""
 
 STEPS = 25
 """Newton steps towards a contact."""
@@ -28,10 +28,10 @@ DRIFT = 3.0
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
-    """Places (k,d) on both sheets above one another, with parallel tangent planes.
+    """Places (k,d) on both patches above one another, with parallel tangent planes.
 
     points (k,3); frames (k,3,3): the two directions of principal relative curvature, and the normal; heights (k,) of
-    the first sheet above the second; bends (k,2): second derivatives of the height in these directions, 0 if they are
+    the first patch above the second; bends (k,2): second derivatives of the height in these directions, 0 if they are
     rounding; cells (k,): the size of the triangles there.
     """
 
@@ -51,10 +51,10 @@ class Contacts:
         return len(self.one)
 
 
-def contacts(one: Sheet, two: Sheet, *, same: bool = False) -> Contacts:
-    """The contacts near which triangles of both sheets are near and nearly parallel, each once.
+def contacts(one: Patch, two: Patch, *, same: bool = False) -> Contacts:
+    """The contacts near which triangles of both patches are near and nearly parallel, each once.
 
-    same: both sheets are one; triangles that share a corner have no contact.
+    same: both patches are one; triangles that share a corner have no contact.
     """
     i, j = _near_pairs(one, two, same)
     found = _stationary(one, two, i, j, same)
@@ -64,15 +64,15 @@ def contacts(one: Sheet, two: Sheet, *, same: bool = False) -> Contacts:
     return found.of(np.unique(group, return_index=True)[1])
 
 
-def zero_height(one: Sheet, two: Sheet) -> float:
-    """The height below which sheets touch."""
+def zero_height(one: Patch, two: Patch) -> float:
+    """The height below which patches touch."""
     (size, large), (other_size, other_large) = one.size, two.size
     return max(ZERO_OF_EXTENT * min(size, other_size), 16.0 * ROUNDING * max(large, other_large))
 
 
 @dataclass(frozen=True, eq=False)
 class _Middles:
-    """Of the triangles of a sheet: places and points in their middles, normals and the cosine and sine of the angle
+    """Of the triangles of a patch: places and points in their middles, normals and the cosine and sine of the angle
     they spread over, boxes (3,t) around the true surface."""
 
     places: Floats
@@ -83,27 +83,27 @@ class _Middles:
     high: Floats
 
 
-def _middles(sheet: Sheet, which: Ints) -> _Middles:
+def _middles(patch: Patch, which: Ints) -> _Middles:
     """Those of some of the triangles."""
-    own = sheet.tessellation
+    own = patch.tessellation
     corners, own_places = own.points[own.triangles[which]], own.places[which]
     places = own_places.mean(axis=1)
     sides = 0.5 * (own_places + np.roll(own_places, -1, axis=1))
     between = 0.5 * (corners + np.roll(corners, -1, axis=1))
-    points = sheet.points(places)
+    points = patch.points(places)
     count, dimension = len(places), places.shape[1]
     with np.errstate(invalid="ignore"):
-        off = np.linalg.norm(sheet.points(sides.reshape(-1, dimension)).reshape(count, 3, 3) - between, axis=2)
+        off = np.linalg.norm(patch.points(sides.reshape(-1, dimension)).reshape(count, 3, 3) - between, axis=2)
         sag = np.fmax(np.fmax.reduce(off, axis=1), np.linalg.norm(points - corners.mean(axis=1), axis=1))
     sag = 1.5 * np.nan_to_num(sag)
-    normals = sheet.normals(places)
-    around = sheet.normals(own_places.reshape(-1, dimension)).reshape(count, 3, 3)
+    normals = patch.normals(places)
+    around = patch.normals(own_places.reshape(-1, dimension)).reshape(count, 3, 3)
     cosine = np.abs((around * normals[:, None]).sum(axis=2)).min(axis=1, initial=1.0)
     low, high = (side[:, which] for side in own.boxes)
     return _Middles(places, points, normals, np.arccos(np.clip(cosine, 0.0, 1.0)), low - sag, high + sag)
 
 
-def _near_pairs(one: Sheet, two: Sheet, same: bool) -> tuple[Ints, Ints]:
+def _near_pairs(one: Patch, two: Patch, same: bool) -> tuple[Ints, Ints]:
     """Pairs of triangles between which there may be a contact."""
     first, second = _beside(one, two), _beside(two, one)
     a = _middles(one, first)
@@ -127,9 +127,9 @@ def _near_pairs(one: Sheet, two: Sheet, same: bool) -> tuple[Ints, Ints]:
     return first[i[rank < NEAREST]], second[j[rank < NEAREST]]
 
 
-def _beside(one: Sheet, two: Sheet) -> Ints:
-    """The triangles of the one sheet that the other may come near: those within its box, and a triangle around it."""
-    boxes = [sheet.tessellation.boxes for sheet in (one, two)]
+def _beside(one: Patch, two: Patch) -> Ints:
+    """The triangles of the one patch that the other may come near: those within its box, and a triangle around it."""
+    boxes = [patch.tessellation.boxes for patch in (one, two)]
     if not all(low.size for low, _ in boxes):
         return np.zeros(0, dtype=np.intp)
     slack = max(float((high - low).max()) for low, high in boxes)
@@ -140,7 +140,7 @@ def _beside(one: Sheet, two: Sheet) -> Ints:
     return np.flatnonzero(near.all(axis=0))
 
 
-def _stationary(one: Sheet, two: Sheet, i: Ints, j: Ints, same: bool) -> Contacts:
+def _stationary(one: Patch, two: Patch, i: Ints, j: Ints, same: bool) -> Contacts:
     """The contacts that Newton's method finds from the middles of pairs of triangles."""
     start_a = one.tessellation.places[i].mean(axis=1)
     start_b = two.tessellation.places[j].mean(axis=1)
@@ -173,7 +173,7 @@ def _stationary(one: Sheet, two: Sheet, i: Ints, j: Ints, same: bool) -> Contact
 
 @dataclass(frozen=True, eq=False)
 class _Pass:
-    """Two sheets above one another: points p, q (k,3), frames (k,3,3) with their mean normal last, slopes (2,k,2) and
+    """Two patches above one another: points p, q (k,3), frames (k,3,3) with their mean normal last, slopes (2,k,2) and
     second derivatives (2,k,2,2) of their heights."""
 
     p: Floats
@@ -183,8 +183,8 @@ class _Pass:
     bends: Floats
 
     @staticmethod
-    def between(one: Sheet, two: Sheet, a: Floats, b: Floats) -> _Pass:
-        """The sheets at these places."""
+    def between(one: Patch, two: Patch, a: Floats, b: Floats) -> _Pass:
+        """The patches at these places."""
         n, m = one.normals(a), two.normals(b)
         m = np.where((n * m).sum(axis=1, keepdims=True) < 0.0, -m, m)
         with np.errstate(all="ignore"):
@@ -205,7 +205,7 @@ class _Pass:
         """(2,k,3) the way of both points to where the height is stationary, as of parabolas; its length (k,)."""
         axes = self.frames[:, :2]
         half = 0.5 * np.einsum("kij,kj->ki", axes, self.q - self.p)
-        # Both sheets seen from the point between: the first lies at -half, the second at +half.
+        # Both patches seen from the point between: the first lies at -half, the second at +half.
         slope = self.slopes[0] - self.slopes[1] + np.einsum("kij,kj->ki", self.bends[0] + self.bends[1], half)
         bend = self.bends[0] - self.bends[1]
         good = np.isfinite(bend).all(axis=(1, 2))

@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.intersections.double_curves import Course, followed
-from vectorplot.features.intersections.sheets import Sheet, SurfaceSheet
+from vectorplot.features.intersections.patches import Patch, SurfacePatch
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.tolerances.of_extent import END_RESIDUAL, END_SETTLED, ROUNDING_OF_POINTS, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_lengths import ON_BORDER_OF_CELL
@@ -45,53 +45,53 @@ class _Pairs:
         return np.array([np.cos(self.angle), np.sin(self.angle)])
 
 
-def into_pinch_points(sheet: SurfaceSheet, courses: list[Course]) -> list[Course]:
+def into_pinch_points(patch: SurfacePatch, courses: list[Course]) -> list[Course]:
     """The courses of a surface that meets itself, those whose two places come together led to the point where they
     are one.
 
     The equation (x(m + r w) - x(m - r w)) / 2r = 0 for the middle m and the direction w stays regular there; its
     solutions are even in r, so those for some r give the one for r = 0 by extrapolation.
     """
-    return [_led(sheet, _led(sheet, c).reversed()).reversed() for c in courses]
+    return [_led(patch, _led(patch, c).reversed()).reversed() for c in courses]
 
 
-def _led(sheet: SurfaceSheet, course: Course) -> Course:
+def _led(patch: SurfacePatch, course: Course) -> Course:
     """The course, its last point led into a pinch point if one is near."""
-    a, b = course.one[-1], sheet.aligned(course.two[-1:], course.one[-1:])[0]
-    d = 0.5 * (a - b) / sheet.cell
+    a, b = course.one[-1], patch.aligned(course.two[-1:], course.one[-1:])[0]
+    d = 0.5 * (a - b) / patch.cell
     half = float(np.hypot(*d))
-    if course.closed or not 0.0 < half <= 0.5 * NEAR_SELF or at_border(sheet, course.one[-1:], course.two[-1:])[0]:
+    if course.closed or not 0.0 < half <= 0.5 * NEAR_SELF or at_border(patch, course.one[-1:], course.two[-1:])[0]:
         return course
-    start = _Pairs(0.5 * (a + b) / sheet.cell, float(np.arctan2(d[1], d[0])), half)
+    start = _Pairs(0.5 * (a + b) / patch.cell, float(np.arctan2(d[1], d[0])), half)
     found: list[_Pairs] = []
     for part in SHRINKING:
-        solved = _solved(sheet, _Pairs(start.middle, start.angle, part * half))
+        solved = _solved(patch, _Pairs(start.middle, start.angle, part * half))
         if solved is None:
             return course
         start = solved
         found.append(solved)
     squares = np.array(SHRINKING) ** 2
     weights = np.array([np.prod([s / (s - t) for s in squares if s != t]) for t in squares])
-    end = weights @ np.array([f.middle for f in found]) * sheet.cell
-    if np.abs((end - found[-1].middle * sheet.cell) / sheet.cell).max() > half or not _inside(sheet, end):
+    end = weights @ np.array([f.middle for f in found]) * patch.cell
+    if np.abs((end - found[-1].middle * patch.cell) / patch.cell).max() > half or not _inside(patch, end):
         return course
     kept = [found[k] for k in (1, 2, 4)]
-    one = np.array([*((f.middle + f.half * f.way) * sheet.cell for f in kept), end])
-    two = np.array([*((f.middle - f.half * f.way) * sheet.cell for f in kept), end])
-    return followed(sheet, sheet, course, Course(one, two))
+    one = np.array([*((f.middle + f.half * f.way) * patch.cell for f in kept), end])
+    two = np.array([*((f.middle - f.half * f.way) * patch.cell for f in kept), end])
+    return followed(patch, patch, course, Course(one, two))
 
 
-def _solved(sheet: SurfaceSheet, start: _Pairs) -> _Pairs | None:
+def _solved(patch: SurfacePatch, start: _Pairs) -> _Pairs | None:
     """The pair of places with one point, at the same distance from one another; None if there is none near."""
     middle, angle = start.middle.copy(), start.angle
-    size, large = sheet.size
+    size, large = patch.size
     for _ in range(30):
         now = _Pairs(middle, angle, start.half)
-        places = np.array([middle + now.half * now.way, middle - now.half * now.way]) * sheet.cell
-        points = sheet.points(places)
-        by_u, by_v = sheet.surface.partials(*sheet.home(places))
-        turned = np.array([-now.way[1], now.way[0]]) * sheet.cell
-        by_place = np.stack([by_u * sheet.cell[0], by_v * sheet.cell[1]], axis=2)
+        places = np.array([middle + now.half * now.way, middle - now.half * now.way]) * patch.cell
+        points = patch.points(places)
+        by_u, by_v = patch.surface.partials(*patch.home(places))
+        turned = np.array([-now.way[1], now.way[0]]) * patch.cell
+        by_place = np.stack([by_u * patch.cell[0], by_v * patch.cell[1]], axis=2)
         jacobian = np.zeros((3, 3))
         jacobian[:, :2] = (by_place[0] - by_place[1]) / (2.0 * now.half)
         jacobian[:, 2] = 0.5 * ((by_u[0] + by_u[1]) * turned[0] + (by_v[0] + by_v[1]) * turned[1])
@@ -108,27 +108,27 @@ def _solved(sheet: SurfaceSheet, start: _Pairs) -> _Pairs | None:
     return _Pairs(middle, angle, start.half) if float(np.abs(gap).max()) <= zero else None
 
 
-def _inside(sheet: SurfaceSheet, place: Floats) -> bool:
-    domain = sheet.surface.domain
+def _inside(patch: SurfacePatch, place: Floats) -> bool:
+    domain = patch.surface.domain
     return bool(
         (domain.closed_u or domain.u_start <= place[0] <= domain.u_end)
         and (domain.closed_v or domain.v_start <= place[1] <= domain.v_end)
     )
 
 
-def at_border(sheet: SurfaceSheet, *places: Floats) -> Bools:
+def at_border(patch: SurfacePatch, *places: Floats) -> Bools:
     """(k,) whether one of the places (k,2) of a point is on an open border of the domain, or all but there."""
-    domain = sheet.surface.domain
+    domain = patch.surface.domain
     found = np.zeros(len(places[0]), dtype=np.bool_)
     ends = ((domain.u_start, domain.u_end), (domain.v_start, domain.v_end))
     for axis, closed in enumerate((domain.closed_u, domain.closed_v)):
         for place in () if closed else places:
-            found |= (np.abs(place[:, axis, None] - ends[axis]) <= ON_BORDER_OF_CELL * sheet.cell[axis]).any(axis=1)
+            found |= (np.abs(place[:, axis, None] - ends[axis]) <= ON_BORDER_OF_CELL * patch.cell[axis]).any(axis=1)
     return found
 
 
-def without_copies(one: Sheet, two: Sheet, courses: list[Course], *, same: bool) -> list[Course]:
-    """The courses without those short ones that run where a longer one does: next to a pinch point, or where sheets
+def without_copies(one: Patch, two: Patch, courses: list[Course], *, same: bool) -> list[Course]:
+    """The courses without those short ones that run where a longer one does: next to a pinch point, or where patches
     are nearly tangent, the triangles meet more than once where the surfaces do once."""
     points = [one.points(c.one) for c in courses]
     low, high = (np.array([f(p, axis=0) for p in points]).reshape(-1, 3) for f in (np.min, np.max))
@@ -151,8 +151,8 @@ def without_copies(one: Sheet, two: Sheet, courses: list[Course], *, same: bool)
     return [courses[k] for k in kept]
 
 
-def _runs_along(one: Sheet, two: Sheet, course: Course, points: Floats, other: Course, ends: Floats) -> bool:
-    """Whether all points (k,3) of a course lie beside chords of another with its points, on both sheets in the same
+def _runs_along(one: Patch, two: Patch, course: Course, points: Floats, other: Course, ends: Floats) -> bool:
+    """Whether all points (k,3) of a course lie beside chords of another with its points, on both patches in the same
     cells."""
     chord = np.diff(ends, axis=0)
     square = (chord * chord).sum(axis=1)
@@ -169,10 +169,10 @@ def _runs_along(one: Sheet, two: Sheet, course: Course, points: Floats, other: C
     return bool(len(np.unique(k[there])) == len(course))
 
 
-def stitched(one: Sheet, courses: list[Course], size: float, large: float) -> list[Course]:
+def stitched(one: Patch, courses: list[Course], size: float, large: float) -> list[Course]:
     """The courses, those joined that end where exactly one other end is: over a seam that the domain does not know of.
 
-    Places do not run on over such a seam; where both sheets are one they may exchange their roles there.
+    Places do not run on over such a seam; where both patches are one they may exchange their roles there.
     """
     ends = [(k, last) for k, c in enumerate(courses) if not c.closed and len(c) > 1 for last in (False, True)]
     if len(ends) < 2:

@@ -1,4 +1,4 @@
-"""Curves that lie on two sheets at once."""
+"""Curves that lie on two patches at once."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.intersections.meeting_points import in_planes, meetings
-from vectorplot.features.intersections.sheets import Sheet
+from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.parametric.curve_tracing import Picture
 from vectorplot.geometry.chord_refinement import Traces, refined
 from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, indices_along
@@ -22,7 +22,7 @@ STRAYED = 0.75
 
 @dataclass(frozen=True, eq=False)
 class DoubleCurves:
-    """Polylines on two surfaces, or on two sheets of one: each point known by its parameters on both, and in space.
+    """Polylines on two surfaces, or on two patches of one: each point known by its parameters on both, and in space.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def no_double_curves(doubts: tuple[str, ...] = ()) -> DoubleCurves:
 
 @dataclass(frozen=True, eq=False)
 class Course:
-    """A curve on its way to being one: places (k,d) on both sheets; a closed one repeats its first point, in whatever
+    """A curve on its way to being one: places (k,d) on both patches; a closed one repeats its first point, in whatever
     roles and periods it is back there."""
 
     one: Floats
@@ -103,7 +103,7 @@ class Course:
         return Course(_backwards(self.one), _backwards(self.two), self.closed)
 
     def exchanged(self) -> Course:
-        """With the roles of the two sheets exchanged; both are of one shape."""
+        """With the roles of the two patches exchanged; both are of one shape."""
         return Course(self.two, self.one, self.closed)
 
     def part(self, first: int, last: int) -> Course:
@@ -119,18 +119,18 @@ def _backwards(places: Floats) -> Floats:
     return result
 
 
-def followed(one: Sheet, two: Sheet, first: Course, second: Course) -> Course:
+def followed(one: Patch, two: Patch, first: Course, second: Course) -> Course:
     """The second course after the first, its places as many periods on as they have to be."""
     if not len(first) or not len(second):
         return second if not len(first) else first
     parts = []
-    for sheet, a, b in ((one, first.one, second.one), (two, first.two, second.two)):
-        start = sheet.aligned(b[:1], a[-1:])
+    for patch, a, b in ((one, first.one, second.one), (two, first.two, second.two)):
+        start = patch.aligned(b[:1], a[-1:])
         parts.append(np.concatenate([a, b + (start - b[:1])]))
     return Course(parts[0], parts[1])
 
 
-def starting_at(one: Sheet, two: Sheet, course: Course, first: int) -> Course:
+def starting_at(one: Patch, two: Patch, course: Course, first: int) -> Course:
     """A closed course that comes back in the roles it began with, beginning at another of its points."""
     whole = followed(one, two, course.part(first, len(course)), course.part(1, first + 1))
     return Course(whole.one, whole.two, True)
@@ -138,7 +138,7 @@ def starting_at(one: Sheet, two: Sheet, course: Course, first: int) -> Course:
 
 @dataclass(frozen=True, eq=False)
 class Courses:
-    """All courses one after the other: places on both sheets; last (n,): the point is the last of its course."""
+    """All courses one after the other: places on both patches; last (n,): the point is the last of its course."""
 
     one: Floats
     two: Floats
@@ -157,9 +157,9 @@ def put_together(courses: list[Course], dimensions: tuple[int, int]) -> Courses:
 
 
 def refined_courses(
-    one: Sheet, two: Sheet, courses: Courses, *, zero: float, tolerance: float, picture: Picture | None
+    one: Patch, two: Patch, courses: Courses, *, zero: float, tolerance: float, picture: Picture | None
 ) -> tuple[Courses, int]:
-    """The courses with points of both sheets put in where chords deviate from the curve by more than the tolerance,
+    """The courses with points of both patches put in where chords deviate from the curve by more than the tolerance,
     measured in the picture, and the number of chords beside which no curve was found."""
     own = courses.one.shape[1]
 
@@ -179,10 +179,10 @@ def refined_courses(
 
 
 def _between(
-    one: Sheet, two: Sheet, start: tuple[Floats, Floats], end: tuple[Floats, Floats], part: Floats, zero: float
+    one: Patch, two: Patch, start: tuple[Floats, Floats], end: tuple[Floats, Floats], part: Floats, zero: float
 ) -> tuple[Floats, Bools]:
-    """Places on both sheets, one beside the other, in the planes across chords at parts (k,) of them, and whether the
-    curve is there; start, end: places on both sheets."""
+    """Places on both patches, one beside the other, in the planes across chords at parts (k,) of them, and whether the
+    curve is there; start, end: places on both patches."""
     share = part[:, None]
     a, chord = one.points(start[0]), one.points(end[0]) - one.points(start[0])
     point = a + share * chord

@@ -1,4 +1,4 @@
-"""Double curves where the two sheets touch or nearly do: nodes, avoided crossings, loops below the tessellation."""
+"""Double curves where the two patches touch or nearly do: nodes, avoided crossings, loops below the tessellation."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.features.intersections.contacts import Contacts
 from vectorplot.features.intersections.double_curves import Course, followed
 from vectorplot.features.intersections.meeting_points import in_planes, meetings
-from vectorplot.features.intersections.sheets import Sheet
+from vectorplot.features.intersections.patches import Patch
 
 RADIUS = 2.0
 """Cells around a node within which its branches are put together anew."""
@@ -36,7 +36,7 @@ class _End:
 
 
 def through_nodes(
-    one: Sheet, two: Sheet, courses: list[Course], saddles: Contacts, zero: float, height: float, *, same: bool
+    one: Patch, two: Patch, courses: list[Course], saddles: Contacts, zero: float, height: float, *, same: bool
 ) -> tuple[list[Course], Bools]:
     """The courses, those near a saddle of the height joined there as the surfaces are and not as the triangles
     happened to be; and which of the saddles courses run through.
@@ -65,12 +65,12 @@ def through_nodes(
     return [c for c in courses if len(c) > 1], met
 
 
-def _distance(one: Sheet, two: Sheet, course: Course, at: Contacts) -> Floats:
-    """(k,) cells between the points of a course and a contact, on the sheet where there are more."""
+def _distance(one: Patch, two: Patch, course: Course, at: Contacts) -> Floats:
+    """(k,) cells between the points of a course and a contact, on the patch where there are more."""
     return np.fmax(one.cells_apart(course.one, at.one), two.cells_apart(course.two, at.two))
 
 
-def _opened(one: Sheet, two: Sheet, courses: list[Course], at: Contacts, same: bool) -> tuple[list[Course], list[_End]]:
+def _opened(one: Patch, two: Patch, courses: list[Course], at: Contacts, same: bool) -> tuple[list[Course], list[_End]]:
     """The courses without their points near a contact, and the ends that are there then."""
     result = []
     for course in courses:
@@ -97,7 +97,7 @@ def _opened(one: Sheet, two: Sheet, courses: list[Course], at: Contacts, same: b
     return result, ends
 
 
-def _outside(one: Sheet, two: Sheet, course: Course, inside: Bools) -> list[Course]:
+def _outside(one: Patch, two: Patch, course: Course, inside: Bools) -> list[Course]:
     """The runs of a course outside; of a closed one the first and the last are one."""
     at = np.flatnonzero(~inside)
     if not len(at):
@@ -115,7 +115,7 @@ def _outside(one: Sheet, two: Sheet, course: Course, inside: Bools) -> list[Cour
     return [r for r in runs if len(r) > 1]
 
 
-def _turned_over(one: Sheet, course: Course) -> bool:
+def _turned_over(one: Patch, course: Course) -> bool:
     """Whether a closed course is back at its start with its sides exchanged."""
     if course.one.shape[1] != course.two.shape[1]:
         return False
@@ -131,7 +131,7 @@ def _opposite(ends: list[_End]) -> list[tuple[int, int]]:
 
 
 def _beside(
-    one: Sheet, two: Sheet, ends: list[_End], at: Contacts, zero: float
+    one: Patch, two: Patch, ends: list[_End], at: Contacts, zero: float
 ) -> tuple[list[tuple[int, int]], list[Course]]:
     """Pairs of ends on the same side of an avoided crossing, and the vertices of the hyperbola between them."""
     axis = int(at.heights[0] * at.bends[0, 0] > 0.0)
@@ -152,7 +152,7 @@ def _beside(
 
 
 def _linked(
-    one: Sheet, two: Sheet, courses: list[Course], ends: list[_End], pair: tuple[int, int], middle: Course
+    one: Patch, two: Patch, courses: list[Course], ends: list[_End], pair: tuple[int, int], middle: Course
 ) -> list[Course]:
     """The courses with a pair of ends joined through a middle; -1: no second end. Numbers of courses stay valid: a
     course that went into another is left empty, and its ends now are those of the other."""
@@ -191,7 +191,7 @@ def _redirected(ends: list[_End], courses: list[Course], first: _End, *, flipped
 
 
 def missed_loops(
-    one: Sheet, two: Sheet, courses: list[Course], hills: Contacts, zero: float, height: float
+    one: Patch, two: Patch, courses: list[Course], hills: Contacts, zero: float, height: float
 ) -> list[Course]:
     """Closed courses around contacts that the triangles did not notice.
 
@@ -215,7 +215,7 @@ def missed_loops(
     return result
 
 
-def _loop(one: Sheet, two: Sheet, at: Contacts, radii: Floats, zero: float) -> Course | None:
+def _loop(one: Patch, two: Patch, at: Contacts, radii: Floats, zero: float) -> Course | None:
     """The closed course around a contact; None if it is not where the paraboloid has it."""
     angle = 2.0 * np.pi * np.arange(LOOP) / LOOP
     x, y = at.frames[0, :2]

@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.implicit_tracing import ImplicitCurves, ImplicitTracing, box_sides, mesh_of, no_curves
 from vectorplot.features.intersections.contacts import contacts
-from vectorplot.features.intersections.sheets import MeshSheet
+from vectorplot.features.intersections.patches import MeshPatch
 from vectorplot.features.intersections.surface_intersection import doubts_about, joined, repeats_dropped
 from vectorplot.features.intersections.triangle_pairs import overlapping_triangles, piercings
 from vectorplot.features.parametric.curve_tracing import Tracing
@@ -28,8 +28,8 @@ ROUNDS = 3
 
 @dataclass(frozen=True, eq=False)
 class ImplicitPatch:
-    """An implicit surface within its box as a sheet of `intersections.sheets`: places are its points; rails 0, 1, 2 the
-    sides of the box across x, y and z. mesh: the surface polygonised."""
+    """An implicit surface within its box as a patch of `intersections.patches`: places are its points; rails 0, 1, 2
+    the sides of the box across x, y and z. mesh: the surface polygonised."""
 
     surface: ImplicitSurface
     mesh: Mesh
@@ -185,7 +185,7 @@ def implicit_mesh_section(
     """
     polygonised, doubts = mesh_of(surface, tracing)
     own = polygonised.mesh
-    two = MeshSheet(mesh)
+    two = MeshPatch(mesh)
     if not own.face_count or not len(two.faces):
         return ImplicitMeshSection(no_curves(doubts), np.zeros((0, 3)))
     one = ImplicitPatch(surface, own)

@@ -1,4 +1,4 @@
-"""Points brought onto two sheets at once."""
+"""Points brought onto two patches at once."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.intersections.sheets import Sheet
+from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.tessellation import FREE
 from vectorplot.geometry.vectors import cross
 from vectorplot.tolerances.of_angles import SAME_DIRECTION_SINE
@@ -20,7 +20,7 @@ MOST_STEPS = 40
 
 @dataclass(frozen=True, eq=False)
 class Bound:
-    """What holds the points of two sheets besides lying on both.
+    """What holds the points of two patches besides lying on both.
 
     normal, origin (k,3): they stay in this plane; a normal of zero: none. rail_one, rail_two (k,): the line they stay
     on, FREE: none.
@@ -48,7 +48,7 @@ def in_planes(normal: Floats, origin: Floats) -> Bound:
     return Bound(normal, origin, free, free)
 
 
-def zero_between(one: Sheet, two: Sheet) -> float:
+def zero_between(one: Patch, two: Patch) -> float:
     """How far apart the points of a meeting may be: a part of the extent, but no less than rounding."""
     (size, large), (other_size, other_large) = one.size, two.size
     return max(MEETING_RESIDUAL * min(size, other_size), ROUNDING * max(large, other_large))
@@ -56,15 +56,15 @@ def zero_between(one: Sheet, two: Sheet) -> float:
 
 @dataclass(frozen=True, eq=False)
 class Meetings:
-    """Places on both sheets, and which of them are the same point in space."""
+    """Places on both patches, and which of them are the same point in space."""
 
     one: Floats
     two: Floats
     met: Bools
 
 
-def meetings(one: Sheet, two: Sheet, at_one: Floats, at_two: Floats, bound: Bound, zero: float) -> Meetings:
-    """The places near given ones at which the sheets meet.
+def meetings(one: Patch, two: Patch, at_one: Floats, at_two: Floats, bound: Bound, zero: float) -> Meetings:
+    """The places near given ones at which the patches meet.
 
     Newton's method: the point of both tangent planes that is nearest to the middle of the two points, or lies in the
     given plane, or on the given line; both places are moved towards it. This is the step of minimum norm.
@@ -101,8 +101,8 @@ def _is_held(bound: Bound) -> Bools:
     return np.asarray(bound.normal.any(axis=1) | (bound.rail_one != FREE) | (bound.rail_two != FREE), dtype=np.bool_)
 
 
-def _steps(one: Sheet, two: Sheet, a: Floats, b: Floats, points: tuple[Floats, Floats], bound: Bound) -> Floats:
-    """(2,k,3) how far the points of both sheets have to go."""
+def _steps(one: Patch, two: Patch, a: Floats, b: Floats, points: tuple[Floats, Floats], bound: Bound) -> Floats:
+    """(2,k,3) how far the points of both patches have to go."""
     p, q = points
     n, m = one.normals(a), two.normals(b)
     middle = 0.5 * (p + q)
@@ -110,10 +110,10 @@ def _steps(one: Sheet, two: Sheet, a: Floats, b: Floats, points: tuple[Floats, F
     origin = middle.copy()
     in_plane = bound.normal.any(axis=1)
     held[in_plane], origin[in_plane] = bound.normal[in_plane], bound.origin[in_plane]
-    for sheet, at, normal, point, rails in ((one, a, n, p, bound.rail_one), (two, b, m, q, bound.rail_two)):
+    for patch, at, normal, point, rails in ((one, a, n, p, bound.rail_one), (two, b, m, q, bound.rail_two)):
         on = np.flatnonzero(rails != FREE)
         if len(on):
-            held[on] = cross(normal[on], sheet.along_rails(at[on], rails[on]))
+            held[on] = cross(normal[on], patch.along_rails(at[on], rails[on]))
             origin[on] = point[on]
     with np.errstate(all="ignore"):
         held /= np.sqrt((held * held).sum(axis=1, keepdims=True))
@@ -128,6 +128,6 @@ def _steps(one: Sheet, two: Sheet, a: Floats, b: Floats, points: tuple[Floats, F
     return np.stack([target - p, target - q])
 
 
-def sines(one: Sheet, two: Sheet, at_one: Floats, at_two: Floats) -> Floats:
+def sines(one: Patch, two: Patch, at_one: Floats, at_two: Floats) -> Floats:
     """(k,) sines of the angles between the tangent planes at places of both; NaN where there is none."""
     return np.asarray(np.linalg.norm(cross(one.normals(at_one), two.normals(at_two)), axis=1))

@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.features.intersections.contacts import contacts
 from vectorplot.features.intersections.curve_ends import at_border
-from vectorplot.features.intersections.sheets import MeshSheet, SurfaceSheet
+from vectorplot.features.intersections.patches import MeshPatch, SurfacePatch
 from vectorplot.features.intersections.surface_intersection import Joined, doubts_about, joined, repeats_dropped
 from vectorplot.features.intersections.triangle_pairs import overlapping_triangles, piercings
 from vectorplot.features.parametric.curve_tracing import Tracing
@@ -98,9 +98,9 @@ def mesh_section(surface: Surface, mesh: Mesh, *, tracing: Tracing = DEFAULT) ->
     >>> len(section), sorted({int(face) for face in section.faces})  # a circle in each face
     (6, [0, 1, 2, 3, 4, 5])
     """
-    two = MeshSheet(mesh)
+    two = MeshPatch(mesh)
     for columns, rows in finer_grids(tracing.columns, tracing.rows):
-        one = SurfaceSheet(surface, columns, rows)
+        one = SurfacePatch(surface, columns, rows)
         if not len(two.faces) or not len(one.tessellation.triangles):
             return MeshSection(no_curves(), np.zeros(0, dtype=np.intp), np.zeros((0, 3)))
         pairs = overlapping_triangles(one.tessellation, two.tessellation)
@@ -114,7 +114,7 @@ def mesh_section(surface: Surface, mesh: Mesh, *, tracing: Tracing = DEFAULT) ->
     return _section(one, two, all_, faults)
 
 
-def _faults(one: SurfaceSheet, two: MeshSheet, all_: Joined) -> int:
+def _faults(one: SurfacePatch, two: MeshPatch, all_: Joined) -> int:
     """At how many places the surface crosses edges of the mesh elsewhere than its triangles do: points beside their
     face, chords without a curve, ends inside both shapes."""
     faults = int((~two.holds(all_.points.two)).sum()) + all_.unsure
@@ -134,7 +134,7 @@ def _faults(one: SurfaceSheet, two: MeshSheet, all_: Joined) -> int:
     return faults + int((~at_border(one, own) & ~(away <= ON_MESH_BORDER * two.size[0])).sum())
 
 
-def _section(one: SurfaceSheet, two: MeshSheet, all_: Joined, faults: int) -> MeshSection:
+def _section(one: SurfacePatch, two: MeshPatch, all_: Joined, faults: int) -> MeshSection:
     """The curves on the surface."""
     kept, offsets, closed = repeats_dropped(all_)
     own, points = all_.points.one, all_.points.two
@@ -163,7 +163,7 @@ def _section(one: SurfaceSheet, two: MeshSheet, all_: Joined, faults: int) -> Me
     return MeshSection(curves, two.faces[triangle], two.normals(points[kept]))
 
 
-def _both(one: SurfaceSheet, places: Floats, points: Floats) -> Floats:
+def _both(one: SurfacePatch, places: Floats, points: Floats) -> Floats:
     """(n,3) the points of the surface; those of the mesh are the same but for rounding, and lie in no hole."""
     on_surface = one.points(places)
     return np.where(np.isfinite(on_surface), on_surface, points[:, :3])

@@ -7,7 +7,7 @@ import numpy as np
 from vectorplot.features.intersections.contacts import contacts
 from vectorplot.features.intersections.curve_ends import at_border
 from vectorplot.features.intersections.double_curves import DoubleCurves, no_double_curves
-from vectorplot.features.intersections.sheets import SurfaceSheet
+from vectorplot.features.intersections.patches import SurfacePatch
 from vectorplot.features.intersections.surface_intersection import double_curves, joined
 from vectorplot.features.intersections.triangle_pairs import overlapping_within, piercings
 from vectorplot.features.parametric.curve_tracing import Tracing
@@ -64,21 +64,21 @@ def self_intersections(surface: Surface, *, tracing: Tracing = DEFAULT) -> Doubl
     >>> len(curves), bool(np.allclose(curves.points[:, :2], (1.0, 0.0)))
     (1, True)
     """
-    sheet = SurfaceSheet(surface, tracing.columns, tracing.rows)
-    own = sheet.tessellation
-    if _stands_over_a_plane(sheet):
+    patch = SurfacePatch(surface, tracing.columns, tracing.rows)
+    own = patch.tessellation
+    if _stands_over_a_plane(patch):
         return no_double_curves()
     found = piercings(own, own, overlapping_within(own))
     # Each curve stands there twice, with its two places exchanged.
     if len(concat(found.pairs)) > 2 * max(1, tracing.budget.points // POINTS_A_CURVE):
         return no_double_curves((unresolved("the surface meets itself in very many curves, none is drawn"),))
-    touching = contacts(sheet, sheet, same=True)
+    touching = contacts(patch, patch, same=True)
     # Borders along which the surface goes on (a Moebius strip's ends) are no contacts.
-    seam = at_border(sheet, touching.one) & at_border(sheet, touching.two)
-    return double_curves(sheet, joined(sheet, sheet, found, touching.of(~seam), tracing, same=True))
+    seam = at_border(patch, touching.one) & at_border(patch, touching.two)
+    return double_curves(patch, joined(patch, patch, found, touching.of(~seam), tracing, same=True))
 
 
-def _stands_over_a_plane(sheet: SurfaceSheet) -> bool:
+def _stands_over_a_plane(patch: SurfacePatch) -> bool:
     """Whether the triangles, of a rectangle without seams, poles and holes, all face one way, and their border, seen
     from there, does not cross itself: then no two of them are above each other.
 
@@ -87,7 +87,7 @@ def _stands_over_a_plane(sheet: SurfaceSheet) -> bool:
     """
     import shapely
 
-    own, columns, rows = sheet.tessellation, sheet.columns, sheet.rows
+    own, columns, rows = patch.tessellation, patch.columns, patch.rows
     if len(own.triangles) < 2 * columns * rows or own.border.sum() < 2 * (columns + rows):
         return False
     a, b, c = (own.points[own.triangles[:, k]] for k in range(3))

@@ -19,7 +19,7 @@ from vectorplot.features.intersections.double_curves import (
 )
 from vectorplot.features.intersections.double_nodes import missed_loops, through_nodes
 from vectorplot.features.intersections.meeting_points import zero_between
-from vectorplot.features.intersections.sheets import MeshSheet, Sheet, SurfaceGrids, SurfaceSheet
+from vectorplot.features.intersections.patches import MeshPatch, Patch, SurfaceGrids, SurfacePatch
 from vectorplot.features.intersections.surface_pairs import Traced, traced, without_crowds, without_zigzags
 from vectorplot.features.intersections.triangle_pairs import Piercings, overlapping_triangles, piercings
 from vectorplot.features.parametric.curve_tracing import Tracing
@@ -81,7 +81,7 @@ def surface_intersection(one: Surface, two: Surface, *, tracing: Tracing = DEFAU
 def intersection_of_grids(one: SurfaceGrids, two: SurfaceGrids, tracing: Tracing) -> DoubleCurves:
     """The same of surfaces that are polygonised once for several intersections."""
     for columns, rows in finer_grids(tracing.columns, tracing.rows):
-        first, second = one.sheet(columns, rows), two.sheet(columns, rows)
+        first, second = one.patch(columns, rows), two.patch(columns, rows)
         pairs = overlapping_triangles(first.tessellation, second.tessellation)
         found = piercings(first.tessellation, second.tessellation, pairs)
         all_ = joined(first, second, found, contacts(first, second), tracing, same=False)
@@ -110,7 +110,7 @@ class Joined:
     dots: Floats
 
 
-def double_curves(one: SurfaceSheet, all_: Joined) -> DoubleCurves:
+def double_curves(one: SurfacePatch, all_: Joined) -> DoubleCurves:
     """The curves of two surfaces, the first of which is given, or of one with itself."""
     alone = _each_once(np.concatenate([all_.isolated.points, all_.dots]), one.size[0])
     kept, offsets, closed = repeats_dropped(all_)
@@ -120,8 +120,8 @@ def double_curves(one: SurfaceSheet, all_: Joined) -> DoubleCurves:
     )
 
 
-def joined(one: Sheet, two: Sheet, found: Piercings, touching: Contacts, tracing: Tracing, *, same: bool) -> Joined:
-    """The piercings as curves on the true sheets: joined, led through nodes and into pinch points, refined."""
+def joined(one: Patch, two: Patch, found: Piercings, touching: Contacts, tracing: Tracing, *, same: bool) -> Joined:
+    """The piercings as curves on the true patches: joined, led through nodes and into pinch points, refined."""
     zero, height = zero_between(one, two), zero_height(one, two)
     courses = _of_segments(one, two, traced(one, two, found, zero, same=same))
     product = touching.bends[:, 0] * touching.bends[:, 1]
@@ -131,7 +131,7 @@ def joined(one: Sheet, two: Sheet, found: Piercings, touching: Contacts, tracing
     hills = touching.of(product > 0.0)
     courses = courses + missed_loops(one, two, courses, hills, zero, height)
     size, large = min(one.size[0], two.size[0]), max(one.size[1], two.size[1])
-    if same and isinstance(one, SurfaceSheet):
+    if same and isinstance(one, SurfacePatch):
         courses = into_pinch_points(one, courses)
     courses = stitched(one, without_copies(one, two, courses, same=same), size, large)
     courses, dots = _without_dots(one, courses, size)
@@ -157,11 +157,11 @@ def _close(found: Contacts) -> int:
     return int((gap < RESOLVED * found.cells).sum())
 
 
-def _of_segments(one: Sheet, two: Sheet, found: Traced) -> list[Course]:
+def _of_segments(one: Patch, two: Patch, found: Traced) -> list[Course]:
     """The courses without zigzags; on a mesh, places name the triangle of the segment that starts there."""
     result = []
     for course, triangles in zip(found.courses, found.triangles, strict=True):
-        if isinstance(two, MeshSheet):
+        if isinstance(two, MeshPatch):
             places = np.concatenate([course.two[:, :3], triangles[:, 1:]], axis=1)
             # Near an edge the true point may lie beyond it, in the plane of the face but not in the face.
             held = two.holds(places)
@@ -177,12 +177,12 @@ def _of_segments(one: Sheet, two: Sheet, found: Traced) -> list[Course]:
 
 
 def _each_once(points: Floats, size: float) -> Floats:
-    """The points (k,3) without those that are the same but for rounding; Newton comes slowly to where sheets shrink to
+    """The points (k,3) without those that are the same but for rounding; Newton comes slowly to where patches shrink to
     a point."""
     return points[np.unique(close_points(points, ONE_POINT_OF_EXTENT * size), return_index=True)[1]]
 
 
-def _without_dots(one: Sheet, courses: list[Course], size: float) -> tuple[list[Course], Floats]:
+def _without_dots(one: Patch, courses: list[Course], size: float) -> tuple[list[Course], Floats]:
     """The courses that are more than a point, and the points (k,3) of the others."""
     spread = [np.ptp(one.points(c.one), axis=0).max() if len(c) > 1 else 0.0 for c in courses]
     lines = [c for c, s in zip(courses, spread, strict=True) if s > ZERO_OF_EXTENT * size]

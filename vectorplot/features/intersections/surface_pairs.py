@@ -1,4 +1,4 @@
-"""The curves in which two sheets meet, from the segments in which their triangles do."""
+"""The curves in which two patches meet, from the segments in which their triangles do."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.intersections.double_curves import Course
 from vectorplot.features.intersections.meeting_points import Bound, meetings, sines
-from vectorplot.features.intersections.sheets import Sheet
+from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.intersections.triangle_pairs import Piercings
 from vectorplot.geometry.outline import concat
 from vectorplot.tolerances.of_angles import TOUCHING_SHEETS_SINE
@@ -22,7 +22,7 @@ BRIDGED = 2
 
 
 SHALLOW = 0.25
-"""Sine below which sheets are nearly tangent: cusps of double curves have larger ones."""
+"""Sine below which patches are nearly tangent: cusps of double curves have larger ones."""
 
 TINY = 0.25
 """Part of the usual chord that a course may turn back by in any case: cusps have longer chords on both sides."""
@@ -47,10 +47,10 @@ class Traced:
     lost: int
 
 
-def traced(one: Sheet, two: Sheet, found: Piercings, zero: float, *, same: bool = False) -> Traced:
-    """The piercings brought onto the true sheets and joined.
+def traced(one: Patch, two: Patch, found: Piercings, zero: float, *, same: bool = False) -> Traced:
+    """The piercings brought onto the true patches and joined.
 
-    same: both sheets are one, and every curve stands there twice, with its sides exchanged; one of them is kept.
+    same: both patches are one, and every curve stands there twice, with its sides exchanged; one of them is kept.
     """
     at_one, at_two, good = _refined(one, two, found, zero)
     if same:
@@ -88,16 +88,16 @@ def traced(one: Sheet, two: Sheet, found: Piercings, zero: float, *, same: bool 
     return Traced(courses, triangles, lost)
 
 
-def _refined(one: Sheet, two: Sheet, found: Piercings, zero: float) -> tuple[Floats, Floats, Bools]:
-    """Places on both true sheets, and which of them are near the triangles they come from, across one another."""
+def _refined(one: Patch, two: Patch, found: Piercings, zero: float) -> tuple[Floats, Floats, Bools]:
+    """Places on both true patches, and which of them are near the triangles they come from, across one another."""
     count = len(found.one)
     none = np.zeros((count, 3))
     moved = meetings(one, two, found.one, found.two, Bound(none, none, found.rail_one, found.rail_two), zero)
     good = moved.met
     with np.errstate(invalid="ignore"):
         # Measured in space: near a pole a parameter may run far.
-        for sheet, before, after in ((one, found.one, moved.one), (two, found.two, moved.two)):
-            good &= np.linalg.norm(sheet.points(after) - sheet.points(before), axis=1) <= DRIFT * found.size
+        for patch, before, after in ((one, found.one, moved.one), (two, found.two, moved.two)):
+            good &= np.linalg.norm(patch.points(after) - patch.points(before), axis=1) <= DRIFT * found.size
         good &= sines(one, two, moved.one, moved.two) > TOUCHING_SHEETS_SINE
     return moved.one, moved.two, np.asarray(good)
 
@@ -114,21 +114,21 @@ def _segments_of(points: Ints, offsets: Ints, closed: Bools, pairs: Ints) -> Int
     return np.asarray(order[np.minimum(np.searchsorted(own[order], key), max(len(own) - 1, 0))])
 
 
-def _running_on(sheet: Sheet, places: Floats) -> Floats:
+def _running_on(patch: Patch, places: Floats) -> Floats:
     """Places of a course (k,d) without jumps over seams."""
     return np.asarray(
-        places + np.cumsum(np.concatenate([np.zeros_like(places[:1]), sheet_jumps(sheet, places)]), axis=0)
+        places + np.cumsum(np.concatenate([np.zeros_like(places[:1]), patch_jumps(patch, places)]), axis=0)
     )
 
 
-def sheet_jumps(sheet: Sheet, places: Floats) -> Floats:
+def patch_jumps(patch: Patch, places: Floats) -> Floats:
     """(k-1,d) the periods that have to be added from a place to the next."""
-    return np.asarray(sheet.aligned(places[1:], places[:-1]) - places[1:])
+    return np.asarray(patch.aligned(places[1:], places[:-1]) - places[1:])
 
 
-def without_zigzags(one: Sheet, two: Sheet, course: Course) -> Course:
-    """The course without points from which it turns back where the sheets are nearly tangent, or by very little (near a
-    pole): there the triangles meet in another order than the true points lie."""
+def without_zigzags(one: Patch, two: Patch, course: Course) -> Course:
+    """The course without points from which it turns back where the patches are nearly tangent, or by very little (near
+    a pole): there the triangles meet in another order than the true points lie."""
     shallow = sines(one, two, course.one, course.two) < SHALLOW
     points, kept = one.points(course.one), np.arange(len(course))
     while len(kept) > 3:
@@ -145,7 +145,7 @@ def without_zigzags(one: Sheet, two: Sheet, course: Course) -> Course:
     return course if len(kept) == len(course) else Course(course.one[kept], course.two[kept], course.closed)
 
 
-def without_crowds(one: Sheet, course: Course) -> Course:
+def without_crowds(one: Patch, course: Course) -> Course:
     """The course without inner points that are much nearer to one neighbour than to the other: where an edge of one
     tessellation passes close to an edge of the other."""
     chord = np.diff(one.points(course.one), axis=0)

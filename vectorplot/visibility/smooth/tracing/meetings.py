@@ -10,8 +10,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.intersections.double_curves import DoubleCurves
 from vectorplot.features.intersections.mesh_section import mesh_section
+from vectorplot.features.intersections.patches import SurfaceGrids
 from vectorplot.features.intersections.self_intersection import self_intersections
-from vectorplot.features.intersections.sheets import SurfaceGrids
 from vectorplot.features.intersections.surface_intersection import intersection_of_grids
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry.mesh import Mesh

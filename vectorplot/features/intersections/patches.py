@@ -1,4 +1,4 @@
-"""Sheets: shapes whose intersections are looked for, known by places, tangent planes and a tessellation."""
+"""Patches: shapes whose intersections are looked for, known by places, tangent planes and a tessellation."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ LONGEST_PART = 0.125
 """Part of the domain that a parameter may be moved by all the same: near a pole that is not far."""
 
 
-class Sheet(Protocol):
+class Patch(Protocol):
     """A shape on which places (k,d) are points. All functions take many places at once."""
 
     @property
@@ -74,7 +74,7 @@ class Sheet(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class SurfaceSheet:
+class SurfacePatch:
     """A parametrised surface, tessellated by columns times rows cells; places are (u, v), beyond seams too."""
 
     surface: Surface
@@ -176,17 +176,17 @@ class SurfaceGrids:
     """A surface that is polygonised once by each grid, however many others it may meet."""
 
     surface: Surface
-    made: dict[tuple[int, int], SurfaceSheet] = field(default_factory=dict)
+    made: dict[tuple[int, int], SurfacePatch] = field(default_factory=dict)
 
-    def sheet(self, columns: int, rows: int) -> SurfaceSheet:
-        """Its sheet of so many columns times rows cells."""
+    def patch(self, columns: int, rows: int) -> SurfacePatch:
+        """Its patch of so many columns times rows cells."""
         if (columns, rows) not in self.made:
-            self.made[columns, rows] = SurfaceSheet(self.surface, columns, rows)
+            self.made[columns, rows] = SurfacePatch(self.surface, columns, rows)
         return self.made[columns, rows]
 
 
 @dataclass(frozen=True, eq=False)
-class MeshSheet:
+class MeshPatch:
     """The faces of a mesh; places are x, y, z and the number of a triangle. Faces that are not planar and convex are
     cut into triangles; a planar face has one plane."""
 
