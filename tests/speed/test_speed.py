@@ -4,6 +4,7 @@ import json
 import time
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
@@ -15,6 +16,7 @@ from vectorplot.speed.clock import cpu_seconds, peak_of, wall_seconds
 from vectorplot.speed.log import Log, Measured, Threads, read_log, write_log
 from vectorplot.speed.measure import measured, on_threads
 from vectorplot.speed.operations import Operation, array_operations, call_operations, point_cost
+from vectorplot.speed.plot import plot
 from vectorplot.speed.scenes import SERIES
 from vectorplot.speed.tables import comparison, tables
 
@@ -120,3 +122,28 @@ def test_operations_cost_something_and_sorting_more_than_adding():
 def test_clocks_and_memory():
     assert wall_seconds(lambda: time.sleep(0.02), 1) >= 0.02 > cpu_seconds(lambda: time.sleep(0.02), 1)
     assert peak_of(lambda: owner([10_000_000])) >= 0.0
+
+
+def test_a_log_is_plotted_with_an_earlier_one_dashed(tmp_path):
+    write_log(LOG, str(tmp_path / "log.json"))
+    picture = tmp_path / "speed.svg"
+    words = ["speed", "--read", str(tmp_path / "log.json"), "--beside", str(tmp_path / "log.json"), "-o", str(picture)]
+    assert run(words) == 0
+    assert picture.read_text().count("<path") + picture.read_text().count("<polyline") > 10
+    alone, both = plot(LOG), plot(LOG, LOG)
+    assert [layer.name for layer in alone.layers] == [layer.name for layer in both.layers]
+    curves = [sum(map(len, drawing.layers[2].strokes)) for drawing in (alone, both)]
+    assert curves[1] > curves[0], "dashes"
+
+
+def test_a_legend_takes_as_many_rows_as_it_needs():
+    many = replace(LOG, pictures=tuple(replace(BOXES, name=f"a picture of number {k}") for k in range(9)))
+    few, more = plot(LOG), plot(many)
+    assert more.height_mm > few.height_mm and more.width_mm == few.width_mm
+    points = np.concatenate([paths.points for layer in more.layers for paths in layer.strokes])
+    assert (points >= 0.0).all() and (points <= (more.width_mm, more.height_mm)).all()
+
+
+def test_a_picture_of_an_unknown_format_is_refused_before_anything_is_measured(capsys):
+    assert run(["speed", "-o", "speed.doc"]) == 2
+    assert "the name must end in one of" in capsys.readouterr().err

@@ -27,6 +27,9 @@ LEFT_MM, BELOW_MM, ABOVE_MM, RIGHT_MM = 26.0, 18.0, 22.0, 6.0
 TITLE_MM, LABEL_MM, NUMBER_MM, EXPONENT_MM = 4.0, 2.8, 2.4, 1.8
 """How high capitals are."""
 
+ROW_MM = 6.0
+"""From one row of a legend to the next one."""
+
 TICK_MM, SHORT_TICK_MM, MARKER_MM = 1.6, 0.8, 0.9
 DASH_MM, GAP_MM = 2.0, 1.4
 
@@ -69,10 +72,11 @@ class Panel:
 
 def chart(title: str, panels: Sequence[Panel], note: str = "") -> Drawing:
     """Panels from left to right on a page that fits them, with a title, a legend of the marked curves of all of them,
-    each name once, and a note after that."""
+    each name once, in as many rows as it needs, and a note after that."""
     width, height = PANEL_MM
     step = LEFT_MM + width
-    page = (len(panels) * step + RIGHT_MM, BELOW_MM + height + ABOVE_MM)
+    rows = _entries(panels, note, len(panels) * step - LEFT_MM)
+    page = (len(panels) * step + RIGHT_MM, BELOW_MM + height + ABOVE_MM + (len(rows) - 1) * ROW_MM)
     grid: list[Floats] = []
     frame: list[Floats] = []
     inked: dict[int, list[Floats]] = {}
@@ -100,7 +104,7 @@ def chart(title: str, panels: Sequence[Panel], note: str = "") -> Drawing:
             right = float(corner[0] + x.place(value) * width)
             dashes.setdefault(-1, []).append(np.array([(right, BELOW_MM), (right, BELOW_MM + height)]))
             texts += letters(text, (right - 1.0, BELOW_MM + 2.0), NUMBER_MM, upwards=True)
-    names = _legend(panels, (LEFT_MM, BELOW_MM + height + 4.0), inked, note)
+    names = _legend(rows, (LEFT_MM, BELOW_MM + height + 4.0), inked)
     layers = [Layer("grid", GRID, (_paths(grid),)), Layer("axes", AXES, (_paths(frame),))]
     for colour in sorted({*inked, *dashes}):
         pen = Pen(CURVE, COLOURS[colour % len(COLOURS)]) if colour >= 0 else Pen(0.25)
@@ -141,21 +145,45 @@ def _number(text: str, foot: Floats, along: int) -> list[Floats]:
     return found
 
 
+def _entries(panels: Sequence[Panel], note: str, room: float) -> list[list[tuple[str, int | None]]]:
+    """The rows of a legend no wider than there is room: names of marked curves with their inks, each once, and a note,
+    which has none."""
+    named = {curve.name: curve.colour for panel in panels for curve in panel.curves if curve.marked}
+    rows: list[list[tuple[str, int | None]]] = [[]]
+    taken = 0.0
+    for name, colour in (*named.items(), *([(note, None)] if note else [])):
+        width = _entry_width(name, colour)
+        if rows[-1] and taken + width - SAMPLE_MM > room:
+            rows.append([])
+            taken = 0.0
+        rows[-1].append((name, colour))
+        taken += width
+    return rows
+
+
+def _entry_width(name: str, colour: int | None) -> float:
+    """What a name takes of a row, with its sample of line, and the room behind it."""
+    return text_width(name, LABEL_MM) + SAMPLE_MM + (0.0 if colour is None else SAMPLE_MM + 2.0)
+
+
 def _legend(
-    panels: Sequence[Panel], at: tuple[float, float], inked: dict[int, list[Floats]], note: str
+    rows: list[list[tuple[str, int | None]]], at: tuple[float, float], inked: dict[int, list[Floats]]
 ) -> list[Floats]:
-    """The letters of the names of marked curves, in a row; their samples of line join those of the curves."""
+    """The letters of a legend, the last of its rows at a place; samples of lines join those of the curves."""
     found: list[Floats] = []
-    x, y = at
-    named = {curve.name: curve for panel in panels for curve in panel.curves if curve.marked}
-    for name, curve in named.items():
-        middle = y + 0.5 * LABEL_MM
-        sample = np.array([(x, middle), (x + SAMPLE_MM, middle)])
-        marker = _markers(sample.mean(axis=0, keepdims=True), curve.colour)
-        inked.setdefault(curve.colour, []).extend([sample, *marker])
-        found += letters(name, (x + SAMPLE_MM + 2.0, y), LABEL_MM)
-        x += SAMPLE_MM + 2.0 + text_width(name, LABEL_MM) + SAMPLE_MM
-    return found + letters(note, (x, y), LABEL_MM)
+    for number, row in enumerate(rows):
+        x, y = at[0], at[1] + (len(rows) - 1 - number) * ROW_MM
+        for name, colour in row:
+            start = x
+            if colour is not None:
+                middle = y + 0.5 * LABEL_MM
+                sample = np.array([(x, middle), (x + SAMPLE_MM, middle)])
+                marker = _markers(sample.mean(axis=0, keepdims=True), colour)
+                inked.setdefault(colour, []).extend([sample, *marker])
+                start += SAMPLE_MM + 2.0
+            found += letters(name, (start, y), LABEL_MM)
+            x += _entry_width(name, colour)
+    return found
 
 
 def _markers(points: Floats, colour: int) -> list[Floats]:

@@ -4,28 +4,41 @@ from __future__ import annotations
 
 import click
 
+from vectorplot.cli.options import format_of
 from vectorplot.cli.progress import progress_bar
 
 
 @click.command(short_help="Measure what pictures cost, and how that grows.")
+@click.option("-o", "picture", type=click.Path(), metavar="FILE", help="Plot it: svg, pdf, ps, eps, png or json.")
 @click.option("--log", type=click.Path(), metavar="FILE", help="Write what was measured as JSON.")
 @click.option("--read", "earlier", type=click.Path(), metavar="LOG", help="Show this log; nothing is measured.")
 @click.option("--beside", type=click.Path(), metavar="LOG", help="Compare with an earlier log.")
 @click.option("--only", multiple=True, metavar="NAME", help="Only these pictures; repeat it for more.")
 @click.option("--quiet", "-q", is_flag=True, help="No progress bar.")
-def speed(log: str | None, earlier: str | None, beside: str | None, only: tuple[str, ...], quiet: bool) -> None:
+def speed(
+    picture: str | None,
+    log: str | None,
+    earlier: str | None,
+    beside: str | None,
+    only: tuple[str, ...],
+    quiet: bool,
+) -> None:
     """Measure what pictures of fixed scenes cost: seconds of the processor, the exponent by which they grow with the
     scene, memory, stages; and beside them, in the same run, what single operations of numpy and Python cost.
 
     Takes a minute or two. Costs in points (of projecting and sorting one) can be compared between machines.
     """
     from vectorplot.errors import InputError
+    from vectorplot.save import FORMATS, save
     from vectorplot.speed.log import read_log, write_log
     from vectorplot.speed.measure import measure
+    from vectorplot.speed.plot import plot
     from vectorplot.speed.scenes import SERIES
     from vectorplot.speed.tables import comparison, tables
     from vectorplot.words import nearest
 
+    if picture is not None:
+        format_of(picture, None, FORMATS)
     names = [series.name for series in SERIES]
     for name in only:
         if name not in names:
@@ -39,4 +52,6 @@ def speed(log: str | None, earlier: str | None, beside: str | None, only: tuple[
             found = measure(only, progress)
     if log is not None:
         write_log(found, log)
+    if picture is not None:
+        save(plot(found, before), picture)
     click.echo(tables(found) if before is None else f"{tables(found)}\n\n{comparison(before, found)}")
