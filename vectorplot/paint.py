@@ -182,8 +182,13 @@ def paint(
 
         item = view.face_item[faces.source]
         opacity = opacities(facets.scene.items)[item]
-        clear, width = np.where(opacity < 1.0, item, -1), SIDE_BY_SIDE_MM / placement.scale
-        faces = walk.run("transparent sheets", in_sheets, faces, clear, opacity, width, view.tolerance)
+        sheet, width = np.where(opacity < 1.0, item, -1), SIDE_BY_SIDE_MM / placement.scale
+        if walk.calls_for("refraction"):
+            from vectorplot.effects.glass.glass_polygons import refracting_items
+
+            # What is seen in them is mixed, and opaque: nothing of them is blended.
+            sheet = np.where(refracting_items(facets.scene, view, projected)[item], -1, sheet)
+        faces = walk.run("transparent sheets", in_sheets, faces, sheet, opacity, width, view.tolerance)
     plane = plane_numbers(view)
     faces = faces.some(side_by_side(faces, _planes_of(facets.scene, view, faces, plane), view.tolerance))
     seen = Seen(facets.scene, view, projected, shown_faces(faces, placement), placement)
