@@ -41,8 +41,8 @@ are those of [accuracy and limits](accuracy-and-limits.md), their numbers those 
 [table of tolerances](tolerances.md).
 
 Besides, what is done to a scene and must not show (turned, a million times as large, far away, in another order, an
-item twice, a face in parts) is tried in every verb, and what must show as the same thing done to the picture (mirrored);
-[hostile files](accuracy-and-limits.md#hostile-input) are counted elsewhere.
+item twice, a face in parts) is tried in every verb, and what must show as the same thing done to the
+picture (mirrored); [hostile files](accuracy-and-limits.md#hostile-input) are counted elsewhere.
 
 Written by docs/stability.py. Sizes, gaps and distances are in sizes of the scene, about 1.
 """
