@@ -173,8 +173,9 @@ def _arc_data(lines: PageStrokes, height: int) -> list[bytes]:
     """For each arc the rest of its path element: parts of equal parameter length."""
     arcs = lines.arcs
     size = np.stack((np.hypot(*arcs.first.T), np.hypot(*arcs.second.T)))
-    # In the file y goes down: angles and senses of turning are mirrored. The axes of a circle have no direction.
-    tilt = np.degrees(np.arctan2(-arcs.first[:, 1], arcs.first[:, 0])) % 180.0
+    # In the file y goes down: angles and senses of turning are mirrored. The axes of a circle have no direction, and
+    # those of an ellipse that lies flat are at 0 degrees, not now and then at what would be written as 180.
+    tilt = np.degrees(np.arctan2(-arcs.first[:, 1], arcs.first[:, 0])).round(5) % 180.0
     tilt = np.where(np.abs(size[0] - size[1]) < ARC_DECIMAL_MM, 0.0, tilt)
     handed = arcs.first[:, 0] * arcs.second[:, 1] > arcs.first[:, 1] * arcs.second[:, 0]
     clockwise = handed != (arcs.end > arcs.start)
