@@ -4,6 +4,7 @@ In the plane stands what a drawing from that eye shows. Eye, image and corner ar
 d / (d - z). Source: Glaeser, section 2.1, equations 6 to 8.
 """
 
+import itertools
 import sys
 from pathlib import Path
 
@@ -31,7 +32,7 @@ def plate(corners):
 
 def segments(name, curves, colour):
     """The sides of polylines as items."""
-    pairs = [pair for curve in curves for pair in zip(curve[:-1], curve[1:], strict=True)]
+    pairs = [pair for curve in curves for pair in itertools.pairwise(curve)]
     return [vp.Item(f"{name}{k}", Line(a, b - a), colour) for k, (a, b) in enumerate(pairs)]
 
 
