@@ -1,7 +1,7 @@
 """The frame of a camera: right, up and back in the eye, and the frustum of what it sees, down to the image plane.
 
-The principal ray runs through the middle of the picture; back points away from the target. Source: Glaeser, sections 2.1
-and 2.3.
+The principal ray runs through the middle of the picture; back points away from the target. Source: Glaeser, sections
+2.1 and 2.3.
 """
 
 import itertools
