@@ -62,6 +62,53 @@ def test_two_lines_nearer_than_the_resolution_are_said_to_be_and_make_no_beads(g
     assert np.abs(v - 0.1 * u - 0.0137 - gap / 2).max() < gap
 
 
+DOUBLE_LINES = {
+    "upright": lambda u, v, a: (u - a) ** 2,
+    "lying": lambda u, v, a: (v - a) ** 2,
+    "diagonal": lambda u, v, a: (u - v - a) ** 2,
+    "skew": lambda u, v, a: (u - 2 * v - a) ** 2,
+    "fourfold": lambda u, v, a: (u - a) ** 4,
+    "circle": lambda u, v, a: (u * u + v * v - 0.25 - a) ** 2,
+}
+
+
+@pytest.mark.hard(39)
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("at", [0.0, 0.25, 0.1])
+@pytest.mark.parametrize("name", DOUBLE_LINES)
+def test_double_lines_are_the_same_on_and_off_the_lattice_and_on_both_sides_of_zero(name, at, sign):
+    f = DOUBLE_LINES[name]
+    curve = traced(lambda u, v: sign * f(u, v, at), 8)
+    assert len(curve) == 0 and len(curve.isolated) <= 2
+    assert len(curve.doubts) == 1 and "without changing its sign" in curve.doubts[0]
+    assert np.sqrt(np.abs(f(*curve.touching.T, at))).max() < 1e-3 and len(curve.touching) > 500
+
+
+@pytest.mark.hard(39)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_curve_that_crosses_a_double_line_on_the_lattice_goes_on(sign):
+    curve = traced(lambda u, v: sign * u * u * (v - 0.3), 24)
+    assert len(curve) == 1 and np.abs(curve.points[:, 1] - 0.3).max() < 1e-9
+    assert np.abs(np.sort(curve[0][[0, -1], 0]) - (-1, 1)).max() < 1e-9
+    assert "without changing its sign" in curve.doubts[0] and np.abs(curve.touching[:, 0]).max() < 1e-3
+
+
+@pytest.mark.hard(39)
+@pytest.mark.parametrize("gap", [1e-6, 3e-6, 1e-5, 2e-5, 3e-5, 5e-5, 1e-4])
+def test_two_circles_nearer_than_the_resolution_leave_no_crumbs(gap):
+    curve = traced(lambda u, v: (np.hypot(u, v) - 0.5) * (np.hypot(u, v) - 0.5 - gap), 24)
+    assert len(curve) == 0 and not len(curve.isolated) and len(curve.touching) > 50
+    assert any("nearer to each other" in text for text in curve.doubts)
+
+
+@pytest.mark.hard(40)
+@pytest.mark.parametrize("radius", [0.003, 0.01])
+def test_a_resolved_tiny_oval_beside_a_double_line_stays(radius):
+    curve = traced(lambda u, v: -((u - 0.25) ** 2) * ((u + 0.4) ** 2 + (v - 0.3) ** 2 - radius**2), 24)
+    assert len(curve) == 1 and curve.closed.all()
+    assert np.abs(np.hypot(*(curve.points - (-0.4, 0.3)).T) - radius).max() < 1e-9
+
+
 def test_a_finer_resolution_tells_near_lines_apart():
     curve = traced(lambda u, v: (v - 0.1 * u - 0.0137) * (v - 0.1 * u - 0.0147), resolution=2.5e-4)
     assert len(curve) == 2 and not curve.doubts and not curve.closed.any()

@@ -339,7 +339,7 @@ def _found(subdivision: Subdivision, traced: Segments, scale: Floats) -> _Found:
     own = cell[number(single)]
     joined = joined_at_nodes(field, traced.points, traced.pairs, single, doubles.radii[~line, None] * own)
     lines, dots = without_repeats(_polylines(field, joined.points, joined.segments), field.size)
-    lines, beads = _without_beads(field, lines, cell)
+    lines, beads = _without_beads(field, lines, cell, touching)
     # A point beside a curve, or one of a line that goes over into a curve, is not alone; what went round it and shrank
     # to it does not count.
     apart = np.where(doubles.flat[~line], FAR_APART, 3.0)[:, None] * own
@@ -350,23 +350,27 @@ def _found(subdivision: Subdivision, traced: Segments, scale: Floats) -> _Found:
     def free(centres: Floats, points: Floats, cells: float) -> Floats:
         return centres[without_points_near(field, centres, points, cells * cell[number(centres)])]
 
+    dots = field.wrapped(free(dots, doubles.points, 2.0))
+    dotted = in_crowds(number(dots), np.ones(len(dots), dtype=np.bool_))
     return _Found(
         lines,
         single[joined.meets > 0],
-        np.concatenate([single[alone], field.wrapped(free(dots, single, 2.0))]),
-        np.concatenate([free(touching, traced.points, 1.5), beads]),
+        np.concatenate([single[alone], dots[~dotted]]),
+        np.concatenate([free(touching, lines.points, 1.5), dots[dotted], beads]),
         traced.poles,
         free(doubles.ovals, traced.points, 2.0),
         beads,
     )
 
 
-def _without_beads(field: ScalarFields, lines: Traces, cell: Floats) -> tuple[Traces, Floats]:
-    """The polylines without the closed ones that are thinner than a cell (s,2) and stand in a row, and the middles
-    (k,3) of these: they are what lattice points between two branches that cannot be told apart make of them."""
+def _without_beads(field: ScalarFields, lines: Traces, cell: Floats, touching: Floats) -> tuple[Traces, Floats]:
+    """The polylines without the closed ones that are thinner than a cell (s,2) and stand in a row, or have no area
+    where many are that thin or f touches zero in many places touching (t,3); and the middles (k,3) of these: they are
+    what lattice points between two branches that cannot be told apart make of them."""
     first, last = lines.starts, lines.ends
     p, whose = lines.points, of_lines(lines)
-    many = in_crowds(whose, np.ones(len(first), dtype=np.bool_))
+    counted = np.concatenate([whose, number(touching)])
+    many = in_crowds(counted, np.ones(len(counted), dtype=np.bool_))[: len(whose)]
     if not many.any():
         return lines, p[:0]
     path = ragged.owner(last - first + 1)
@@ -375,18 +379,20 @@ def _without_beads(field: ScalarFields, lines: Traces, cell: Floats) -> tuple[Tr
     inner = ~lines.last[:-1]
     turn = q[:-1, 0] * q[1:, 1] - q[1:, 0] * q[:-1, 1]
     area, length = (
-        np.bincount(path[:-1][inner], weights=x[inner], minlength=len(first))
+        np.abs(np.bincount(path[:-1][inner], weights=x[inner], minlength=len(first)))
         for x in (0.5 * turn, np.sqrt((step * step).sum(axis=1)))
     )
     back = np.abs(p[last] - p[first])[:, :2] / field.size[whose]
-    is_thin = (back <= ROUNDING_OF_DOMAIN).all(axis=1) & (2.0 * np.abs(area) < length) & (last - first > 1)
+    is_thin = (back <= ROUNDING_OF_DOMAIN).all(axis=1) & (2.0 * area < length) & (last - first > 1)
     thin = np.flatnonzero(is_thin & many)
     sums = [np.bincount(path, weights=x, minlength=len(first))[thin] for x in p.T[:2]]
     middles = np.stack([*(total / (last - first + 1)[thin] for total in sums), whose[thin]], axis=1)
     middles = field.wrapped(middles)
     near = within(field, middles, middles, FAR_APART * cell[whose[thin]])[0]
-    crowded = np.bincount(near, minlength=len(thin)) > 1
-    crowded &= in_crowds(whose[thin], crowded)
+    crowded = (np.bincount(near, minlength=len(thin)) > 1) | (area[thin] < 1.0)
+    counted = np.concatenate([whose[thin], number(touching)])
+    marked = np.concatenate([crowded, np.ones(len(touching), dtype=np.bool_)])
+    crowded &= in_crowds(counted, marked)[: len(thin)]
     gone = np.zeros(len(first), dtype=np.bool_)
     gone[thin[crowded]] = True
     return lines.some(~gone[path]), middles[crowded]

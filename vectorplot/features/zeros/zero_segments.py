@@ -20,7 +20,7 @@ SETTLED = ZERO_RESIDUAL / 16.0
 @dataclass(frozen=True, eq=False)
 class Segments:
     """points (p,3); pairs (q,2) of points, f positive on the left of first to second; poles (s,): how many changes of
-    sign of each field are no zeros."""
+    sign of each field are no zeros. A side of triangles along which f is zero without changing its sign is none."""
 
     points: Floats
     pairs: Ints
@@ -65,7 +65,29 @@ def crossing_segments(lattice: Lattice, corners: Corners, scale: Floats, zero: F
     one, two = side[: len(row)], side[len(row) :]
     pairs = np.stack([np.where(alone, two, one), np.where(alone, one, two)], axis=1)
     poles = np.bincount(sides.of[~genuine], minlength=len(scale))
-    return Segments(points, pairs[genuine[pairs].all(axis=1)], poles)
+    pairs = pairs[genuine[pairs].all(axis=1)]
+    double = _there_and_back(_zero_corners(lattice, sides)[pairs])
+    idle = np.zeros(len(points), dtype=np.bool_)
+    idle[pairs[double]] = True
+    idle[pairs[~double]] = False
+    return Segments(points[~idle], (np.cumsum(~idle) - 1)[pairs[~double]], poles)
+
+
+def _zero_corners(lattice: Lattice, sides: Sides) -> Ints:
+    """(k,) the identity of the end of each side at which f is zero, -1 where there is none."""
+    i, j = np.where(sides.w[:, :1] == 0.0, sides.start, sides.start + sides.along).T
+    return np.where((sides.w == 0.0).any(axis=1), lattice.ids((sides.of, i, j)), -1)
+
+
+def _there_and_back(corners: Ints) -> Bools:
+    """(q,) pieces between corners (q,2) that are zeros of f, with f negative on both sides: they are there in both
+    directions, once for each triangle beside them."""
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    rows = np.flatnonzero((low >= 0) & (low < high))
+    _, piece = np.unique(np.stack([low[rows], high[rows]], axis=1), axis=0, return_inverse=True)
+    double = np.zeros(len(corners), dtype=np.bool_)
+    double[rows] = np.bincount(piece.ravel())[piece.ravel()] > 1
+    return double
 
 
 def _distinct(low: Ints, high: Ints) -> tuple[Ints, Ints]:
