@@ -5,6 +5,9 @@ from __future__ import annotations
 _HEAD, _TAIL = 300, 700
 """A longer message keeps so many of its first and of its last letters: what it is about, and the cause."""
 
+_LONGEST_WORD, _BEGIN, _END = 200, 80, 20
+"""A longer word of a message, as of a file without blanks, keeps so many of its first and of its last letters."""
+
 
 class InputError(ValueError):
     """Bad input: names the file, the line (from 1) and the cause.
@@ -71,4 +74,6 @@ def printable(text: str) -> str:
 
 
 def _shortened(line: str) -> str:
+    words = line.split(" ")
+    line = " ".join(word if len(word) <= _LONGEST_WORD else f"{word[:_BEGIN]}...{word[-_END:]}" for word in words)
     return line if len(line) <= _HEAD + _TAIL else f"{line[:_HEAD]} ... {line[-_TAIL:]}"

@@ -169,6 +169,21 @@ _MEANT = {
 }
 """Words of other programs, and ours for the same."""
 
+_MATERIALS_MEANT = {
+    "chrome": "metallic",
+    "diffuse": "matte",
+    "dull": "matte",
+    "glass": "transparent",
+    "gloss": "shiny",
+    "glossy": "shiny",
+    "metal": "metallic",
+    "polished": "shiny",
+    "reflective": "reflecting",
+    "specular": "shiny",
+    "steel": "metallic",
+}
+"""Words of other programs for materials, and ours for the like."""
+
 ALIKE = 0.72
 """Words that share fewer of their letters, as a part of both words' letters, are not taken for each other."""
 
@@ -182,6 +197,18 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
     return found[0] if found else None
 
 
+def nearest_material(word: str) -> str | None:
+    """The word for a material that another one resembles or is another program's word for, or None."""
+    found = nearest(word, [*MATERIALS, *_MATERIALS_MEANT])
+    return found if found is None else _MATERIALS_MEANT.get(found, found)
+
+
+def unknown_material(word: object) -> InputError:
+    """The error for a word that names no material, with the one that may be meant."""
+    near = nearest_material(word.lower()) if isinstance(word, str) else None
+    return _unknown("material", word, MATERIALS, near)
+
+
 def unknown(what: str, word: object, known: Iterable[str], more: str = "") -> InputError:
     """The error for an unknown word: what it should have been, and which known one may be meant.
 
@@ -189,6 +216,10 @@ def unknown(what: str, word: object, known: Iterable[str], more: str = "") -> In
     """
     words = list(known)
     near = nearest(word.lower(), words) if isinstance(word, str) else None
+    return _unknown(what, word, words, near, more)
+
+
+def _unknown(what: str, word: object, words: Iterable[str], near: str | None, more: str = "") -> InputError:
     hint = f" (did you mean {near!r}?)" if near else ""
     shown = repr(word) if len(repr(word)) <= 60 else repr(word)[:57] + "..."
     return InputError(f"{what} {shown}: expected one of {', '.join(words)}{', ' + more if more else ''}{hint}")

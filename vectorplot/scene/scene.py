@@ -17,7 +17,7 @@ from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.balls import ball_of, bounds_of_balls
 from vectorplot.surfaces.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
-from vectorplot.words import MATERIALS, check_colour, line_words, unknown
+from vectorplot.words import MATERIALS, check_colour, line_words, unknown_material
 
 OPACITY_OF_TRANSPARENT = 0.5
 """The opacity of what is transparent where nothing else is said."""
@@ -56,7 +56,7 @@ class Material:
 
     def __init__(self, word: str = "normal", opacity: float | None = None, refraction: float = 1.0) -> None:
         if word not in MATERIALS:
-            raise unknown("material", word, MATERIALS)
+            raise unknown_material(word)
         if opacity is None:
             opacity = OPACITY_OF_TRANSPARENT if word == "transparent" else 1.0
         if not 0.0 <= opacity <= 1.0:

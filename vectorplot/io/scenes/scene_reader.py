@@ -30,7 +30,16 @@ from vectorplot.io.scenes.scene_words import (
     Words,
 )
 from vectorplot.scene.scene import Pattern
-from vectorplot.words import COLOURS, LINE_WORDS, MATERIALS, PALETTES, is_colour, nearest
+from vectorplot.words import (
+    COLOURS,
+    LINE_WORDS,
+    MATERIALS,
+    PALETTES,
+    is_colour,
+    nearest,
+    nearest_material,
+    unknown_material,
+)
 
 _HEADER = [*KIND_WORDS, *MATERIALS, *FORM_WORDS]
 
@@ -97,6 +106,8 @@ class ItemReader:
         if plain:
             self._named_shape(draft, word)
         near = nearest(word, _HEADER) if plain else None
+        if plain and not near and draft.colour is not None:
+            near = nearest_material(word)
         if near:
             self.fail(f"unknown word '{word}', expected '{near}'", draft)
         if plain and draft.colour is None and nearest(draft.name, HANDLERS) is None:
@@ -151,6 +162,16 @@ class ItemReader:
             self.fail(f"a second physical property, '{self.words[self.at]}'", draft)
         draft.material = MATERIALS[self.words[self.at]]
         self.at += 1
+
+    def _read_named_material(self, draft: Draft) -> None:
+        self.at += 1
+        word = self.words[self.at]
+        if word in MATERIALS:
+            self._read_material(draft)
+        elif not word or word == "," or self.source.is_number(self.at):
+            self.fail(f"expected a material, got {self.source.shown(self.at)}", draft)
+        else:
+            self.fail(unknown_material(self.source.string(self.at)).cause, draft)
 
     def _read_form(self, draft: Draft) -> None:
         word = self.words[self.at]
@@ -380,6 +401,7 @@ HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
     **dict.fromkeys(FORM_WORDS, ItemReader._read_form),
     **dict.fromkeys(CAP_WORDS, ItemReader._read_cap),
     "colour": ItemReader._read_named_colour,
+    "material": ItemReader._read_named_material,
     "opacity": ItemReader._read_opacity,
     "refraction": ItemReader._read_refraction,
     "vertices": ItemReader._read_vertices,

@@ -38,6 +38,7 @@ def read_camera(words: Words, at: int) -> tuple[Camera, int]:
             if view not in VIEWS:
                 words.fail(at + 1, f"camera: expected a view ({', '.join(VIEWS)}), got {words.shown(at + 1)}")
             at += 2
+    _check_spelling(words, start, at, _CAMERA_WORDS)
     if "eye" not in given and view is None:
         words.fail(at, f"camera: expected 'eye' (words: {', '.join(_CAMERA_WORDS)}), got {words.shown(at)}")
     if "eye" in given and view is not None:
@@ -86,6 +87,7 @@ def read_light(words: Words, at: int) -> tuple[Light, int]:
         place, parallel = (x, y, z), word == "direction"
         if parallel and not any(place):
             words.fail(start, f"{owner}the direction is zero")
+    _check_spelling(words, start, at, _LIGHT_WORDS)
     if place is None:
         words.fail(at, f"{owner}expected 'position' or 'direction', got {words.shown(at)}")
     if fading and parallel:
@@ -102,6 +104,9 @@ def _light_colour(words: Words, at: int, owner: str) -> tuple[str, int]:
     return word, at + 1
 
 
+_PAGE_WORDS = ("landscape", "margin")
+
+
 def read_page(words: Words, at: int) -> tuple[Page, int]:
     """The page that the words from ``page`` on describe, and the word behind them."""
     start = at
@@ -112,15 +117,23 @@ def read_page(words: Words, at: int) -> tuple[Page, int]:
         at += 2
         margin: float | None = None
         landscape = False
-        while (word := words.words[at]) in ("landscape", "margin"):
+        while (word := words.words[at]) in _PAGE_WORDS:
             landscape |= word == "landscape"
             at += 1
             if word == "margin":
                 margin = words.number(at, "page: ", word)
                 at += 1
+        _check_spelling(words, start, at, _PAGE_WORDS)
         page = Page(width, height) if margin is None else Page(width, height, margin)
         return (page.landscape if landscape else page), at
     except InputError as error:
         if error.file is not None:
             raise
         words.fail(start, error.cause)
+
+
+def _check_spelling(words: Words, start: int, at: int, known: tuple[str, ...]) -> None:
+    """An error where the word behind a statement seems to be one of its known words."""
+    meant = words.misspelled(start, at, known)
+    if meant is not None:
+        words.fail(at, f"{words.words[start]}: unknown word {words.shown(at)} (did you mean '{meant}'?)")

@@ -5,18 +5,31 @@ from __future__ import annotations
 import json
 import re
 from bisect import bisect_right
+from collections.abc import Collection
 from math import isfinite
 from operator import itemgetter
 from typing import NoReturn
 
 from vectorplot.errors import InputError
 from vectorplot.tolerances.of_numbers import LARGEST
+from vectorplot.words import nearest
 
 SOLID_WORDS = ("solid", "voll")
 FORM_WORDS = ("convex", *SOLID_WORDS, "hollow", "general", "concave")
 KIND_WORDS = ("vertices", "revolution", "translation", "box", "intersection", "surface", "curve")
 ITEM_WORDS = (
-    *("colour", "opacity", "refraction", "vertices", "edges", "faces", "removed_faces", "revolution", "rot_angle"),
+    *(
+        "colour",
+        "material",
+        "opacity",
+        "refraction",
+        "vertices",
+        "edges",
+        "faces",
+        "removed_faces",
+        "revolution",
+        "rot_angle",
+    ),
     *("meridian", "order", "translation", "base_points", "trans_vector", "box", "intersection", "rotation", "patterns"),
     *("lines", "occludes", "group", "scale", "matrix", "surface", "curve", "parameter_lines", "isophotes", "sections"),
     *("level_lines", "slices", "surface_curve", "smooth_lines", "isophote_edges"),
@@ -86,6 +99,19 @@ class Words:
         """A word as messages quote it."""
         word = self.words[index]
         return "the end of the file" if not word else word[:40] if word[0] == '"' else f"'{word[:40]}'"
+
+    def misspelled(self, start: int, index: int, known: Collection[str]) -> str | None:
+        """The known word of the statement that begins at start which a word behind it seems to be meant for, or None.
+
+        Only a word on the line of the statement that could not be the name of an item: what comes next is none of what
+        stands after a name.
+        """
+        near = nearest(self.words[index].lower(), known) if self.words[index][:1] not in ("", ",", '"') else None
+        if near is None or self.line(index) != self.line(start):
+            return None
+        after = self.words[index + 1]
+        alone = not after or after in (*SCENE_WORDS, *known) or self.is_number(index + 1)
+        return near if alone or self.line(index + 1) != self.line(index) else None
 
     def string(self, index: int) -> str:
         """The text of a word, without its quotes if it has any."""
