@@ -10,6 +10,8 @@ from vectorplot.visibility.smooth.hidden_pieces import Counts, carried, cut
 
 LINES = polylines([(x, 0.0, 0.0) for x in (0.0, 1.0, 2.0)], [(0.0, 1.0, 0.0), (1.0, 1.0, 0.0)])
 
+ALL = np.ones(5, dtype=np.bool_)
+
 
 def pieces():
     chord, part = np.array([1, 0, 1, 3]), np.array([0.5, 0.25, 0.5, 0.5])
@@ -25,10 +27,17 @@ def test_events_at_one_place_are_one() -> None:
 
 
 def test_what_is_not_safe_follows_from_the_nearest_that_is() -> None:
-    counts = Counts(np.array([[0, 1], [9, 9], [9, 9], [9, 9], [4, 1]]), np.array([True, False, False, False, True]))
+    safe = np.array([True, False, False, False, True])
+    counts = Counts(np.array([[0, 1], [9, 9], [9, 9], [9, 9], [4, 1]]), safe, ALL)
     assert carried(pieces(), counts).tolist() == [[0, 1], [2, 1], [3, 0], [4, 0], [4, 1]]
 
 
 def test_a_curve_without_a_safe_piece_has_its_own_sight_lines() -> None:
-    counts = Counts(np.array([[0, 1], [2, 1], [3, 0], [5, 6], [7, 8]]), np.array([True, True, True, False, False]))
+    counts = Counts(np.array([[0, 1], [2, 1], [3, 0], [5, 6], [7, 8]]), np.array([True, True, True, False, False]), ALL)
     assert carried(pieces(), counts)[3:].tolist() == [[5, 6], [7, 8]]
+
+
+def test_pieces_without_a_sight_line_follow_from_the_nearest_that_has_one() -> None:
+    safe, taken = np.zeros(5, dtype=np.bool_), np.array([False, False, True, True, False])
+    counts = Counts(np.array([[0, 0], [0, 0], [6, 3], [5, 6], [0, 0]]), safe, taken)
+    assert carried(pieces(), counts).tolist() == [[3, 4], [5, 4], [6, 3], [5, 6], [5, 7]]

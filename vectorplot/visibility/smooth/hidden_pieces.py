@@ -11,6 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_extent import SAFE_IN_IMAGE
+from vectorplot.visibility.smooth.clearances import clearances
 from vectorplot.visibility.smooth.events.events import Events
 from vectorplot.visibility.smooth.rays import Samples, counts_in_front
 from vectorplot.visibility.smooth.sheets import sight_lines
@@ -72,10 +73,12 @@ def cut(curves: Curves, events: Events, items: int) -> Pieces:
 @dataclass(frozen=True, eq=False)
 class Counts:
     """Sight lines of pieces: in_front (p, items), the number of sheets of each item that they meet; safe (p,), whether
-    they pass all edges at a distance; unlooked (items,): whether the budget did not do for all of them."""
+    they pass all edges at a distance; taken (p,), whether a piece has one, as one at least of every curve; unlooked
+    (items,): whether the budget did not do for all of them."""
 
     in_front: Ints
     safe: Bools
+    taken: Bools
     unlooked: Bools = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
 
 
@@ -98,11 +101,12 @@ def counted(
     pairs: what the budget has for all sight lines together.
     """
     long = _seen(view, curves, pieces, shortest)
-    samples, clearance = _safest(view, curves, edges, edge_on, records.some(pieces, long))
+    samples, clearance = _safest(view, curves, edges, edge_on, records.some(pieces, long), shortest)
     found, looked = counts_in_front(view, sheets, targets, samples, items, pairs)
-    in_front, safe = np.zeros((len(pieces), items), dtype=np.intp), np.zeros(len(pieces), dtype=np.bool_)
-    in_front[long], safe[long] = found, (clearance > SAFE_IN_IMAGE) & looked.all(axis=1)
-    return Counts(in_front, safe, np.asarray((~looked).any(axis=0), dtype=np.bool_))
+    in_front = np.zeros((len(pieces), items), dtype=np.intp)
+    safe, taken = np.zeros(len(pieces), dtype=np.bool_), np.zeros(len(pieces), dtype=np.bool_)
+    in_front[long], safe[long], taken[long] = found, (clearance > SAFE_IN_IMAGE) & looked.all(axis=1), True
+    return Counts(in_front, safe, taken, np.asarray((~looked).any(axis=0), dtype=np.bool_))
 
 
 def lengths_in_image(view: View, curves: Curves, pieces: Pieces) -> Floats:
@@ -138,36 +142,46 @@ def recounted(pieces: Pieces, counts: Counts, again: Pieces, count: Callable[[Pi
     source = known[number[len(pieces) :]]
     new = np.flatnonzero(source < 0)
     found = count(records.some(again, new))
-    in_front, safe = counts.in_front[source], counts.safe[source]
-    in_front[new], safe[new] = found.in_front, found.safe
-    return Counts(in_front, safe, counts.unlooked | found.unlooked)
+    in_front, safe, taken = counts.in_front[source], counts.safe[source], counts.taken[source]
+    in_front[new], safe[new], taken[new] = found.in_front, found.safe, found.taken
+    return Counts(in_front, safe, taken, counts.unlooked | found.unlooked)
 
 
 def carried(pieces: Pieces, counts: Counts) -> Ints:
     """(p, items) the number of sheets of each item in front of every piece: what its sight line says; if that is not
-    safe, what the nearest safe one on its curve says, and the changes between."""
-    number, safe, curve = np.arange(len(pieces)), counts.safe, pieces.curve
-    before = np.maximum.accumulate(np.where(safe, number, -1))
-    after = np.minimum.accumulate(np.where(safe, number, len(pieces))[::-1])[::-1]
-    has_before = (before >= 0) & (curve[np.maximum(before, 0)] == curve)
-    has_after = (after < len(pieces)) & (curve[np.minimum(after, len(pieces) - 1)] == curve)
-    nearer = has_before & (~has_after | (number - before <= after - number))
-    source = np.where(nearer, before, np.where(has_after, after, number))
+    safe, what the nearest safe one on its curve says, and the changes between. Where no sight line of a curve is safe
+    each stands for its own piece, and the nearest one for a piece that has none."""
+    source = _nearest(pieces, counts.safe)
+    source = np.where(source < 0, _nearest(pieces, counts.taken), source)
     total = np.cumsum(pieces.change, axis=0)
     return np.asarray(np.maximum(counts.in_front[source] + total - total[source], 0))
 
 
-def _safest(view: View, curves: Curves, edges: Curves, edge_on: Bools, pieces: Pieces) -> tuple[Samples, Floats]:
+def _nearest(pieces: Pieces, known: Bools) -> Ints:
+    """(p,) of the pieces of its curve that are known the nearest to every piece; -1 where there is none."""
+    number, curve = np.arange(len(pieces)), pieces.curve
+    before = np.maximum.accumulate(np.where(known, number, -1))
+    after = np.minimum.accumulate(np.where(known, number, len(pieces))[::-1])[::-1]
+    has_before = (before >= 0) & (curve[np.maximum(before, 0)] == curve)
+    has_after = (after < len(pieces)) & (curve[np.minimum(after, len(pieces) - 1)] == curve)
+    nearer = has_before & (~has_after | (number - before <= after - number))
+    return np.asarray(np.where(nearer, before, np.where(has_after, after, -1)))
+
+
+def _safest(
+    view: View, curves: Curves, edges: Curves, edge_on: Bools, pieces: Pieces, tolerance: float
+) -> tuple[Samples, Floats]:
     """The point of each piece whose image is farthest from those of edges, and how far that is."""
     begin, end = pieces.begin_chord + pieces.begin_part, pieces.end_chord + pieces.end_part
     count = len(pieces)
     at = np.concatenate([begin + share * (end - begin) for share in CANDIDATES])
     chord = np.minimum(at.astype(np.intp), np.tile(pieces.end_chord, len(CANDIDATES)))
     part = at - chord
-    image = sight_lines.image(view, _on_chords(curves, chord, part))
+    points = _on_chords(curves, chord, part)
+    image = sight_lines.image(view, points)
     contour = np.tile(edge_on[pieces.curve], len(CANDIDATES))
     clear = np.empty(len(at))
-    clear[~contour] = _clearance(view, edges, image[~contour])
+    clear[~contour] = clearances(view, edges, points[~contour], tolerance)
     # A contour is an edge itself: what counts is the way to the ends of the piece.
     ends = [sight_lines.image(view, _on_chords(curves, c, p)) for c, p in _ends(pieces)]
     away = [np.linalg.norm(image - np.tile(e, (len(CANDIDATES), 1)), axis=1) for e in ends]
@@ -190,19 +204,3 @@ def _ends(pieces: Pieces) -> list[tuple[Ints, Floats]]:
 
 def _on_chords(curves: Curves, chord: Ints, part: Floats) -> Floats:
     return np.asarray(curves.points[chord] + part[:, None] * (curves.points[chord + 1] - curves.points[chord]))
-
-
-def _clearance(view: View, edges: Curves, image: Floats) -> Floats:
-    """(k,) distances of points (k,2) in the image from the nearest edge."""
-    import shapely
-
-    chord = edges.chords
-    if not len(chord):
-        return np.full(len(image), np.inf)
-    ends = sight_lines.image(view, edges.points)
-    lines = shapely.linestrings(np.stack([ends[chord], ends[chord + 1]], axis=1))
-    tree = shapely.STRtree(lines)
-    distance = np.zeros(len(image))
-    (which, _), found = tree.query_nearest(shapely.points(image), return_distance=True, all_matches=False)
-    distance[which] = found
-    return distance
