@@ -34,6 +34,10 @@ NEAR = 1.0 / 64.0
 ON = 0.01
 """A vertex is on a fold, or next to it, where the function of the fold is no larger."""
 
+ALONG = 0.3
+"""A side that begins and ends on a fold runs along it where the function of the fold is no larger between them; where it
+is, the side leads from one fold to another one."""
+
 BULGE = 0.05
 """Part of the length of a side along the rim of a hole that the rim may be off it."""
 
@@ -212,11 +216,15 @@ def _in_sight(start: Vertices, end: Vertices, between: Between, demand: Demand) 
     looks.append(between(start, end, root))
     at = Vertices(*(np.stack(some) for some in zip(*((v.places, v.points, v.normals) for v in looks), strict=True)))
     on = np.abs(values[:, [0, -1]]) <= ON
+    over = np.abs(values[:, 1:-1])
     # A side that only touches a fold has it near by, on one of its triangles.
-    touching = (np.abs(values[:, 1:-1]) <= ON) & ~on.any(axis=1, keepdims=True)
+    touching = (over <= ON) & ~on.any(axis=1, keepdims=True)
+    # Narrow triangles beside a fold may turn away, so that the sides along it are not where front and back meet.
+    along = (over <= ALONG).all(axis=1, keepdims=True) & on.all(axis=1, keepdims=True)
     fold = np.full(t.shape, NONE)
-    for own, some in enumerate(touching):
-        fold[:-1][some] = own
+    # Outlines are the first folds: beside one of them no other one counts.
+    for own in reversed(range(len(values))):
+        fold[:-1][touching[own] | along[own]] = own
     fold[-1] = number
     edges = Edges(start, end, at, t, fold)
     excess = np.nan_to_num(demand.excess(edges), nan=0.0)

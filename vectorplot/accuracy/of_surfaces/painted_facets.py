@@ -42,10 +42,10 @@ def polygons(drawing: Drawing) -> int:
 
 def outlines(drawing: Drawing) -> list[Floats]:
     """The borders (n,2) of all that polygons cover."""
-    from shapely import get_parts, polygons, union_all
+    from shapely import Polygon, get_parts, make_valid, polygons, union_all
 
     rings = [np.split(mark.points, mark.offsets[1:-1]) for layer in drawing.layers for mark in layer.fills]
-    whole = union_all(polygons([ring for part in rings for ring in part if len(ring) > 2]))
+    whole = union_all(make_valid([Polygon(ring) for part in rings for ring in part if len(ring) > 2]))
     holes = [hole.coords for part in get_parts(whole) for hole in part.interiors if polygons(hole).area > SPECK_MM2]
     return [np.asarray(line) for line in (*(part.exterior.coords for part in get_parts(whole)), *holes)]
 
