@@ -44,7 +44,8 @@ NOTES = {
     "drawings leave as curves.",
     "zero-manifold": "The book's cubic parabola through values and average normals gains a power over the chord, true "
     "slopes gain another one. Refining every point on the function itself costs little, and is exact.",
-    "painted-outline": "Polygons are asked to be within the tolerance; where it is small their outline is off by more.",
+    "painted-outline": "Polygons are compared with the surface at a few places of each side: outlines may be off by "
+    "a tenth more than the tolerance.",
     "depth-buffer": "Exact hidden lines of these boxes take the time of a buffer of 500 x 500 pixels.",
     "snapping": "With vertices off by 1e-10 all places are decided rightly at 1e-9, and up to a thousand times that.",
     "shadow-maps": "For few faces exact shadows cost less than a large map.",

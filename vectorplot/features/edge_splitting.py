@@ -35,8 +35,8 @@ ON = 0.01
 """A vertex is on a fold, or next to it, where the function of the fold is no larger."""
 
 ALONG = 0.3
-"""A side that begins and ends on a fold runs along it where the function of the fold is no larger between them; where it
-is, the side leads from one fold to another one."""
+"""A side that begins and ends on a fold runs along it where the function of the fold is no larger in between; other ones
+lead from one fold to another."""
 
 BULGE = 0.05
 """Part of the length of a side along the rim of a hole that the rim may be off it."""

@@ -21,7 +21,7 @@ from vectorplot.tolerances.of_measuring import OUTLINE_ACCURACY_MM, TRUE_CONTOUR
 TORUS, CAMERA = Torus(3.0, 1.2), Camera(eye=(7.0, -5.0, 14.0))
 
 SPECK_MM2 = 1.0
-"""Holes of a smaller area lie between polygons that rounding has set apart."""
+"""Holes of a smaller area lie between polygons that rounding has set apart, parts of a smaller area in such holes."""
 
 COLUMNS, ROWS, LEVELS = 420, 594, 3
 """The pixels that colours are compared in, and by how many of 255 steps they may differ."""
@@ -46,8 +46,9 @@ def outlines(drawing: Drawing) -> list[Floats]:
 
     rings = [np.split(mark.points, mark.offsets[1:-1]) for layer in drawing.layers for mark in layer.fills]
     whole = union_all(make_valid([Polygon(ring) for part in rings for ring in part if len(ring) > 2]))
-    holes = [hole.coords for part in get_parts(whole) for hole in part.interiors if polygons(hole).area > SPECK_MM2]
-    return [np.asarray(line) for line in (*(part.exterior.coords for part in get_parts(whole)), *holes)]
+    parts = [part for part in get_parts(whole) if part.area > SPECK_MM2]
+    holes = [hole.coords for part in parts for hole in part.interiors if polygons(hole).area > SPECK_MM2]
+    return [np.asarray(line) for line in (*(part.exterior.coords for part in parts), *holes)]
 
 
 def _outline() -> Study:

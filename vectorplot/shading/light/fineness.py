@@ -39,10 +39,10 @@ SHORTEST = 4.0
 class PictureFineness:
     """What a picture asks of the triangles of one item, as features.edge_splitting.Demand.
 
-    Its outlines, seen by the eye and by the lights, its borders, and what is near other items are within the tolerance
-    (where a narrow triangle beside an outline turns away, within five times of it); shades along sides within
-    shade_error, a part of their palette. Surfaces fold over where sight rays and light rays touch them: there outlines
-    and the borders of dark sides begin.
+    Its outlines, seen by the eye and by the lights, its borders, and what is near other items are within the tolerance;
+    shades along sides within shade_error, a part of their palette. Surfaces fold over where sight rays and light rays
+    touch them: there outlines and the borders of dark sides begin. Chords are compared with the surface in a few places
+    only: outlines may be off by up to 1.4 tolerances.
 
     view: of the scene, its points being what it reaches; lights: in its coordinates, as of view_lights; casts: whether
     they throw shadows; deep: by how many times the tolerance triangles may be off elsewhere; others (k,2,3): the boxes
