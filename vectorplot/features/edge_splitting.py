@@ -35,8 +35,8 @@ ON = 0.01
 """A vertex is on a fold, or next to it, where the function of the fold is no larger."""
 
 ALONG = 0.3
-"""A side that begins and ends on a fold runs along it where the function of the fold is no larger in between; other ones
-lead from one fold to another."""
+"""A side that begins and ends on a fold runs along it where the function of the fold is no larger between;
+others lead from one fold to another."""
 
 BULGE = 0.05
 """Part of the length of a side along the rim of a hole that the rim may be off it."""
@@ -221,10 +221,11 @@ def _in_sight(start: Vertices, end: Vertices, between: Between, demand: Demand) 
     touching = (over <= ON) & ~on.any(axis=1, keepdims=True)
     # Narrow triangles beside a fold may turn away, so that the sides along it are not where front and back meet.
     along = (over <= ALONG).all(axis=1, keepdims=True) & on.all(axis=1, keepdims=True)
+    found_on = np.asarray(touching | along, dtype=np.bool_)
     fold = np.full(t.shape, NONE)
     # Outlines are the first folds: beside one of them no other one counts.
     for own in reversed(range(len(values))):
-        fold[:-1][touching[own] | along[own]] = own
+        fold[:-1][found_on[own]] = own
     fold[-1] = number
     edges = Edges(start, end, at, t, fold)
     excess = np.nan_to_num(demand.excess(edges), nan=0.0)

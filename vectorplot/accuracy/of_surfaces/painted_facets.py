@@ -21,7 +21,7 @@ from vectorplot.tolerances.of_measuring import OUTLINE_ACCURACY_MM, TRUE_CONTOUR
 TORUS, CAMERA = Torus(3.0, 1.2), Camera(eye=(7.0, -5.0, 14.0))
 
 SPECK_MM2 = 1.0
-"""Holes of a smaller area lie between polygons that rounding has set apart, parts of a smaller area in such holes."""
+"""Holes, and parts in them, of a smaller area lie between polygons that rounding has set apart."""
 
 COLUMNS, ROWS, LEVELS = 420, 594, 3
 """The pixels that colours are compared in, and by how many of 255 steps they may differ."""
