@@ -24,7 +24,9 @@ from vectorplot.cli.render import render
 from vectorplot.cli.verbs import vectorplot
 from vectorplot.cli.view_options import PAGE_OPTIONS, CameraOptions, PageOptions
 
-VERBS = [verb for verb in vectorplot.commands.values() if any(param.name == "out" for param in verb.params)]
+VERBS = [
+    verb for verb in vectorplot.commands.values() if {"scene_file", "out"} <= {param.name for param in verb.params}
+]
 PARAMS = {verb.name: {param.name: param for param in verb.params} for verb in VERBS}
 SHARED = sorted(name for name in set(chain(*PARAMS.values())) if sum(name in params for params in PARAMS.values()) > 1)
 
