@@ -10,8 +10,9 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
 from vectorplot.surfaces.embedded import is_embedded
 from vectorplot.surfaces.families.capped import Capped
+from vectorplot.surfaces.over_domain import OverDomain
 from vectorplot.surfaces.placed import PlacedSurface
-from vectorplot.surfaces.surface import Domain, Surface
+from vectorplot.surfaces.surface import Surface
 from vectorplot.surfaces.trimmed import TrimmedSurface
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
@@ -71,26 +72,6 @@ def _trimmed(part: SmoothPart, whole: TrimmedSurface) -> SmoothPart | None:
     return SmoothPart(surface, tuple(c for c in part.creases if domain.v_start < c < domain.v_end), part.is_cap)
 
 
-@dataclass(frozen=True, eq=False)
-class OneRound:
-    """A surface over the part of its domain after which it repeats itself: closed there."""
-
-    surface: Surface
-    domain: Domain
-
-    def points(self, u: Floats, v: Floats) -> Floats:
-        """(..., 3) points."""
-        return self.surface.points(u, v)
-
-    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
-        """(..., 3) derivatives by u and by v."""
-        return self.surface.partials(u, v)
-
-    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
-        """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
-        return self.surface.second_partials(u, v)
-
-
 def covered_once(surface: Surface) -> Surface:
     """The surface over a part of its domain that covers it once, closed: itself, unless it runs along itself again, as
     what a circle sweeps does that is run through four times.
@@ -107,7 +88,7 @@ def covered_once(surface: Surface) -> Surface:
         domain = replace(domain, u_end=domain.u_start + u, closed_u=True)
     if v:
         domain = replace(domain, v_end=domain.v_start + v, closed_v=True)
-    return OneRound(surface, domain) if u or v else surface
+    return OverDomain(surface, domain) if u or v else surface
 
 
 def _round(surface: Surface, axis: int) -> float:

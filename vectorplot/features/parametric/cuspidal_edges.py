@@ -12,6 +12,7 @@ from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curv
 from vectorplot.features.zeros.zero_manifold import check_grid
 from vectorplot.geometry.polylines import some
 from vectorplot.geometry.vectors import cross, dot
+from vectorplot.surfaces.over_domain import OverDomain
 from vectorplot.surfaces.surface import Domain, Surface, normals
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_values import SINGULAR_PRODUCT
@@ -72,28 +73,8 @@ def singular_lines(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCu
     if size == 0.0:
         return no_curves()
     area = _signed_area(surface, tracing)
-    found = curves_where_zero(_Cut(surface, area.domain), area, size=size, rounding=0.0, tracing=tracing)
+    found = curves_where_zero(OverDomain(surface, area.domain), area, size=size, rounding=0.0, tracing=tracing)
     return _with_cusps(area, _singular_only(surface, found, size))
-
-
-@dataclass(frozen=True, eq=False)
-class _Cut:
-    """A surface on another domain: one that does not close."""
-
-    surface: Surface
-    domain: Domain
-
-    def points(self, u: Floats, v: Floats) -> Floats:
-        """(..., 3) points."""
-        return self.surface.points(u, v)
-
-    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
-        """(..., 3) derivatives by u and by v."""
-        return self.surface.partials(u, v)
-
-    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
-        """(..., 3) second derivatives."""
-        return self.surface.second_partials(u, v)
 
 
 @dataclass(frozen=True, eq=False)
