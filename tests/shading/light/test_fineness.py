@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 import shapely
+from support.line_distances import distances
 
 from vectorplot.accuracy.of_surfaces.painted_facets import outlines
 from vectorplot.accuracy.truth import on_page
@@ -94,17 +97,24 @@ OUTLINED = {
 }
 
 
+@cache
+def true_outlines(name, eye):
+    """What the outlines of a surface are in space, found once for all tolerances."""
+    surface, borders = OUTLINED[name]
+    true = contour(surface, eye, tracing=Tracing(tolerance=TRUE_CONTOUR))
+    return [*(true[k] for k in range(len(true))), *borders]
+
+
 @pytest.mark.parametrize("tolerance", [1.0, 0.1, *(pytest.param(t, marks=pytest.mark.slow) for t in (0.02, 0.01))])
 @pytest.mark.parametrize("eye", [(7.0, -5.0, 14.0), (8.0, -16.0, 11.0), (3.0, 20.0, -8.0)])
 @pytest.mark.parametrize("name", OUTLINED)
 def test_outlines_are_within_the_tolerance_whatever_it_is(name, eye, tolerance):
     """Sides that run along a fold are those of the outline, whichever way narrow triangles beside it turn."""
-    surface, borders = OUTLINED[name]
+    surface, _ = OUTLINED[name]
     drawing = paint(Scene((Item("THING", surface),)), Camera(eye=eye), shadows="none", tolerance_mm=tolerance)
-    true = contour(surface, eye, tracing=Tracing(tolerance=TRUE_CONTOUR))
-    lines = [on_page(drawing.page_from_world, line) for line in (*(true[k] for k in range(len(true))), *borders)]
+    lines = [on_page(drawing.page_from_world, line) for line in true_outlines(name, eye)]
     found = shapely.segmentize(shapely.MultiLineString(outlines(drawing)), 0.25)
-    off = shapely.distance(shapely.points(shapely.get_coordinates(found)), shapely.MultiLineString(lines))
+    off = distances(shapely.get_coordinates(found), lines)
     assert off.max() <= 1.4 * tolerance, off.max() / tolerance
 
 
