@@ -10,7 +10,7 @@ from vectorplot.draw import draw
 from vectorplot.features.meshes.edges import Edges, Faces, mesh_edges
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair.winding import unbalanced_vertices
+from vectorplot.geometry.repair.circulation import unbalanced_vertices
 from vectorplot.io.read_file import read
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.words import LineKind

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats
+from vectorplot.arrays import Bools, Floats, Ints
 
 
 def dot(a: Floats, b: Floats) -> Floats:
@@ -19,6 +19,12 @@ def dot(a: Floats, b: Floats) -> Floats:
 def cross(a: Floats, b: Floats) -> Floats:
     """(3,n,...) the vector products of vectors (3,n,...), or of one (3,) with all."""
     return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+
+
+def triangle_corners(points: Floats, corners: Ints) -> tuple[Floats, Floats, Floats]:
+    """The first, the second and the third corners (3,t) of triangles, of points (3,v) that corners (3t,) name."""
+    first, second, third = np.ascontiguousarray(corners.reshape(-1, 3).T)
+    return points.take(first, axis=1), points.take(second, axis=1), points.take(third, axis=1)
 
 
 _MIX = (np.uint64(0x9E3779B97F4A7C15), np.uint64(0xC2B2AE3D27D4EB4F))

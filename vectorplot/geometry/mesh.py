@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.repair.circulation import faces_are_closed
+from vectorplot.geometry.repair.pieces import pieces_of_faces
 
 
 def next_positions(offsets: Ints, position: Ints) -> Ints:
@@ -216,6 +218,16 @@ class Mesh:
         """(f,3) unit outer normals; (0,0,0) for a face without area."""
         length = np.sqrt(np.einsum("ij,ij->i", self.area_vectors, self.area_vectors))
         return self.area_vectors / np.where(length > 0.0, length, 1.0)[:, None]
+
+    @cached_property
+    def is_closed(self) -> bool:
+        """Whether every edge is run along as often in one direction as in the other (see is_closed_oriented)."""
+        return faces_are_closed(len(self.vertices), self.corners, self.offsets)
+
+    @cached_property
+    def pieces(self) -> tuple[int, Ints]:
+        """How many pieces the faces make, and (f,) the piece of each; pieces are joined where they share a vertex."""
+        return pieces_of_faces(len(self.vertices), self.corners, self.offsets)
 
     @cached_property
     def bounds(self) -> Floats:

@@ -7,7 +7,6 @@ from vectorplot.geometry.repair.winding import (
     edge_uses,
     inside_out,
     is_closed_oriented,
-    joined_pieces,
     repeated_faces,
     signed_volumes,
     turned_faces,
@@ -72,13 +71,13 @@ def test_a_moebius_band_is_one_sided_and_stays_as_it_is() -> None:
 
 
 def test_pieces_that_share_vertices() -> None:
-    number, piece = joined_pieces(together(cube(), cube(1.0, (3, 0, 0))))
+    number, piece = together(cube(), cube(1.0, (3, 0, 0))).pieces
     assert number == 2
     assert piece.tolist() == [0] * 6 + [1] * 6
     shuffled = np.random.default_rng(0).permutation(16)
     mesh = together(cube(), cube(1.0, (3, 0, 0)))
     mixed = Mesh(mesh.vertices, shuffled[mesh.corners], mesh.offsets)
-    assert joined_pieces(mixed)[0] == 2
+    assert mixed.pieces[0] == 2
 
 
 @pytest.mark.parametrize("offset", [0.0, 1e6])
@@ -92,7 +91,7 @@ def test_signed_volumes_sum_to_six_volumes(offset: float) -> None:
 def test_inside_out_solids_are_found_and_cavities_are_not() -> None:
     solid, cavity, wrong = cube(4.0), cube(1.0, (1, 1, 1)).reversed(), cube(1.0, (9, 0, 0)).reversed()
     mesh = together(solid, cavity, wrong)
-    number, piece = joined_pieces(mesh)
+    number, piece = mesh.pieces
     assert inside_out(mesh, piece, number).tolist() == [False] * 12 + [True] * 6
 
 

@@ -14,7 +14,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.geometry.columns import cross
 from vectorplot.geometry.mesh import next_positions
-from vectorplot.geometry.repair.winding import unbalanced_vertices
+from vectorplot.geometry.repair.circulation import unbalanced_vertices
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import COSINE_OF_SINGLES
 from vectorplot.words import LineKind

@@ -6,6 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.columns import cross, dot, triangle_corners
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.tolerances.of_lengths import THIN_OF_LENGTH
 from vectorplot.tolerances.of_numbers import ULP
@@ -93,31 +94,26 @@ def thin_faces(mesh: Mesh) -> Bools:
     if extent == 0.0 or mesh.face_count == 0:
         return np.asarray(~thin)
     noise = 4.0 * ULP * float(np.abs(mesh.bounds).max()) / extent
+    points = np.ascontiguousarray(mesh.vertices.T)
     for start in range(0, mesh.face_count, _PIECE):
         end = min(start + _PIECE, mesh.face_count)
         corners = mesh.corners[mesh.offsets[start] : mesh.offsets[end]]
         offsets = mesh.offsets[start : end + 1] - mesh.offsets[start]
-        area, length = _squares(mesh.vertices, corners, offsets, 1.0 / extent)
+        area, length = _squares(points, corners, offsets, 1.0 / extent)
         thin[start:end] = (area <= THIN_OF_LENGTH**2 * length * length) | (area <= noise**2 * length)
     return thin
 
 
-def _squares(vertices: Floats, corners: Ints, offsets: Ints, scale: float) -> tuple[Floats, Floats]:
-    """(f,) squares of twice the areas, and (f,) squared lengths of the order of the longest side, after scaling."""
-    points = np.take(vertices, corners, axis=0)
+def _squares(points: Floats, corners: Ints, offsets: Ints, scale: float) -> tuple[Floats, Floats]:
+    """(f,) squares of twice the areas, and (f,) squared lengths of the order of the longest side, after scaling, of
+    faces with corners among points (3,v)."""
     if len(corners) == 3 * (len(offsets) - 1):
-        a = points[0::3]
-        p, q = (points[1::3] - a) * scale, (points[2::3] - a) * scale
-        return _cross_square(p, q), np.einsum("ij,ij->i", p, p) + np.einsum("ij,ij->i", q, q)
-    sizes = np.diff(offsets)
-    arms = (points - np.repeat(points[offsets[:-1]], sizes, axis=0)) * scale
-    vector = np.add.reduceat(np.cross(arms, arms[ragged.following(offsets)]), offsets[:-1], axis=0)
-    longest = np.maximum.reduceat(np.einsum("ij,ij->i", arms, arms), offsets[:-1])
-    return np.einsum("ij,ij->i", vector, vector), longest
-
-
-def _cross_square(p: Floats, q: Floats) -> Floats:
-    x = p[:, 1] * q[:, 2] - p[:, 2] * q[:, 1]
-    y = p[:, 2] * q[:, 0] - p[:, 0] * q[:, 2]
-    z = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
-    return np.asarray(x * x + y * y + z * z)
+        a, b, c = triangle_corners(points, corners)
+        p, q = (b - a) * scale, (c - a) * scale
+        vector = cross(p, q)
+        return dot(vector, vector), dot(p, p) + dot(q, q)
+    at_corner, sizes = points.take(corners, axis=1), np.diff(offsets)
+    arms = (at_corner - np.repeat(at_corner.take(offsets[:-1], axis=1), sizes, axis=1)) * scale
+    sides = cross(arms, arms.take(ragged.following(offsets), axis=1))
+    vector = np.add.reduceat(sides, offsets[:-1], axis=1)
+    return dot(vector, vector), np.maximum.reduceat(dot(arms, arms), offsets[:-1])

@@ -17,7 +17,6 @@ from vectorplot.geometry.repair.winding import (
     edge_uses,
     inside_out,
     is_closed_oriented,
-    joined_pieces,
     repeated_faces,
     turned_faces,
 )
@@ -269,7 +268,7 @@ def mended(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:
         mesh, turns = _wound(mesh, uses)
         mending = mending + welds + turns
     elif mesh.face_count:
-        number, piece = joined_pieces(mesh)
+        number, piece = mesh.pieces
         turn = inside_out(mesh, piece, number)
         if turn.any():
             mesh, mending = turned_faces(mesh, turn), replace(mending, turned=int(turn.sum()))

@@ -14,8 +14,12 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh, next_positions
+from vectorplot.geometry.repair.circulation import unbalanced_vertices
 from vectorplot.geometry.repair.weld import chained, distinct_points
-from vectorplot.geometry.repair.winding import unbalanced_vertices
+
+MANY_FACES = 1 << 12
+"""A mesh of so many faces is asked by itself whether it is closed, and knows it from then on; for smaller ones it costs
+less to look at all together."""
 
 
 def joined_seams(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
@@ -26,15 +30,24 @@ def joined_seams(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
     with fewer than three corners is no longer present. Meshes without seams are returned themselves.
     Degenerate: vertices in one place that no common edge joins stay apart; so do closed meshes that touch.
     """
+    asked = [k for k, mesh in enumerate(meshes) if mesh.face_count < MANY_FACES or not mesh.is_closed]
+    result = list(meshes)
+    for k, mesh in zip(asked, _joined_seams([meshes[k] for k in asked]), strict=True):
+        result[k] = mesh
+    return tuple(result)
+
+
+def _joined_seams(meshes: Sequence[Mesh]) -> Sequence[Mesh]:
+    """As joined_seams, all looked at together."""
     counts = np.array([len(mesh.vertices) for mesh in meshes], dtype=np.intp)
     first = ragged.offsets(counts)
     corners, offsets = _stacked(meshes, first)
     loose = unbalanced_vertices(int(first[-1]), corners, offsets)
     if not loose.any():
-        return tuple(meshes)
+        return meshes
     start, end = _boundary(corners, offsets, loose)
     if not len(start):
-        return tuple(meshes)
+        return meshes
     ends, number = np.unique(np.concatenate([start, end]), return_inverse=True)
     owner = np.searchsorted(first, ends, side="right") - 1
     points = np.concatenate([meshes[k].vertices[ends[owner == k] - first[k]] for k in np.unique(owner).tolist()])
@@ -46,7 +59,7 @@ def joined_seams(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
         renumbered = np.arange(counts[k])
         renumbered[ends[here] - first[k]] = ends[stand_in[here]] - first[k]
         result[k] = _without_stutter(replace(meshes[k], corners=renumbered[meshes[k].corners]))
-    return tuple(result)
+    return result
 
 
 def _stacked(meshes: Sequence[Mesh], first_vertex: Ints) -> tuple[Ints, Ints]:

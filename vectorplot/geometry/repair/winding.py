@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry.mesh import Mesh, next_positions
+from vectorplot.geometry.columns import cross, dot, triangle_corners
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.repair.circulation import circulation, scrambled
+from vectorplot.geometry.repair.pieces import pieces_of_sides
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 _PIECE = 1 << 15
-
-LABEL_BITS = 40
-"""Bits of the random numbers of vertices: doubles hold sums of thousands of them exactly."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,86 +126,16 @@ def is_closed_oriented(mesh: Mesh) -> bool:
     >>> geometry.is_closed_oriented(geometry.box((1, 1, 1))), geometry.is_closed_oriented(triangle)
     (True, False)
     """
-    return faces_are_closed(len(mesh.vertices), mesh.corners, mesh.offsets)
-
-
-def faces_are_closed(vertices: int, corners: Ints, offsets: Ints) -> bool:
-    """Whether faces given by their corners (c,) and offsets (f+1,) are closed and oriented; see is_closed_oriented."""
-    return int(_circulation(vertices, corners, offsets).sum()) == 0
-
-
-def unbalanced_vertices(vertices: int, corners: Ints, offsets: Ints) -> Bools:
-    """(vertices,) those that do not have an edge going out for every edge coming in: ends of boundaries, of edges with
-    an odd number of faces, and of edges between faces wound in opposite senses. None: the faces are closed and
-    oriented.
-
-    No sort: every edge adds a random number of its other end, going out, and takes it away, coming in. The numbers have
-    LABEL_BITS bits, so that sums over 2^13 edges are exact; an unbalanced vertex passes for a balanced one with a
-    probability of about 2^-40, and both ends of an edge do so with 2^-80.
-    """
-    if faces_are_closed(vertices, corners, offsets):
-        return np.zeros(vertices, dtype=np.bool_)
-    label = (_scrambled(np.arange(vertices, dtype=np.uint64)) >> np.uint64(64 - LABEL_BITS)).astype(np.float64)
-    at_corner = label[corners]
-    size = _common_size(offsets)
-    if size:
-        rows = at_corner.reshape(-1, size)
-        difference = (rows[:, np.arange(1, size + 1) % size] - rows[:, np.arange(size) - 1]).ravel()
-    else:
-        following = next_positions(offsets, np.arange(len(corners)))
-        difference = at_corner[following]
-        before = np.empty_like(at_corner)
-        before[following] = at_corner
-        difference -= before
-    return np.asarray(np.bincount(corners, weights=difference, minlength=vertices) != 0.0, dtype=np.bool_)
-
-
-def _circulation(vertices: int, corners: Ints, offsets: Ints) -> NDArray[np.uint64]:
-    """(f,) the sum of r(a) s(b) - r(b) s(a) over the edges of every face, modulo 2^64."""
-    # Both numbers of a vertex lie side by side, so that the processor fetches them at once.
-    numbers = _scrambled(np.arange(2 * vertices, dtype=np.uint64))
-    size = _common_size(offsets)
-    if not size:
-        r, s = numbers.reshape(-1, 2)[corners].T
-        following = next_positions(offsets, np.arange(len(corners)))
-        terms = r * s[following] - r[following] * s
-        return np.add.reduceat(terms, offsets[:-1]) if len(terms) else terms
-    packed, faces = numbers.view(np.complex128), corners.reshape(-1, size)
-    sums = np.zeros(len(faces), dtype=np.uint64)
-    for start in range(0, len(faces), _PIECE):
-        some = np.ascontiguousarray(faces[start : start + _PIECE].T)
-        first, *others = (np.take(packed, corner).view(np.uint64) for corner in some)
-        for arm in others:
-            arm -= first
-        sums[start : start + _PIECE] = sum(a[0::2] * b[1::2] - a[1::2] * b[0::2] for a, b in pairwise(others))
-    return sums
-
-
-def _common_size(offsets: Ints) -> int:
-    """How many corners all faces have; 0 if not all have the same number, or there are none."""
-    faces = len(offsets) - 1
-    size = int(offsets[1]) if faces else 0
-    if int(offsets[-1]) != size * faces or (size > 3 and (np.diff(offsets) != size).any()):
-        return 0
-    return size
-
-
-def _scrambled(numbers: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    """Numbers mixed beyond recognition. Source: Steele, Lea, Flood, Fast splittable pseudorandom number generators."""
-    mixed = (numbers + np.uint64(1)) * np.uint64(0x9E3779B97F4A7C15)
-    for shift, factor in ((30, 0xBF58476D1CE4E5B9), (27, 0x94D049BB133111EB)):
-        mixed ^= mixed >> np.uint64(shift)
-        mixed *= np.uint64(factor)
-    return mixed ^ (mixed >> np.uint64(31))
+    return mesh.is_closed
 
 
 def repeated_faces(mesh: Mesh) -> Bools:
     """(f,) True for a face listed before with the same corners the same way round."""
     if mesh.face_count == 0:
         return np.zeros(0, dtype=np.bool_)
-    marks = _scrambled(np.arange(len(mesh.vertices), dtype=np.uint64) ^ np.uint64(1 << 63))
-    circulation = _circulation(len(mesh.vertices), mesh.corners, mesh.offsets)
-    signature = _scrambled(circulation) + np.add.reduceat(marks[mesh.corners], mesh.offsets[:-1])
+    marks = scrambled(np.arange(len(mesh.vertices), dtype=np.uint64) ^ np.uint64(1 << 63))
+    around = circulation(len(mesh.vertices), mesh.corners, mesh.offsets)
+    signature = scrambled(around) + np.add.reduceat(marks[mesh.corners], mesh.offsets[:-1])
     _, first = np.unique(signature, return_index=True)
     repeated = np.ones(mesh.face_count, dtype=np.bool_)
     repeated[first] = False
@@ -227,7 +154,7 @@ def components(mesh: Mesh, uses: EdgeUses) -> tuple[int, Ints]:
 
 
 def _connected(count: int, one: Ints, other: Ints) -> tuple[int, Ints]:
-    return _pieces(count, lambda: iter([(one, other)]), np.arange(count))
+    return pieces_of_sides(count, lambda: iter([(one, other)]), np.arange(count))
 
 
 def consistent_winding(mesh: Mesh, uses: EdgeUses) -> tuple[Bools, bool]:
@@ -283,68 +210,6 @@ def turned_faces(mesh: Mesh, turn: Bools) -> Mesh:
     return Mesh(mesh.vertices, mesh.corners[np.where(turn[face], mirrored, where)], mesh.offsets, mesh.present)
 
 
-def joined_pieces(mesh: Mesh) -> tuple[int, Ints]:
-    """How many pieces the mesh has, and (f,) the piece of every face; pieces are joined where they share a vertex."""
-    return pieces_of_faces(len(mesh.vertices), mesh.corners, mesh.offsets)
-
-
-def pieces_of_faces(vertices: int, corners: Ints, offsets: Ints) -> tuple[int, Ints]:
-    """As joined_pieces, of faces given by their corners (c,) and offsets (f+1,)."""
-    return _pieces(vertices, lambda: _sides(corners, offsets), corners[offsets[:-1]])
-
-
-def _pieces(vertices: int, sides: Callable[[], Iterator[tuple[Ints, Ints]]], inside: Ints) -> tuple[int, Ints]:
-    """How many pieces the sides make, and (f,) the piece that holds the vertices inside.
-
-    No sort: every vertex hangs on a neighbour of smaller number, trees are flattened, and sides between different trees
-    do the same with their roots until none is left.
-    """
-    root = np.arange(vertices)
-    for one, other in sides():
-        root[np.maximum(one, other)] = np.minimum(one, other)
-    root = _flattened(root)
-    left = [_apart(root, one, other) for one, other in sides()]
-    one, other = (np.concatenate([np.zeros(0, dtype=np.intp), *(pair[k] for pair in left)]) for k in (0, 1))
-    while len(one):
-        root[np.maximum(one, other)] = np.minimum(one, other)
-        root = _flattened(root)
-        one, other = _apart(root, one, other)
-    roots = root[inside]
-    used = np.zeros(vertices, dtype=np.bool_)
-    used[roots] = True
-    return int(used.sum()), (np.cumsum(used) - 1)[roots]
-
-
-def _flattened(root: Ints) -> Ints:
-    """The trees with everything hanging on the root itself."""
-    while True:
-        higher = root[root]
-        if np.array_equal(higher, root):
-            return root
-        root = higher
-
-
-def _apart(root: Ints, one: Ints, other: Ints) -> tuple[Ints, Ints]:
-    """The roots of both ends of the sides between different trees."""
-    one, other = root[one], root[other]
-    apart = one != other
-    return one[apart], other[apart]
-
-
-def _sides(corners: Ints, offsets: Ints) -> Iterator[tuple[Ints, Ints]]:
-    """The ends of all sides but the last one of every face, which connect it as well, in pieces."""
-    for start in range(0, len(offsets) - 1, _PIECE):
-        bounds = offsets[start : start + _PIECE + 1]
-        some = corners[bounds[0] : bounds[-1]]
-        if len(some) == 3 * (len(bounds) - 1):
-            triangles = some.reshape(-1, 3)
-            yield triangles[:, :2].ravel(), triangles[:, 1:].ravel()
-            continue
-        inner = np.ones(len(some), dtype=np.bool_)
-        inner[bounds[1:] - bounds[0] - 1] = False
-        yield some[inner], some[np.flatnonzero(inner) + 1]
-
-
 def signed_volumes(mesh: Mesh) -> Floats:
     """(f,) six times the volume between every face and the centre of the mesh, positive if that is behind it.
 
@@ -352,26 +217,22 @@ def signed_volumes(mesh: Mesh) -> Floats:
     """
     low, high = mesh.bounds
     scale = 1.0 / max(float((high - low).max()), LEAST_DIVISOR)
+    points = np.ascontiguousarray(((mesh.vertices - 0.5 * (low + high)) * scale).T)
     volumes = np.zeros(mesh.face_count)
     for start in range(0, mesh.face_count, _PIECE):
         end = min(start + _PIECE, mesh.face_count)
         corners = mesh.corners[mesh.offsets[start] : mesh.offsets[end]]
-        points = (np.take(mesh.vertices, corners, axis=0) - 0.5 * (low + high)) * scale
         if len(corners) == 3 * (end - start):
-            volumes[start:end] = _determinants(points[0::3], points[1::3], points[2::3])
+            a, b, c = triangle_corners(points, corners)
+            volumes[start:end] = dot(a, cross(b, c))
             continue
         offsets = mesh.offsets[start:end] - mesh.offsets[start]
-        first = np.repeat(points[offsets], mesh.face_sizes[start:end], axis=0)
+        at_corner = points.take(corners, axis=1)
+        first = np.repeat(at_corner.take(offsets, axis=1), mesh.face_sizes[start:end], axis=1)
         following = mesh.next_corner[mesh.offsets[start] : mesh.offsets[end]] - mesh.offsets[start]
-        volumes[start:end] = np.add.reduceat(_determinants(first, points, points[following]), offsets)
+        sides = dot(first, cross(at_corner, at_corner.take(following, axis=1)))
+        volumes[start:end] = np.add.reduceat(sides, offsets)
     return volumes
-
-
-def _determinants(a: Floats, b: Floats, c: Floats) -> Floats:
-    x = b[:, 1] * c[:, 2] - b[:, 2] * c[:, 1]
-    y = b[:, 2] * c[:, 0] - b[:, 0] * c[:, 2]
-    z = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
-    return np.asarray(a[:, 0] * x + a[:, 1] * y + a[:, 2] * z)
 
 
 def inside_out(mesh: Mesh, piece: Ints, number: int) -> Bools:
@@ -386,7 +247,7 @@ def inside_out(mesh: Mesh, piece: Ints, number: int) -> Bools:
         return np.asarray(flip[piece])
     order = np.argsort(piece, kind="stable")
     starts = np.searchsorted(piece[order], np.arange(number))
-    closed = np.add.reduceat(_circulation(len(mesh.vertices), mesh.corners, mesh.offsets)[order], starts) == 0
+    closed = np.add.reduceat(circulation(len(mesh.vertices), mesh.corners, mesh.offsets)[order], starts) == 0
     negative = np.flatnonzero(closed & (volume < 0.0))
     solid = np.flatnonzero(closed & (volume > 0.0))
     if len(negative) and len(solid):

@@ -14,7 +14,7 @@ from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, some
 from vectorplot.geometry.records import IN_COLUMNS
-from vectorplot.geometry.repair.winding import unbalanced_vertices
+from vectorplot.geometry.repair.circulation import unbalanced_vertices
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, newell
 

@@ -24,7 +24,8 @@ from vectorplot.geometry import ragged, records
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.records import IN_COLUMNS
-from vectorplot.geometry.repair.winding import pieces_of_faces
+from vectorplot.geometry.repair.pieces import pieces_of_faces
+from vectorplot.geometry.repair.seams import MANY_FACES
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.twins import first_twins
@@ -261,10 +262,7 @@ def intersection_lines(
     A segment belongs to the item, of those that want intersections, that comes first in the scene.
     """
     wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
-    if solid.all():
-        part = view.face_item
-    else:
-        part = pieces_of_faces(view.points.shape[1], view.corners, view.offsets)[1]
+    part = _parts(scene, view, solid)
     asked, which = _faces(view, faces), np.flatnonzero(~_beyond_two(first_twins(view))[view.face_item])
     if len(which) < view.face_count:
         asked = _some_faces(asked, which)
@@ -277,6 +275,28 @@ def intersection_lines(
     return straight_lines(
         met.start.compress(kept, axis=1), met.end.compress(kept, axis=1), kind, owner, np.zeros_like(kind)
     )
+
+
+def _parts(scene: Scene, view: View, solid: Bools) -> Ints:
+    """(f,) numbers that faces have in common where they are of one item and hang together."""
+    whole = solid | np.array([_in_one_piece(item) for item in scene.items], dtype=np.bool_)
+    if whole.all():
+        return view.face_item
+    some = np.flatnonzero(~whole[view.face_item])
+    corners, offsets = ragged.take(view.offsets, some)
+    count, piece = pieces_of_faces(view.points.shape[1], view.corners[corners], offsets)
+    owner = np.zeros(count, dtype=np.intp)
+    owner[piece] = view.face_item[some]
+    pieces = np.bincount(owner, minlength=len(whole))
+    part = ragged.starts(np.where(whole, 1, pieces))[view.face_item]
+    part[some] += piece - ragged.starts(pieces)[view.face_item[some]]
+    return part
+
+
+def _in_one_piece(item: Item) -> bool:
+    """Whether an item is known to hang together: meshes of many faces are asked, all others looked at together."""
+    mesh = item.shape
+    return isinstance(mesh, Mesh) and mesh.face_count >= MANY_FACES and mesh.present is None and mesh.pieces[0] == 1
 
 
 def _beyond_two(first: Ints) -> Bools:

@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.columns import cross
-from vectorplot.geometry.repair.winding import unbalanced_vertices
+from vectorplot.geometry.repair.circulation import unbalanced_vertices
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_numbers import SINGLE_DEPTH_LEAST, SINGLE_DEPTH_SHARE
 from vectorplot.visibility.projected_faces import Floats32, ProjectedFaces, newell
