@@ -108,9 +108,11 @@ def _slot(name: str, word: str) -> Writer:
     if word in ("formulas", "formula"):
         variables = {"curve": "t", "function": "uv", "graph": "xy"}.get(name, "xyz")
         return _quoted(1 if word == "formula" else 3, variables)
+    if name == "spline" and word in ("u", "v"):
+        return lambda rng: one(rng, ("akima", "cubic closed", "bspline order 3", "approximating controls 4"))
     if word in ("u", "v"):
         return _range if name == "function" else _angles
-    if word in CURVES:
+    if word in CURVES and name not in ("spline", "landscape", "nurbs"):
         return lambda rng: _slots(rng, word, CURVES)
     if word == "path":
         return lambda rng: _named(rng, CURVES)
@@ -120,7 +122,15 @@ def _slot(name: str, word: str) -> Writer:
         "axis": lambda rng: one(rng, ("0 0 1", "1 0 0", "1 2 3", "0 0 0")),
         "box": lambda rng: one(rng, ("-1 1 -1 1 -1 1", "-2 2 -2 2 -2 2", " ".join(number(rng) for _ in range(6)))),
         "coefficients": _numbers(10),
-        "points": _numbers(6),
+        "points": _numbers(6) if name in ("line", "rod") else _points,
+        "line": lambda rng: " line ".join([_points(rng)] * rng.randint(1, 5)),
+        "order": lambda rng: whole(rng, 1, 6),
+        "orders": lambda rng: f"{whole(rng, 1, 5)} {whole(rng, 1, 5)}",
+        "controls": lambda rng: whole(rng, 1, 6),
+        "tangents": _numbers(6),
+        "heights": lambda rng: ", ".join(" ".join(number(rng) for _ in range(3)) for _ in range(rng.randint(1, 4))),
+        **dict.fromkeys(("weights", "knots", "knots_u", "knots_v", "parameters"), _list),
+        **dict.fromkeys(("akima", "cubic", "interpolating"), lambda rng: one(rng, ("", "closed", "order 3"))),
         "arc": _angles,
         "angle": _angles,
         "x": _range,
@@ -132,6 +142,14 @@ def _slot(name: str, word: str) -> Writer:
         "closed_v": lambda rng: "",
     }
     return writers.get(word, number)
+
+
+def _points(rng: Random) -> str:
+    return ", ".join(_numbers(3)(rng) for _ in range(rng.randint(1, 7)))
+
+
+def _list(rng: Random) -> str:
+    return ", ".join(number(rng) for _ in range(rng.randint(1, 8)))
 
 
 def _slots(rng: Random, name: str, families: dict) -> str:

@@ -17,6 +17,8 @@ from vectorplot.curves.helix import Helix
 from vectorplot.curves.line import Line
 from vectorplot.curves.loxodrome import Loxodrome
 from vectorplot.curves.placed import PlacedCurve
+from vectorplot.curves.splines.kinds import AkimaSpline, ApproximatingSpline, BSpline, CubicSpline, InterpolatingSpline
+from vectorplot.curves.splines.spline_curve import nurbs_curve, spline_curve
 from vectorplot.draw import draw
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
@@ -31,6 +33,9 @@ from vectorplot.testing import assert_on_both, assert_same_curve, curves_in_spac
 
 TURN = 2.0 * np.pi
 MOVES = "rotation x 30 scale 1 2 -0.5 translation -1 0 0 matrix 0 1 0 2 1 0 0 0 0 0 3 1"
+
+POINTS = np.array([(0, 0, 0), (2, 1, 0), (3, 0, 1), (2, -2, 2), (0, -1, 1)], dtype=float)
+PLACES = ", ".join(f"{x:g} {y:g} {z:g}" for x, y, z in POINTS)
 
 FAMILIES = [
     pytest.param("line 0 0 0, 1 2 3", Line.through((0, 0, 0), (1, 2, 3)), marks=pytest.mark.capability("G8.1-line")),
@@ -65,6 +70,28 @@ FAMILIES = [
     ),
     ('"cos(t)" "sin(t)" 1 t 0 "2*pi" closed', Circle((0, 0, 1))),
     ('curve "t" 0 1 t 0 1', Line((0, 0, 1), (1, 0, 0))),
+    *[
+        pytest.param(text.format(PLACES), wanted, marks=pytest.mark.capability("G3.L-mathobj"))
+        for text, wanted in (
+            ("akima {}", spline_curve(POINTS, AkimaSpline())),
+            ("akima closed points {}", spline_curve(POINTS, AkimaSpline(closed=True))),
+            ("akima {} parameters 0, 1, 3, 4, 6", spline_curve(POINTS, AkimaSpline(parameters=[0, 1, 3, 4, 6]))),
+            ("cubic {} closed", spline_curve(POINTS, CubicSpline(closed=True))),
+            ("cubic {} tangents 1 0 0, 0 1 0", spline_curve(POINTS, CubicSpline(tangents=((1, 0, 0), (0, 1, 0))))),
+            ("bspline {} order 3", spline_curve(POINTS, BSpline(3))),
+            ("bspline order 5 closed points {}", spline_curve(POINTS, BSpline(5, closed=True))),
+            ("interpolating {} order 5", spline_curve(POINTS, InterpolatingSpline(5))),
+            ("approximating {} controls 3 order 3", spline_curve(POINTS, ApproximatingSpline(3, 3))),
+            (
+                'nurbs {} weights 1, 2, "sqrt(2)/2", 1, 1 order 3',
+                nurbs_curve(POINTS, [1, 2, 0.5**0.5, 1, 1], order=3),
+            ),
+            (
+                "nurbs {} knots 0, 0, 0, 0, 2, 3, 3, 3, 3",
+                nurbs_curve(POINTS, knots=[0, 0, 0, 0, 2, 3, 3, 3, 3]),
+            ),
+        )
+    ],
 ]
 
 
@@ -202,6 +229,21 @@ MISTAKES = [
     ('C curve "t" "1/t^9" 0 t -1 1.001', "runs off to infinity"),
     ("C curve circle curve circle", "a second 'curve'"),
     ("C box 1 1 1 curve circle", "is a 'box' already"),
+    ("C curve akma 0 0 0, 1 1 1", "curve: expected 'akima', got 'akma'"),
+    ("C curve akima", "akima: expected 'points', got the end"),
+    ("C curve akima 0 0 0", "takes at least 2 points, not 1"),
+    ("C curve akima 0 0 0, 1 1", "expected a number for points, got the end"),
+    ("C curve akima 0 0 0, 1 1 nan", "'nan' is not a finite number"),
+    ("C curve bspline 0 0 0, 1 1 1 order 3", "takes at least 3 points, not 2"),
+    ("C curve bspline 0 0 0, 1 1 1 order 999999999999", "must be a whole number from 2 to 32"),
+    ("C curve bspline 0 0 0, 1 1 1 order 2.5", "expected a whole number for order"),
+    ("C curve cubic 0 0 0, 1 1 1, 0 1 0 closed tangents 1 0 0 1 0 0", "a closed one has no tangents"),
+    ("C curve cubic 0 0 0, 1 1 1 parameters 1, 1", "rise from point to point"),
+    ("C curve approximating 0 0 0, 1 1 1, 2 0 0 controls 99999999", "control points, expected 4 to"),
+    ("C curve nurbs 0 0 0, 1 1 1 order 2 weights 1, -1", "weights must be positive"),
+    ("C curve nurbs 0 0 0, 1 1 1 order 2 weights 1", "1 weights for 2 points"),
+    ("C curve nurbs 0 0 0, 1 1 1 order 2 knots 0, 0, 1", "2 points of order 2 need 4 knots, not 3"),
+    ("C curve nurbs 0 0 0, 1 1 1 order 2 knots 0, 0, 1, 1 closed", "does not end where it begins"),
     ("C curve circle removed_faces 1", "a curve has no faces"),
     ("C curve circle level_lines 3", "'level_lines' is for surfaces only"),
     ("C curve circle isophotes 3 lit_by 1", "'isophotes' is for surfaces only"),

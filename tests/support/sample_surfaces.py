@@ -7,6 +7,7 @@ import numpy as np
 from vectorplot.curves.circle import Circle
 from vectorplot.curves.function import curve_of_function
 from vectorplot.curves.line import Line
+from vectorplot.curves.splines.kinds import AkimaSpline, ApproximatingSpline, BSpline, CubicSpline, InterpolatingSpline
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.surfaces.families.capped import Capped, Frustum, rod
 from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
@@ -26,6 +27,8 @@ from vectorplot.surfaces.function import surface_of_function
 from vectorplot.surfaces.graph_regions import Disc
 from vectorplot.surfaces.graphs import graph, graph_over_disc
 from vectorplot.surfaces.implicit_function import hessians
+from vectorplot.surfaces.splines.landscape import landscape
+from vectorplot.surfaces.splines.spline_surface import nurbs_surface, spline_surface
 from vectorplot.surfaces.surface import Domain, is_parametrised
 from vectorplot.surfaces.trimmed import TrimmedSurface
 
@@ -42,6 +45,10 @@ RING = Circle((3.0, 0.0, 0.0), 0.5, (0.0, 1.0, 0.0))
 
 def parabola(sign):
     return curve_of_function(lambda t: (t, 0 * t, t * t) if sign > 0 else (0 * t, t, -t * t), -1.0, 1.0)
+
+
+GRID = np.array([[(x, y, x * y * (3 - x)) for y in (0, 1, 3)] for x in range(4)], dtype=float)
+LINES = " ".join("line " + ", ".join(f"{x:g} {y:g} {z:g}" for x, y, z in line) for line in GRID)
 
 
 FAMILIES = [
@@ -103,6 +110,22 @@ FAMILIES = [
         "implicit_cyclide 3 1 centre 6 0 0 radius 5 box -2 2 -2 3 -2 2",
         ImplicitCyclide(3.0, 1.0, (6, 0, 0), 5.0, BOX),
     ),
+    (f"spline akima {LINES}", spline_surface(GRID, AkimaSpline())),
+    (f"spline {LINES} cubic closed", spline_surface(GRID, CubicSpline(closed=True))),
+    (
+        f"spline u approximating controls 3 order 3 v interpolating order 3 closed {LINES}",
+        spline_surface(GRID, ApproximatingSpline(3, 3), InterpolatingSpline(3, closed=True)),
+    ),
+    (f"spline {LINES} u bspline v bspline order 2", spline_surface(GRID, BSpline(4), BSpline(2))),
+    (
+        f'nurbs {LINES} orders 4 2 weights 1, 1, 1, 1, "sqrt(2)/2", 1, 1, 2, 1, 1, 1, 1',
+        nurbs_surface(GRID, [[1, 1, 1], [1, 0.5**0.5, 1], [1, 2, 1], [1, 1, 1]], orders=(4, 2)),
+    ),
+    (
+        f"nurbs orders 3 3 closed_u knots_v 0, 0, 0, 1, 1, 1 {LINES}",
+        nurbs_surface(GRID, orders=(3, 3), knots=(None, [0, 0, 0, 1, 1, 1]), closed=(True, False)),
+    ),
+    ("landscape 0 1 2, 1 4 3 x 0 10 y -5 5", landscape([[0, 1], [1, 4], [2, 3]], (0, 10), (-5, 5))),
 ]
 
 

@@ -10,19 +10,30 @@ from .helix import Helix
 from .line import Line
 from .loxodrome import Loxodrome
 from .placed import PlacedCurve
+from .splines.basis import Basis
+from .splines.kinds import AkimaSpline, ApproximatingSpline, BSpline, CubicSpline, InterpolatingSpline, SplineKind
+from .splines.spline_curve import SplineCurve, nurbs_curve, spline_curve
 
 __all__ = [
+    "AkimaSpline",
+    "ApproximatingSpline",
+    "BSpline",
+    "Basis",
     "BezierPath",
     "BezierPaths",
     "Circle",
+    "CubicSpline",
     "Curve",
     "EllipseArc",
     "EllipseArcs",
     "FunctionCurve",
     "Helix",
+    "InterpolatingSpline",
     "Line",
     "Loxodrome",
     "PlacedCurve",
+    "SplineCurve",
+    "SplineKind",
     "arc_path",
     "curve_of_function",
     "cylinder_branches",
@@ -30,4 +41,6 @@ __all__ = [
     "fitted_curve",
     "fitted_paths",
     "is_curve",
+    "nurbs_curve",
+    "spline_curve",
 ]

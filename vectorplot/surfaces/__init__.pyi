@@ -30,6 +30,8 @@ from .implicit_function import ImplicitFunction, implicit_of_function
 from .inversion import InvertedImplicit, InvertedSurface, inverted
 from .normals import unit_normals
 from .placed import PlacedImplicit, PlacedSurface
+from .splines.landscape import landscape
+from .splines.spline_surface import SplineSurface, nurbs_surface, spline_surface
 from .surface import Domain, ImplicitSurface, Surface
 from .trimmed import TrimmedSurface
 
@@ -67,6 +69,7 @@ __all__ = [
     "Screw",
     "Sphere",
     "SpiralMotion",
+    "SplineSurface",
     "Surface",
     "Swept",
     "Torus",
@@ -88,13 +91,16 @@ __all__ = [
     "implicit_plane",
     "implicit_sphere",
     "inverted",
+    "landscape",
     "mean_curvature",
     "minimal_spiral_surface",
+    "nurbs_surface",
     "revolution_surface",
     "rod",
     "rotoidal_surface",
     "second_form",
     "spiral_surface",
+    "spline_surface",
     "surface_of_function",
     "translation_surface",
     "unit_normals",

@@ -115,3 +115,7 @@ two products leave of their digits."""
 STANDSTILL_OF_SPEED = 1e-5
 """A curve that is no faster than this part of its speed at the points beside stands still: derivatives by differences
 have so many digits."""
+
+EVEN_BENDS = 1e-9
+"""Where slopes change on both sides of a point by less than this part of their largest change along the line, Akima's
+spline takes the mean of the slopes beside the point: their changes are rounding."""

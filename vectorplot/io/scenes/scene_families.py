@@ -34,6 +34,7 @@ from vectorplot.io.scenes.scene_slots import (
     read_numbers,
     read_whole,
 )
+from vectorplot.io.scenes.scene_splines import SPLINE_CURVES, SPLINE_SURFACES
 from vectorplot.io.scenes.scene_words import Words
 from vectorplot.surfaces.families.capped import Capped, Frustum, rod
 from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
@@ -257,6 +258,7 @@ CURVES = {
     "curve": Family(
         {"formulas": _formulas(3, "t"), "t": _RANGE, "closed": Slot(read_flag, False)}, ("formulas",), _function_curve
     ),
+    **SPLINE_CURVES,
 }
 """Curves, by their words."""
 
@@ -414,6 +416,7 @@ SURFACES = {
         ("major", "minor"),
         ImplicitCyclide,
     ),
+    **SPLINE_SURFACES,
 }
 """Surfaces, by their words."""
 

@@ -19,6 +19,7 @@ from vectorplot.curves.helix import Helix
 from vectorplot.curves.line import Line
 from vectorplot.curves.loxodrome import Loxodrome
 from vectorplot.curves.placed import PlacedCurve
+from vectorplot.curves.splines.spline_curve import SplineCurve
 from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_formulas import Formulas
 from vectorplot.scene.scene import Light
@@ -39,6 +40,7 @@ from vectorplot.surfaces.graphs import Graph, PolarGraph
 from vectorplot.surfaces.implicit_function import ImplicitFunction
 from vectorplot.surfaces.inversion import InvertedSurface
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.splines.spline_surface import SplineSurface
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
 from vectorplot.surfaces.trimmed import TrimmedSurface
 
@@ -236,7 +238,24 @@ def _curve(curve: Curve) -> str:
     if isinstance(curve, FunctionCurve):
         closed = " closed" if curve.closed else ""
         return f"curve {_quoted(curve.function)} t {_numbers((curve.start, curve.end))}{closed}"
+    if isinstance(curve, SplineCurve):
+        closed = " closed" if curve.closed else ""
+        weights = "" if curve.weights is None else f" weights {_list(np.asarray(curve.weights))}"
+        words = f"nurbs {_points(curve.controls)} order {curve.order} knots {_list(np.asarray(curve.knots))}"
+        return f"{words}{weights}{closed}"
     raise InputError(f"the scene language has no word for the curve {type(curve).__name__}")
+
+
+def _spline(surface: SplineSurface) -> str:
+    lines = "".join(f"\n  line {_points(line)}" for line in np.asarray(surface.controls))
+    knots = f" knots_u {_list(np.asarray(surface.knots_u))} knots_v {_list(np.asarray(surface.knots_v))}"
+    weights = "" if surface.weights is None else f"\n  weights {_list(np.asarray(surface.weights).ravel())}"
+    closed = (" closed_u" if surface.closed_u else "") + (" closed_v" if surface.closed_v else "")
+    return f"nurbs orders {surface.order_u} {surface.order_v}{knots}{closed}{lines}{weights}"
+
+
+def _points(points: ArrayLike) -> str:
+    return " , ".join(_numbers(point) for point in np.asarray(points).tolist())
 
 
 def _arc(curve: Circle | Helix) -> str:
@@ -289,4 +308,5 @@ _WRITERS: dict[type, Callable[[Any], str]] = {
     Quadric: lambda s: f"quadric {_numbers(s.coefficients)}{_box(s.box)}{_named(centre=s.origin)}",
     ImplicitTorus: lambda s: f"implicit_torus {_numbers((s.major, s.minor))}{_named(centre=s.centre)}",
     ImplicitCyclide: _implicit_cyclide,
+    SplineSurface: _spline,
 }

@@ -1,0 +1,1 @@
+"""Splines: curves of polynomial pieces, through points or drawn by them."""

@@ -1,0 +1,1 @@
+"""Surfaces of polynomial pieces, through grids of points or drawn by them."""
