@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import importlib.util
 import re
+import sys
 import tempfile
+from inspect import signature
 from pathlib import Path
 
 import vectorplot as vp
@@ -79,16 +81,22 @@ def draw_scene(path: Path, folder: Path) -> list[Path]:
     return [drawn, painted]
 
 
-def run_example(path: Path, folder: Path) -> list[Path]:
-    """Run a script, its own folder being one inside this one; the files it made."""
+def run_example(path: Path, folder: Path, width: int | None = None) -> list[Path]:
+    """Run a script, its own folder being one inside this one; the files it made.
+
+    Scripts whose pictures of pixels have any width are run with this one, if one is given.
+    """
     own = folder / path.stem
     own.mkdir()
-    module(path).main(own)
+    main = module(path).main
+    main(own, **({} if width is None or "width" not in signature(main).parameters else {"width": width}))
     return sorted(own.iterdir())
 
 
 def module(path: Path):
-    """A script as a module."""
+    """A script as a module, with what scripts share beside it."""
+    if str(path.parent) not in sys.path:
+        sys.path.append(str(path.parent))
     spec = importlib.util.spec_from_file_location(f"example_{path.stem}", path)
     assert spec is not None and spec.loader is not None
     loaded = importlib.util.module_from_spec(spec)

@@ -1,43 +1,67 @@
 """Materials: the power of the cosine, from mat to metallic, and highlights.
 
 Mat things are bright almost up to the border of the light, metallic ones darken fast; in what is polished the eye
-sees the lamp. Source: Glaeser, section 4.5, figure 4.
+sees the lamp. Below each ball stands how much light goes out over the angle at which it comes in, from 0 to 90 degrees;
+red is the highlight, for an
+eye in front. Source: Glaeser, section 4.5, figure 4.
 """
 
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import shapely
+from diagrams import GREY, INK, RED, SKY, layer, polygons, strokes
 
 import vectorplot as vp
-from vectorplot.geometry import polygons_of, revolution, translated
+from vectorplot.drawing import Fills
+from vectorplot.geometry import polygons_of
 from vectorplot.shading import FINISHES, lambert
+from vectorplot.surfaces import PlacedSurface, Sphere
 
 WORDS = ("mat", "wood", "normal", "plastic", "metallic", "shiny")
-LATITUDE = np.linspace(-np.pi / 2, np.pi / 2, 17)
-BALL = revolution(np.column_stack([np.cos(LATITUDE), 0 * LATITUDE, np.sin(LATITUDE)]), 32)
 LIGHT = vp.Light((-3, -4, 4), parallel=True, intensity=1.0)
-
-
-def ball(number: int, word: str) -> vp.Item:
-    """A ball of some material, in a place of its own."""
-    row, column = divmod(number, 3)
-    shape = replace(BALL, vertices=translated(BALL.vertices, (2.3 * column, 0, -2.3 * row)))
-    return vp.Item(word, shape, "blue", vp.Material(word))
+STEP_MM, RADIUS_MM, DEEP_MM = 29.0, 12.6, 22.0
 
 
 def main(folder: Path) -> None:
-    balls = tuple(ball(number, word) for number, word in enumerate(WORDS))
-    scene = vp.Scene(balls, (LIGHT,), title="Materials")
-    drawing = vp.paint(scene, vp.Camera.view("front"), page=vp.Page(110, 75, 4), shadows="none")
-    vp.save(drawing, folder / "finishes.svg")
+    balls = (
+        vp.Item(word, PlacedSurface(Sphere(1.0), np.eye(3), (k * STEP_MM / RADIUS_MM, 0, 0)), "blue", vp.Material(word))
+        for k, word in enumerate(WORDS)
+    )
+    scene = vp.Scene(tuple(balls), (LIGHT,), title="Materials")
+    page = vp.Page(6 * STEP_MM + 2, 68, (STEP_MM + 2) / 2 - RADIUS_MM)
+    painted = vp.paint(scene, vp.Camera.view("front"), page=page, shadows="none", tolerance_mm=0.1)
+    (fills,) = painted.layers[0].fills
+    up = 68 - RADIUS_MM - 4 - fills.points[:, 1].mean()
+    moved = Fills(**{**vars(fills), "points": np.add(fills.points, (0, up))})
+
+    angle = np.linspace(0, np.pi / 2, 91)
+    areas, axes, curves, shine = [], [], [], []
+    for k, word in enumerate(WORDS):
+        corner, finish = np.array([1 + STEP_MM * (k + 0.5) - RADIUS_MM, 6.0]), FINISHES[word]
+        scale = (2 * RADIUS_MM / (np.pi / 2), DEEP_MM)
+        light = finish.diffuse * lambert(np.cos(angle), finish.exponent)
+        curve = corner + np.column_stack([angle, light]) * scale
+        areas.append(np.vstack([corner, curve, np.add(corner, (2 * RADIUS_MM, 0))]))
+        curves.append(curve)
+        axes.append(corner + np.array([(0, DEEP_MM + 4), (0, 0), (2 * RADIUS_MM + 2, 0)]))
+        if finish.highlight > 0:
+            glint = light + finish.highlight * finish.weight_at(np.cos(angle)) * np.cos(angle) ** finish.sharpness
+            shown = slice(0, max(2, int((glint > light + 0.01).sum())))
+            shine.append(corner + (np.column_stack([angle, glint]) * scale)[shown])
+    layers = (
+        layer("areas", polygons(areas, SKY)),
+        layer("balls", moved),
+        layer("axes", strokes(axes), GREY, 0.25),
+        layer("curves", strokes(curves), INK, 0.45),
+        layer("highlights", strokes(shine), RED, 0.45),
+    )
+    vp.save(vp.Drawing(page.width_mm, 68, layers, painted.items, "Materials"), folder / "finishes.svg")
 
     cosine = np.linspace(0.05, 0.95, 19)
     falling = [lambert(cosine, FINISHES[word].exponent) for word in ("mat", "wood", "normal", "metallic")]
     assert (np.diff(falling, axis=0) < 0).all(), "the higher the exponent, the darker what is not lit from the front"
-    (fills,) = drawing.layers[0].fills
     middle = np.add.reduceat(fills.colours.mean(axis=1), fills.offsets[:-1]) / np.diff(fills.offsets)
     area = shapely.area(polygons_of(fills.points.T, fills.offsets))
     brightness = [np.average(middle[fills.item == k], weights=area[fills.item == k]) for k in range(3)]

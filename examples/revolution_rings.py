@@ -6,6 +6,7 @@ comparing gives. Source: Glaeser, section 5.2, figure 3.
 """
 
 import sys
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -18,7 +19,7 @@ from vectorplot.shading import face_colours, face_shades, view_lights
 from vectorplot.textbook import ring_order, sliced_meridian
 
 MERIDIAN = np.array([(0, 0), (1.3, 0.2), (0.3, 0.8), (0.3, 1.6), (1.6, 2.4), (1.9, 3.6), (1.3, 4.6), (1.5, 5.2)])
-ORDER = 28
+ORDER = 72
 
 
 def rings() -> vp.Mesh:
@@ -46,6 +47,11 @@ def on_top(fills: Fills, points: np.ndarray) -> np.ndarray:
     return top
 
 
+def turn(corners: np.ndarray) -> float:
+    after = np.roll(corners, -1, axis=0)
+    return float((corners[:, 0] * after[:, 1] - corners[:, 1] * after[:, 0]).sum())
+
+
 def main(folder: Path) -> None:
     vase = vp.Item("VASE", rings(), "orange")
     scene = vp.Scene((vase,), (vp.Light((-4, -5, 6), parallel=True, intensity=1.0),), title="Rings")
@@ -53,15 +59,19 @@ def main(folder: Path) -> None:
     view = look(scene, camera)
     lights = view_lights(view, scene.lights)
     colours = face_colours(view, scene.items, face_shades(view, scene.items, lights).total)
-    points = (45, 55) + 38.0 * view.image.T
+    # As large as the page, the insides in blue.
+    low, high = view.image.min(axis=1), view.image.max(axis=1)
+    points = (48, 60) + 112.0 / (high - low)[1] * (view.image.T - (low + high) / 2)
     order = ring_order(sliced_meridian(MERIDIAN), ORDER, camera.eye)
     assert (np.sort(order) == np.arange(view.face_count)).all()
-
     corners = [points[view.corners[view.offsets[f] : view.offsets[f + 1]]] for f in order]
     offsets = np.concatenate([[0], np.cumsum([len(c) for c in corners])])
     fills = Fills.flat(np.concatenate(corners), offsets, colours[order])
-    for name, part in (("half", fills.some(np.arange(len(fills) // 2))), ("whole", fills)):
-        drawing = vp.Drawing(90, 110, (vp.Layer("rings", vp.Pen(), (part,)),), title="Rings")
+    flip = np.array([turn(c) for c in corners]) > 0
+    inner = face_colours(view, (replace(vase, colour="blue"),), face_shades(view, scene.items, lights).total)
+    two = Fills.flat(fills.points, offsets, np.where(flip[:, None], colours[order], inner[order]))
+    for name, part in (("half", two.some(np.arange(len(fills) // 2))), ("whole", two)):
+        drawing = vp.Drawing(96, 120, (vp.Layer("rings", vp.Pen(), (part,)),), title="Rings")
         vp.save(drawing, folder / f"revolution_rings_{name}.svg")
 
     compared = vp.paint(scene, camera, shadows="none", smooth=False)

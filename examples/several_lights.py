@@ -1,7 +1,8 @@
 """Shadows of three lamps: their grade at a point is the number of lamps that do not shine there.
 
-Where shadows of different lamps overlap, their common parts are painted over them, darker with each grade. Rays from
-points of the floor to the lamps count again. Source: Glaeser, section 6.3, figure 6.
+Where shadows of different lamps overlap, their common parts are painted over them, darker with each grade. A ray of
+each lamp passes the corner of the cube that casts the end of its shadow. Rays from points of the floor to the lamps
+count again. Source: Glaeser, section 6.3, figure 6.
 """
 
 import sys
@@ -9,35 +10,48 @@ from pathlib import Path
 
 import numpy as np
 import shapely
+from diagrams import BLUE, INK, drawn, line, tinted, with_arrows, with_dots, with_faces
 
 import vectorplot as vp
-from vectorplot.drawing import Fills
 from vectorplot.effects import shadow_decals
 from vectorplot.scene import look
 from vectorplot.shading import palette
 from vectorplot.testing import visible_by_rays
 
 DATA = Path(__file__).resolve().parent.parent / "data"
-SHADES = palette("orange")[[31, 21, 11, 0]]
+SHADES = ["#" + "".join(f"{byte:02x}" for byte in palette("orange")[at]) for at in (31, 22, 12, 0)]
 """The colours of grades 0 to 3."""
 
 
 def main(folder: Path) -> None:
     scene = vp.read(DATA / "shadows.scene")
-    view = look(scene, vp.Camera.view("top"))
-    decals = shadow_decals(view, scene.lights)
+    decals, view = shadow_decals(seen := look(scene, vp.Camera.view("top")), scene.lights), seen
     points = view.world_of(decals.points)
     on_floor = np.flatnonzero(view.face_item[decals.face] == 0)
     on_floor = on_floor[np.argsort(decals.grade[on_floor], kind="stable")]
     parts = [points[decals.offsets[k] : decals.offsets[k + 1]] for k in on_floor]
 
-    # A plan of the floor: what lacks one lamp, two, and all three.
-    floor = Fills.flat(
-        6.0 * np.array([(0.5, 0.5), (18.5, 0.5), (18.5, 14.5), (0.5, 14.5)]), np.array([0, 4]), SHADES[:1]
-    )
-    corners = 6.0 * (np.concatenate(parts)[:, :2] + (9.5, 7.5))
-    dark = Fills.flat(corners, np.cumsum([0, *map(len, parts)]), SHADES[decals.grade[on_floor]])
-    drawing = vp.Drawing(114, 90, (vp.Layer("grades", vp.Pen(), (Fills.joined(floor, dark),)),), title="Grades")
+    camera = vp.Camera(eye=(6, -24, 21), target=(0, 0, 1), fov_deg=30)
+    lamps = np.array([light.position for light in scene.lights])
+    cube = next(item for item in scene.items if item.name == "CUBE").mesh.vertices
+    # The ray of each lamp that passes over the corner of the cube which casts the end of its shadow.
+    hits = cube + (cube - lamps[:, None]) * (cube[:, 2] / (lamps[:, None, 2] - cube[:, 2]))[..., None]
+    length = np.linalg.norm(hits - cube, axis=2)
+    last = np.where((np.abs(hits) < (9, 7, 1)).all(axis=2), length, 0.0).argmax(axis=1)
+    ends = hits[np.arange(3), last]
+    starts = cube[last] + 5.0 * (lamps - ends) / np.linalg.norm(lamps - ends, axis=1, keepdims=True)
+    bodies = tuple(vp.Item(item.name, item.shape, INK) for item in scene.items)
+    rays = tuple(line(f"RAY{k}", a, b, BLUE) for k, (a, b) in enumerate(zip(starts, ends, strict=True)))
+    drawing = drawn(vp.Scene((*bodies, *rays), title="Grades"), camera, vp.Page(160, 105, 5), {INK: 0.3, BLUE: 0.5})
+    white = tuple(vp.Item(item.name, item.shape, "#ffffff") for item in scene.items[1:])
+    corners = np.array([(-9, -7, 0), (9, -7, 0), (9, 7, 0), (-9, 7, 0)], dtype=float)
+    shades = [SHADES[0], *(SHADES[grade] for grade in decals.grade[on_floor])]
+    drawing = with_faces(drawing, [corners, *parts], shades)
+    drawing = tinted(drawing, vp.Scene(white, (vp.Light((2, -3, 5), parallel=True, intensity=1.0),)), camera)
+    # The floor lies below the bodies.
+    over, floor, *rest = drawing.layers
+    drawing = vp.Drawing(160, 105, (floor, over, *rest), title="Grades", page_from_world=drawing.page_from_world)
+    drawing = with_arrows(with_dots(drawing, cube[last], BLUE, 1.1), starts, ends, BLUE, 3.2)
     vp.save(drawing, folder / "several_lights.svg")
 
     random = np.random.default_rng(3)
@@ -50,20 +64,12 @@ def main(folder: Path) -> None:
         sight = visible_by_rays(scene, vp.Camera(eye=lamp.position, target=(0, 0, 0)), sample)
         blocked += sight.hidden_by > 0
         sure &= sight.clearance > 1e-4
-    above = covers_by_items(scene, sample)
-    assert (grade == blocked)[sure & ~above].all() and (sure & ~above).sum() > 300
-    assert set(grade[~above].tolist()) >= {0, 1, 2}
-
-
-def covers_by_items(scene: vp.Scene, sample: np.ndarray) -> np.ndarray:
-    """Which points of the floor something stands on."""
     below = np.zeros(len(sample), dtype=bool)
     for item in scene.items[1:]:
-        vertices = item.mesh.vertices
-        if vertices[:, 2].min() < 1e-6:
-            low, high = vertices.min(axis=0), vertices.max(axis=0)
-            below |= ((sample > low - 1e-9) & (sample < high + 1e-9))[:, :2].all(axis=1)
-    return below
+        low, high = item.mesh.vertices.min(axis=0), item.mesh.vertices.max(axis=0)
+        below |= ((sample > low - 1e-9) & (sample < high + 1e-9))[:, :2].all(axis=1) & (low[2] < 1e-6)
+    assert (grade == blocked)[sure & ~below].all() and (sure & ~below).sum() > 300
+    assert set(grade[~below].tolist()) >= {0, 1, 2}
 
 
 if __name__ == "__main__":

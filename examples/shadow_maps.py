@@ -32,27 +32,40 @@ def field() -> list[vp.Mesh]:
     return [mesh.transformed(place) for mesh, place in zip(meshes, places, strict=True)]
 
 
-def main(folder: Path) -> None:
+def coloured(code: np.ndarray) -> np.ndarray:
+    """(n, n, 3) depths as colours: the nearer to the lamp, the brighter, by their ranks."""
+    rank = np.searchsorted(np.unique(code[code > 0]), code) / max(1, len(np.unique(code[code > 0])))
+    stops = np.array([(20, 30, 74), (32, 104, 136), (112, 190, 130), (254, 236, 150)], dtype=float)
+    colours = np.stack([np.interp(rank, np.linspace(0, 1, 4), stops[:, k]) for k in range(3)], axis=-1)
+    colours[code == 0] = 232
+    return colours.astype(np.uint8)
+
+
+def main(folder: Path, width: int = 1600) -> None:
     meshes = field()
-    colours = ["lightgray", *["orange", "cyan", "yellow"] * 50]
+    colours = ["#efe9dc", *["orange", "cyan", "yellow"] * 50]
     items = tuple(vp.Item(f"B{k}", mesh, colours[k]) for k, mesh in enumerate(meshes))
     scene = vp.Scene(items, (LIGHT,), title="Shadow maps")
-    options = {"size": SIZE, "fit": False, "samples": 2, "shadow_size": MAP}
+    size = (width // 2, width * 5 // 16)
+    options = {"size": size, "fit": False, "samples": 3, "shadow_size": MAP}
     plain, tapered = (vp.render(scene, CAMERA, shadows=how, **options).pixels for how in ("buffer", "trapezoid"))
 
     first = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     points = np.concatenate([mesh.vertices for mesh in meshes])
     corners = np.concatenate([m.corners[ragged.fans(m.offsets)[0]] + k for m, k in zip(meshes, first, strict=False)])
     region = region_in_picture(raster_system(CAMERA, *SIZE), *SIZE, points, corners)
-    maps = {
-        frame: shadow_buffer(LIGHT, points, corners, size=MAP, rows=MAP, frame=frame, region=region).maps[0]
-        for frame in ("standard", "box", "trapezoid")
-    }
-    grays = [np.where(m.code > 0, 60 + 190.0 * (m.code / m.code.max()) ** 4, 255) for m in maps.values()]
-    below = np.concatenate(grays, axis=1).astype(np.uint8)[..., None].repeat(3, axis=2)
-    vp.save(
-        vp.Image(np.concatenate([np.concatenate([plain, tapered], axis=1), below]), "Maps"), folder / "shadow_maps.png"
-    )
+
+    def map_of(frame, side):
+        return shadow_buffer(LIGHT, points, corners, size=side, rows=side, frame=frame, region=region).maps[0]
+
+    maps = {frame: map_of(frame, MAP) for frame in ("standard", "box", "trapezoid")}
+    side, gap = width * 5 // 16, width // 160
+    page = np.full((size[1] + gap + side, width, 3), 255, dtype=np.uint8)
+    page[: size[1], : size[0] - gap], page[: size[1], size[0] + gap :] = plain[:, gap:], tapered[:, gap:]
+    for k, frame in enumerate(maps):
+        left = k * (width - side) // 2
+        page[-side:, left : left + side] = coloured(map_of(frame, side).code)
+    vp.save(vp.Image(page, "Maps"), folder / "shadow_maps.png")
 
     near = np.array([(x, y, 0.0) for x in (-2, 0, 2) for y in (-55, -52, -49)])
     texels = {frame: texels_per_unit(found, near).mean() for frame, found in maps.items()}

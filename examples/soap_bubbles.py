@@ -1,18 +1,20 @@
-"""Soap bubbles: balls that do not meet are painted in the order of the eye's power, not of its distance.
+"""Soap bubbles: bodies in balls that do not meet are painted in the order of the eye's power, not of its distance.
 
 The power of a point with respect to a sphere is d² - r². Two spheres have equal power in a plane between them,
-whatever their radii; a large ball whose centre is nearer may still lie behind a small one. Source: Glaeser, section
-5.5, figure 9.
+whatever their radii; a large ball whose centre is nearer may still lie behind a small one. Around every body is the
+ball about its middle that holds it. Source: Glaeser, section 5.5, figure 9.
 """
 
 import sys
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+import shapely
+from diagrams import BLUE, INK, drawn, tinted
 
 import vectorplot as vp
-from vectorplot.geometry import revolution, spheres_power, translated
+from vectorplot.geometry import box, hull_mesh, placed, polygons_of, revolution, rotation_about, spheres_power
+from vectorplot.surfaces import PlacedSurface, Sphere
 
 SPHERES = np.array(
     [
@@ -27,58 +29,57 @@ SPHERES = np.array(
 """Centre and radius of each."""
 
 EYE = np.array([2.0, -16.0, 5.0])
+CAMERA = vp.Camera(eye=tuple(EYE), fov_deg=30)
 COLOURS = ("blue", "pink", "orange", "green", "yellow", "cyan")
 
 
-def ball(number: int) -> vp.Item:
-    """A ball of many faces inside its sphere."""
-    *centre, radius = SPHERES[number]
-    latitude = np.linspace(-np.pi / 2, np.pi / 2, 15)
-    meridian = radius * np.column_stack([np.cos(latitude), 0 * latitude, np.sin(latitude)])
-    meridian[[0, -1], 0] = 0.0
-    mesh = revolution(meridian, 24)
-    return vp.Item(
-        f"BALL{number}", vp.Mesh(translated(mesh.vertices, centre), mesh.corners, mesh.offsets), COLOURS[number]
+def icosahedron() -> vp.Mesh:
+    golden = (1 + 5**0.5) / 2
+    signs = [(0, a, b * golden) for a in (-1, 1) for b in (-1, 1)]
+    return hull_mesh(np.array([np.roll(p, k) for p in signs for k in range(3)]))
+
+
+def body(number: int) -> vp.Item:
+    """A body whose farthest corners lie on its sphere."""
+    octahedron = hull_mesh(np.concatenate([np.eye(3), -np.eye(3)]))
+    cup = revolution([(0.5, 0, 0), (1.0, 0, 1.4)], 24)
+    shapes = (icosahedron(), box((1, 1, 1)), octahedron, revolution([(1, 0, 0), (0, 0, 1.9)], 6), octahedron, cup)
+    points = shapes[number].vertices - (
+        np.ptp(shapes[number].vertices, axis=0) / 2 + shapes[number].vertices.min(axis=0)
     )
-
-
-def covers(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Which points lie in a convex polygon."""
-    along, arm = np.roll(corners, -1, axis=0) - corners, points[:, None] - corners
-    side = along[:, 0] * arm[..., 1] - along[:, 1] * arm[..., 0]
-    return (side >= 0).all(axis=1) | (side <= 0).all(axis=1)
+    turn = rotation_about((0.3, 0.5, 1.0), 0.7 * number) * SPHERES[number, 3] / np.linalg.norm(points, axis=1).max()
+    mesh = vp.Mesh(points, shapes[number].corners, shapes[number].offsets)
+    return vp.Item(f"BODY{number}", placed(mesh, np.column_stack([turn, SPHERES[number, :3]]).ravel()), COLOURS[number])
 
 
 def main(folder: Path) -> None:
-    scene = vp.Scene(tuple(map(ball, range(len(SPHERES)))), (vp.Light((-4, -6, 7), parallel=True, intensity=1.0),))
-    camera = vp.Camera(eye=tuple(EYE), target=(0, 0, 0), fov_deg=30)
-    drawing = vp.paint(scene, camera, page=vp.Page(100, 90, 3), shadows="none")
+    lamp = vp.Light((-4, -6, 7), parallel=True, intensity=1.0)
+    bodies = tuple(map(body, range(len(SPHERES))))
+    scene = vp.Scene(bodies, (lamp,), title="Soap bubbles")
+    clear = vp.Material("transparent", 0.12)
+    balls = [PlacedSurface(Sphere(r), np.eye(3), (x, y, z)) for x, y, z, r in SPHERES]
+    bubbles = tuple(vp.Item(f"BALL{k}", ball, BLUE, clear) for k, ball in enumerate(balls))
+    edges = tuple(vp.Item(item.name, item.shape, INK) for item in bodies)
+    drawing = drawn(vp.Scene((*edges, *bubbles)), CAMERA, vp.Page(130, 118, 5), {INK: 0.25, BLUE: 0.4})
+    drawing = tinted(drawing, vp.Scene((*bodies, *bubbles), (lamp,)), CAMERA, shadows="none", tolerance_mm=0.3)
     vp.save(drawing, folder / "soap_bubbles.svg")
 
     arm = SPHERES[:, None, :3] - SPHERES[None, :, :3]
     gap = np.linalg.norm(arm, axis=2) - SPHERES[:, 3, None] - SPHERES[None, :, 3]
     assert gap[~np.eye(len(SPHERES), dtype=bool)].min() > 0, "no two meet"
-
-    far = np.linalg.norm(SPHERES[:, :3] - EYE, axis=1)
-    angle = np.arccos(
-        np.clip(((SPHERES[:, :3] - EYE) / far[:, None]) @ ((SPHERES[:, :3] - EYE) / far[:, None]).T, -1, 1)
-    )
-    width = np.arcsin(SPHERES[:, 3] / far)
-    overlap = np.triu(angle < 0.98 * (width[:, None] + width), 1)
     power = spheres_power(SPHERES, EYE)
-    assert np.allclose(power, far**2 - SPHERES[:, 3] ** 2)
-    (fills,) = drawing.layers[0].fills
-    corners = [fills.points[a:b] for a, b in pairwise(fills.offsets)]
-    pairs = np.argwhere(overlap)
-    assert len(pairs) >= 4
-    for one, two in pairs:
+    assert np.allclose(power, ((SPHERES[:, :3] - EYE) ** 2).sum(axis=1) - SPHERES[:, 3] ** 2)
+
+    (fills,) = vp.paint(scene, CAMERA, shadows="none").layers[0].fills
+    shapes = polygons_of(fills.points.T, fills.offsets)
+    over = 0
+    for one, two in np.argwhere(np.triu(np.ones((6, 6)), 1)):
         behind, before = (one, two) if power[one] > power[two] else (two, one)
-        middles = np.array([c.mean(axis=0) for c, item in zip(corners, fills.item, strict=True) if item == before])
-        top = np.full(len(middles), -1)
-        for number, corner in enumerate(corners):
-            if fills.item[number] in (behind, before):
-                top[covers(corner, middles)] = number
-        assert (fills.item[top] == before).all(), "no part of the ball behind lies on the one before it"
+        back, front = (np.flatnonzero(fills.item == k) for k in (behind, before))
+        meet = shapely.area(shapely.intersection(shapes[back][:, None], shapes[front])) > 1e-9
+        over += meet.any()
+        assert (back[:, None] < front)[meet].all(), "what lies behind is painted before"
+    assert over >= 4
 
 
 if __name__ == "__main__":
