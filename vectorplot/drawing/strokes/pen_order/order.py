@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.pen_order.tour import greedy_tour
-from vectorplot.drawing.strokes.pen_order.tour_ends import Places
+from vectorplot.drawing.strokes.pen_order.tour_ends import Places, curves_through
 from vectorplot.drawing.strokes.pen_order.tour_moves import shortened
 from vectorplot.drawing.strokes.stroke_paths import chosen, directed
 from vectorplot.geometry import ragged
@@ -64,12 +64,13 @@ def pen_ordered(paths: Paths, layer: Ints | None = None) -> Paths:
     start = _canonical_starts(paths, spots)
     rank, ends = _canonical_ends(paths, spots, start, layer[:many])
     layer = np.repeat(layer[rank], 2)
-    tour = greedy_tour(ends, layer)
+    curves = curves_through(ends, layer)
+    tour = greedy_tour(ends, layer, curves)
     bounds = np.append(np.flatnonzero(np.diff(layer[tour], prepend=layer[0] - 1)), many)
     if np.any(paths.closed[:many]):
         entry, start = _entered(paths, spots, start, rank, ends, tour, bounds)
-        ends = entry
-    tour = shortened(ends, tour, layer)
+        ends, curves = entry, curves_through(entry, layer)
+    tour = shortened(ends, tour, layer, curves)
     if np.any(paths.closed[:many]):
         ends, start = _entered(paths, spots, start, rank, ends, tour, bounds)
     tour = _from_the_corner(ends, tour, bounds)
@@ -154,7 +155,14 @@ def _canonical_ends(paths: Paths, spots: Places, start: Ints, layer: Ints) -> tu
     many = len(layer)
     first, last = _given_ends(paths, spots, start)
     a, b = np.minimum(first, last)[:many], np.maximum(first, last)[:many]
-    rank: Ints = np.lexsort((b.imag, b.real, a.imag, a.real, layer))
+    rank = np.argsort(a.real, kind="stable")
+    rank = rank[np.argsort(layer[rank], kind="stable")] if np.ptp(layer) else rank
+    # Few are equal so far, and only these are looked at again.
+    same = (np.diff(a.real[rank]) == 0.0) & (np.diff(layer[rank]) == 0)
+    tied = np.flatnonzero(np.append(same, False) | np.append(False, same))
+    if len(tied):
+        run, of = np.cumsum(~same[tied[1:] - 1]), rank[tied]
+        rank[tied] = of[np.lexsort((b[of].imag, b[of].real, a[of].imag, np.append(0, run)))]
     return rank, np.stack((a[rank], b[rank]), axis=1).ravel()
 
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Ints
-from vectorplot.drawing.strokes.pen_order.tour_ends import Places, extent, mutual_nearest, neighbours
+from vectorplot.drawing.strokes.pen_order.tour_ends import Places, curves_through, extent, mutual_nearest, nearer_than
 from vectorplot.geometry import ragged
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
@@ -91,7 +91,8 @@ def _link_odd(link: Ints, part: Ints, spread: Places, layer: Ints) -> None:
         pair = by_part[left[part[free[by_part]]] == 2]
         other = number.copy()
         _join(other, pair[::2], pair[1::2])
-        mate, apart = mutual_nearest(spread[free], other, layer[free])
+        curves = curves_through(spread[free], layer[free])
+        mate, apart = mutual_nearest(spread[free], other, layer[free], curves)
         one = number[(mate > number) & (other != mate)]
         one = one[np.argsort(apart[one], kind="stable")]
         part = _parts(part[free[one]], part[free[mate[one]]], len(part))[part]
@@ -115,11 +116,10 @@ def _exchanged(link: Ints, odd: Ints, part: Ints, spread: Places, layer: Ints) -
     spots = np.append(spread[odd], complex(np.nan, np.nan))
     of = np.append(part[odd], -1)
     mate = np.append(np.where(link[odd] >= 0, number[link[odd]], -1), -1)
-    near = neighbours(spots[:-1], layer[odd])
-    end, column = np.nonzero(part[odd[near]] == part[odd][:, None])
-    one, other = end, near[end, column]
-    one, other = one[one < other], other[one < other]
-    apart = np.abs(spots[one] - spots[other])
+    curves, anywhere, itself = curves_through(spots[:-1], layer[odd]), np.full(len(odd), np.inf), np.arange(len(odd))
+    one, other, apart = nearer_than(anywhere, spots[:-1], itself, layer[odd], curves)
+    some = np.flatnonzero((of[one] == of[other]) & (one < other))
+    one, other, apart = one[some], other[some], apart[some]
     for _ in range(_EXCHANGES):
         jump = np.fmax(np.abs(spots - spots[mate]), 0.0)
         between = np.fmax(np.abs(spots[mate[one]] - spots[mate[other]]), 0.0)

@@ -14,28 +14,29 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.strokes.pen_order.touching import trails
-from vectorplot.drawing.strokes.pen_order.tour_ends import Places, extent, mutual_nearest
+from vectorplot.drawing.strokes.pen_order.tour_ends import Curves, Places, extent, mutual_nearest, thinned
 from vectorplot.tolerances.of_extent import DRAWN_TOGETHER_OF_EXTENT, SPREAD_OF_EXTENT
 
 
-def greedy_tour(ends: Places, layer: Ints) -> Ints:
+def greedy_tour(ends: Places, layer: Ints, curves: Curves) -> Ints:
     """A tour through all strokes of each layer (n,), of the ends, ascending, one after the other: at each position the
-    end that the pen enters by."""
+    end that the pen enters by. curves: through the ends."""
     spots = _spread(ends)
     link = trails(ends, spots, layer)
     layers = 1 + int(np.count_nonzero(np.diff(layer)))
     far = _terminals(link, np.arange(len(ends)) ^ 1)
     free = np.flatnonzero(link < 0)
+    curves = thinned(curves, link < 0)
     while len(free) > 2 * layers:
         place = np.empty(len(ends), dtype=np.intp)
         place[free] = np.arange(len(free))
         other = place[far[free]]
-        mate, apart = mutual_nearest(spots[free], other, layer[free])
+        mate, apart = mutual_nearest(spots[free], other, layer[free], curves)
         mate = _without_cycles(mate, other, apart)
         joined = mate >= 0
         link[free[joined]] = free[mate[joined]]
         far[free] = free[_terminals(mate, other)]
-        free = free[~joined]
+        free, curves = free[~joined], thinned(curves, ~joined)
     return _walked(link, free[np.flatnonzero(np.diff(layer[free], prepend=-1))], layer)
 
 

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.chunks import mapped, slices
 
 Places = NDArray[np.complex128]
+Curves = tuple[Ints, ...]
+"""Orders of the same ends, (n,) each."""
 
 # Up to this many ends, every pair is looked at.
 ALL_PAIRS = 128
 # Neighbours on each side along a space-filling curve among which the nearest end is sought.
-REACH = 5
+REACH = 4
+# So many bits has a code of Morton's curve.
+_CODE_BITS = 60
+# So many ends are looked at at once.
+_ENDS_AT_ONCE = 1 << 12
 
 
 def extent(spots: Places) -> float:
@@ -22,13 +27,16 @@ def extent(spots: Places) -> float:
     return float(max(np.ptp(spots.real), np.ptp(spots.imag)))
 
 
-def mutual_nearest(spots: Places, other: Ints, layer: Ints) -> tuple[Ints, Floats]:
+def mutual_nearest(spots: Places, other: Ints, layer: Ints, curves: Curves) -> tuple[Ints, Floats]:
     """For every end the end that it is joined to, or -1, as each must be the other's nearest; how far that is.
 
-    other: the end of the same fragment, which does not count, nor do those of other layers (n,).
+    other: the end of the same fragment, which does not count, nor do those of other layers (n,); curves: through these
+    ends.
     """
-    nearest = _nearest_of_all if len(spots) <= ALL_PAIRS else _nearest_along_curves
-    near, apart = nearest(spots, other, layer)
+    if len(spots) <= ALL_PAIRS:
+        near, apart = _nearest_of_all(spots, other, layer)
+    else:
+        near, apart = _nearest_along_curves(spots, other, layer, curves)
     return np.where((near[near] == np.arange(len(near))) & (apart < np.inf), near, -1), apart
 
 
@@ -40,30 +48,55 @@ def _nearest_of_all(spots: Places, other: Ints, layer: Ints) -> tuple[Ints, Floa
     return near, apart[number, near]
 
 
-def _nearest_along_curves(spots: Places, other: Ints, layer: Ints) -> tuple[Ints, Floats]:
+def _nearest_along_curves(spots: Places, other: Ints, layer: Ints, curves: Curves) -> tuple[Ints, Floats]:
     near = np.zeros(len(spots), dtype=np.intp)
     apart = np.full(len(spots), np.inf)
-    for curve in curves_through(spots, layer):
-        along, opposite, own = spots[curve], other[curve], layer[curve]
-        best, best_apart = near[curve], apart[curve]
+    several = layer[0] != layer[-1]
+    for curve in curves:
+        along, opposite = spots.take(curve), other.take(curve)
+        best, best_apart = near.take(curve), apart.take(curve)
         for lag in range(1, REACH + 1):
             length = np.abs(along[lag:] - along[:-lag])
-            np.copyto(length, np.inf, where=(opposite[lag:] == curve[:-lag]) | (own[lag:] != own[:-lag]))
+            length[opposite[lag:] == curve[:-lag]] = np.inf
+            if several:
+                own = layer.take(curve)
+                length[own[lag:] != own[:-lag]] = np.inf
             for here, there in ((slice(lag, None), slice(None, -lag)), (slice(None, -lag), slice(lag, None))):
-                nearer = length < best_apart[here]
-                np.copyto(best[here], curve[there], where=nearer)
-                np.copyto(best_apart[here], length, where=nearer)
+                nearer = np.flatnonzero(length < best_apart[here])
+                best[here][nearer] = curve[there][nearer]
+                best_apart[here][nearer] = length[nearer]
         near[curve], apart[curve] = best, best_apart
     return near, apart
 
 
-def curves_through(spots: Places, layer: Ints) -> tuple[Ints, ...]:
-    """Orders of the places, layer after layer, along Morton's curve, which keeps near places together whatever their
-    density; and along the same curve shifted by a third, since every curve separates some neighbours (Chan)."""
+def curves_through(spots: Places, layer: Ints) -> Curves:
+    """Orders of the places, layer (n,) ascending after layer, along Morton's curve, which keeps near places together
+    whatever their density; and along the same curve shifted by a third and by two, since every curve separates some
+    neighbours (Chan)."""
     low = complex(spots.real.min(), spots.imag.min())
     unit = (spots - low) / (extent(spots) or 1.0)
-    curves = (np.argsort(_morton(unit + shift), kind="stable") for shift in (0.0, (1 + 1j) / 3))
-    return tuple(curve[np.argsort(layer[curve], kind="stable")] for curve in curves)
+    number = np.arange(len(spots), dtype=np.uint64)
+    rank = np.zeros(len(spots), dtype=np.uint64)
+    np.cumsum(layer[1:] != layer[:-1], out=rank[1:])
+    # Layer, code and number in one integer: what is sorted is the key alone. The code loses bits below a cell in which
+    # no pen could tell places apart.
+    of_number, of_layer = len(spots).bit_length(), int(rank[-1]).bit_length()
+    coarser = np.uint64(max(of_number + of_layer - (64 - _CODE_BITS), 0))
+    rank <<= np.uint64(64 - of_layer) if of_layer else np.uint64(0)
+    mask = np.uint64((1 << of_number) - 1)
+
+    def curve(shift: complex) -> Ints:
+        key = rank | _morton(unit + shift) >> coarser << np.uint64(of_number) | number
+        key.sort()
+        return (key & mask).astype(np.intp)
+
+    return curve(0.0), curve((1 + 1j) / 3), curve((2 + 2j) / 3)
+
+
+def thinned(curves: Curves, kept: Bools) -> Curves:
+    """Curves through the ends that are kept (n,), in their new numbers."""
+    number = np.cumsum(kept) - 1
+    return tuple(number.take(curve[kept.take(curve)]) for curve in curves)
 
 
 def _morton(unit: Places) -> NDArray[np.uint64]:
@@ -72,7 +105,7 @@ def _morton(unit: Places) -> NDArray[np.uint64]:
 
 
 def _every_other_bit(x: Floats) -> NDArray[np.uint64]:
-    bits = (x * 2.0**29).astype(np.uint64)
+    bits = (x * 2.0 ** (_CODE_BITS // 2 - 1)).astype(np.uint64)
     for shift, mask in (
         (16, 0x0000FFFF0000FFFF),
         (8, 0x00FF00FF00FF00FF),
@@ -84,36 +117,43 @@ def _every_other_bit(x: Floats) -> NDArray[np.uint64]:
     return bits
 
 
-def neighbours(spots: Places, layer: Ints) -> Ints:
-    """(n,k) for every end some ends near it, most of them of its layer, perhaps itself, perhaps one twice."""
-    return neighbourhood(spots, layer).of(slice(0, len(spots)))
+def nearer_than(reach: Floats, spots: Places, opposite: Ints, layer: Ints, curves: Curves) -> tuple[Ints, Ints, Floats]:
+    """Ends (p,), ends of the same layer (n,) less than reach (n,) from them, and how far. Not all that are so near, if
+    many others are nearer; some twice.
 
-
-@dataclass(frozen=True, eq=False)
-class Neighbourhood:
-    """Ends along curves that keep near places together, to look up what is near some of them.
-
-    around (c,n+2r): the ends along each curve, the last r of them once more before, the first r after them; place (c,n)
-    where along the curve each end is; steps (k,) from there to what counts as near.
+    opposite (n,): the end that does not count for each, besides itself; curves: through these ends.
     """
-
-    around: Ints
-    place: Ints
-    steps: Ints
-
-    def of(self, some: slice) -> Ints:
-        """(m,k) the ends near some of the ends, as neighbours says."""
-        near = [row.take(place[some, None] + self.steps) for row, place in zip(self.around, self.place, strict=True)]
-        return np.concatenate(near, axis=1)
-
-
-def neighbourhood(spots: Places, layer: Ints) -> Neighbourhood:
-    """The ends at these places, those of one layer nearer to each other than to others."""
-    number = np.arange(len(spots))
     if len(spots) <= ALL_PAIRS:
-        return Neighbourhood(number[None], np.zeros((1, len(spots)), dtype=np.intp), number)
-    curves = np.stack(curves_through(spots, layer))
-    place = np.empty_like(curves)
-    np.put_along_axis(place, curves, number[None], axis=1)
-    around = np.concatenate([curves[:, -REACH:], curves, curves[:, :REACH]], axis=1)
-    return Neighbourhood(around, place, np.delete(np.arange(2 * REACH, -1, -1), REACH))
+        apart = np.abs(spots[:, None] - spots)
+        one, other = np.nonzero(apart < reach[:, None])
+        some = np.flatnonzero((one != other) & (opposite[one] != other) & (layer[one] == layer[other]))
+        one, other = one[some], other[some]
+        return one, other, apart[one, other]
+    first_place = np.empty_like(curves[0])
+    first_place[curves[0]] = np.arange(len(spots))
+    several = layer[0] != layer[-1]
+
+    steps = np.delete(np.arange(-REACH, REACH + 1), REACH)
+
+    def of_part(curve: Ints, along: Places, far: Floats, some: Ints) -> tuple[Ints, Ints, Floats]:
+        at = some[:, None] + steps
+        apart = np.abs(along.take(at, mode="wrap") - along.take(some)[:, None])
+        near = np.flatnonzero(apart < far.take(some)[:, None])
+        one, other = curve.take(some[near // len(steps)]), curve.take(at.take(near), mode="wrap")
+        good = opposite.take(one) != other
+        if curve is not curves[0]:
+            # Those that are so near along the first curve are known.
+            good &= np.abs(first_place.take(one) - first_place.take(other)) > REACH
+        if several:
+            good &= layer.take(one) == layer.take(other)
+        return one[good], other[good], apart.take(near[good])
+
+    parts = []
+    for curve in curves:
+        along, far = spots.take(curve), reach.take(curve)
+        awake = np.flatnonzero(far > 0.0)
+        parts += [(curve, along, far, awake[part]) for part in slices(len(awake), _ENDS_AT_ONCE)]
+    none = np.zeros(0, dtype=np.intp)
+    pairs = [(none, none, np.zeros(0)), *mapped(lambda part: of_part(*part), parts)]
+    one, other, apart = (np.concatenate(column) for column in zip(*pairs, strict=True))
+    return one, other, apart

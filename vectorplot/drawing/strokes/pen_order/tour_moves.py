@@ -15,23 +15,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.drawing.strokes.pen_order.tour_ends import Places, extent, neighbourhood
+from vectorplot.drawing.strokes.pen_order.tour_ends import Curves, Places, extent, nearer_than
 from vectorplot.geometry import ragged
-from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
-# So many ends are looked at at once.
-_ENDS_AT_ONCE = 1 << 13
-# So many of the ends near an end are tried as its neighbours.
-_NEAREST = 10
 # A run of strokes that moves as one has at most this many.
 _LONGEST_RUN = 3
 # Stretches longer than this turn round only where no shorter one does.
 _LONGEST_STRETCH = 1000
 # Turning costs no more than so many passes over the tour in a round.
-_PASSES = 20
+_PASSES = 8
 # Rounds; shorter tours get more.
-_ROUNDS = 6
+_ROUNDS = 4
 _MORE_ROUNDS = 40000
 
 
@@ -57,29 +52,37 @@ class _Row:
         return apart
 
 
-def shortened(ends: Places, tour: Ints, layer: Ints) -> Ints:
-    """The tour, one after the other those of the layers (n,) of the ends, after rounds of moves that shorten each."""
+def shortened(ends: Places, tour: Ints, layer: Ints, curves: Curves) -> Ints:
+    """The tour, one after the other those of the layers (n,) of the ends, after rounds of moves that shorten each.
+
+    curves: through the ends.
+    """
     if len(tour) < 3:
         return tour
     zero = ZERO_OF_EXTENT * extent(ends)
-    near, apart = _neighbours(ends, layer)
     count, mean = len(ends), len(tour)
     # Between two layers stands a stroke that is nowhere: what ends there costs nothing, and nothing is near it.
     borders = np.flatnonzero(np.diff(layer[tour])) + 1
     tour = np.insert(tour, borders, count + 2 * np.arange(len(borders)))
-    ends = np.append(ends, np.full(2 * len(borders), complex(np.nan, np.nan)))
-    layer = np.append(layer, np.full(2 * len(borders), -1))
+    spots = np.append(ends, np.full(2 * len(borders), complex(np.nan, np.nan)))
+    layers = np.append(layer, np.full(2 * len(borders), -1))
     mean //= len(borders) + 1
-    everything = awake = np.arange(len(ends))
+    opposite = np.arange(count) ^ 1
+    everything = awake = np.ones(len(spots), dtype=np.bool_)
     for _ in range(_ROUNDS + _MORE_ROUNDS // mean):
-        moved, tried = _runs_moved(_row(ends, tour, layer, near, apart, awake), zero)
-        turned, tried_too = _stretches_turned(_row(ends, moved, layer, near, apart, awake), zero)
+        partner = _partners(tour)
+        # A gap of no length has nothing to gain, and only one as long as the way to a neighbour has.
+        own = np.fmax(np.abs(spots - spots.take(partner, mode="clip")), 0.0)
+        reach = np.where(awake & (partner >= 0), own, 0.0)[:count]
+        pairs = nearer_than(reach, ends, opposite, layer, curves)
+        moved, tried = _runs_moved(_row(spots, tour, layers, pairs), zero)
+        turned, tried_too = _stretches_turned(_row(spots, moved, layers, pairs), zero)
         # Only where something changed, or a move was put off, is there something to gain in the next round.
-        changed = _partners(turned) != _partners(tour)
+        changed = _partners(turned) != partner
         changed[tried] = changed[tried_too] = True
-        looked_at, awake, tour = awake, np.flatnonzero(changed), turned
-        if not len(awake):
-            if len(looked_at) == len(everything):
+        looked_at, awake, tour = awake, changed, turned
+        if not awake.any():
+            if looked_at is everything:
                 break
             awake = everything
     return tour[tour < count]
@@ -92,49 +95,18 @@ def _partners(tour: Ints) -> Ints:
     return partner
 
 
-def _row(ends: Places, tour: Ints, layer: Ints, near: Ints, apart: Floats, awake: Ints) -> _Row:
+def _row(ends: Places, tour: Ints, layer: Ints, pairs: tuple[Ints, Ints, Floats]) -> _Row:
     nowhere = len(ends)
     row = np.full(nowhere + 2, nowhere, dtype=np.intp)
     row[1:-1:2], row[2:-1:2] = tour, tour ^ 1
     place = np.empty(nowhere, dtype=np.intp)
     place[row[1:-1]] = np.arange(1, nowhere + 1)
-    spots = np.append(ends, complex(np.nan, np.nan))[row]
+    spots = np.append(ends, complex(np.nan, np.nan)).take(row)
     gap = np.fmax(np.abs(spots[0::2] - spots[1::2]), 0.0)
-    # A gap of no length has nothing to gain.
-    own = gap[place[awake] >> 1]
-    some = np.flatnonzero(own > 0.0)
-    awake, own = awake[some], own[some]
-    count, apart = apart.shape[1], apart.take(awake, axis=0)
-    which = np.flatnonzero(apart < own[:, None])
-    of, column = np.divmod(which, count)
-    end = awake[of]
-    return _Row(
-        spots, tour, row, layer[tour], gap, place[end], place[near.take(end * count + column)], apart.take(which)
-    )
-
-
-def _neighbours(ends: Places, layer: Ints) -> tuple[Ints, Floats]:
-    """For every end the nearest ends of other strokes, among some near it, and how far they are."""
-    around = neighbourhood(ends, layer)
-    several = int(np.ptp(layer)) > 0
-
-    def nearest(block: slice) -> tuple[Ints, Floats]:
-        number = np.arange(block.start, block.stop)[:, None]
-        near = np.sort(around.of(block), axis=1)
-        apart = np.abs(ends.take(near) - ends[block, None])
-        without = near >> 1 == number >> 1
-        without[:, 1:] |= near[:, 1:] == near[:, :-1]
-        if several:
-            without |= layer[near] != layer[block, None]
-        apart[without] = np.inf
-        if near.shape[1] <= _NEAREST:
-            return near, apart
-        chosen = np.argpartition(apart, _NEAREST - 1, axis=1)[:, :_NEAREST]
-        chosen += np.arange(len(near))[:, None] * near.shape[1]
-        return near.take(chosen), apart.take(chosen)
-
-    near, apart = zip(*mapped(nearest, slices(len(ends), _ENDS_AT_ONCE)), strict=True)
-    return np.concatenate(near), np.concatenate(apart)
+    end, other, apart = pairs
+    near = place.take(end)
+    some = np.flatnonzero(apart < gap.take(near >> 1))
+    return _Row(spots, tour, row, layer[tour], gap, near.take(some), place.take(other.take(some)), apart.take(some))
 
 
 def _stretches_turned(at: _Row, zero: float) -> tuple[Ints, Ints]:
@@ -165,11 +137,20 @@ def _undisputed(low: Ints, high: Ints, gain: Floats, size: int) -> Ints:
     by_gain, counts = by_gain[affordable], counts[affordable]
     if not len(by_gain):
         return best
+    kept = [np.zeros(0, dtype=np.intp)]
+    taken = np.zeros(size, dtype=np.bool_)
     owner = np.zeros(size, dtype=np.intp)
-    claimed = ragged.ranges(low[by_gain], counts)
-    move = ragged.owner(counts)
-    owner[claimed] = move  # the last one stays
-    return by_gain[np.minimum.reduceat(owner[claimed] == move, ragged.starts(counts))]
+    while len(by_gain):
+        claimed = ragged.ranges(low[by_gain], counts)
+        begin = ragged.starts(counts)
+        move = ragged.owner(counts)
+        owner[claimed] = move  # the last one stays
+        won = np.minimum.reduceat(owner[claimed] == move, begin)
+        kept.append(by_gain[won])
+        taken[claimed[won[move]]] = True
+        left = ~np.maximum.reduceat(taken[claimed], begin)
+        by_gain, counts = by_gain[left], counts[left]
+    return np.concatenate(kept)
 
 
 def _runs_moved(at: _Row, zero: float) -> tuple[Ints, Ints]:
@@ -182,12 +163,24 @@ def _runs_moved(at: _Row, zero: float) -> tuple[Ints, Ints]:
     # A move claims the gaps around and in its run, and the one that it goes to, which comes last in its row.
     claims = np.minimum(first[:, None] + np.arange(_LONGEST_RUN + 2), (first + length)[:, None])
     claims[:, -1] = into
-    owner = np.zeros(len(at.gap), dtype=np.intp)
-    number = np.repeat(np.arange(len(first)), claims.shape[1])
-    owner[claims.ravel()] = number  # the last one stays
-    won = np.all(owner[claims] == np.arange(len(first))[:, None], axis=1)
+    won = _unrivalled(claims, len(at.gap))
     first, length, into, backwards = (column[won] for column in (first, length, into, backwards))
     return _with_runs_moved(at.tour, first, length, into, backwards), tried
+
+
+def _unrivalled(claims: Ints, size: int) -> Ints:
+    """Moves that share none of the gaps that they claim (m,k), of so many: the last ones among those that do."""
+    taken = np.zeros(size, dtype=np.bool_)
+    owner = np.zeros(size, dtype=np.intp)
+    left, won = np.arange(len(claims)), [np.zeros(0, dtype=np.intp)]
+    while len(left):
+        wanted = claims[left]
+        owner[wanted.ravel()] = np.repeat(left, claims.shape[1])  # the last one stays
+        here = np.all(owner[wanted] == left[:, None], axis=1)
+        won.append(left[here])
+        taken[wanted[here]] = True
+        left = left[~np.any(taken[wanted], axis=1)]
+    return np.concatenate(won)
 
 
 def _with_runs_moved(tour: Ints, first: Ints, length: Ints, into: Ints, backwards: Bools) -> Ints:
@@ -207,27 +200,30 @@ def _run_moves(at: _Row, length: int, zero: float) -> tuple[Ints, Ints, Ints, Bo
 
     One end of the run, its head, comes next to an end that is near to it.
     """
-    from_front = at.near & 1 == 1
-    first = np.where(from_front, (at.near - 1) >> 1, (at.near >> 1) - length)
-    into = at.to >> 1
-    fits = (first >= 0) & (first + length < len(at.gap)) & ((into < first) | (into > first + length))
-    some = np.flatnonzero(fits)
-    # A run is of one layer.
-    some = some[at.layer[first[some]] == at.layer[first[some] + length - 1]]
-    from_front, first, into = from_front[some], first[some], into[some]
-    head, to, apart = at.near[some], at.to[some], at.apart[some]
-    front, rear = 2 * first + 1, 2 * (first + length)
-    freed = at.gap[first] + at.gap[first + length] - at.between(front - 1, rear + 1)
-    gain = freed - apart - at.between(np.where(from_front, rear, front), to ^ 1) + at.gap[into]
+    # Few moves are left where the way back to the head's new neighbour counts as nothing.
+    most = _freed(at, length).take(at.near) + at.gap.take(at.to >> 1) - at.apart
+    some = np.flatnonzero(most > zero)
+    head, to = at.near[some], at.to[some]
+    from_front = head & 1 == 1
+    first = np.where(from_front, head >> 1, (head >> 1) - length)
+    gain = most[some] - at.between(np.where(from_front, head + 2 * length - 1, head - 2 * length + 1), to ^ 1)
+    into = to >> 1
+    good = np.flatnonzero((gain > zero) & ((into < first) | (into > first + length)))
+    head, to, first, into = head[good], to[good], first[good], into[good]
     # After an end on the left of its gap the run begins with its head; before one on the right it ends with it.
-    backwards = (to & 1 == 0) != from_front
-    good = gain > zero
-    first = first[good]
-    return (
-        first,
-        np.full(len(first), length, dtype=np.intp),
-        into[good],
-        backwards[good],
-        gain[good],
-        at.row[head[good]],
+    backwards = (to & 1 == 0) != from_front[good]
+    return first, np.full(len(first), length, dtype=np.intp), into, backwards, gain[good], at.row[head]
+
+
+def _freed(at: _Row, length: int) -> Floats:
+    """For each end of the row how much shorter the tour is without the run of this length that it is the head of; minus
+    infinity where none is, or none of one layer."""
+    gone = (
+        at.gap[:-length]
+        + at.gap[length:]
+        - np.fmax(np.abs(at.spots[: -2 * length : 2] - at.spots[2 * length + 1 :: 2]), 0.0)
     )
+    gone[at.layer[: len(gone)] != at.layer[length - 1 :]] = -np.inf
+    freed = np.full(len(at.row), -np.inf)
+    freed[1 : -2 * length : 2] = freed[2 * length :: 2] = gone
+    return freed
