@@ -1,8 +1,8 @@
 """Depth cueing: what is near the eye is brighter.
 
-First the edges of a wire model, each in the mean of the shades of its ends. Then a row of equal boxes: the light
-alone would give them equal colours, and ambient light, a fifth of the palette, goes to the nearer ones. Source:
-Glaeser, sections 4.4 and 4.5, figures 2 and 6.
+First the edges of a wire model, all in one shade and then each in the mean of the shades of its ends. Then a row of
+equal boxes: the light alone would give them equal colours, and ambient light, a fifth of the palette, goes to the
+nearer ones. Source: Glaeser, sections 4.4 and 4.5, figures 2 and 6.
 """
 
 import sys
@@ -18,11 +18,14 @@ GLASS = revolution([(1.3, 0, 0), (0.2, 0, 0.3), (0.2, 0, 2), (1, 0, 2.6), (1.3, 
 ROW = 7
 
 
-def wires() -> vp.Drawing:
-    """The edges of a wine glass on black paper, those far away darker."""
+def wires(style: str) -> vp.Drawing:
+    """The edges of a wine glass on black paper, all alike or those far away darker."""
     scene = vp.Scene((vp.Item("GLASS", GLASS, "yellow"),), title="Wire model")
     camera = vp.Camera(eye=(3, -9, 7), target=(0, 0, 2.2), fov_deg=30)
-    drawing = vp.draw(scene, camera, page=vp.Page(70, 90, 5), style="depth-cue")
+    drawing = vp.draw(scene, camera, page=vp.Page(70, 90, 5), style=style)
+    if style == "wireframe":
+        assert len(drawing.layers) == 2, "a sheet and one shade"
+        return drawing
     shades = [int(layer.name.split()[1]) for layer in drawing.layers[1:]]
     assert shades == sorted(shades) and shades[0] <= 0.3 * PALETTE_SIZE and shades[-1] >= 0.9 * PALETTE_SIZE
     return drawing
@@ -41,7 +44,8 @@ def boxes() -> vp.Drawing:
 
 
 def main(folder: Path) -> None:
-    vp.save(wires(), folder / "depth_cueing_wires.svg")
+    vp.save(wires("wireframe"), folder / "depth_cueing_none.svg")
+    vp.save(wires("depth-cue"), folder / "depth_cueing_wires.svg")
     drawing = boxes()
     vp.save(drawing, folder / "depth_cueing_boxes.svg")
 

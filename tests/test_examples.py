@@ -187,6 +187,9 @@ def test_a_chess_pawn_falls_into_convex_parts_that_fill_it(made):
 
 
 PAINTED = {
+    "1.1 and 1.2": "coordinates",
+    "2.1, 2.4 and 2.5": "viewing_pyramid",
+    "2.9": "nine_regions",
     "4.1": "subpalettes",
     "4.2 and 4.6": "depth_cueing",
     "4.3": "shading_angle",
@@ -197,6 +200,7 @@ PAINTED = {
     "5.2": "hollow_bodies",
     "5.3": "revolution_rings",
     "5.4 to 5.6": "sliced_surface",
+    "5.4 and 5.6": "slices_apart",
     "5.7": "graph_cases",
     "5.8": "bounding_rectangles",
     "5.9": "soap_bubbles",
@@ -216,8 +220,11 @@ PAINTED = {
     "6.11": "parallel_planes",
     "6.12": "swimming_pool",
     "7.1": "erasing",
+    "8.13": "surface_normal",
+    "10.1": "packed_coordinates",
+    "the trapezoid in the lamp's plane": "trapezoid_steps",
 }
-"""The figures of shading, of the painter's order, and of shadows, mirrors, patterns and glass."""
+"""The figures of coordinates, of shading, of the painter's order, of shadows, mirrors, patterns and glass."""
 
 
 @pytest.mark.slow
