@@ -182,7 +182,7 @@ def test_waves_without_an_end_are_painted_in_the_light_of_lamps(lamps: int) -> N
     ],
 )
 def test_surfaces_that_cover_themselves_and_wind_into_points_end(surface: object) -> None:
-    _, _, drawing, _ = drawn(surface, lines=0)
+    _, _, drawing, _ = drawn(surface, lines=0, budget=0.0625)
     # No chord leads across the picture from one round of the surface to another.
     for points in (
         mark.points[a:b] for layer in drawing.layers for mark in layer.strokes for a, b in pairwise(mark.offsets)

@@ -8,6 +8,7 @@ import embreex.rtcore_scene
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.vectors import cross, dot, norm
 
 CLEARANCE = 1e-7
 """Hits nearer to the start of a ray than this are its own start."""
@@ -44,15 +45,15 @@ def first_hits(origin: Floats, way: Floats, triangles: Floats, faces: Ints) -> t
         return np.full(len(origin), -1), np.full(len(origin), np.inf)
     a = triangles[:, 0]
     u, v = triangles[:, 1] - a, triangles[:, 2] - a
-    normal = np.cross(u, v)
-    uu, uv, vv = (u * u).sum(axis=1), (u * v).sum(axis=1), (v * v).sum(axis=1)
+    normal = cross(u, v)
+    uu, uv, vv = dot(u, u), dot(u, v), dot(v, v)
     area = (uu * vv - uv * uv)[:, None]
     # Products with these are the barycentric coordinates of what is in the plane.
     along_u, along_v = (vv[:, None] * u - uv[:, None] * v) / area, (uu[:, None] * v - uv[:, None] * u) / area
-    slope, start = way @ normal.T, origin @ normal.T - (a * normal).sum(axis=1)
+    slope, start = way @ normal.T, origin @ normal.T - dot(a, normal)
     with np.errstate(divide="ignore", invalid="ignore"):
         t = -start / slope
-        s, r = (origin @ axis.T - (a * axis).sum(axis=1) + t * (way @ axis.T) for axis in (along_u, along_v))
+        s, r = (origin @ axis.T - dot(a, axis) + t * (way @ axis.T) for axis in (along_u, along_v))
     t = np.where((s >= 0) & (r >= 0) & (s + r <= 1) & (t > CLEARANCE), t, np.inf)
     which, here = t.argmin(axis=1), np.arange(len(origin))
     nearest = t[here, which]
@@ -65,27 +66,20 @@ def blocked(points: Floats, rays: Floats, triangles: Floats) -> tuple[Bools, Flo
     A triangle that touches a point is not across its ray.
     """
     a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
-    normal = np.cross(b - a, c - a)
-    normal /= np.maximum(np.sqrt((normal * normal).sum(axis=1)), 1e-300)[:, None]
-    length = np.sqrt((rays * rays).sum(axis=1))[:, None]
-    height = (normal * a).sum(axis=1) - points @ normal.T
+    normal = cross(b - a, c - a)
+    normal /= np.maximum(norm(normal), 1e-300)[:, None]
+    length = norm(rays)[:, None]
+    height = dot(normal, a) - points @ normal.T
     slope = rays @ normal.T
     across = (np.abs(slope) > 1e-9 * length) & (np.abs(height) > 1e-9)
     share = np.where(across, height / np.where(across, slope, 1.0), -1.0)
-    ray, triangle = np.nonzero((share * length > -1e-5) & ((share - 1.0) * length < 1e-5) & across)
-    share, reach = share[ray, triangle], length[ray, 0]
-    hit = points[ray] + share[:, None] * rays[ray]
-    inside = np.full(len(ray), np.inf)
+    across &= (share * length > -1e-5) & ((share - 1.0) * length < 1e-5)
+    inside = np.full(share.shape, np.inf)
     for start, end in ((a, b), (b, c), (c, a)):
-        along = (end - start)[triangle]
-        inward = np.cross(normal[triangle], along) / np.sqrt((along * along).sum(axis=1))[:, None]
-        inside = np.minimum(inside, (inward * (hit - start[triangle])).sum(axis=1))
-    before = np.minimum(share, 1.0 - share) * reach
-    met = (inside > 0.0) & (before > 0.0)
+        inward = cross(normal, end - start) / norm(end - start)[:, None]
+        inside = np.minimum(inside, points @ inward.T - dot(inward, start) + share * (rays @ inward.T))
+    before = np.minimum(share, 1.0 - share) * length
+    met = across & (inside > 0.0) & (before > 0.0)
     # A small step of the point turns the answer where a side of the triangle or one of its ends is near the ray.
-    doubtful = np.where(met, np.minimum(inside, before), -np.minimum(inside, before))
-    result = np.zeros(len(points), dtype=np.bool_)
-    result[ray[met]] = True
-    sure = np.full(len(points), np.inf)
-    np.minimum.at(sure, ray, np.abs(doubtful))
-    return result, sure
+    doubtful = np.abs(np.minimum(inside, before))
+    return met.any(axis=1), np.where(across, doubtful, np.inf).min(axis=1, initial=np.inf)

@@ -75,6 +75,14 @@ def test_a_body_is_watertight_and_its_triangles_turn_outwards(name):
         assert volume == pytest.approx(VOLUMES[name], rel=1e-2)
 
 
+def test_caps_are_flat_up_to_rims_at_which_normals_turn_by_little():
+    mesh = facets(BODIES["zone"], Within(lambda points: np.full(points.shape[:-1], 1e-2))).mesh
+    corners = mesh.vertices[mesh.corners.reshape(-1, 3)]
+    on_top = (corners[..., 2] > mesh.vertices[:, 2].max() - 1e-9).all(axis=1)
+    sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+    assert on_top.sum() < 0.3 * len(corners) and sides.min() > 0.02
+
+
 @pytest.mark.parametrize("name", BODIES)
 def test_parts_are_those_of_the_body_and_smooth_up_to_its_rims(name):
     body = BODIES[name]

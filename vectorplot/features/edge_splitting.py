@@ -7,7 +7,6 @@ lie along outlines; otherwise in the middle.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -74,8 +73,16 @@ class Vertices:
         return np.asarray(np.isfinite(self.points).all(axis=-1), dtype=np.bool_)
 
 
-Between = Callable[[Vertices, Vertices, Floats], Vertices]
-"""The vertices (n,) of the surface at parts t (n,) of the way from some vertices (n,) to others."""
+class Between(Protocol):
+    """A surface between vertices of its triangles."""
+
+    def __call__(self, start: Vertices, end: Vertices, t: Floats) -> Vertices:
+        """The vertices (n,) of the surface at parts t (n,) of the way from some vertices (n,) to others."""
+        ...
+
+    def ends(self, start: Vertices, end: Vertices) -> tuple[Vertices, Vertices]:
+        """The ends (n,) of sides; where they are on sharp edges, with the normals that they have on the way."""
+        ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,6 +215,7 @@ def _apart(vertices: Vertices, edges: Ints) -> Bools:
 
 def _in_sight(start: Vertices, end: Vertices, between: Between, demand: Demand) -> Floats:
     """As _splits, for sides both ends of which are known."""
+    start, end = between.ends(start, end)
     count = len(start.points)
     looks = [between(start, end, np.full(count, t)) for t in LOOKS]
     values = np.stack([demand.folds(some.points, some.normals) for some in (start, *looks, end)], axis=1)

@@ -23,7 +23,7 @@ from vectorplot.surfaces.jumps import jumps
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.parts import creases
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, is_implicit, is_parametrised
-from vectorplot.tolerances.of_parameters import ON_BORDER_OF_DOMAIN
+from vectorplot.tolerances.of_parameters import ASIDE_OF_CREASE, ON_BORDER_OF_DOMAIN
 from vectorplot.tolerances.of_values import VANISHED_GRADIENT
 
 FEWEST, USUAL, FINEST = (2, 4), 16, 1024
@@ -170,6 +170,11 @@ class _Patch:
     surface: Surface
     poles: tuple[Pole, ...]
 
+    @cached_property
+    def creases(self) -> Floats:
+        """The v of sharp edges."""
+        return creases(self.surface)
+
     def __call__(self, start: Vertices, end: Vertices, t: Floats) -> Vertices:
         domain = self.surface.domain
         first, last = self._without_poles(start.places, end.places)
@@ -178,6 +183,21 @@ class _Patch:
             if closed:
                 way[:, axis] -= size * np.round(way[:, axis] / size)
         return self.at(_wrapped(domain, first + t[:, None] * way))
+
+    def ends(self, start: Vertices, end: Vertices) -> tuple[Vertices, Vertices]:
+        """The ends of sides; on the rim of a cap normals are those of the cap for sides that lead into it."""
+        sharp = [np.isin(some.places[:, 1], self.creases) for some in (start, end)]
+        return self._sided(start, end, sharp[0] & ~sharp[1]), self._sided(end, start, sharp[1] & ~sharp[0])
+
+    def _sided(self, own: Vertices, other: Vertices, which: Bools) -> Vertices:
+        """Vertices, some of them with the normals that they have on the way to others."""
+        if not which.any():
+            return own
+        u, v = own.places[which].T
+        normals = own.normals.copy()
+        with np.errstate(all="ignore"):
+            normals[which] = unit_normals(self.surface, u, v + ASIDE_OF_CREASE * (other.places[which, 1] - v))
+        return replace(own, normals=normals)
 
     def at(self, places: Floats) -> Vertices:
         """The vertices at some places (n,2)."""
@@ -295,6 +315,10 @@ class _Level:
         on_line, on = self.lines.onto(between[along], HALF * length[along])
         points[along[on]] = on_line[on]
         return self.at(np.clip(points, low, high))
+
+    def ends(self, start: Vertices, end: Vertices) -> tuple[Vertices, Vertices]:
+        """The ends of sides as they are."""
+        return start, end
 
     def at(self, points: Floats) -> Vertices:
         """The vertices at some points (n,3) of the surface."""

@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.geometry.vectors import norm
+from vectorplot.geometry.vectors import dot, norm
 from vectorplot.testing.curve_points import Curves, points_of, polylines_of
 from vectorplot.tolerances.of_extent import DISTANCE_ACCURACY
 
@@ -162,8 +162,8 @@ def to_segments(points: Floats, ends: Floats) -> Floats:
     """(...,) distances of points (..., d) from segments (..., 2, d)."""
     start, way = ends[..., 0, :], ends[..., 1, :] - ends[..., 0, :]
     arm = points - start
-    square = (way * way).sum(axis=-1)
-    share = np.clip((arm * way).sum(axis=-1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+    square = dot(way, way)
+    share = np.clip(dot(arm, way) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
     return np.asarray(norm(arm - share[..., None] * way))
 
 

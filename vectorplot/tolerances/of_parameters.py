@@ -57,6 +57,10 @@ ASIDE_OF_POLE = 1e-6
 """Part of the domain by which a pole is looked at from inside where the normal's derivatives are asked for: the
 rounding of a cross product as small as that is no larger than what the normal turns on the way."""
 
+ASIDE_OF_CREASE = 1e-6
+"""Part of the side of a triangle by which an end on a sharp edge is looked at from inside: normals turn by no more than
+that on the way, and the parameter is another one unless the side is lost in rounding anyway."""
+
 CUSP_FOUND = 1e-7
 """A cusp has been found when the last step to it is shorter than this part of the domain: curvatures are
 differences."""
