@@ -45,6 +45,7 @@ LOOK_AT = {
     "ruled": "Straight lines turned, screwed and moved: hyperboloid, helicoid and saddle, with all their lines.",
     "shadows": "Where shadows of several lamps lie on one another it is darker: polygons like everything else.",
     "slices": "Surfaces cut by parallel planes; the lines between the slices are hidden where they are behind.",
+    "splines": "Curves and surfaces through points, or drawn by them, and a landscape through heights on a grid.",
     "table": "Things stand on a table: their lower edges lie in its top, and stay visible there.",
     "three_bars": "Each lies above the next: no order of painting is right, geometry has no such trouble.",
     "torus": "Columns and rows of parameter lines; the contour ends in cusps where it turns away behind the surface.",

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
+from vectorplot.curves.breaks import breaks_of
 from vectorplot.curves.curve import Curve
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry import ragged
@@ -14,6 +15,7 @@ from vectorplot.geometry.chord_refinement import Traces, refined, straight_betwe
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_extent import SETTLED_ON_SHEET, ZERO_OF_EXTENT
+from vectorplot.tolerances.of_parameters import JUST_BEFORE
 from vectorplot.visibility.smooth.sheets.family import Along, Chords
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet
@@ -45,10 +47,18 @@ class SpaceCurve:
         at = start + part[:, None] * (end - start)
         t = np.clip(at[:, 2], self.curve.start, self.curve.end)
         here = self.view.points_of(self.curve.points(t)).T
-        slopes = self.curve.tangents(t) @ (self.view.axes / self.view.scale).T
+        slopes = self.curve.tangents(self._inside(chords, part, t)) @ (self.view.axes / self.view.scale).T
         if self.surface is not None:
             at[:, :2] = _onto(self.surface, here, at)[0][:, :2]
         return Along(at, here, slopes * (end - start)[:, 2:])
+
+    def _inside(self, chords: Chords, part: Floats, t: Floats) -> Floats:
+        """(k,) parameters at which derivatives are those of the piece of the curve that the chord belongs to: at breaks
+        they may jump."""
+        if not len(breaks_of(self.curve)):
+            return t
+        start, end = (places[:, 2] for places in chords.places)
+        return np.asarray(start + np.clip(part, JUST_BEFORE, 1.0 - JUST_BEFORE) * (end - start))
 
 
 def space_curve(view: View, curve: Curve, item: int, sheets: tuple[SmoothSheet, ...], tracing: Tracing) -> Curves:
@@ -95,7 +105,8 @@ def _sampled(view: View, curve: Curve, tracing: Tracing) -> Floats:
         points = view.points_of(curve.points(t[:, 0])).T
         return points if tracing.picture is None else tracing.picture(points)
 
-    t = np.linspace(curve.start, curve.end, FIRST_CHORDS + 1)
+    # A chord across a break would cut off a corner.
+    t = np.union1d(np.linspace(curve.start, curve.end, FIRST_CHORDS + 1), breaks_of(curve))
     whole = Traces(t[:, None], np.arange(len(t)) == len(t) - 1)
     finer = refined(whole, straight_between, image, tracing.tolerance or np.inf, MOST_POINTS)
     return with_standstills(finer.lines, lambda t: curve.tangents(t[:, 0])).points[:, 0]
