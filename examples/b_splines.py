@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.curves import BSpline, Curve, nurbs_curve, spline_curve
+from vectorplot.curves import BSpline, Curve, PlacedCurve, nurbs_curve, spline_curve
 
 POINTS = np.array([(0, 0, 0), (1, 0, 4), (4, 0, 5), (5, 1, -2), (8, 1, -2), (10, 0, 4), (11, 0, 0)], dtype=float)
 COLOURS = ("red", "orange", "green", "cyan", "blue")
@@ -24,7 +24,7 @@ def with_polygon(name: str, place: int, curves: list[Curve], closed: bool = Fals
     coloured = zip(COLOURS, curves, strict=False)
     shown = [vp.Item(name, polygon, "lightgray"), *(vp.Item(f"{name} {word}", curve, word) for word, curve in coloured)]
     eye = np.eye(3)
-    return [vp.Item(item.name, vp.curves.PlacedCurve(item.shape, eye, shift), item.colour) for item in shown]
+    return [vp.Item(item.name, PlacedCurve(item.shape, eye, shift), item.colour) for item in shown]
 
 
 def main(folder: Path) -> None:
