@@ -309,6 +309,9 @@ FIGURES = {
     "8.13 and 8.14": "contours",
     "8.15": "isophotes",
     "8.16": "torus_and_hyperboloid",
+    "9.1 and 9.2": "akima_and_cubic",
+    "9.3 and 9.6": "spline_surfaces",
+    "9.4 and 9.5": "b_splines",
     "9.7": "function_graph",
 }
 """The figures of mathematical curves and surfaces, and the scripts that draw them and assert what they show."""
