@@ -20,6 +20,9 @@ MOST_NEIGHBOURS = 64
 """With more boxes than this across that of a polygon, in the mean, they lie over each other in heaps, and stay alone:
 to compare all pairs would take longer than to draw them."""
 
+FEW_CORNERS = 6
+"""Polygons of no more corners are looked at side by side before their common part is made."""
+
 _SHAPES_AT_ONCE = 256
 
 
@@ -53,8 +56,11 @@ def groups_of(microns: Ints, offsets: Ints, run: Ints, part: Ints) -> Ints:
     one, other = _neighbours(shapes, np.where(simple, run[which], -1))
     if not len(one):
         return group
-    common = shapely.intersection(shapes[one], shapes[other])
-    over = shapely.area(common) > SIDE_BY_SIDE_MICRONS * shapely.length(common) / 2.0
+    own = microns[corner], ragged.offsets(sizes)
+    near = np.flatnonzero(~beside_a_side(*own, one, other) & ~beside_a_side(*own, other, one))
+    common = shapely.intersection(shapes[one[near]], shapes[other[near]])
+    over = np.zeros(len(one), dtype=np.bool_)
+    over[near] = shapely.area(common) > SIDE_BY_SIDE_MICRONS * shapely.length(common) / 2.0
     new = np.append(True, (np.diff(which) > 1) | (np.diff(run[which]) != 0))
     new |= ~simple | np.append(False, ~simple[:-1])
     number = _split(new, part[which], one[over], other[over])
@@ -62,6 +68,32 @@ def groups_of(microns: Ints, offsets: Ints, run: Ints, part: Ints) -> Ints:
     member = np.isin(number, touching)
     group[which[member]] = np.searchsorted(touching, number[member])
     return group
+
+
+def beside_a_side(microns: Ints, offsets: Ints, one: Ints, other: Ints) -> Bools:
+    """(k,) whether polygons other (k,), counter-clockwise as all, lie on the outer side of a side of polygons one (k,)
+    that are convex; of those with more than FEW_CORNERS, or of which one is not convex, it is not said."""
+    sizes = np.diff(offsets)
+    few = sizes <= FEW_CORNERS
+    # Corners in tables, the last one repeated: (FEW_CORNERS, m).
+    step = np.minimum(np.arange(FEW_CORNERS)[:, None], sizes - 1)
+    table = microns[np.where(few, offsets[:-1] + step, 0)].astype(np.float64)
+    way = np.roll(table, -1, axis=0) - table
+    back = np.roll(way, 1, axis=0)
+    # A corner repeated has no way: the turn at the last one is that of the polygon.
+    turn = way[..., 0] * back[..., 1] - way[..., 1] * back[..., 0]
+    row = np.arange(len(sizes))
+    last = table[np.clip(sizes - 1, 0, FEW_CORNERS - 1), row]
+    before, after = last - table[np.clip(sizes - 2, 0, FEW_CORNERS - 1), row], table[0] - last
+    sound = few & (turn <= 0.0).all(axis=0) & (after[:, 0] * before[:, 1] - after[:, 1] * before[:, 0] <= 0.0)
+    found = np.zeros(len(one), dtype=np.bool_)
+    asked = np.flatnonzero(sound[one] & few[other])
+    for side in range(FEW_CORNERS):
+        start, along = table[side, one[asked]], way[side, one[asked]]
+        arm = table[:, other[asked]] - start
+        left = along[:, 0] * arm[..., 1] - along[:, 1] * arm[..., 0]
+        found[asked] |= (left.max(axis=0) <= 0.0) & along.any(axis=1)
+    return found
 
 
 def _neighbours(shapes: NDArray[np.object_], run: Ints) -> tuple[Ints, Ints]:

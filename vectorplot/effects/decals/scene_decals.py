@@ -33,7 +33,10 @@ def scene_shadows(
     from vectorplot.effects.shadows.shadow_decals import cast_within
     from vectorplot.effects.shadows.shadow_grades import graded, shadow_decals_of
 
-    cast = cast_within(view, lights, budget.pairs, receivers=receivers, projected=projected)
+    # Light goes through what is transparent: there patterns show shadows, and nothing else.
+    shows = np.array([item.material.opacity >= 1.0 or bool(item.patterns) for item in items], dtype=np.bool_)
+    shown = shows[view.face_item] if receivers is None else receivers & shows[view.face_item]
+    cast = cast_within(view, lights, budget.pairs, receivers=shown, projected=projected)
     tell_missing_shadows(items, lights, cast.left_out)
     single = cast.shadows
     cells = graded(view, single)

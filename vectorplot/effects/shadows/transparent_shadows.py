@@ -47,8 +47,8 @@ def transparent_shadows(
     each with one light, to be drawn after the shadows of what is not transparent.
 
     shadows: those; where they keep a light away nothing dims it, and where they keep others away those lack, too.
-    Things of one colour and opacity dim a light once. receivers, errors and degenerate cases as of cast_shadows;
-    an InputWarning names the items for which the budget did not do.
+    Things of one colour and opacity dim a light once. They fall on opaque items only. receivers, errors and degenerate
+    cases as of cast_shadows; an InputWarning names the items for which the budget did not do.
     Source: Glaeser, section 6.6.
     """
     groups: dict[tuple[str, float], Bools] = {}
@@ -60,9 +60,12 @@ def transparent_shadows(
         return joined_decals()
     projected = project_faces(view) if projected is None else projected
     dark = no_decals() if shadows is None else shadows.of(np.flatnonzero(shadows.kind == FillKind.SHADOW))
+    # Light goes through what is transparent, and leaves no shadow on it.
+    opaque = np.array([item.material.opacity >= 1.0 for item in scene.items], dtype=np.bool_)[view.face_item]
+    shown = opaque if receivers is None else receivers & opaque
     found = []
     for (colour, opacity), items in groups.items():
-        found_here = cast_within(view, lights, budget.pairs, casters=items, receivers=receivers, projected=projected)
+        found_here = cast_within(view, lights, budget.pairs, casters=items, receivers=shown, projected=projected)
         tell_missing_shadows(scene.items, lights, found_here.left_out)
         cast = found_here.shadows
         here = dark.of(np.flatnonzero(np.isin(dark.face, cast.face)))

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -15,10 +17,12 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.placement import box_corners
 from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.twins import fingerprint
 from vectorplot.scene.view import View, view_of
 from vectorplot.shading.light.face_shades import point_shades, view_eye, view_lights
 from vectorplot.shading.light.faceted import without_curved_mirror
 from vectorplot.shading.light.illumination import homogeneous_light, towards
+from vectorplot.shading.light.nearness import Nearby, nearby, triangles_of_item
 from vectorplot.shading.light.refinement import shade_error
 
 DEEP, DEEP_IN_LIGHT = 40.0, 3.0
@@ -30,6 +34,12 @@ DEEPEST_MM, LEAST_DEEP = 1.0, 5.0
 
 TURN = np.radians(40.0)
 """By so much normals may turn along a side at most, however little light there is to show it."""
+
+AROUND = 0.5
+"""No point of a triangle is farther from the middles of its sides than this part of the longest one."""
+
+SHARE = 0.4
+"""Triangles of two items may both be off their surfaces by this part of the distance between these, and are apart."""
 
 SHORTEST = 4.0
 """Sides that are no longer than so many times the tolerance are fine enough."""
@@ -45,8 +55,8 @@ class PictureFineness:
     only: outlines may be off by up to 1.4 tolerances.
 
     view: of the scene, its points being what it reaches; lights: in its coordinates, as of view_lights; casts: whether
-    they throw shadows; deep: by how many times the tolerance triangles may be off elsewhere; others (k,2,3): the boxes
-    of the other items that meet the item's, in the world.
+    they throw shadows; deep: by how many times the tolerance triangles may be off elsewhere; others: what the other
+    items have in the box of the item.
     """
 
     view: View
@@ -54,7 +64,7 @@ class PictureFineness:
     lights: tuple[Light, ...]
     casts: bool
     deep: float
-    others: Floats
+    others: tuple[Nearby, ...]
     allowed: Allowed
     shade_error: float
 
@@ -72,8 +82,9 @@ class PictureFineness:
     def excess(self, edges: Edges) -> Floats:
         """(k,n) as Demand."""
         allowed = self.allowed(edges.at.points)
-        strict = (edges.fold != NONE) & (edges.fold < self.outlines) | self._among_others(edges.at.points)
-        far = off_chords(edges) / (INSIDE * allowed * np.where(strict, 1.0, self.deep))
+        seen = (edges.fold != NONE) & (edges.fold < self.outlines)
+        deep = np.where(seen, allowed, self._apart_from_others(edges, allowed, self.deep * allowed))
+        far = off_chords(edges) / (INSIDE * deep)
         found = np.maximum(np.maximum(far, self._shade_errors(edges) / self.shade_error), turning(edges) / TURN)
         return np.where(self._long(edges, allowed), found, 0.0)
 
@@ -86,12 +97,15 @@ class PictureFineness:
         length = np.linalg.norm(edges.end.points - edges.start.points, axis=-1)
         return np.asarray(length > SHORTEST * allowed, dtype=np.bool_)
 
-    def _among_others(self, points: Floats) -> Bools:
-        """(...,) whether points (..., 3) are in the box of another item."""
-        found = np.zeros(points.shape[:-1], dtype=np.bool_)
-        for low, high in self.others:
-            found |= ((points >= low) & (points <= high)).all(axis=-1)
-        return found
+    def _apart_from_others(self, edges: Edges, least: Floats, most: Floats) -> Floats:
+        """(k,n) how far triangles may be off, least to most, so that they neither meet other items nor change places
+        with them where the surfaces do not."""
+        middle = len(LOOKS) // 2
+        around = AROUND * np.linalg.norm(edges.end.points - edges.start.points, axis=-1)
+        far = most[middle] / SHARE + around
+        for other in self.others:
+            far = other.distances(edges.at.points[middle], far)
+        return np.asarray(np.clip(SHARE * (far - around), least, most))
 
     def _shade_errors(self, edges: Edges) -> Floats:
         """(k,n) how far shades are from those between the shades of the ends of a side."""
@@ -130,26 +144,48 @@ def picture_fineness(
     reached = Mesh(box_corners(scene.bounds), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
     view = view_of(Scene((Item("box", reached),)), projection)
     lights = view_lights(view, scene.lights)
-    deep = min(DEEP_IN_LIGHT if casts else DEEP, max(DEEPEST_MM / tolerance_mm, LEAST_DEEP))
-    if any(item.material.is_mirror or item.material.refraction != 1.0 for item in scene.items):
-        # Mirrors and glass show items from elsewhere.
-        deep = 1.0
+    most = max(DEEPEST_MM / tolerance_mm, LEAST_DEEP)
+    # Mirrors and glass show items from elsewhere.
+    elsewhere = any(item.material.is_mirror or item.material.refraction != 1.0 for item in scene.items)
     boxes = [_box(item) for item in scene.items]
+    first = _first_in_place(scene, boxes)
+
+    @cache
+    def triangles(number: int) -> tuple[Floats, float]:
+        return triangles_of_item(scene.items[number], boxes[number])
 
     def demand(number: int) -> PictureFineness:
-        others = [box for other, box in enumerate(boxes) if other != number and len(box)]
-        near = _meeting(np.array(others).reshape(-1, 2, 3), boxes[number])
+        near = [nearby(*triangles(other), box) for other, box in _meeting(boxes, first, number)]
         item = without_curved_mirror(scene.items[number])
-        return PictureFineness(view, item, lights, casts, deep, near, allowed, shade_error(tolerance_mm))
+        # Light goes through what is transparent: shadows fall on patterns only.
+        dark = casts and (item.material.opacity >= 1.0 or bool(item.patterns))
+        deep = 1.0 if elsewhere else min(DEEP_IN_LIGHT if dark else DEEP, most)
+        return PictureFineness(view, item, lights, casts, deep, tuple(near), allowed, shade_error(tolerance_mm))
 
     return demand
 
 
-def _meeting(boxes: Floats, box: Floats) -> Floats:
-    """(k,2,3) those of some boxes (n,2,3) that meet another one (2,3), each once; one without a point meets none."""
-    if not len(box):
-        return boxes[:0]
-    return np.unique(boxes[((boxes[:, 0] <= box[1]) & (boxes[:, 1] >= box[0])).all(axis=1)], axis=0)
+def _first_in_place(scene: Scene, boxes: list[Floats]) -> list[int]:
+    """For every item the first one of the same shape in the same place, with boxes (2,3) of all."""
+    places = [box.tobytes() for box in boxes]
+    often = Counter(places)
+    first: dict[Hashable, int] = {}
+    pairs = enumerate(zip(places, scene.items, strict=True))
+    keys = ((number, (place, fingerprint(item.shape) if often[place] > 1 else None)) for number, (place, item) in pairs)
+    return [first.setdefault(key, number) for number, key in keys]
+
+
+def _meeting(boxes: list[Floats], first: list[int], number: int) -> list[tuple[int, Floats]]:
+    """The other ones of boxes (2,3) that meet one of them, of several in one place the first, and what both have in
+    common; boxes (0,3) without a point meet none."""
+    if not len(boxes[number]):
+        return []
+    others = {one: k for k, one in enumerate(first) if k != number and len(boxes[k])}
+    which = sorted(others.values())
+    low, high = np.moveaxis(np.array([boxes[k] for k in which]).reshape(-1, 2, 3), 1, 0)
+    low, high = np.maximum(low, boxes[number][0]), np.minimum(high, boxes[number][1])
+    meets = np.flatnonzero((low <= high).all(axis=1))
+    return [(which[k], np.stack((low[k], high[k]))) for k in meets]
 
 
 def _box(item: Item) -> Floats:

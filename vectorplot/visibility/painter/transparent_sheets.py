@@ -21,6 +21,7 @@ from vectorplot.tolerances.of_numbers import NEGLIGIBLE_PART
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.mikado import Links, component_ranks
 from vectorplot.visibility.painter.pairs.box_pairs import box_pairs
+from vectorplot.visibility.painter.pairs.coverage import Covered, coverage
 from vectorplot.visibility.painter.pairs.outlines import Outlines, overlapping
 
 GRID_OF_WIDTH = 1.0 / 128.0
@@ -82,6 +83,7 @@ class _Heap:
     def __init__(self, region: Any, unit: Ints, opacity: Floats, width: float, before: Ints, after: Ints) -> None:
         count = len(unit)
         self.region, self.unit, self.opacity, self.width = region, unit.copy(), opacity, width
+        self._grid = width * GRID_OF_WIDTH
         self.before, self.after = before, after
         # Pairs that are known to overlap by more than strips.
         self.real = np.zeros(len(before), dtype=np.bool_)
@@ -89,7 +91,12 @@ class _Heap:
         self.whole = np.ones(count, dtype=np.bool_)
         # What nothing of its own unit lies behind: of all polygons, or of parts of them.
         self.front, self.free = np.zeros(count, dtype=np.bool_), region.copy()
-        self.stale = np.ones(int(unit.max()) + 1, dtype=np.bool_)
+        self.units = int(unit.max()) + 1
+        # Whose front is not known any more.
+        self.stale = np.ones(count, dtype=np.bool_)
+        # What of a front lies on nothing at all, and whether that is known, and next to nothing.
+        self.bare = region.copy()
+        self.looked, self.buried = np.zeros(count, dtype=np.bool_), np.zeros(count, dtype=np.bool_)
         self.stage = 0
 
     def sheets(self) -> _Parts:
@@ -134,23 +141,15 @@ class _Heap:
         self.before, self.after, self.real = self.before[which], self.after[which], self.real[which]
 
     def _find_fronts(self) -> None:
-        """Find what nothing of its own unit lies behind, of units of which something has changed."""
-        import shapely
-
-        mine = self.left & (self.unit >= 0) & self.stale[self.unit]
+        """Find what nothing of its own unit lies behind, where something has changed."""
+        mine = self.left & (self.unit >= 0) & self.stale
         own = np.flatnonzero(mine[self.after] & (self.unit[self.before] == self.unit[self.after]))
         below, above = self.before[own], self.after[own]
         covered = np.zeros(len(mine), dtype=np.bool_)
         covered[above] = True
         self.front[mine] = ~covered[mine]
         self.free[mine] = self.region[mine]
-        # Two on neither of which anything lies do not overlap: what they cover together is what each does.
-        first = ~covered[below]
-        common = shapely.area(shapely.intersection(self.region[below[first]], self.region[above[first]]))
-        area = np.bincount(above[first], common, minlength=len(mine))
-        some = covered & (area < shapely.area(self.region) * FULL)
-        which = some[above]
-        polygon, free, beneath = self._apart(self.region, above[which], below[which])
+        polygon, free, beneath = self._apart(self.region, above, below)
         # What is covered by next to nothing is not covered.
         bare = polygon[self._thin(beneath)]
         gone = np.zeros(len(mine), dtype=np.bool_)
@@ -161,19 +160,25 @@ class _Heap:
         self.front[polygon[part]] = True
         self.free[polygon[part]] = free[part]
         self.stale[:] = False
+        self.looked[mine] = False
 
     def _apart(self, region: Any, polygon: Ints, below: Ints) -> tuple[Ints, Any, Any]:
         """Of regions of polygons (k,) what lies beside others (k,), and what lies on them: numbers of polygons,
         ascending, and both."""
         import shapely
 
-        number, of = np.unique(polygon, return_inverse=True)
-        if not len(number):
-            return number, region[:0], region[:0]
-        grid = self.width * GRID_OF_WIDTH
-        covers = unions(self.region[below], of, grid)
-        free = shapely.difference(region[number], covers, grid_size=grid)
-        return number, insides_of(free), insides_of(shapely.intersection(region[number], covers, grid_size=grid))
+        number, how = coverage(region, polygon, below, self._grid)
+        empty = np.full(len(number), shapely.Polygon())
+        free = np.where(how == Covered.WHOLLY, empty, region[number])
+        on = np.where(how == Covered.WHOLLY, region[number], empty)
+        partly = np.flatnonzero(how == Covered.PARTLY)
+        if len(partly):
+            some = np.isin(polygon, number[partly])
+            cut = region[number[partly]]
+            covers = unions(self.region[below[some]], np.searchsorted(number[partly], polygon[some]), self._grid)
+            free[partly] = insides_of(shapely.difference(cut, covers, grid_size=self._grid))
+            on[partly] = insides_of(shapely.intersection(cut, covers, grid_size=self._grid))
+        return number, free, on
 
     def _thin(self, region: Any) -> Bools:
         """(k,) which regions are so narrow that they are not seen."""
@@ -185,7 +190,7 @@ class _Heap:
         """(u,) the units whose fronts lie on nothing else that is left."""
         import shapely
 
-        found = np.zeros(len(self.stale), dtype=np.bool_)
+        found = np.zeros(self.units, dtype=np.bool_)
         found[self.unit[self.front]] = True
         mine = self.front[self.after] & (self.unit[self.before] != self.unit[self.after])
         below, above = self.before[mine], self.after[mine]
@@ -208,15 +213,17 @@ class _Heap:
         self.stage += len(names)
         part = taken != self.region[polygon]
         whole = self.whole[polygon] & ~part
-        rest = insides_of(
-            shapely.difference(self.region[polygon[part]], taken[part], grid_size=self.width * GRID_OF_WIDTH)
-        )
+        rest = insides_of(shapely.difference(self.region[polygon[part]], taken[part], grid_size=self._grid))
         self.region[polygon[part]] = rest
         self.whole[polygon] = False
         self.left[polygon] = False
         self.left[polygon[part][~self._thin(rest)]] = True
         self.front[polygon] = False
-        self.stale[names] = True
+        changed = np.zeros(len(self.left), dtype=np.bool_)
+        changed[polygon] = True
+        changed[self.after[changed[self.before]]] = True
+        self.looked &= ~changed
+        self.stale |= changed
         self._forget()
         smaller = np.zeros(len(self.left), dtype=np.bool_)
         smaller[polygon[part]] = True
@@ -227,18 +234,26 @@ class _Heap:
         """Leave out pairs that overlap in strips only; whether there were any."""
         import shapely
 
-        pair = np.flatnonzero(~self.real)
+        # Others are not in the way of anything.
+        pair = np.flatnonzero(~self.real & self._held())
         both = shapely.intersection(self.region[self.before[pair]], self.region[self.after[pair]])
         thin = self._thin(both)
         self.real[pair[~thin]] = True
-        self.stale[self.unit[self.after[pair[thin]]]] = True
-        self._keep(self.real)
+        self.looked[self.after[pair[thin]]] = False
+        kept = np.ones(len(self.real), dtype=np.bool_)
+        kept[pair[thin]] = False
+        self._keep(kept)
         return bool(thin.any())
+
+    def _held(self) -> Bools:
+        """(p,) the pairs that keep something from being painted: fronts of other units, and what is opaque."""
+        other = self.unit[self.before] != self.unit[self.after]
+        return np.asarray(self.front[self.after] & other | (self.unit[self.after] < 0), dtype=np.bool_)
 
     def _circles(self) -> list[Ints]:
         """The units of each circle that lies on nothing else; of opaque polygons in them nothing is told."""
-        units = len(self.stale)
-        held = self.front[self.after] | (self.unit[self.after] < 0)
+        units = self.units
+        held = self._held()
         ends = [
             np.where(self.unit[some] >= 0, self.unit[some], units + some)
             for some in (self.before[held], self.after[held])
@@ -254,39 +269,45 @@ class _Heap:
 
     def _united(self) -> bool:
         """Whether units that lie on one another in circles, and are equally transparent, became one."""
-        unit_opacity = np.zeros(len(self.stale))
+        unit_opacity = np.zeros(self.units)
         clear = self.unit >= 0
         unit_opacity[self.unit[clear]] = self.opacity[clear]
-        name = np.arange(len(self.stale))
+        name = np.arange(self.units)
         for circle in self._circles():
             _, first, of = np.unique(unit_opacity[circle], return_index=True, return_inverse=True)
             name[circle] = circle[first[of.ravel()]]
         changed = name != np.arange(len(name))
         if not changed.any():
             return False
-        self.stale[name[changed]] = True
+        apart = self.unit[self.before] != self.unit[self.after]
         self.unit[clear] = name[self.unit[clear]]
-        self.front[clear & self.stale[self.unit]] = False
+        self.stale[self.after[apart & (self.unit[self.before] == self.unit[self.after])]] = True
         return True
 
     def _cut(self) -> _Parts:
         """What lies on nothing else of one unit of a circle, the one that is most transparent."""
-        opacity = np.zeros(len(self.stale))
+        opacity = np.zeros(self.units)
         opacity[self.unit[self.unit >= 0]] = self.opacity[self.unit >= 0]
         circled = np.concatenate(self._circles())
         for unit in circled[np.argsort(opacity[circled], kind="stable")].tolist():
             mine = self.front & (self.unit == unit)
-            others = mine[self.after] & (self.unit[self.before] != unit)
-            polygon, free, on = self._apart(self.free, self.after[others], self.before[others])
-            region = self.free.copy()
-            region[polygon] = np.where(self._thin(on), region[polygon], free)
-            mine[polygon[self._thin(free)]] = False
+            self._look_beneath(mine & ~self.looked)
+            mine &= ~self.buried
             if mine.any():
-                return self._taken(mine, region)
+                return self._taken(mine, self.bare)
         # Next to nothing of any of them is free: the first polygon of all lies on nothing.
         first = np.zeros(len(self.left), dtype=np.bool_)
         first[np.flatnonzero(self.left)[0]] = True
         return self._taken(first, self.region)
+
+    def _look_beneath(self, which: Bools) -> None:
+        """Find what of some fronts lies on nothing of other units either."""
+        others = which[self.after] & (self.unit[self.before] != self.unit[self.after])
+        self.bare[which], self.buried[which] = self.free[which], False
+        polygon, free, on = self._apart(self.free, self.after[others], self.before[others])
+        self.bare[polygon] = np.where(self._thin(on), self.free[polygon], free)
+        self.buried[polygon[self._thin(free)]] = True
+        self.looked |= which
 
 
 def _listed(faces: ImageFaces, item: Ints, parts: _Parts) -> ImageFaces:

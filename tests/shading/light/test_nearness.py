@@ -1,0 +1,42 @@
+"""Where other items are near."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from vectorplot.geometry.solids import box
+from vectorplot.scene.scene import Item
+from vectorplot.shading.light.nearness import nearby, triangles_of_item
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.quadric import implicit_sphere
+
+PLACES = np.random.default_rng(3).uniform(-1.5, 1.5, (2000, 3))
+
+
+def distances(shape, bounds, places=PLACES):
+    found = nearby(*triangles_of_item(Item("THING", shape), np.array(bounds)), np.array(bounds))
+    return found.distances(places, np.full(len(places), 9.0)), found.gap
+
+
+@pytest.mark.parametrize("shape", [Sphere(1.0), implicit_sphere(1.0)])
+def test_distances_of_a_ball_are_no_larger_than_they_are_and_nearly_as_large(shape):
+    bounds = ((-1.5, -1.5, -1.5), (1.5, 1.5, 1.5))
+    found, gap = distances(shape, bounds)
+    true = np.abs(np.linalg.norm(PLACES, axis=1) - 1.0)
+    assert (found <= true + 1e-12).all() and (found >= true - 3.0 * gap).all() and gap < 0.1
+
+
+def test_beside_the_box_nothing_is_near():
+    found, _ = distances(Sphere(1.0), ((0.0, -1.0, -1.0), (1.0, 1.0, 1.0)))
+    beside = (PLACES[:, 0] < 0.0) | (np.abs(PLACES) > 1.0).any(axis=1)
+    assert (found[beside] == 9.0).all() and (found[~beside] < 9.0).all()
+
+
+def test_large_faces_are_looked_at_where_they_are_in_the_box_only():
+    floor = box((2000.0, 2000.0, 1.0))
+    triangles, off = triangles_of_item(Item("FLOOR", floor), np.array(((0.0, 0.0, 0.0), (2000.0, 2000.0, 1.0))))
+    found = nearby(triangles, off, np.array(((700.0, 700.0, 0.5), (701.0, 701.0, 2.0))))
+    assert 0 < len(found.points) < 50_000 and found.gap < 0.1
+    far = found.distances(np.array(((700.5, 700.5, 1.5), (700.5, 700.5, 1.05))), np.full(2, 9.0))
+    assert 0.4 < far[0] <= 0.5 and far[1] <= 0.05

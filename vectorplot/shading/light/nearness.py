@@ -1,0 +1,125 @@
+"""Where the surfaces of other items are near: points of them, so close together that nothing of them is missed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.curves.curve import is_curve
+from vectorplot.features.edge_splitting import Edges
+from vectorplot.features.facets import INSIDE, facets, off_chords
+from vectorplot.geometry import ragged
+from vectorplot.scene.scene import Item
+from vectorplot.surfaces.surface import is_implicit, is_parametrised
+
+CLOSENESS = 1.0 / 80.0
+"""Points are no farther apart than this part of the diagonal of the box in which they are looked for."""
+
+COARSENESS = 1.0 / 512.0
+"""The triangles that points lie on are no farther off a surface than this part of the diagonal of its box."""
+
+MOST_COARSE = 1 << 14
+"""Surfaces that take more triangles than these are taken to be everywhere in their boxes."""
+
+ROUNDS = 48
+"""Triangles are halved so many times at most: to a sixteen millionth of their sides."""
+
+BETWEEN = 2.0 / 3.0
+"""No point of a triangle is farther from its middle than this part of its longest side."""
+
+
+@dataclass(frozen=True)
+class Coarse:
+    """Triangles that are no farther than a distance from their surface, whatever is seen of them, as
+    features.edge_splitting.Demand."""
+
+    distance: float
+
+    def folds(self, points: Floats, normals: Floats) -> Floats:
+        """None."""
+        return np.zeros((0, len(points)))
+
+    @property
+    def outlines(self) -> int:
+        """None."""
+        return 0
+
+    def border_excess(self, edges: Edges) -> Floats:
+        """(k,n) as Demand: borders are as all sides."""
+        return np.zeros(edges.t.shape)
+
+    def excess(self, edges: Edges) -> Floats:
+        """(k,n) as Demand."""
+        return np.asarray(off_chords(edges) / (INSIDE * self.distance))
+
+
+@dataclass(frozen=True, eq=False)
+class Nearby:
+    """What there is of an item in a box (2,3): points (p,3), none of its own being farther than gap from all of them;
+    none, and an infinite gap, where it may be everywhere."""
+
+    box: Floats
+    points: Floats
+    gap: float
+
+    @cached_property
+    def _tree(self) -> Any:
+        from scipy.spatial import cKDTree
+
+        return cKDTree(self.points)
+
+    def distances(self, points: Floats, most: Floats) -> Floats:
+        """(...,) how far points (..., 3) are from the item at least, up to most (...); most of all beside the box."""
+        inside = np.asarray(((points >= self.box[0]) & (points <= self.box[1])).all(axis=-1), dtype=np.bool_)
+        found = most.copy()
+        if not np.isfinite(self.gap):
+            found[inside] = 0.0
+        elif len(self.points) and inside.any():
+            far = float(most[inside].max()) + self.gap
+            distance, _ = self._tree.query(points[inside], distance_upper_bound=far)
+            found[inside] = np.clip(distance - self.gap, 0.0, most[inside])
+        return found
+
+
+def triangles_of_item(item: Item, box: Floats) -> tuple[Floats, float]:
+    """(t,3,3) triangles that are near all that there is of an item with this box (2,3), and how near; an infinite
+    distance where they are not. Those of curves are sides, with one corner twice."""
+    extent = float(np.linalg.norm(box[1] - box[0]))
+    if is_curve(item.shape):
+        with np.errstate(invalid="ignore", over="ignore"):
+            points = item.shape.points(np.linspace(item.shape.start, item.shape.end, 1 << 12))
+        sides = np.stack((points[:-1], points[1:], points[1:]), axis=1)
+        return sides[np.isfinite(sides).all(axis=(1, 2))], COARSENESS * extent
+    mesh, off = item.mesh, 0.0
+    if is_parametrised(item.shape) or is_implicit(item.shape):
+        found = facets(item.shape, Coarse(COARSENESS * extent), MOST_COARSE)
+        mesh, off = found.mesh, COARSENESS * extent if found.complete else np.inf
+    corners, _ = ragged.fans(mesh.offsets)
+    return mesh.vertices[mesh.corners[corners]], off
+
+
+def nearby(triangles: Floats, off: float, box: Floats) -> Nearby:
+    """What an item has in a box (2,3), by triangles (t,3,3) that are no farther off than a distance."""
+    extent = float(np.linalg.norm(box[1] - box[0]))
+    longest = CLOSENESS * extent
+    done, left = [np.zeros((0, 3))], triangles
+    for _ in range(ROUNDS):
+        low, high = left.min(axis=1), left.max(axis=1)
+        left = left[((low <= box[1] + off + longest) & (high >= box[0] - off - longest)).all(axis=1)]
+        sides = np.linalg.norm(np.roll(left, -1, axis=1) - left, axis=2)
+        small = sides.max(axis=1, initial=0.0) <= longest
+        done.append(left[small].mean(axis=1))
+        left, side = left[~small], sides[~small].argmax(axis=1)
+        if not len(left):
+            break
+        row = np.arange(len(left))
+        a, b, c = (left[row, (side + k) % 3] for k in range(3))
+        middle = (a + b) / 2.0
+        left = np.concatenate((np.stack((a, middle, c), axis=1), np.stack((middle, b, c), axis=1)))
+    else:
+        off = np.inf
+    return Nearby(box, np.concatenate(done), off + BETWEEN * longest)
