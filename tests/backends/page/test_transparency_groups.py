@@ -14,7 +14,7 @@ from support.fill_samples import colour_at, fan, flat, page_of, pictures, shaded
 
 import vectorplot as vp
 from vectorplot.backends.page.areas import areas
-from vectorplot.backends.page.transparency_groups import groups_of, outline
+from vectorplot.backends.page.transparency_groups import beside_a_side, groups_of, outline
 from vectorplot.backends.svg.document import svg_bytes, svg_text
 from vectorplot.drawing.fills import FillKind
 
@@ -52,8 +52,9 @@ def test_neighbours_of_one_opacity_share_a_group():
 
 def test_what_lies_beside_another_item_goes_on_under_it():
     found = areas(flat([SQUARE, BESIDE], [DARK] * 2, opacity=0.5, item=[0, 1]), 60.0, 40.0)
-    assert (found.group == 0).all() and found.fringe.tolist() == [True] * 8 + [False] * 2
-    assert found.part.tolist() == [-1] * 9 + [0]
+    # All around what is clipped, and beside it of what is not.
+    assert (found.group == 0).all() and found.fringe.tolist() == [True] * 5 + [False] * 2
+    assert found.part.tolist() == [-1] * 6 + [0]
     corners, _ = found.outline(0, len(found))
     assert corners.min(axis=0).tolist() == [5000, 5000] and corners.max(axis=0).tolist() == [25000, 15000]
     corners, _ = found.outline(*found.part_ends[0])
@@ -176,3 +177,11 @@ def test_svg_groups_are_clipped_to_their_outlines():
     assert group.get("opacity") == "0.25" and group.get("clip-path") == f"url(#{clip.get('id')})"
     assert [path.get("stroke") for path in group] == ["#101418", "#0000ff"]
     assert len(re.findall("fill-opacity", text)) == 1 and "\7" not in text
+
+
+def test_convex_polygons_beside_a_side_are_told_from_others():
+    polygons = [SQUARE, BESIDE, OVER, moved(SQUARE, 0.0, 30.0), [(5, 5), (15, 5), (7, 7), (5, 15)]]
+    microns = np.concatenate(polygons).astype(np.int64)
+    offsets = np.array([0, 4, 8, 12, 16, 20])
+    one, other = np.array([0, 0, 0, 4]), np.array([1, 2, 3, 3])
+    assert beside_a_side(microns, offsets, one, other).tolist() == [True, False, True, False]
