@@ -287,17 +287,21 @@ def _snapped(height: Floats, tolerance: float) -> Floats:
 
 def _reaches_over(faces: Faces, which: Ints, normal: Floats, origin: Floats, tolerance: float) -> Bools:
     """Which faces reach both sides of a plane, or have an edge in it without lying in it."""
-    first, size = faces.offsets[which], faces.offsets[which + 1] - faces.offsets[which]
-    low, high, in_plane = np.full(len(which), np.inf), np.full(len(which), -np.inf), np.zeros(len(which), dtype=np.int8)
-    left = np.arange(len(which))
+    size = faces.offsets[which + 1] - faces.offsets[which]
+    low, high = np.full(len(which), np.inf), np.full(len(which), -np.inf)
+    in_plane = np.zeros(len(which), dtype=np.int8)
+    left, first = np.arange(len(which)), faces.offsets[which]
     for step in range(int(size.max(initial=0))):
-        if step:
-            left = left[size[left] > step]
-        corner = faces.corners[first[left] + step]
-        arm = faces.points.take(corner, axis=1) - origin.take(left, axis=1)
-        height = _snapped(dot(arm, normal.take(left, axis=1)), tolerance)
-        low[left], high[left] = np.minimum(low[left], height), np.maximum(high[left], height)
-        in_plane[left] = np.minimum(in_plane[left] + (height == 0.0), 2)
+        more = size[left] > step
+        if not more.all():
+            left, first = left[more], first[more]
+            normal, origin = normal.take(np.flatnonzero(more), axis=1), origin.take(np.flatnonzero(more), axis=1)
+        arm = faces.points.take(faces.corners.take(first + step), axis=1)
+        arm -= origin
+        height = _snapped(dot(arm, normal), tolerance)
+        own = slice(None) if len(left) == len(which) else left
+        low[own], high[own] = np.minimum(low[own], height), np.maximum(high[own], height)
+        in_plane[own] = np.minimum(in_plane[own] + (height == 0.0), 2)
     return np.asarray((low < 0.0) & (high > 0.0) | (in_plane > 1) & (low < high), dtype=np.bool_)
 
 

@@ -5,17 +5,19 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from support.smooth_parts import around, ball_from_above, polylines
 
 from vectorplot.geometry.budget import USUAL
+from vectorplot.visibility.smooth.events import crossings as crossings_room
 from vectorplot.visibility.smooth.events.crossings import crossings
 from vectorplot.visibility.smooth.sheets.family import ParameterCurves
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.words import LineKind
 
 
-def behind(line):
-    """The events of a line (k,3), in radii of the sphere."""
+def sphere_and_equator():
+    """The view of a sphere, its sheet and radius, and its contour."""
     view, sheet, radius = ball_from_above()
     places = np.stack([np.linspace(0.0, 2.0 * np.pi, 65), np.zeros(65), np.zeros(65)], axis=1)
     equator = replace(
@@ -24,6 +26,12 @@ def behind(line):
         families=(ParameterCurves(sheet, 0),),
         sheet=np.zeros(1, dtype=np.intp),
     )
+    return view, sheet, radius, equator
+
+
+def behind(line):
+    """The events of a line (k,3), in radii of the sphere."""
+    view, sheet, radius, equator = sphere_and_equator()
     lines = polylines(radius * np.asarray(line))
     return crossings(view, Sheets((sheet,)), lines, equator, np.zeros(1, dtype=np.bool_), 1e-3, USUAL.pairs)[0]
 
@@ -56,3 +64,21 @@ def test_edges_and_lines_that_are_points_in_the_image_cross_nothing() -> None:
     # All of the pairs would take half a minute and gigabytes.
     found, short = crossings(view, Sheets((sheet,)), edges, edges, none, 1e-3, 1)
     assert not len(found) and not short
+
+
+def test_a_contour_that_never_turns_back_is_not_searched_for_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    view, sheet, _, equator = sphere_and_equator()
+    tried: list[int] = []
+    search = crossings_room._roughly_met
+    monkeypatch.setattr(
+        crossings_room, "_roughly_met", lambda *given: tried.append(len(given[-1].chord)) or search(*given)
+    )
+    found, _ = crossings(view, Sheets((sheet,)), equator, equator, np.ones(1, dtype=np.bool_), 1e-3, USUAL.pairs)
+    assert not len(found) and tried and not sum(tried)
+
+
+def test_where_a_curve_turns_back_it_may_cross_itself() -> None:
+    view, _, radius, _ = sphere_and_equator()
+    zigzag = polylines(radius * np.array([(-0.5, 0.0, 2.0), (0.5, 0.0, 2.0), (-0.5, 0.2, 2.0), (-0.4, 0.1, 2.0)]))
+    chord, edge = np.array([0, 0, 1, 0, 1]), np.array([0, 1, 2, 2, 0])
+    assert crossings_room._one_way(view, zigzag, zigzag, chord, edge).tolist() == [True, False, False, False, False]

@@ -105,6 +105,8 @@ def _close_pairs(
 
     def look(rows: Ints) -> Block[Pairs]:
         near, far, part, edge_part, looked = _close(one, two, rows, margin)
+        apart = np.flatnonzero(~_one_way(view, curves, edges, one.chord[near], two.chord[far]))
+        near, far, part, edge_part = near[apart], far[apart], part[apart], edge_part[apart]
         # Near a cusp of an edge a curve may cross it twice close together: the search begins at several places.
         own = curves.sheet[curves.owner[one.chord[near]]] == edges.sheet[edges.owner[two.chord[far]]]
         again = np.flatnonzero(own & cusps[two.chord[far]])
@@ -132,6 +134,23 @@ def _close(one: _Boxes, two: _Boxes, rows: Ints, margin: float) -> tuple[Ints, I
     part, edge_part, apart = _approach(one.start[near], one.end[near], two.start[far], two.end[far])
     close = np.flatnonzero(apart <= margin)
     return near[close], far[close], part[close], edge_part[close], looked
+
+
+def _one_way(view: View, curves: Curves, edges: Curves, chord: Ints, edge: Ints) -> Bools:
+    """(k,) pairs of chords that are the same, or of which one goes on where the other ends, without turning back in the
+    image: on these no curve meets itself again."""
+
+    def same(point: Ints, edge_point: Ints) -> Bools:
+        return np.asarray((curves.points[point] == edges.points[edge_point]).all(axis=1))
+
+    on = (same(chord, edge) & same(chord + 1, edge + 1)) | same(chord + 1, edge) | same(chord, edge + 1)
+    some = np.flatnonzero(on)
+    way, edge_way = (
+        sight_lines.image(view, x.points[c + 1]) - sight_lines.image(view, x.points[c])
+        for x, c in ((curves, chord[some]), (edges, edge[some]))
+    )
+    on[some] = dot(way, edge_way) > 0.0
+    return on
 
 
 def _near_cusps(view: View, sheets: Sheets, edges: Curves) -> Bools:
