@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.backends.cairo.mesh_borders import border_sides, last_of_sides, outer_sides, rings, skirts
+from vectorplot.backends.cairo.small_polygons import in_meshes
 from vectorplot.backends.page.areas import Areas
 from vectorplot.backends.page.underlaps import Underlaps, grown, underlaps
 from vectorplot.geometry import ragged
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     import cairo
 
 Corners = Any
-Colours = list[list[float]]
 
 GROUND_STEPS = 32.0
 """Shades of each colour below meshes."""
@@ -33,16 +33,17 @@ def paint(
     scale: device units per micron; height: of the page's lower border in them, from the top; line_width: of polygons of
     two corners; seam: of the line around opaque ones that have sides without a neighbour.
     """
-    place = _Place(scale, height)
+    place, areas = _Place(scale, height), in_meshes(areas)
     laps = underlaps(areas.microns, areas.offsets, areas.solid, areas.group)
     outlines, offsets, parts = grown(areas.microns, areas.offsets, laps)
-    points, starts = place.of(outlines), offsets.tolist()
-    colours = [(r, g, b) for r, g, b in (areas.colours[areas.offsets[:-1]] / 255.0).tolist()]
-    meshed, line, open_ = areas.meshed.tolist(), (areas.sizes == 2).tolist(), laps.open
-    opacity, bare = areas.own_opacity.tolist(), areas.bare.tolist()
+    heads = areas.runs[:-1]
+    colours = (areas.colours[areas.offsets[heads]] / 255.0).tolist()
+    meshed, line = areas.meshed[heads].tolist(), (areas.sizes[heads] == 2).tolist()
+    opacity, bare = areas.own_opacity[heads].tolist(), areas.bare[heads].tolist()
+    open_ = np.logical_or.reduceat(laps.open, heads).tolist() if len(heads) else []
     ends, part_ends = dict(areas.group_ends.tolist()), dict(areas.part_ends.tolist())
     end, part_end, clip = -1, -1, None
-    for first, last in pairwise(areas.runs.tolist()):
+    for run, (first, last) in enumerate(pairwise(areas.runs.tolist())):
         if first in ends:
             end = ends[first]
             clip = _clip_of(areas, place, first, end)
@@ -50,16 +51,17 @@ def paint(
         if first in part_ends:
             part_end = part_ends[first]
             _begin_part(context, *_clip_of(areas, place, first, part_end))
-        if meshed[first]:
+        if meshed[run]:
             _paint_mesh(context, areas, place, laps, (first, last), seam)
         else:
-            _outline(context, points, starts[parts[first] : parts[last] + 1])
-            red, green, blue = colours[first]
-            context.set_source_rgba(red, green, blue, opacity[first])
-            if line[first]:
+            starts = offsets[parts[first] : parts[last] + 1]
+            _outline(context, place.of(outlines[starts[0] : starts[-1]]), (starts - starts[0]).tolist())
+            red, green, blue = colours[run]
+            context.set_source_rgba(red, green, blue, opacity[run])
+            if line[run]:
                 context.set_line_width(line_width)
                 context.stroke()
-            elif bare[first] or not open_[first:last].any():
+            elif bare[run] or not open_[run]:
                 context.fill()
             else:
                 context.set_line_width(seam)
@@ -69,7 +71,7 @@ def paint(
             context.restore()
             part_end = -1
         if clip is not None and last == end:
-            _end_group(context, *clip, areas.opacity[first])
+            _end_group(context, *clip, float(areas.opacity[first]))
             clip = None
 
 
@@ -81,9 +83,13 @@ class _Place:
     height: float
 
     def of(self, microns: NDArray[Any]) -> Corners:
-        """Places (..., 2) on the device."""
-        found: Corners = (microns * (self.scale, -self.scale) + (0.0, self.height)).tolist()
+        """Places (..., 2) on the device, as lists."""
+        found: Corners = self.on_device(microns).tolist()
         return found
+
+    def on_device(self, microns: NDArray[Any]) -> Floats:
+        """Places (..., 2) on the device."""
+        return np.asarray(microns * (self.scale, -self.scale) + (0.0, self.height))
 
 
 def _paint_mesh(
@@ -112,7 +118,7 @@ def _paint_mesh(
     sizes = [0, *(len(ring) for ring in path)]
     _outline(context, place.of(np.concatenate(path)), np.cumsum(sizes).tolist())
     context.clip()
-    context.set_source(_mesh(place.of(patches), colours[at].tolist(), opacity))
+    context.set_source(_mesh(place.on_device(patches), colours[at], opacity))
     context.paint()
     context.restore()
 
@@ -208,17 +214,30 @@ def _outline(context: cairo.Context[Any], points: Corners, starts: list[int]) ->
             close_path()
 
 
-def _mesh(patches: list[Corners], colours: list[Colours], opacity: float) -> cairo.MeshPattern:
-    """Patches of four corners, the last of which may be the first one, shaded."""
+def _mesh(patches: Floats, colours: Floats, opacity: float) -> cairo.MeshPattern:
+    """Patches (n,4,2) of four corners, the last of which may be the first one, shaded from colours (n,4,3). Cairo takes
+    one corner a call."""
     import cairo
 
     mesh = cairo.MeshPattern()
-    for corners, shades in zip(patches, colours, strict=True):
-        mesh.begin_patch()
-        mesh.move_to(*corners[0])
-        for corner in corners[1:]:
-            mesh.line_to(*corner)
-        for number, (red, green, blue) in enumerate(shades):
-            mesh.set_corner_color_rgba(number, red, green, blue, opacity)
-        mesh.end_patch()
+    begin, move_to, line_to, shade, end = (
+        mesh.begin_patch,
+        mesh.move_to,
+        mesh.line_to,
+        mesh.set_corner_color_rgba,
+        mesh.end_patch,
+    )
+    # Numbers in columns: a list for every corner would keep the collector of garbage busy.
+    columns = np.concatenate((patches.reshape(-1, 8), colours.reshape(-1, 12)), axis=1).T.tolist()
+    for ax, ay, bx, by, cx, cy, dx, dy, ar, ag, ab, br, bg, bb, cr, cg, cb, dr, dg, db in zip(*columns, strict=True):
+        begin()
+        move_to(ax, ay)
+        line_to(bx, by)
+        line_to(cx, cy)
+        line_to(dx, dy)
+        shade(0, ar, ag, ab, opacity)
+        shade(1, br, bg, bb, opacity)
+        shade(2, cr, cg, cb, opacity)
+        shade(3, dr, dg, db, opacity)
+        end()
     return mesh

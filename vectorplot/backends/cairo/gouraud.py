@@ -8,13 +8,13 @@ Source: ISO 32000-1, section 8.7.4.5 (types 4 and 7) and 7.5 (structure of files
 
 from __future__ import annotations
 
-import base64
 import re
 import zlib
 
 import numpy as np
 
 from vectorplot.arrays import Ints
+from vectorplot.backends.cairo.ascii85 import ascii85_decoded, ascii85_encoded
 
 _HEAD = rb"<< /ShadingType 7\s+/ColorSpace /Device(RGB|Gray)\s+"
 _BITS = rb"/BitsPerCoordinate 32\s+/BitsPerComponent 16\s+/BitsPerFlag 8\s+/Decode \[([^\]]*)\]\s+"
@@ -61,8 +61,8 @@ def with_triangles_in_postscript(data: bytes) -> bytes:
 
     def triangles(found: re.Match[bytes]) -> bytes:
         text, space, decode = found.groups()
-        patches = zlib.decompress(base64.a85decode(b"".join(text.split())))
-        stream = base64.a85encode(zlib.compress(_free_triangles(patches, decode.count(b" ") // 2 - 2), 9), wrapcol=80)
+        patches = zlib.decompress(ascii85_decoded(text))
+        stream = ascii85_encoded(zlib.compress(_free_triangles(patches, decode.count(b" ") // 2 - 2), 9))
         head = _dictionary(space, decode, b"/DataSource CairoData")
         filters = b"currentfile\n/ASCII85Decode filter /FlateDecode filter /ReusableStreamDecode filter\n"
         # A line that begins with a percent sign could be taken for a comment of the document.

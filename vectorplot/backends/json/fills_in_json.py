@@ -8,9 +8,10 @@ from itertools import chain
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vectorplot.arrays import Ints
-from vectorplot.backends.json.number_arrays import numbers_of, plain
+from vectorplot.backends.json.number_arrays import numbers_of, plain, point_texts
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
@@ -27,11 +28,11 @@ def fills_text(fills: Fills, items: tuple[str, ...]) -> str:
     sorts, sort = np.unique(traits, axis=0, return_inverse=True)
     templates = [_template(items, *row) for row in sorts.tolist()]
     template = ",".join(map(templates.__getitem__, sort.ravel().tolist()))
-    fields = np.empty(2 * len(fills) + 5 * len(fills.points), dtype=object)
-    starts = 2 * np.arange(len(fills)) + 5 * fills.offsets[:-1]
+    fields = np.empty(2 * len(fills) + 2 * len(fills.points), dtype=object)
+    starts = 2 * np.arange(len(fills)) + 2 * fills.offsets[:-1]
     fields[starts], fields[starts + 1] = _colour_texts(packed, fills.offsets), plain(fills.opacity)
-    fields[ragged.ranges(starts + 2, 2 * counts)] = plain(fills.points.ravel())
-    fields[ragged.ranges(starts + 2 + 2 * counts, 3 * counts)] = plain(fills.points3d.ravel())
+    fields[ragged.ranges(starts + 2, counts)] = point_texts(fills.points)
+    fields[ragged.ranges(starts + 2 + counts, counts)] = point_texts(fills.points3d)
     return template % tuple(fields.tolist())
 
 
@@ -68,18 +69,22 @@ def fills_of(value: Any, items: tuple[str, ...]) -> tuple[Fills, tuple[str, ...]
 def _template(items: tuple[str, ...], kind: int, item: int, count: int) -> str:
     name = items[item] if 0 <= item < len(items) else ""
     head = json.dumps({"kind": FillKind(kind).word, "item": name})[:-1].replace("%", "%%")
-    flat, solid = ", ".join(["[%r, %r]"] * count), ", ".join(["[%r, %r, %r]"] * count)
-    return f'\n{head}, "colour": %s, "opacity": %r, "points": [{flat}], "points3d": [{solid}]}}'
+    points = ", ".join(["%s"] * count)
+    return f'\n{head}, "colour": %s, "opacity": %r, "points": [{points}], "points3d": [{points}]}}'
 
 
-def _colour_texts(packed: Ints, offsets: Ints) -> list[str]:
-    """The colour of each polygon as JSON."""
-    spans = zip(offsets[:-1].tolist(), offsets[1:].tolist(), strict=True)
-    corners = [f'"#{colour:06x}"' for colour in packed.tolist()]
-    texts = []
-    for start, end in spans:
-        some = corners[start:end]
-        texts.append(some[0] if some and some.count(some[0]) == len(some) else f"[{', '.join(some)}]")
+def _colour_texts(packed: Ints, offsets: Ints) -> NDArray[np.object_]:
+    """(m,) the colour of each polygon as JSON."""
+    sorts, sort = np.unique(packed, return_inverse=True)
+    corners = np.array([f'"#{colour:06x}"' for colour in sorts.tolist()], dtype=object)[sort]
+    texts = np.full(len(offsets) - 1, "[]", dtype=object)
+    filled = np.flatnonzero(np.diff(offsets))
+    texts[filled] = corners[offsets[filled]]
+    differs = np.append(packed[1:] != packed[:-1], False)
+    differs[offsets[1:][filled] - 1] = False
+    changes = ragged.offsets(differs)
+    for number in np.flatnonzero(changes[offsets[1:]] > changes[offsets[:-1]]).tolist():
+        texts[number] = f"[{', '.join(corners[offsets[number] : offsets[number + 1]])}]"
     return texts
 
 

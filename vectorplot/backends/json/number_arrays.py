@@ -5,14 +5,27 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.repair.weld import distinct_points
 
 
 def plain(numbers: Floats) -> Any:
     """Nested lists of floats, -0 written as 0."""
     return (np.asarray(numbers, dtype=np.float64) + 0.0).tolist()
+
+
+def point_texts(points: Floats) -> NDArray[np.object_]:
+    """(p,) the points (p,2) or (p,3) as JSON lists. Those in one place, as corners of neighbours are, are written out
+    once: to find the shortest digits of a number takes longer than all else."""
+    space = np.zeros((len(points), 3))
+    space[:, : points.shape[1]] = points
+    first, number = distinct_points(space)
+    one = f"[{', '.join(['%r'] * points.shape[1])}]"
+    texts = "\n".join([one] * len(first)) % tuple(plain(points[first].ravel()))
+    return np.array(texts.split("\n") if texts else [], dtype=object)[number]
 
 
 def numbers_of(value: Any, shape: tuple[int, ...], name: str) -> Floats:
