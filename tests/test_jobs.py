@@ -17,6 +17,7 @@ def scenes():
     return {"boxes": rotated_boxes(400), "lump": vp.Scene((vp.Item("lump", bumpy_icosphere(6)),)), "both": small}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", list(scenes()))
 @pytest.mark.parametrize("hidden", ["none", "dashed"])
 def test_drawings(name, hidden):
@@ -24,6 +25,7 @@ def test_drawings(name, hidden):
     assert len({write(vp.draw(scene, jobs=jobs, hidden=hidden, halo_mm=0.3), "json") for jobs in MANY}) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["boxes", "both"])
 def test_paintings(name):
     scene = scenes()[name]
@@ -31,6 +33,7 @@ def test_paintings(name):
     assert len(made) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shadows", ["none", "buffer", "exact"])
 def test_renderings(shadows):
     scene = scenes()["both"]

@@ -88,6 +88,7 @@ def test_each_stage_tells_why_it_ran_and_what_it_took() -> None:
         assert report.why and 0.0 <= report.seconds < 60.0 and report.count >= 0 and report.peak_mb > 1.0
 
 
+@pytest.mark.slow
 def test_stages_that_approximate_say_how_far_off_they_may_be() -> None:
     def said(verb: Callable[..., object], scene: Scene, **options: object) -> dict[str, str]:
         reports: list[StageReport] = []

@@ -201,6 +201,7 @@ def test_the_shadow_of_a_ball_is_where_geometry_puts_it(shadows, light):
     assert (with_ == without)[lit].mean() > 0.999
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.6-shadow-buffer")
 @pytest.mark.parametrize("shadows", ["buffer", "trapezoid", "exact"])
 def test_shades_fall_with_the_number_of_lights_that_are_blocked(shadows):

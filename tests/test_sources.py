@@ -29,6 +29,7 @@ def texts():
     return list(docstrings())
 
 
+@pytest.mark.slow
 def test_every_erratum_that_a_docstring_names_has_its_line(texts):
     rows = re.findall(r"^\| (\S+) \|", (DOCS / "errata.md").read_text(encoding="utf-8"), re.MULTILINE)
     cited = {name for text in texts for name in ERRATUM.findall(text)}

@@ -143,6 +143,7 @@ def test_waves_finer_than_any_resolution_are_painted_too() -> None:
     assert 1 << 12 < len(fills) <= 1 << 15
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", ["1/(x*y)", "1/x", "1/(x^2-y^2)", "1/(x^2-1)"])
 def test_graphs_with_holes_at_their_borders_are_painted(text: str) -> None:
     scene = vp.Scene((vp.Item("S", graph_of(text)),))
@@ -156,6 +157,7 @@ def test_graphs_with_holes_at_their_borders_are_painted(text: str) -> None:
     assert len(fills) > 50 and (np.ptp(fills.points, axis=0) > 50.0).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lamps", [1, 4])
 def test_waves_without_an_end_are_painted_in_the_light_of_lamps(lamps: int) -> None:
     places = [(3.0, -2.0, 5.0), (-4.0, -3.0, 4.0), (1.0, -3.0, 4.0), (0.0, 4.0, 3.0)][:lamps]

@@ -63,6 +63,7 @@ def test_sizes_and_coefficients_are_no_tolerances(code):
     assert not list(small_numbers(ast.parse(code)))
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G1.1-convention")
 def test_no_small_number_stands_outside_the_table():
     bare = []

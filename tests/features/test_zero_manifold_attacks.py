@@ -72,6 +72,7 @@ DOUBLE_LINES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.hard(39)
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize("at", [0.0, 0.25, 0.1])
@@ -101,6 +102,7 @@ def test_two_circles_nearer_than_the_resolution_leave_no_crumbs(gap):
     assert any("nearer to each other" in text for text in curve.doubts)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(40)
 @pytest.mark.parametrize("radius", [0.003, 0.01])
 def test_a_resolved_tiny_oval_beside_a_double_line_stays(radius):

@@ -9,6 +9,7 @@ import shapely
 from vectorplot.geometry.regions import unions
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("grid", [None, 1e-9])
 def test_polygons_that_cross_themselves_are_united_with_all_that_is_in_them(grid: float | None) -> None:
     random = np.random.default_rng(5)

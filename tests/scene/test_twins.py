@@ -24,6 +24,7 @@ def scene_of(*items: vp.Item) -> vp.Scene:
     return vp.Scene(items, lights=(vp.Light((5.0, -2.0, 9.0)),))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", [lambda: Torus(2.0, 0.7), lambda: box((-1, -1, -1), (1, 1, 1))])
 def test_a_hundred_in_one_place_are_painted_as_the_last_one(shape) -> None:
     floor = vp.Item("floor", box((-3, -3, -1.5), (3, 3, -1.2)))

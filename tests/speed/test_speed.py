@@ -110,6 +110,7 @@ def test_a_series_is_measured_on_one_thread_and_on_two():
     assert on_threads(small, 2).several > 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.capability("GA.5-speed")
 def test_operations_cost_something_and_sorting_more_than_adding():
     arrays = {one.name: one.microseconds for one in array_operations()}

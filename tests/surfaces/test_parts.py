@@ -86,6 +86,7 @@ def test_other_surfaces_stay_as_they_are(surface: Surface) -> None:
     assert once is surface
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rounds", [(3.0, 2.0), (2.5, 2.0)])
 def test_what_covers_itself_is_drawn_as_what_does_not(rounds: tuple[float, float]) -> None:
     # Before, each of its lines met all the other covers all along.

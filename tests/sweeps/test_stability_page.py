@@ -19,12 +19,14 @@ def stability() -> ModuleType:
     return module
 
 
+@pytest.mark.slow
 def test_the_table_of_hard_cases_is_fresh(stability: ModuleType) -> None:
     page = stability.PAGE.read_text(encoding="utf-8")
     assert page.endswith(stability.hard_cases()), "run: python docs/stability.py"
     assert page.startswith(stability.INTRODUCTION)
 
 
+@pytest.mark.slow
 def test_every_hard_case_that_a_test_holds_is_told(stability: ModuleType) -> None:
     rooms = tomllib.loads((ROOT / "docs" / "hard_cases.toml").read_text(encoding="utf-8")).values()
     assert sorted(int(number) for room in rooms for number in room) == sorted(stability.proofs())

@@ -139,6 +139,7 @@ def test_hard_62_parentheses_and_backslashes_in_a_title_are_escaped():
     assert rb"%%Title: (a\) b\( c\\ d ?)" in text
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(40))
 @given(st.text(max_size=400))
 def test_any_title_stays_in_its_comment(title):

@@ -83,6 +83,7 @@ def test_two_crowds_that_shade_each_other_keep_their_shadows_on_the_ground() -> 
     assert set(view.face_item[cast.shadows.face].tolist()) == {2}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("material", ["", "transparent"])
 def test_paint_names_what_throws_them_and_the_lamps_in_one_line(material: str) -> None:
     crowd = Item("CROWD", plates(), "blue", vp.Material(material) if material else vp.Material())

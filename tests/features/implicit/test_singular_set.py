@@ -45,6 +45,7 @@ def test_what_has_no_singular_point_stays_as_it_is() -> None:
     assert not led_into_singular_set(ball, nothing, singular_lines(ball, nothing)).face_count
 
 
+@pytest.mark.slow
 @pytest.mark.hard(49)
 def test_narrow_sheets_between_lines_are_not_led_into_them() -> None:
     swallowtail = implicit("16*x^4*z-4*x^3*y^2-128*x^2*z^2+144*x*y^2*z-27*y^4+256*z^3")

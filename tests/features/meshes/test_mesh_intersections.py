@@ -67,6 +67,7 @@ def test_the_order_of_parts_changes_nothing() -> None:
     assert np.isclose(length(met(one, two)), length(met(two, one)))
 
 
+@pytest.mark.slow
 def test_long_thin_bars_meet_where_they_meet_two_by_two() -> None:
     rng = np.random.default_rng(4)
     bars = []

@@ -76,6 +76,7 @@ def assert_same(one, other):
     assert one.doubts == other.doubts
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("chords", [False, True])
 @pytest.mark.parametrize("members", [OPEN, ROUND, BALLS], ids=["open", "round", "balls"])
 def test_each_is_traced_as_if_it_were_alone(members, chords):

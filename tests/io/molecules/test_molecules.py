@@ -163,6 +163,7 @@ def test_balls_and_rods_are_named_after_their_atoms_and_touch():
         molecule_scene(water, "ribbons")
 
 
+@pytest.mark.slow
 def test_every_verb_shows_a_molecule(tmp_path):
     path = written(tmp_path, "water.xyz", WATER)
     scene = vp.read(path)

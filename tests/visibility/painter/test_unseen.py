@@ -65,6 +65,7 @@ def test_what_does_not_hide_covers_nothing():
     assert unseen_in(square("LOW", 1, 2, 0), square("HIGH", 0, 3, 1, occludes=False)) == [False, False]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("eye", EYES)
 @pytest.mark.parametrize("name", SURFACES)
 def test_all_of_what_is_left_out_is_painted_over(name, eye, tmp_path):

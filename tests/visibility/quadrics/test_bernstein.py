@@ -43,6 +43,7 @@ def test_squares_are_squares(coefficients):
         assert value_of_four(squares(c), t) == pytest.approx(value_of_two(c, t) ** 2, abs=1e-13)
 
 
+@pytest.mark.slow
 def test_all_changes_of_sign_are_found(coefficients):
     of, at = roots_of_four(coefficients)
     for k in range(coefficients.shape[1]):

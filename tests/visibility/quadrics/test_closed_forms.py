@@ -91,6 +91,7 @@ CASES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES)
 def test_every_point_is_hidden_by_as_many_items_as_rays_meet(case):
     _, camera, balls, boxes, drawing = drawn(*case)

@@ -31,6 +31,7 @@ def strokes_of(drawing):
     return [(paths, k) for layer in drawing.layers for paths in layer.strokes for k in range(len(paths))]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("name", PAIRS)
 def test_every_point_is_hidden_by_as_many_items_as_rays_meet(name, parallel):
@@ -57,6 +58,7 @@ def test_every_point_is_hidden_by_as_many_items_as_rays_meet(name, parallel):
     assert (counts[sure] == truth.hidden_by[sure]).all()
 
 
+@pytest.mark.slow
 def test_bonds_of_an_atom_meet_inside_of_it_where_nobody_looks():
     places = np.array([(0, 0, 0), (1.5, 0, 0), (-0.7, 1.3, 0), (-0.5, -0.9, 1.0), (-0.4, -0.6, -1.3)])
     atoms = [Item(f"atom {k}", Sphere(0.4, place)) for k, place in enumerate(places)]

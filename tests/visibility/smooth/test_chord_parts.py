@@ -42,6 +42,7 @@ def by_differences(view, parts):
     return np.stack(result, axis=1), np.stack(sure, axis=1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_directions_are_those_of_the_curves(name):
     scene = SCENES[name]
@@ -66,6 +67,7 @@ def test_directions_are_those_of_the_curves(name):
             assert off.max() < 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.hard(29)
 @pytest.mark.parametrize("shape", [Torus(3.0, 1.0), ImplicitTorus(3.0, 1.0)], ids=["parametrised", "implicit"])
 @pytest.mark.parametrize("parallel", [True, False])

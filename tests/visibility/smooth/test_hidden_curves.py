@@ -17,6 +17,7 @@ from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_sce
 from vectorplot.words import DRAWN, LineKind
 
 
+@pytest.mark.slow
 def test_only_items_that_hide_are_counted() -> None:
     """Work and memory follow the pieces and the sheets that hide, not the items of the scene; the counts stay."""
     crate = Item("crate", box((0.1, 0.1, 0.1)))

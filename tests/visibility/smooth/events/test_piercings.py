@@ -67,6 +67,7 @@ def followed(turns: int, monkeypatch: pytest.MonkeyPatch) -> tuple[int, int]:
     return sum(sought), sum(asked)
 
 
+@pytest.mark.slow
 def test_lines_that_run_along_other_covers_of_their_surface_are_not_followed(monkeypatch: pytest.MonkeyPatch) -> None:
     # Every chord is close to several triangles of each of the covers, and meets them everywhere.
     assert followed(2, monkeypatch)[0] < 2 * followed(1, monkeypatch)[1]

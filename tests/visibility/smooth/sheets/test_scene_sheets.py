@@ -83,6 +83,7 @@ def _moved(sheet: Sheet, place: np.ndarray, step: np.ndarray) -> np.ndarray:
     return sheet.moved(place[None], step[None])[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["curves", "edges"])
 def test_curves_of_merged_families_run_through_their_points(kind: str) -> None:
     made, view = scene()
