@@ -38,10 +38,11 @@ def marks(tree: ast.Module) -> Iterator[tuple[str, str | int, str]]:
 def module_of(test: Path) -> str:
     """The module a test file is the mirror of, as a link; the file's room where there is no such module."""
     parts = test.relative_to(ROOT / "tests").parts
-    room = Path("vectorplot", *parts[:-1])
-    name = parts[-1].removeprefix("test_")
-    module = room / name if (ROOT / room / name).exists() else room / name.removesuffix(".py")
-    shown = next(place for place in (module, room, Path("vectorplot")) if (ROOT / place).exists())
+    room, words = Path("vectorplot", *parts[:-1]), test.stem.removeprefix("test_").split("_")
+    # Several files may mirror one module: test_render_shadows.py is of render.py.
+    names = ["_".join(words[:count]) for count in range(len(words), 0, -1)]
+    places = [room / place for name in names for place in (f"{name}.py", name)]
+    shown = next(place for place in (*places, room, Path("vectorplot")) if (ROOT / place).exists())
     return f"[{shown.as_posix()}](../{shown.as_posix()})"
 
 

@@ -98,6 +98,8 @@ def test_the_stored_pictures_are_the_ones_that_are_drawn_now(path, made):
     for file in made(path):
         stored = GALLERY.GALLERY / file.name
         assert stored.is_file(), "run: python docs/gallery.py"
+        if stored.read_bytes() == file.read_bytes():
+            continue
         if file.suffix == ".png":
             old, new = pixels_of(stored), pixels_of(file)
             # A pixel beside an edge may fall to the other side on another processor.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from vectorplot.geometry.budget import USUAL, unheard
 from vectorplot.geometry.cameras.camera import Camera
