@@ -43,6 +43,8 @@ class LineKind(IntEnum):
     """A line in which a plane meets a smooth surface."""
     CURVE = 9
     """A curve in space that is an item of its own."""
+    INTEGRAL = 10
+    """A line of a smooth surface that follows a field of directions, or a geodesic."""
 
     @property
     def word(self) -> str:

@@ -23,6 +23,7 @@ PENS = {
     "isophote": Pen(0.18, BLACK),
     "section": Pen(0.18, BLACK),
     "curve": Pen(0.5, BLACK),
+    "integral": Pen(0.18, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -37,6 +38,7 @@ KIND_LAYER = {
     LineKind.ISOPHOTE: "isophote",
     LineKind.SECTION: "section",
     LineKind.CURVE: "curve",
+    LineKind.INTEGRAL: "integral",
 }
 
 COLOURS = {

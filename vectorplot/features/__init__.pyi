@@ -12,6 +12,21 @@ from .implicit.implicit_curves import (
 from .implicit.implicit_mesh import ImplicitMesh, implicit_mesh
 from .implicit.implicit_tracing import ImplicitCurves, ImplicitTracing
 from .implicit.polygonize import polygonized
+from .integral.curvature_fields import AsymptoticDirections, PrincipalDirections
+from .integral.evenly_spaced import evenly_spaced_curves
+from .integral.integral_curves import geodesics, integral_curves
+from .integral.integration import Accuracy
+from .integral.sites import Sites
+from .integral.tangent_fields import (
+    ConstantElevation,
+    ParameterDirection,
+    ParameterField,
+    SteepestSlope,
+    TangentField,
+    TurnedField,
+    VectorField,
+    loxodromes,
+)
 from .intersections.double_curves import DoubleCurves
 from .intersections.implicit_mesh_section import ImplicitMeshSection, implicit_mesh_section
 from .intersections.mesh_section import MeshSection, mesh_section
@@ -44,7 +59,10 @@ from .zeros.grid_triangulation import average_normals, mesh_of_grid, triangulate
 from .zeros.zero_manifold import ZeroManifold, zero_manifold_of_f_uv
 
 __all__ = [
+    "Accuracy",
+    "AsymptoticDirections",
     "CentralContour",
+    "ConstantElevation",
     "Cusps",
     "DoubleCurves",
     "Edges",
@@ -57,16 +75,26 @@ __all__ = [
     "MeshCurves",
     "MeshSection",
     "ParallelContour",
+    "ParameterDirection",
+    "ParameterField",
+    "PrincipalDirections",
+    "Sites",
+    "SteepestSlope",
     "SurfaceCurves",
+    "TangentField",
     "Tessellation",
     "Tracing",
+    "TurnedField",
+    "VectorField",
     "ZeroManifold",
     "average_normals",
     "borders",
     "contour",
     "contour_cusps",
     "contour_with_cusps",
+    "evenly_spaced_curves",
     "face_intersections",
+    "geodesics",
     "implicit_contour",
     "implicit_contour_cusps",
     "implicit_intersection",
@@ -78,8 +106,10 @@ __all__ = [
     "implicit_parallel_contour_cusps",
     "implicit_plane_sections",
     "implicit_point_light_isophotes",
+    "integral_curves",
     "isophotes",
     "level_lines",
+    "loxodromes",
     "mesh_contour_across_faces",
     "mesh_edges",
     "mesh_isophote_edges",

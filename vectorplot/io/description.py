@@ -125,6 +125,8 @@ def _surface(shape: Surface | ImplicitSurface, curves: SurfaceLines) -> str:
         words.append(_number(len(curves.isophotes), "isophote"))
     if curves.sections:
         words.append(_number(sum(len(section.offsets) for section in curves.sections), "section"))
+    if curves.integral:
+        words.append(f"integral curves of {_number(len(curves.integral), 'kind')}")
     low, high = smooth_bounds(shape)
     return ", ".join(words) + ", " + ("" if is_parametrised(shape) else "box of ") + _size(high - low)
 

@@ -1,3 +1,4 @@
+from .integral_lines import FieldLines, GeodesicLines
 from .paper import sheet_size
 from .placement import Placement, field_of_vision, fitted_picture
 from .scene import Item, Light, Material, Page, Pattern, Scene
@@ -5,6 +6,8 @@ from .surface_lines import Section, SurfaceLines, SurfacePath, even_cosines, pat
 from .view import View, look
 
 __all__ = [
+    "FieldLines",
+    "GeodesicLines",
     "Item",
     "Light",
     "Material",

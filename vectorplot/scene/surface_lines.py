@@ -11,6 +11,7 @@ import numpy as np
 from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.errors import InputError
+from vectorplot.scene.integral_lines import IntegralLines
 from vectorplot.tolerances.of_numbers import ROUNDING
 
 Vector = tuple[float, float, float]
@@ -187,6 +188,8 @@ class SurfaceLines:
         Isophotes of a polyhedron are its edges between lighter and darker faces.
     paths : tuple of SurfacePath
         Curves u(t), v(t) on a parametrised surface.
+    integral : tuple of FieldLines and GeodesicLines
+        Integral curves of a parametrised surface.
 
     Raises
     ------
@@ -216,6 +219,7 @@ class SurfaceLines:
     smooth: bool = False
     along_edges: bool = False
     paths: tuple[SurfacePath, ...] = ()
+    integral: tuple[IntegralLines, ...] = ()
 
     def __post_init__(self) -> None:
         for word, count in (("columns", self.columns), ("rows", self.rows)):
@@ -238,7 +242,7 @@ class SurfaceLines:
         return next((section for section in self.sections if section.slices and section.offsets), None)
 
     def __bool__(self) -> bool:
-        return bool(self.columns or self.rows or self.isophotes or self.sections or self.paths)
+        return bool(self.columns or self.rows or self.isophotes or self.sections or self.paths or self.integral)
 
 
 NO_LINES = SurfaceLines()

@@ -12,6 +12,7 @@ from .curves import (
     branch_count,
 )
 from .drawing_checks import assert_drawing_is_right, edge_points
+from .integral_curves import assert_geodesic, assert_integral_curve
 from .rays.sight import Sight, visible_by_rays
 from .shapes import hard_shapes
 
@@ -22,6 +23,8 @@ __all__ = [
     "assert_contour",
     "assert_drawing_is_right",
     "assert_drawings_equal",
+    "assert_geodesic",
+    "assert_integral_curve",
     "assert_isophote",
     "assert_on_both",
     "assert_on_surface",

@@ -78,3 +78,7 @@ ABOUT_AXIS = 1e-9
 SOLID_ANGLE_ROUNDING = 1e-3
 """Solid angles of a closed mesh around a point inside add up to that of a sphere but for so much: anything else is off
 by half of it or more."""
+
+FLAT_SLOPE = 1e-12
+"""Sine of the slope of a surface below which it is level, and has no direction of steepest slope: a thousand roundings
+of a unit normal."""

@@ -203,3 +203,19 @@ GAUSS_OF_EXTENT = 1e-6
 
 FOOT_REACHED = 1e-17
 """A distance below this part of the extent is none: less than the rounding of any coordinate."""
+
+INTEGRATED_OF_EXTENT = 1e-9
+"""What the estimated errors of all steps of an integral curve, as long as the extent of its surface, add up to, where
+nothing else is said."""
+
+INTEGRATED_AS_DRAWN = 1e-5
+"""The same for curves that are only to be drawn: two thousandths of a millimetre where the surface fills a sheet of
+paper."""
+
+STALLED_OF_EXTENT = 1e-7
+"""An integral curve ends where no step of this part of the extent succeeds: at critical points, where its direction
+jumps or is no longer real."""
+
+CLOSED_OF_EXTENT = 1e-7
+"""A curve that comes back to its start, nearer than this, is closed: a hundred times the error it is integrated with,
+and nothing that a drawing can show."""

@@ -102,3 +102,7 @@ three times as much: the third power of it is the error, and differences keep mo
 
 LEAST_PART = 1e-9
 """A shorter part of a chord is what rounding leaves between two events at one place: it has no direction."""
+
+AT_POLE = 1e-7
+"""Part of the domain from a pole inside of which the surface is asked beside it: nearer, the derivative along the pole
+has lost half its digits."""

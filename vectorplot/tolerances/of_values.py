@@ -119,3 +119,7 @@ have so many digits."""
 EVEN_BENDS = 1e-9
 """Where slopes change on both sides of a point by less than this part of their largest change along the line, Akima's
 spline takes the mean of the slopes beside the point: their changes are rounding."""
+
+UMBILIC = 1e-10
+"""Part of the curvature by which the principal ones differ at least where a surface has principal directions: second
+derivatives and their products have lost six digits by then."""

@@ -113,6 +113,14 @@ def read_surface_curve(words: Words, at: int, owner: str, draft: CurveDraft) -> 
         words.fail(start, f"{owner}surface_curve: {error.cause}")
 
 
+def read_integral_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
+    """Integral curves: of a field of directions, or geodesics."""
+    from vectorplot.io.scenes.scene_integral import read_integral
+
+    lines, after = read_integral(words, at, owner, draft.lines.integral)
+    return _with_lines(draft, at, replace(draft.lines, integral=lines)), after
+
+
 def read_smooth_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
     """Lines of a polyhedron as smooth curves."""
     return _with_lines(draft, at, replace(draft.lines, smooth=True)), at + 1

@@ -11,6 +11,7 @@ import numpy as np
 from vectorplot.errors import InputWarning
 from vectorplot.io.scenes.scene_curves import (
     CurveDraft,
+    read_integral_lines,
     read_isophote_edges,
     read_isophotes,
     read_level_lines,
@@ -24,6 +25,7 @@ from vectorplot.io.scenes.scene_item import CAP_WORDS, Draft
 from vectorplot.io.scenes.scene_placement import Placement, moved, read_matrix, read_rotation, read_scale
 from vectorplot.io.scenes.scene_words import (
     FORM_WORDS,
+    INTEGRAL_WORDS,
     KIND_WORDS,
     SCENE_WORDS,
     SOLID_WORDS,
@@ -434,6 +436,7 @@ HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
     "surface_curve": _curves(read_surface_curve),
     "smooth_lines": _curves(read_smooth_lines),
     "isophote_edges": _curves(read_isophote_edges),
+    **dict.fromkeys(INTEGRAL_WORDS, _curves(read_integral_lines)),
 }
 """What reads the words of an item."""
 

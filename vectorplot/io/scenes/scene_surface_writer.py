@@ -81,6 +81,10 @@ def lines_text(curves: SurfaceLines, lights: Sequence[Light]) -> str:
             word = "slices" if section.slices else "sections"
             words.append(f"{word} normal {_numbers(section.normal)} at {_list(section.offsets)}")
     words += [f"surface_curve {_quoted(path.function)} t {_numbers((path.start, path.end))}" for path in curves.paths]
+    if curves.integral:
+        from vectorplot.io.scenes.scene_integral import integral_text
+
+        words += [integral_text(lines) for lines in curves.integral]
     words += ["smooth_lines"] * curves.smooth + ["isophote_edges"] * curves.along_edges
     return "".join(f"\n  {word}" for word in words)
 

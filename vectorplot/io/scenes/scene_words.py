@@ -14,6 +14,12 @@ from vectorplot.errors import InputError
 from vectorplot.tolerances.of_numbers import LARGEST
 from vectorplot.words import nearest
 
+INTEGRAL_WORDS = (
+    *("loxodromes", "slope_lines", "helices", "curvature_lines", "asymptotic_lines", "field_lines"),
+    "geodesics",
+)
+"""The words for integral curves of a surface."""
+
 SOLID_WORDS = ("solid", "voll")
 FORM_WORDS = ("convex", *SOLID_WORDS, "hollow", "general", "concave")
 KIND_WORDS = ("vertices", "revolution", "translation", "box", "intersection", "surface", "curve")
@@ -33,6 +39,7 @@ ITEM_WORDS = (
     *("meridian", "order", "translation", "base_points", "trans_vector", "box", "intersection", "rotation", "patterns"),
     *("lines", "occludes", "group", "scale", "matrix", "surface", "curve", "parameter_lines", "isophotes", "sections"),
     *("level_lines", "slices", "surface_curve", "smooth_lines", "isophote_edges"),
+    *INTEGRAL_WORDS,
 )
 SCENE_WORDS = ("camera", "light", "page", "background", "title")
 

@@ -184,7 +184,12 @@ def _bodies(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Bodies:
 def _has_simple_lines(item: Item, kinds: frozenset[LineKind]) -> bool:
     """Whether an item asks for lines that are straight or conics on any capped body."""
     lines, wanted = item.curves, kinds_of(item, kinds)
-    curved = (lines.paths, LineKind.CURVE), (lines.isophotes, LineKind.ISOPHOTE), (lines.sections, LineKind.SECTION)
+    curved = (
+        (lines.paths, LineKind.CURVE),
+        (lines.integral, LineKind.INTEGRAL),
+        (lines.isophotes, LineKind.ISOPHOTE),
+        (lines.sections, LineKind.SECTION),
+    )
     return not any(asked and kind in wanted for asked, kind in curved)
 
 
@@ -194,7 +199,7 @@ def _is_conic(scene: Scene, view: View, item: Item, ball: Ball, kinds: frozenset
     if not lines:
         return True
     wanted = kinds_of(item, kinds)
-    if lines.paths and LineKind.CURVE in wanted:
+    if (lines.paths and LineKind.CURVE in wanted) or (lines.integral and LineKind.INTEGRAL in wanted):
         return False
     if not lines.isophotes or LineKind.ISOPHOTE not in wanted:
         return True

@@ -36,6 +36,7 @@ from vectorplot.surfaces.placed import placed_once
 from vectorplot.surfaces.surface import Surface
 from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet, parametric_sheet
+from vectorplot.visibility.smooth.tracing.integral_items import integral_curves_in_view
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.visibility.smooth.tracing.traced_surface_curves import as_curves
 from vectorplot.words import LineKind
@@ -116,7 +117,7 @@ def _asked_for(
     wanted: frozenset[LineKind],
     tracing: Tracing,
 ) -> list[Found]:
-    """Parameter lines, isophotes, sections and paths."""
+    """Parameter lines, isophotes, sections, paths and integral curves."""
     surface, lines = sheet.surface, item.curves
     result: list[Found] = []
     if LineKind.PARAMETER in wanted and lines.columns + lines.rows > 0 and not sheet.is_cap:
@@ -135,6 +136,10 @@ def _asked_for(
         for path in lines.paths:
             found = surface_path(surface, path.function.values, path.start, path.end, tracing=tracing)
             result.append((LineKind.CURVE, ParameterCurves(sheet, number), found))
+    if LineKind.INTEGRAL in wanted and not sheet.is_cap:
+        for asked in lines.integral:
+            found = integral_curves_in_view(view, item, surface, asked, tracing)
+            result.append((LineKind.INTEGRAL, ParameterCurves(sheet, number), found))
     return result
 
 

@@ -1,0 +1,84 @@
+"""Words for integral curves: read, written, drawn where they are seen, and told when they are wrong."""
+
+import numpy as np
+import pytest
+
+import vectorplot as vp
+from vectorplot import features
+from vectorplot.errors import InputError
+from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.scene import FieldLines, GeodesicLines
+from vectorplot.testing import assert_drawing_is_right, assert_integral_curve, curves_in_space
+
+WORDS = {
+    "loxodromes 45 through 0 0": (FieldLines(features.loxodromes(np.pi / 4), None, ((0.0, 0.0),)),),
+    "loxodromes 30 v apart 0.5": (FieldLines(features.loxodromes(np.pi / 6, "v"), 0.5),),
+    "slope_lines": (FieldLines(features.SteepestSlope()),),
+    "helices 10": tuple(FieldLines(features.ConstantElevation(np.radians(10), side)) for side in (1, -1)),
+    "helices 10 right": (FieldLines(features.ConstantElevation(np.radians(10), -1)),),
+    "curvature_lines": tuple(FieldLines(features.PrincipalDirections(k)) for k in (1, 2)),
+    'asymptotic_lines 2 through 0 "pi" , 1 2': (
+        FieldLines(features.AsymptoticDirections(2), None, ((0.0, np.pi), (1.0, 2.0))),
+    ),
+    "geodesics 0 1 90 , 2 1 0 length 3": (GeodesicLines(((0.0, 1.0, np.pi / 2), (2.0, 1.0, 0.0)), 3.0),),
+}
+
+
+@pytest.mark.capability("G3.0-language")
+@pytest.mark.parametrize("words", WORDS)
+def test_files_say_it_and_write_it_again(words):
+    scene = parse_scene(f"RING blue surface torus 3 1 {words} scale 2")
+    assert scene.items[0].curves.integral == WORDS[words]
+    assert parse_scene(write_scene(scene)).items[0].curves.integral == WORDS[words]
+
+
+@pytest.mark.capability("G3.0-language")
+def test_field_lines_of_formulas_are_drawn_and_written():
+    scene = parse_scene('BALL blue surface sphere 2 field_lines "-y" "x" 0 through 0 0.5 translation 0 0 3')
+    assert write_scene(parse_scene(write_scene(scene))) == write_scene(scene)
+    drawing = vp.draw(scene, lines="integral", hidden="solid")
+    found = np.concatenate(curves_in_space(drawing, kind="integral"))
+    # Round the axis of the world, on a ball beside it.
+    assert np.ptp(np.linalg.norm(found[:, :2], axis=1)) < 0.02 and np.ptp(found[:, 2]) < 0.02
+
+
+@pytest.mark.capability("G3.0-language")
+@pytest.mark.parametrize(
+    ("words", "cause"),
+    [
+        ("box 1 1 1 slope_lines", "integral curves are for surfaces only"),
+        ("surface implicit_torus 3 1 slope_lines", "with parameters u and v only"),
+        ("curve circle 1 slope_lines", "'slope_lines' is for surfaces only"),
+        ("surface torus 3 1 helices 90", "elevation 90, expected less than 90 degrees"),
+        ("surface torus 3 1 helices", "expected a number for the elevation of helices"),
+        ("surface torus 3 1 curvature_lines 3", "family 3, expected 1 or 2"),
+        ("surface torus 3 1 slope_lines apart 0", "distance"),
+        ("surface torus 3 1 slope_lines through 1", "a point of slope_lines"),
+        ("surface torus 3 1 geodesics 0 0", "a point of geodesics"),
+        ("surface torus 3 1 geodesics 0 0 0 length -1", "length"),
+        ('surface torus 3 1 field_lines "x" "y"', "formula"),
+    ],
+)
+def test_mistakes_about_them_are_told(words, cause):
+    with pytest.raises(InputError, match=cause):
+        parse_scene(f"A {words}")
+
+
+@pytest.mark.slow
+@pytest.mark.capability("G9.4-loxodrome")
+def test_they_are_hidden_as_rays_say_and_follow_their_field():
+    scene = parse_scene(
+        "camera eye 8 5 6 target 0 0 0 RING blue surface torus 3 1 loxodromes 60 through 0 0 geodesics 0 1 40 length 12"
+    )
+    drawing = vp.draw(scene, hidden="solid")
+    assert_drawing_is_right(drawing, scene, scene.camera, samples=30)
+    alone = parse_scene("B surface torus 3 1 loxodromes 60 through 0 0")
+    lines = curves_in_space(vp.draw(alone, hidden="solid"), kind="integral")
+    long = [line for line in lines if len(line) > 5]
+    assert_integral_curve(long, scene.items[0].shape, features.loxodromes(np.radians(60)), 0.05)
+
+
+def test_lines_too_close_together_are_told_with_the_items_name():
+    with pytest.raises(InputError, match="RING: evenly spaced curves"):
+        vp.draw(parse_scene("RING surface torus 3 1 slope_lines apart 0.0001"))

@@ -1,0 +1,109 @@
+"""How the state of a point changes that runs over a surface: along a field of directions, or straight on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.features.integral.charts import Charts
+from vectorplot.features.integral.sites import Sites, unit
+from vectorplot.features.integral.tangent_fields import TangentField
+from vectorplot.geometry.vectors import dot
+from vectorplot.surfaces.surface import Surface
+
+
+class Flow(Protocol):
+    """What leads points over a surface. The first two numbers of a state are coordinates in a chart."""
+
+    @property
+    def surface(self) -> Surface:
+        """Over which it leads."""
+        ...
+
+    @property
+    def charts(self) -> Charts:
+        """Those of the surface."""
+        ...
+
+    def states(self, at: Floats, tangents: Floats) -> Floats:
+        """(k,d) the states of points at coordinates (k,2) that run along unit tangents (k,3)."""
+        ...
+
+    def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> tuple[Floats, Floats]:
+        """Derivatives (k,d) of states by the length of the curve, and the unit tangents (k,3) there; last (k,3): the
+        tangents a little before; way (k,): -1 where it leads against the field, else 1."""
+        ...
+
+    def settled(self, chart: Ints, states: Floats) -> Floats:
+        """(k,d) states with what they must keep put right again."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class FieldFlow:
+    """Along a field of directions. Where one that has several has none, as at an umbilic, it leads straight on."""
+
+    surface: Surface
+    charts: Charts
+    field: TangentField
+
+    def states(self, at: Floats, tangents: Floats) -> Floats:
+        """The coordinates are all of it."""
+        return at
+
+    def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> tuple[Floats, Floats]:
+        """Derivatives and tangents."""
+        places = self.charts.inside(self.charts.parameters(chart, states))
+        sites = Sites(self.surface, *places.T)
+        found = self.field.tangents(sites)
+        if self.field.directed:
+            tangents = found[0] * way[:, None]
+        else:
+            tangents = aligned(found, last)
+        if len(found) > 1:
+            lost = ~np.isfinite(tangents).all(axis=1) & np.isfinite(last).all(axis=1) & np.isfinite(sites.normals[:, 0])
+            tangents[lost] = unit(sites.tangential(last))[lost]
+        steps = np.stack(sites.steps(tangents), axis=1)
+        return self.charts.rates(chart, places, steps), tangents
+
+    def settled(self, chart: Ints, states: Floats) -> Floats:
+        """The states: every one is right."""
+        return states
+
+
+@dataclass(frozen=True, eq=False)
+class GeodesicFlow:
+    """Straight on: the tangent turns with the tangent plane only. States are coordinates and unit tangents."""
+
+    surface: Surface
+    charts: Charts
+
+    def states(self, at: Floats, tangents: Floats) -> Floats:
+        """(k,5) coordinates and tangents."""
+        return np.concatenate([at, tangents], axis=1)
+
+    def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> tuple[Floats, Floats]:
+        """Derivatives and tangents: x'' is along the normal."""
+        places = self.charts.inside(self.charts.parameters(chart, states[:, :2]))
+        sites = Sites(self.surface, *places.T)
+        tangents = states[:, 2:]
+        steps = np.stack(sites.steps(tangents), axis=1)
+        bent = sites.bends(tangents)[:, None] * sites.normals
+        return np.concatenate([self.charts.rates(chart, places, steps), bent], axis=1), tangents
+
+    def settled(self, chart: Ints, states: Floats) -> Floats:
+        """The states, their tangents of length 1 and in the tangent plane."""
+        places = self.charts.inside(self.charts.parameters(chart, states[:, :2]))
+        sites = Sites(self.surface, *places.T)
+        return np.concatenate([states[:, :2], unit(sites.tangential(states[:, 2:]))], axis=1)
+
+
+def aligned(candidates: Floats, last: Floats) -> Floats:
+    """(k,3) of the unit tangents (j,k,3) at each place, and their opposites, the one nearest to the last (k,3)."""
+    cosines = dot(candidates, last[None])
+    best = np.argmax(np.abs(np.nan_to_num(cosines)), axis=0)
+    row = np.arange(len(last))
+    return np.asarray(candidates[best, row] * np.where(cosines[best, row] < 0.0, -1.0, 1.0)[:, None])

@@ -1,0 +1,331 @@
+"""Points led over a surface by a flow, many at once, each with steps of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.integral.dormand_prince import ORDER, Steps, steps
+from vectorplot.features.integral.flows import Flow
+from vectorplot.geometry import ragged, records
+from vectorplot.geometry.vectors import dot, norm
+from vectorplot.tolerances.of_extent import (
+    CLOSED_OF_EXTENT,
+    INTEGRATED_OF_EXTENT,
+    ROUNDING_OF_POINTS,
+    STALLED_OF_EXTENT,
+)
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
+
+LONGEST = 1.0 / 6.0
+"""Part of the extent that one step may lead."""
+
+FIRST = 1.0 / 64.0
+"""Part of the extent that the first step tries to lead."""
+
+CAUTION, SHRINK, GROW = 0.9, 0.2, 4.0
+"""Part of the step that would just do which the next one is, and by what it may differ from the last at most."""
+
+TURN = 0.5
+"""Cosine of the angle by which a tangent may turn in one step."""
+
+AWAY = 3.0
+"""Steps after which a curve may have come back to its start, at least."""
+
+HALVINGS = 52
+"""How often a step is halved until it is known where something happens: to the last bit."""
+
+CLOSED_OF_ERROR = 10.0
+"""Times the error that curves are integrated with that one may miss its start by and is closed, at least."""
+
+MOST_STEPS = 5_000
+"""Steps of one curve at most."""
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """How well curves are integrated.
+
+    Parameters
+    ----------
+    error : float
+        Part of the extent of the surface that the estimated errors of the steps of a curve, as long as the extent, add
+        up to. Where neighbouring curves run apart, or together, errors grow, or shrink, with their distance.
+    steps : int
+        That one curve may have.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> rough, fine = features.Accuracy(1e-4), features.Accuracy(1e-12)
+    >>> ball, field = surfaces.Sphere(), features.loxodromes(1.0)
+    >>> ends = [features.integral_curves(ball, field, [(0, 0)], accuracy=a).points[-1] for a in (rough, fine)]
+    >>> bool(np.allclose(*ends, atol=1e-3))
+    True
+    """
+
+    error: float = INTEGRATED_OF_EXTENT
+    steps: int = MOST_STEPS
+
+
+USUAL = Accuracy()
+
+
+@dataclass(frozen=True, eq=False)
+class Leaps:
+    """Steps of points over a surface: row (s,): which point each leads; chart (s,); part (s,): how much of the step
+    counts; length (s,): of that; before (s,2): u and v where it begins, running on over seams."""
+
+    row: Ints
+    chart: Ints
+    part: Floats
+    length: Floats
+    before: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Courses:
+    """The ways of points over a surface, those of each point in the order in which they follow each other.
+
+    leaps, steps (s,); offsets (m+1,): point i has the steps offsets[i] to offsets[i+1]; closed (m,): whether it came
+    back to its start; stalled, spent (m,): whether it ended where no step succeeds, or for want of steps.
+    """
+
+    flow: Flow
+    leaps: Leaps
+    steps: Steps
+    offsets: Ints
+    closed: Bools
+    stalled: Bools
+    spent: Bools
+
+    def states(self, step: Ints, part: Floats) -> Floats:
+        """(k,d) the states at parts (k,) of what counts of steps (k,)."""
+        return self.steps.some(step).at(part * self.leaps.part[step])
+
+    def places(self, step: Ints, part: Floats) -> Floats:
+        """(k,2) u and v there, running on over seams."""
+        charts = self.flow.charts
+        found = charts.parameters(self.leaps.chart[step], self.states(step, part)[:, :2])
+        return charts.near_to(found, self.leaps.before[step])
+
+    def points(self, step: Ints, part: Floats) -> Floats:
+        """(k,3) points there."""
+        charts = self.flow.charts
+        found = charts.parameters(self.leaps.chart[step], self.states(step, part)[:, :2])
+        return self.flow.surface.points(*charts.within(found).T)
+
+
+@dataclass(frozen=True, eq=False)
+class _Points:
+    """Points on their way: which (k,), chart (k,), states (k,d), their derivatives (k,d), tangents (k,3), places (k,2)
+    running on, points (k,3), the next steps (k,), how long they are still to run (k,), and steps done (k,)."""
+
+    which: Ints
+    chart: Ints
+    states: Floats
+    rates: Floats
+    tangents: Floats
+    places: Floats
+    points: Floats
+    step: Floats
+    left: Floats
+    done: Floats
+
+
+def courses(
+    flow: Flow,
+    starts: Floats,
+    tangents: Floats,
+    way: Floats,
+    lengths: Floats,
+    size: float,
+    large: float,
+    accuracy: Accuracy = USUAL,
+) -> Courses:
+    """The courses of points from u and v (m,2) along unit tangents (m,3), as long as lengths (m,) say at most.
+
+    way (m,): -1 where they run against the field; size, large: the extent of the surface and its largest coordinate.
+    They end at borders, where they close, and where no step succeeds.
+    Source: Glaeser, section 9.4; errata G9-13 and G9-14: here steps have the length that their error allows, and a
+    curve closes only after it has been away.
+    """
+    charts = flow.charts
+    shortest = max(STALLED_OF_EXTENT, accuracy.error) * size
+    count = len(starts)
+    closed, stalled, spent = (np.zeros(count, dtype=np.bool_) for _ in range(3))
+    home = flow.surface.points(*charts.inside(starts).T)
+    chart = charts.better(np.full(count, -1), starts)
+    states = flow.states(charts.coordinates(chart, starts), tangents)
+    now = _Points(
+        np.arange(count),
+        chart,
+        states,
+        flow.rates(chart, states, tangents, way)[0],
+        tangents,
+        starts,
+        home,
+        np.full(count, FIRST * size),
+        lengths.astype(np.float64),
+        np.zeros(count),
+    )
+    leaps: list[Leaps] = []
+    found: list[Steps] = []
+    now = records.some(now, np.isfinite(now.rates).all(axis=1) & (now.left > 0.0))
+    while len(now.which):
+        last, own_way = now.tangents, way[now.which]
+        step = np.minimum(now.step, now.left)
+
+        def rates(states: Floats, now: _Points = now, last: Floats = last, own_way: Floats = own_way) -> Floats:
+            return flow.rates(now.chart, states, last, own_way)[0]
+
+        with np.errstate(all="ignore"):
+            tried = steps(rates, now.states, now.rates, step)
+            end = tried.start + tried.move
+            ahead, new = flow.rates(now.chart, end, last, own_way)
+            places = charts.parameters(now.chart, end[:, :2])
+            off = _length_of(flow, now.chart, places, tried.error, size)
+            allowed = accuracy.error * step + ROUNDING_OF_POINTS * large
+            good = np.isfinite(ahead).all(axis=1) & (off <= allowed) & (dot(new, last) > TURN)
+            factor = np.clip(CAUTION * (allowed / np.maximum(off, LEAST_DIVISOR)) ** (1 / ORDER), SHRINK, GROW)
+        factor = np.where(good, factor, np.where(np.isfinite(off), np.minimum(factor, 0.5), SHRINK))
+        following = np.minimum(factor * step, LONGEST * size)
+        ends = ~good & (following < shortest)
+        stalled[now.which[ends]] = True
+        places = charts.near_to(places, now.places)
+
+        points = flow.surface.points(*charts.within(places).T)
+
+        at = np.flatnonzero(good)
+        done = tried.some(at)
+        part = np.ones(len(at))
+        out = charts.beyond(places[at]) > 0.0
+        if out.any():
+            part[out] = _crossing(flow, now.chart[at[out]], done.some(np.flatnonzero(out)))
+        back, there = _back(flow, now, at, done, part, points[at], home, tangents, size, accuracy.error)
+        part[back] = there
+        closed[now.which[at[back]]] = True
+        length = step[at] * part
+        leaps.append(Leaps(now.which[at], now.chart[at], part, length, now.places[at]))
+        found.append(done)
+
+        # Derivatives at the new places, in charts that do better there.
+        finished = out.copy()
+        finished[back] = True
+        left = now.left[at] - length
+        finished |= left <= ROUNDING_OF_POINTS * size
+        slow = ~finished & (step[at] < shortest)
+        stalled[now.which[at[slow]]] = True
+        finished |= slow
+        used = now.done[at] + 1.0
+        spent[now.which[at[~finished & (used >= accuracy.steps)]]] = True
+        finished |= used >= accuracy.steps
+        goes_on = at[~finished]
+        moved = _renewed(flow, now, goes_on, end, ahead, new, places, way)
+        waits = np.flatnonzero(~good & ~ends)
+        both = np.concatenate([goes_on, waits])
+        now = _Points(
+            now.which[both],
+            np.concatenate([moved[0], now.chart[waits]]),
+            np.concatenate([moved[1], now.states[waits]]),
+            np.concatenate([moved[2], now.rates[waits]]),
+            np.concatenate([new[goes_on], now.tangents[waits]]),
+            np.concatenate([places[goes_on], now.places[waits]]),
+            np.concatenate([points[goes_on], now.points[waits]]),
+            following[both],
+            np.concatenate([left[~finished], now.left[waits]]),
+            np.concatenate([used[~finished], now.done[waits] + 1.0]),
+        )
+        spent[now.which[now.done >= accuracy.steps]] = True
+        now = records.some(now, now.done < accuracy.steps)
+    order, offsets = np.zeros(0, dtype=np.intp), np.zeros(count + 1, dtype=np.intp)
+    if not leaps:
+        none = Leaps(order, order, np.zeros(0), np.zeros(0), np.zeros((0, 2)))
+        empty = states[:0]
+        return Courses(flow, none, Steps(*[empty] * 6), offsets, closed, stalled, spent)
+    every = records.joined(leaps)
+    order = np.argsort(every.row, kind="stable")
+    offsets = ragged.offsets(np.bincount(every.row, minlength=count))
+    return Courses(flow, records.some(every, order), records.joined(found).some(order), offsets, closed, stalled, spent)
+
+
+def _length_of(flow: Flow, chart: Ints, places: Floats, error: Floats, size: float) -> Floats:
+    """(k,) how long errors (k,d) of states are in space; what tangents are off counts over the extent."""
+    inside = flow.charts.inside(places)
+    moved = flow.charts.steps(chart, inside, error[:, :2])
+    along_u, along_v = flow.surface.partials(*inside.T)
+    away = moved[:, :1] * along_u + moved[:, 1:] * along_v
+    return np.asarray(np.sqrt(dot(away, away) + size * size * (error[:, 2:] ** 2).sum(axis=1)))
+
+
+def _first(done: Steps, what: Callable[[Floats], Floats]) -> Floats:
+    """(k,) the parts of steps up to which what (k,) of their states is not positive."""
+    low, high = np.zeros(len(done.start)), np.ones(len(done.start))
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        over = what(done.at(middle)) > 0.0
+        low, high = np.where(over, low, middle), np.where(over, middle, high)
+    return high
+
+
+def _crossing(flow: Flow, chart: Ints, done: Steps) -> Floats:
+    """(k,) the parts of steps in charts (k,) at which they leave the surface."""
+
+    def beyond(states: Floats) -> Floats:
+        return flow.charts.beyond(flow.charts.parameters(chart, states[:, :2]))
+
+    return _first(done, beyond)
+
+
+def _back(
+    flow: Flow,
+    now: _Points,
+    at: Ints,
+    done: Steps,
+    part: Floats,
+    here: Floats,
+    home: Floats,
+    tangents: Floats,
+    size: float,
+    error: float,
+) -> tuple[Ints, Floats]:
+    """Which of the steps (k,), of the points at, lead back to their starts, which are at home (m,3) with tangents
+    (m,3), before a part (k,) of them; and where. here (k,3): the ends of the steps."""
+    which = now.which[at]
+    before = dot(now.points[at] - home[which], tangents[which])
+    after = dot(here - home[which], tangents[which])
+    rows = np.flatnonzero((before < 0.0) & (after >= 0.0) & (now.done[at] >= AWAY))
+    one, two = (norm(points[rows] - home[which[rows]]) for points in (now.points[at], here))
+    rows = rows[np.minimum(one, two) <= 2.0 * norm(here[rows] - now.points[at[rows]])]
+    if not len(rows):
+        return rows, np.zeros(0)
+    own, chart = which[rows], now.chart[at[rows]]
+
+    def way(states: Floats) -> Floats:
+        places = flow.charts.parameters(chart, states[:, :2])
+        return flow.surface.points(*flow.charts.inside(places).T) - home[own]
+
+    some = done.some(rows)
+    there = _first(some, lambda states: dot(way(states), tangents[own]))
+    near = norm(way(some.at(there))) <= max(CLOSED_OF_EXTENT, CLOSED_OF_ERROR * error) * size
+    near &= there <= part[rows]
+    return rows[near], there[near]
+
+
+def _renewed(
+    flow: Flow, now: _Points, rows: Ints, end: Floats, ahead: Floats, new: Floats, places: Floats, way: Floats
+) -> tuple[Ints, Floats, Floats]:
+    """Charts, states and derivatives of rows of points at the ends of their steps."""
+    chart = flow.charts.better(now.chart[rows], places[rows])
+    states, rates = end[rows], ahead[rows]
+    changed = np.flatnonzero(chart != now.chart[rows])
+    if len(changed):
+        own = rows[changed]
+        at = flow.charts.coordinates(chart[changed], places[own])
+        states[changed] = np.concatenate([at, states[changed, 2:]], axis=1)
+        rates[changed] = flow.rates(chart[changed], states[changed], new[own], way[now.which[own]])[0]
+    return chart, states, rates

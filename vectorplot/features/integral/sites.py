@@ -1,0 +1,95 @@
+"""Places on a surface, and what is known there of its tangent planes and how it bends."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.geometry.vectors import cross, dot
+from vectorplot.surfaces.surface import Surface
+
+
+@dataclass(frozen=True, eq=False)
+class Sites:
+    """Places on a surface, with its tangent planes there.
+
+    Parameters
+    ----------
+    surface : Surface
+        With its partials and second partials.
+    u, v : (k,) array of float
+        Parameters, within the domain.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> sites = features.Sites(surfaces.Cylinder(), np.array([0.0]), np.array([0.5]))
+    >>> (sites.normals + 0.0).tolist()
+    [[1.0, 0.0, 0.0]]
+    """
+
+    surface: Surface
+    u: Floats
+    v: Floats
+
+    @cached_property
+    def points(self) -> Floats:
+        """(k,3) in world coordinates."""
+        return self.surface.points(self.u, self.v)
+
+    @cached_property
+    def planes(self) -> tuple[Floats, Floats, Floats]:
+        """Derivatives by u and by v, and unit normals, (k,3) each; no normals at poles and singular points."""
+        along_u, along_v = self.surface.partials(self.u, self.v)
+        return along_u, along_v, unit(cross(along_u, along_v))
+
+    @property
+    def normals(self) -> Floats:
+        """(k,3) unit normals."""
+        return self.planes[2]
+
+    @cached_property
+    def first_form(self) -> tuple[Floats, Floats, Floats]:
+        """E, F, G (k,)."""
+        along_u, along_v, _ = self.planes
+        return dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)
+
+    @cached_property
+    def second_form(self) -> tuple[Floats, Floats, Floats]:
+        """L, M, N (k,)."""
+        uu, uv, vv = self.surface.second_partials(self.u, self.v)
+        return dot(self.normals, uu), dot(self.normals, uv), dot(self.normals, vv)
+
+    def tangential(self, vectors: Floats) -> Floats:
+        """(k,3) the parts of vectors (k,3) in the tangent planes."""
+        return np.asarray(vectors - dot(vectors, self.normals)[:, None] * self.normals)
+
+    def turned(self, tangents: Floats, angle: float) -> Floats:
+        """(k,3) tangent vectors turned about the normals, counter-clockwise seen from their tips."""
+        return np.asarray(np.cos(angle) * tangents + np.sin(angle) * cross(self.normals, tangents))
+
+    def steps(self, tangents: Floats) -> tuple[Floats, Floats]:
+        """du and dv (k,) that move along tangent vectors (k,3); not finite at poles and singular points."""
+        e, f, g = self.first_form
+        along_u, along_v, _ = self.planes
+        a, b = dot(tangents, along_u), dot(tangents, along_v)
+        area = e * g - f * f
+        with np.errstate(all="ignore"):
+            return (g * a - f * b) / area, (e * b - f * a) / area
+
+    def bends(self, tangents: Floats) -> Floats:
+        """(k,) normal curvatures in the directions of unit tangent vectors (k,3)."""
+        du, dv = self.steps(tangents)
+        p, m, q = self.second_form
+        with np.errstate(all="ignore"):
+            return np.asarray((p * du + 2.0 * m * dv) * du + q * dv * dv)
+
+
+def unit(vectors: Floats) -> Floats:
+    """(...,3) vectors divided by their lengths; NaN where they have none."""
+    with np.errstate(all="ignore"):
+        return np.asarray(vectors / np.sqrt(dot(vectors, vectors))[..., None])

@@ -1,0 +1,356 @@
+"""Fields of directions on a surface: parameter lines, slopes, helices, vectors of one's own, and fields turned."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, Literal, Protocol
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.curves.parameters import number, vector
+from vectorplot.errors import InputError
+from vectorplot.features.integral.sites import Sites, unit
+from vectorplot.geometry.vectors import cross, dot
+from vectorplot.tolerances.of_angles import FLAT_SLOPE
+
+Vector = tuple[float, float, float]
+
+UP: Vector = (0.0, 0.0, 1.0)
+
+
+class TangentField(Protocol):
+    """What every field of directions on a surface can do.
+
+    Notes
+    -----
+    A protocol: whatever has these members is a field, of this package or of a user. directed says whether a direction
+    and its opposite differ: curves of a field that is not directed go on in the sense they came with. tangents(sites)
+    are (j, k, 3): j unit tangent vectors at each of k sites, the first one of the field's own, NaN where it has no
+    direction. Where j > 1 a curve goes on along the one that is nearest to the way it came.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> def first(field: features.TangentField, sites: features.Sites) -> list[float]:
+    ...     return (field.tangents(sites)[0, 0] + 0.0).round(9).tolist()
+    >>> sites = features.Sites(surfaces.Sphere(), np.array([0.0]), np.array([0.0]))
+    >>> first(features.SteepestSlope(), sites)
+    [0.0, 0.0, 1.0]
+    """
+
+    @property
+    def directed(self) -> bool:
+        """Whether a direction and its opposite differ."""
+        ...
+
+    def tangents(self, sites: Sites) -> Floats:
+        """(j,k,3) unit tangent vectors."""
+        ...
+
+
+@dataclass(frozen=True)
+class ParameterDirection:
+    """The direction of the lines along which one parameter is constant.
+
+    Parameters
+    ----------
+    constant : "u" or "v"
+        The lines u = const. are followed the way v grows, those v = const. the way u grows.
+
+    Raises
+    ------
+    InputError
+        For another word.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> sites = features.Sites(surfaces.Cylinder(), np.array([0.0]), np.array([0.5]))
+    >>> features.ParameterDirection("u").tangents(sites).tolist()
+    [[[0.0, 0.0, 1.0]]]
+    """
+
+    constant: Literal["u", "v"] = "u"
+    directed: ClassVar[bool] = True
+
+    def __post_init__(self) -> None:
+        if self.constant not in ("u", "v"):
+            raise InputError(f"parameter direction: {self.constant!r}, expected 'u' or 'v'")
+
+    def tangents(self, sites: Sites) -> Floats:
+        """(1,k,3) unit tangent vectors."""
+        return unit(sites.planes[1 if self.constant == "u" else 0])[None]
+
+
+@dataclass(frozen=True)
+class SteepestSlope:
+    """The way up where a surface is steepest, at right angles to its level lines.
+
+    Parameters
+    ----------
+    up : (float, float, float)
+        The direction in which heights are measured, in world coordinates, of any length but zero.
+
+    Raises
+    ------
+    InputError
+        For a direction without length.
+
+    Notes
+    -----
+    Degenerate: no direction where the surface is level.
+
+    Source: Glaeser, section 9.4, example 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> roof = surfaces.graph(lambda x, y: x, surfaces.Domain(0, 1, 0, 1))
+    >>> sites = features.Sites(roof, np.array([0.5]), np.array([0.5]))
+    >>> features.SteepestSlope().tangents(sites).round(6).tolist()
+    [[[0.707107, 0.0, 0.707107]]]
+    """
+
+    up: Vector = UP
+    directed: ClassVar[bool] = True
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "up", _direction("steepest slope", self.up))
+
+    def tangents(self, sites: Sites) -> Floats:
+        """(1,k,3) unit tangent vectors."""
+        return _upwards(sites, self.up)[0][None]
+
+
+@dataclass(frozen=True)
+class ConstantElevation:
+    """The directions that rise at one angle everywhere: those of generalised helices, of roads of constant slope.
+
+    Parameters
+    ----------
+    elevation : float
+        The angle with horizontal planes, in radians, between -pi/2 and pi/2; 0 gives level lines.
+    side : 1 or -1
+        Which of the two directions: the one to the left of the steepest slope for somebody who stands on the side the
+        normals point to, or the one to its right.
+    up : (float, float, float)
+        The direction in which heights are measured, in world coordinates.
+
+    Raises
+    ------
+    InputError
+        For angles that are not between -pi/2 and pi/2, another side, a direction without length.
+
+    Notes
+    -----
+    Degenerate: no direction where the surface is less steep than the angle: the solution is not real there.
+
+    Source: Glaeser, section 9.4, equations 20 to 23.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> sites = features.Sites(surfaces.Cylinder(), np.array([0.0]), np.array([0.5]))
+    >>> features.ConstantElevation(np.radians(30)).tangents(sites).round(6).tolist()
+    [[[0.0, -0.866025, 0.5]]]
+    """
+
+    elevation: float
+    side: int = 1
+    up: Vector = UP
+    directed: ClassVar[bool] = True
+
+    def __post_init__(self) -> None:
+        if not abs(number("helices: elevation", self.elevation)) < 0.5 * np.pi:
+            raise InputError(f"helices: elevation {np.degrees(self.elevation):g}, expected less than 90 degrees")
+        if self.side not in (1, -1):
+            raise InputError(f"helices: side {self.side!r}, expected 1 or -1")
+        object.__setattr__(self, "up", _direction("helices", self.up))
+
+    def tangents(self, sites: Sites) -> Floats:
+        """(1,k,3) unit tangent vectors."""
+        slope, steep = _upwards(sites, self.up)
+        with np.errstate(all="ignore"):
+            part = np.sin(self.elevation) / steep
+            across = self.side * np.sqrt(1.0 - part * part)
+        return np.asarray(part[:, None] * slope + across[:, None] * cross(sites.normals, slope))[None]
+
+
+@dataclass(frozen=True)
+class VectorField:
+    """The directions of the parts of vectors in space that are tangential to a surface: forces, winds, streams.
+
+    Parameters
+    ----------
+    function : callable
+        Takes points (k, 3) in world coordinates to vectors (k, 3).
+
+    Notes
+    -----
+    Degenerate: no direction where the tangential part vanishes or is not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> field = features.VectorField(lambda points: np.cross((0.0, 0.0, 1.0), points))
+    >>> sites = features.Sites(surfaces.Sphere(), np.array([0.0]), np.array([0.5]))
+    >>> field.tangents(sites).round(9).tolist()
+    [[[0.0, 1.0, 0.0]]]
+    """
+
+    function: Callable[[Floats], Floats]
+    directed: ClassVar[bool] = True
+
+    def tangents(self, sites: Sites) -> Floats:
+        """(1,k,3) unit tangent vectors. Errors: InputError for a function that does not give (k,3) real numbers."""
+        return unit(sites.tangential(_rows(self.function(sites.points), len(sites.u), 3)))[None]
+
+
+@dataclass(frozen=True)
+class ParameterField:
+    """The directions on a surface that rates of change of its parameters belong to.
+
+    Parameters
+    ----------
+    function : callable
+        Takes parameters u, v (k,) to rates (k, 2) of u and v, of any size.
+
+    Notes
+    -----
+    Degenerate: no direction where both vanish or one is not finite.
+
+    Source: Glaeser, section 9.4, equations 18 and 19.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> field = features.ParameterField(lambda u, v: np.stack([np.ones_like(u), 0.0 * v], axis=1))
+    >>> sites = features.Sites(surfaces.Sphere(), np.array([0.0]), np.array([0.5]))
+    >>> (field.tangents(sites).round(9) + 0.0).tolist()
+    [[[0.0, 1.0, 0.0]]]
+    """
+
+    function: Callable[[Floats, Floats], Floats]
+    directed: ClassVar[bool] = True
+
+    def tangents(self, sites: Sites) -> Floats:
+        """(1,k,3) unit tangent vectors. Errors: InputError for a function that does not give (k,2) real numbers."""
+        du, dv = _rows(self.function(sites.u, sites.v), len(sites.u), 2).T
+        along_u, along_v, _ = sites.planes
+        return unit(du[:, None] * along_u + dv[:, None] * along_v)[None]
+
+
+@dataclass(frozen=True)
+class TurnedField:
+    """The directions at a constant angle with those of another field: loxodromes and other isogonal trajectories.
+
+    Parameters
+    ----------
+    field : TangentField
+        Such as ParameterDirection, or SteepestSlope, whose curves turned by a right angle are level lines.
+    angle : float
+        In radians, counter-clockwise about the normals.
+
+    Raises
+    ------
+    InputError
+        For an angle that is not finite.
+
+    Notes
+    -----
+    Turned by a right angle, its curves are the orthogonal trajectories of those of the field.
+
+    Source: Glaeser, section 9.4, example 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> meridians = features.ParameterDirection("u")
+    >>> sites = features.Sites(surfaces.Sphere(), np.array([0.0]), np.array([0.0]))
+    >>> features.TurnedField(meridians, np.pi / 2).tangents(sites).round(9).tolist()
+    [[[0.0, -1.0, 0.0]]]
+    """
+
+    field: TangentField
+    angle: float
+
+    def __post_init__(self) -> None:
+        number("turned field: angle", self.angle)
+
+    @property
+    def directed(self) -> bool:
+        """As the other field."""
+        return self.field.directed
+
+    def tangents(self, sites: Sites) -> Floats:
+        """(j,k,3) unit tangent vectors."""
+        return np.stack([sites.turned(tangents, self.angle) for tangents in self.field.tangents(sites)])
+
+
+def loxodromes(angle: float, constant: Literal["u", "v"] = "u") -> TurnedField:
+    """The field of the curves that cross the lines u = const., or v = const., at a constant angle.
+
+    Parameters
+    ----------
+    angle : float
+        In radians, counter-clockwise about the normals from the direction in which the other parameter grows.
+    constant : "u" or "v"
+        Which lines they cross.
+
+    Returns
+    -------
+    TurnedField
+        For integral_curves.
+
+    Raises
+    ------
+    InputError
+        For an angle that is not finite, and another word.
+
+    Notes
+    -----
+    Source: Glaeser, section 9.4, example 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> course = features.integral_curves(surfaces.Sphere(), features.loxodromes(np.radians(-80)), [(0.0, 0.0)])
+    >>> len(course)
+    1
+    """
+    return TurnedField(ParameterDirection(constant), angle)
+
+
+def _direction(what: str, up: Vector) -> Vector:
+    given = vector(f"{what}: up", up)
+    if not given.any():
+        raise InputError(f"{what}: up has no length")
+    x, y, z = unit(given / np.abs(given).max()).tolist()
+    return x, y, z
+
+
+def _upwards(sites: Sites, up: Vector) -> tuple[Floats, Floats]:
+    """The unit vectors (k,3) along which the surface is steepest, and the sine (k,) of its slope there."""
+    slope = sites.tangential(np.broadcast_to(np.asarray(up), sites.normals.shape))
+    steep = np.sqrt(dot(slope, slope))
+    with np.errstate(all="ignore"):
+        steep = np.where(steep > FLAT_SLOPE, steep, np.nan)
+        return np.asarray(slope / steep[:, None]), steep
+
+
+def _rows(values: Floats, count: int, width: int) -> Floats:
+    """(count,width) what a function of one's own gave."""
+    rows = np.asarray(values)
+    if rows.shape != (count, width) or rows.dtype.kind not in "fiu":
+        raise InputError(f"field: the function gave {rows.dtype} {rows.shape}, expected real ({count}, {width})")
+    return rows.astype(np.float64)

@@ -1,0 +1,182 @@
+"""Integral curves on a surface as words of a scene file: read, and written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from json import dumps
+from math import degrees, pi, radians
+from typing import Literal
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.errors import InputError
+from vectorplot.features.integral.curvature_fields import AsymptoticDirections, PrincipalDirections
+from vectorplot.features.integral.tangent_fields import (
+    UP,
+    ConstantElevation,
+    ParameterDirection,
+    SteepestSlope,
+    TangentField,
+    TurnedField,
+    VectorField,
+    loxodromes,
+)
+from vectorplot.io.scenes.scene_formulas import Formulas
+from vectorplot.io.scenes.scene_slots import read_formulas, read_number, read_numbers
+from vectorplot.io.scenes.scene_words import Words
+from vectorplot.scene.integral_lines import MOST_STARTS, FieldLines, GeodesicLines, IntegralLines
+
+MOST_FAMILIES = 100
+"""The largest number of families of integral curves on one item."""
+
+SIDES = {"left": 1, "right": -1}
+"""Which of the two directions of one elevation, seen from outside by somebody who looks up the slope."""
+
+Fields = Callable[[Words, int, str], tuple[tuple[TangentField, ...], int]]
+
+
+@dataclass(frozen=True)
+class SpaceFormulas:
+    """Vectors at points of space, of three formulas in x, y and z."""
+
+    formulas: Formulas
+
+    def __call__(self, points: Floats) -> Floats:
+        """(k,3) vectors at points (k,3)."""
+        with np.errstate(all="ignore"):
+            parts = self.formulas(*np.moveaxis(points, -1, 0))
+        return np.stack(np.broadcast_arrays(*parts, points[..., 0])[:3], axis=-1)
+
+
+def _loxodromes(words: Words, at: int, owner: str) -> tuple[tuple[TangentField, ...], int]:
+    angle, at = read_number(words, at, owner, "the angle of loxodromes")
+    constant: Literal["u", "v"] = "u"
+    if words.words[at] in ("u", "v"):
+        constant, at = ("v" if words.words[at] == "v" else "u"), at + 1
+    return (loxodromes(radians(angle), constant),), at
+
+
+def _slopes(words: Words, at: int, owner: str) -> tuple[tuple[TangentField, ...], int]:
+    return (SteepestSlope(),), at
+
+
+def _helices(words: Words, at: int, owner: str) -> tuple[tuple[TangentField, ...], int]:
+    angle, at = read_number(words, at, owner, "the elevation of helices")
+    sides = tuple(SIDES.values())
+    if words.words[at] in SIDES:
+        sides, at = (SIDES[words.words[at]],), at + 1
+    return tuple(ConstantElevation(radians(angle), side) for side in sides), at
+
+
+def _families(make: Callable[[int], TangentField]) -> Fields:
+    def read(words: Words, at: int, owner: str) -> tuple[tuple[TangentField, ...], int]:
+        if not words.is_number(at):
+            return (make(1), make(2)), at
+        return (make(words.whole(at, owner, "a family of lines")),), at + 1
+
+    return read
+
+
+def _own(words: Words, at: int, owner: str) -> tuple[tuple[TangentField, ...], int]:
+    formulas, at = read_formulas(3, "x", "y", "z")(words, at, owner, "field_lines")
+    return (VectorField(SpaceFormulas(formulas)),), at
+
+
+FIELDS: dict[str, Fields] = {
+    "loxodromes": _loxodromes,
+    "slope_lines": _slopes,
+    "helices": _helices,
+    "curvature_lines": _families(PrincipalDirections),
+    "asymptotic_lines": _families(AsymptoticDirections),
+    "field_lines": _own,
+}
+"""The words for fields of directions, and how what follows them is read."""
+
+
+def read_integral(
+    words: Words, at: int, owner: str, before: tuple[IntegralLines, ...]
+) -> tuple[tuple[IntegralLines, ...], int]:
+    """The integral curves that were asked for before, and those of the word at, with the word behind them."""
+    start = at
+    try:
+        found, at = (_geodesics if words.words[at] == "geodesics" else _field_lines)(words, at, owner)
+    except InputError as error:
+        if error.file is not None:
+            raise
+        words.fail(start, owner + error.cause)
+    if len(before) + len(found) > MOST_FAMILIES:
+        words.fail(start, f"{owner}expected at most {MOST_FAMILIES} families of integral curves")
+    return (*before, *found), at
+
+
+def _field_lines(words: Words, at: int, owner: str) -> tuple[tuple[IntegralLines, ...], int]:
+    """A field of directions, and how far apart its lines are, or what points they go through."""
+    word = words.words[at]
+    fields, at = FIELDS[word](words, at + 1, owner)
+    apart, through = None, np.zeros((0, 2))
+    if words.words[at] == "apart":
+        apart, at = read_number(words, at + 1, owner, f"the distance of {word}")
+    elif words.words[at] == "through":
+        through, at = _starts(words, at + 1, owner, 2, word)
+    places = tuple((u, v) for u, v in through.tolist())
+    return tuple(FieldLines(field, apart, places) for field in fields), at
+
+
+def _geodesics(words: Words, at: int, owner: str) -> tuple[tuple[IntegralLines, ...], int]:
+    """Parameters and angles, and a length."""
+    rows, at = _starts(words, at + 1, owner, 3, "geodesics")
+    length = None
+    if words.words[at] == "length":
+        length, at = read_number(words, at + 1, owner, "the length of geodesics")
+    return (GeodesicLines(tuple((u, v, radians(angle)) for u, v, angle in rows.tolist()), length),), at
+
+
+def _starts(words: Words, at: int, owner: str, width: int, what: str) -> tuple[Floats, int]:
+    rows: list[tuple[float, ...]] = []
+    while not rows or words.words[at] == ",":
+        row, at = read_numbers(width)(words, at + bool(rows), owner, f"a point of {what}")
+        rows.append(row)
+        if len(rows) > MOST_STARTS:
+            words.fail(at - 1, f"{owner}{what}: expected at most {MOST_STARTS} points")
+    return np.array(rows), at
+
+
+def integral_text(lines: IntegralLines) -> str:
+    """The words for integral curves. Errors: InputError for fields that the language cannot name."""
+    if isinstance(lines, GeodesicLines):
+        rows = (f"{u!r} {v!r} {_degrees(angle)!r}" for u, v, angle in lines.starts)
+        return f"geodesics {' , '.join(rows)}" + ("" if lines.length is None else f" length {float(lines.length)!r}")
+    words = _field_text(lines.field)
+    if lines.through:
+        return f"{words} through {' , '.join(_pair(row) for row in lines.through)}"
+    return words if lines.apart is None else f"{words} apart {float(lines.apart)!r}"
+
+
+def _pair(row: Iterable[float]) -> str:
+    return " ".join(repr(float(value)) for value in row)
+
+
+def _field_text(field: TangentField) -> str:
+    if isinstance(field, TurnedField) and isinstance(field.field, ParameterDirection):
+        return f"loxodromes {_degrees(field.angle)!r} {field.field.constant}"
+    if isinstance(field, SteepestSlope) and field.up == UP:
+        return "slope_lines"
+    if isinstance(field, TurnedField) and field.field == SteepestSlope() and field.angle == 0.5 * pi:
+        return "helices 0.0 left"
+    if isinstance(field, ConstantElevation) and field.up == UP:
+        side = next(word for word, side in SIDES.items() if side == field.side)
+        return f"helices {_degrees(field.elevation)!r} {side}"
+    if isinstance(field, PrincipalDirections):
+        return f"curvature_lines {field.family}"
+    if isinstance(field, AsymptoticDirections):
+        return f"asymptotic_lines {field.family}"
+    if isinstance(field, VectorField) and isinstance(field.function, SpaceFormulas):
+        return "field_lines " + " ".join(dumps(e.text) for e in field.function.formulas.expressions)
+    raise InputError(f"the scene language has no word for the field {type(field).__name__}")
+
+
+def _degrees(angle: float) -> float:
+    """An angle in degrees, with as few digits as give the same radians back."""
+    return next((s for s in (round(degrees(angle), k) for k in range(15)) if radians(s) == angle), degrees(angle))

@@ -1,0 +1,168 @@
+"""Assertions about curves that follow a field of directions, and about geodesics."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.errors import InputError
+from vectorplot.features.integral.sites import Sites
+from vectorplot.features.integral.tangent_fields import TangentField
+from vectorplot.geometry.vectors import cross, dot, norm
+from vectorplot.surfaces.surface import Surface, is_parametrised
+from vectorplot.testing.curve_points import Curves, polylines_of
+from vectorplot.testing.curves import assert_on_surface, places_near
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
+
+
+class _Middles(NamedTuple):
+    """The inner points (k,3) of polylines, the curve (k,) of each, the chords (k,3) before and behind it, and its
+    parameters and normal; extent: of the surface."""
+
+    curve: Ints
+    points: Floats
+    before: Floats
+    behind: Floats
+    places: Floats
+    normals: Floats
+    extent: float
+
+
+def assert_integral_curve(points: Curves, surface: Surface, field: TangentField, tolerance: float) -> None:
+    """Nothing, where curves follow a field of directions on a surface all along.
+
+    Parameters
+    ----------
+    points : array_like, list of them, Strokes, Paths or Drawing
+        Polylines (n, 3); of a drawing those in the world.
+    surface : Surface
+        On which they run.
+    field : TangentField
+        Such as ConstantElevation of the room features: then it is the elevation that is verified.
+    tolerance : float
+        The angle with the field that is allowed, in radians; and, times the extent of the surface, the distance of
+        points from it.
+
+    Raises
+    ------
+    AssertionError
+        With the worst point and its angle; where one curve follows a directed field here and runs against it there;
+        for points where the field has no direction; for what assert_on_surface finds.
+    InputError
+        For a tolerance that is not positive and finite, a surface without parameters, no curve in space.
+
+    Notes
+    -----
+    The tangent at a point is that of the circle through it and its neighbours: off by the square of how far the curve
+    turns between them. Ends are not looked at.
+
+    Source: Glaeser, section 9.4.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features
+    >>> from vectorplot.surfaces import Sphere
+    >>> from vectorplot.testing import assert_integral_curve
+    >>> t = np.linspace(0.0, 2.0 * np.pi, 401)
+    >>> circle = np.column_stack([0.8 * np.cos(t), 0.8 * np.sin(t), 0.6 + 0.0 * t])
+    >>> assert_integral_curve(circle, Sphere(), features.ConstantElevation(0.0), tolerance=1e-6)
+    """
+    own = _middles(points, surface, tolerance)
+    # Of the circle through three points: chords weighted by each other's length.
+    a, b = norm(own.before)[:, None], norm(own.behind)[:, None]
+    tangents = own.before * (b / a) + own.behind * (a / b)
+    tangents = tangents / np.maximum(norm(tangents), LEAST_DIVISOR)[:, None]
+    candidates = field.tangents(Sites(surface, *np.ascontiguousarray(own.places.T)))
+    known = np.isfinite(candidates).all(axis=(0, 2))
+    assert known.all(), (
+        f"{int((~known).sum())} points where the field has no direction, {_name(own, int(np.argmin(known)))}"
+    )
+    cosines = dot(candidates, tangents[None])
+    sines = norm(cross(candidates, np.broadcast_to(tangents, candidates.shape)))
+    if field.directed:
+        ahead = np.bincount(own.curve, weights=(cosines[0] > 0.0).astype(np.float64))
+        both = (ahead > 0.0) & (ahead < np.bincount(own.curve))
+        assert not both.any(), f"{int(both.sum())} curves follow the field here and run against it there"
+    error = np.arctan2(sines, np.abs(cosines)).min(axis=0)
+    k = int(np.argmax(error))
+    assert error[k] <= tolerance, (
+        f"{int((error > tolerance).sum())} of {len(error)} points are not on a curve of the field: the angle is "
+        f"{error[k]:.4g} at the worst, {_name(own, k)}, tolerance {tolerance:.4g}"
+    )
+
+
+def assert_geodesic(points: Curves, surface: Surface, tolerance: float) -> None:
+    """Nothing, where curves are geodesics of a surface: seen along its normals they are straight.
+
+    Parameters
+    ----------
+    points : array_like, list of them, Strokes, Paths or Drawing
+        Polylines (n, 3); of a drawing those in the world.
+    surface : Surface
+        On which they run.
+    tolerance : float
+        The geodesic curvature that is allowed, times the extent of the surface; and, times the extent, the distance of
+        points from it.
+
+    Raises
+    ------
+    AssertionError
+        With the worst point and its curvature; for what assert_on_surface finds.
+    InputError
+        For a tolerance that is not positive and finite, a surface without parameters, no curve in space.
+
+    Notes
+    -----
+    The curvature is that of the circle through three points, in the tangent plane of the middle one: off by how far
+    neighbouring chords differ in length, and by the square of their length.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import Sphere
+    >>> from vectorplot.testing import assert_geodesic
+    >>> t = np.linspace(0.0, 2.0 * np.pi, 101)
+    >>> assert_geodesic(np.column_stack([np.cos(t), 0.0 * t, np.sin(t)]), Sphere(), tolerance=1e-9)
+    """
+    own = _middles(points, surface, tolerance)
+    a, b = own.before, own.behind
+    area = dot(own.normals, cross(a, b))
+    error = own.extent * np.abs(2.0 * area / np.maximum(norm(a) * norm(b) * norm(a + b), LEAST_DIVISOR))
+    k = int(np.argmax(error))
+    assert error[k] <= tolerance, (
+        f"{int((error > tolerance).sum())} of {len(error)} points are not on a geodesic: the geodesic curvature by the "
+        f"extent is {error[k]:.4g} at the worst, {_name(own, k)}, tolerance {tolerance:.4g}"
+    )
+
+
+def _middles(points: Curves, surface: Surface, tolerance: float) -> _Middles:
+    if not is_parametrised(surface):
+        raise InputError(f"{type(surface).__name__} is no surface with parameters")
+    if not 0.0 < tolerance < np.inf:
+        raise InputError(f"tolerance {tolerance:g} must be positive and finite")
+    lines = [line for line in polylines_of(points) if len(line) > 2]
+    assert lines, "there are no curves of three points: nothing to verify"
+    inner = np.concatenate([line[1:-1] for line in lines])
+    places = places_near(surface, inner)
+    assert_on_surface(lines, surface, tolerance * places.extent)
+    row = np.arange(len(inner))
+    nearest = np.argmin(places.distance, axis=1)
+    assert places.parameters is not None
+    return _Middles(
+        np.repeat(np.arange(len(lines)), [len(line) - 2 for line in lines]),
+        inner,
+        np.concatenate([line[1:-1] - line[:-2] for line in lines]),
+        np.concatenate([line[2:] - line[1:-1] for line in lines]),
+        places.parameters[row, nearest],
+        places.normals[row, nearest],
+        places.extent,
+    )
+
+
+def _name(own: _Middles, k: int) -> str:
+    """A point in words."""
+    place, where = (", ".join(f"{x:.10g}" for x in values[k]) for values in (own.points, own.places))
+    return f"({place}) at u, v = {where}"

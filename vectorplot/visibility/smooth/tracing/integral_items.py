@@ -1,0 +1,67 @@
+"""The integral curves that an item asks for."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats
+from vectorplot.errors import InputError
+from vectorplot.features.integral.evenly_spaced import DRAWN, evenly_spaced_curves
+from vectorplot.features.integral.integral_curves import geodesics, integral_curves
+from vectorplot.features.parametric.curve_tracing import Tracing, extent
+from vectorplot.features.parametric.surface_curves import SurfaceCurves
+from vectorplot.scene.integral_lines import GeodesicLines, IntegralLines
+from vectorplot.scene.scene import Item
+from vectorplot.scene.view import View
+from vectorplot.surfaces.placed import placed_once
+from vectorplot.surfaces.surface import Domain, Surface
+
+USUAL_APART = 1.0 / 24.0
+"""Part of the extent of a surface that neighbours are apart where nothing is said."""
+
+
+def integral_curves_in_view(
+    view: View, item: Item, surface: Surface, lines: IntegralLines, tracing: Tracing
+) -> SurfaceCurves:
+    """Integral curves of a surface in the view's coordinates, found in the world, where fields know their directions.
+
+    Errors: InputError, with the item's name, for lines that are too close together.
+    """
+    world = placed_once(surface, view.scale * view.axes, view.centre, np.zeros(3))
+    picture = tracing.picture
+
+    def image(points: Floats) -> Floats:
+        own = view.points_of(points).T
+        return own if picture is None else picture(own)
+
+    try:
+        found = integral_lines(world, lines, replace(tracing, picture=image))
+    except InputError as error:
+        raise InputError(f"{item.name}: {error.cause}") from None
+    return replace(found, points=np.ascontiguousarray(view.points_of(found.points).T))
+
+
+def integral_lines(surface: Surface, lines: IntegralLines, tracing: Tracing) -> SurfaceCurves:
+    """The curves of a surface of the world that are asked for; those that begin outside its domain are left out.
+
+    Errors: InputError for lines that are too close together.
+    """
+    if isinstance(lines, GeodesicLines):
+        rows = np.array(lines.starts).reshape(-1, 3)
+        rows = rows[_within(surface.domain, rows)]
+        return geodesics(surface, rows[:, :2], rows[:, 2], length=lines.length, accuracy=DRAWN, tracing=tracing)
+    if lines.through:
+        rows = np.array(lines.through)
+        rows = rows[_within(surface.domain, rows)]
+        return integral_curves(surface, lines.field, rows, accuracy=DRAWN, tracing=tracing)
+    apart = USUAL_APART * extent(surface)[0] if lines.apart is None else lines.apart
+    return evenly_spaced_curves(surface, lines.field, apart, accuracy=DRAWN, tracing=tracing)
+
+
+def _within(domain: Domain, rows: Floats) -> Bools:
+    """(k,) which of the rows begin with parameters within the domain."""
+    u, v = rows[:, 0], rows[:, 1]
+    good = domain.closed_u | ((u >= domain.u_start) & (u <= domain.u_end))
+    return np.asarray(good & (domain.closed_v | ((v >= domain.v_start) & (v <= domain.v_end))))
