@@ -530,9 +530,11 @@ def test_the_examples_of_the_documentation_are_scenes():
     examples = [text for text in DOCUMENTED if " = " not in text and "expected" not in text]
     names = [[item.name for item in parse_scene(text).items] for text in examples]
     capped = ["CAN", "CUP", "BOWL", "BEAM"]
-    surfaces = [["RING"], capped, ["SPRING", "VASE", "WAVES", "HEART"], ["EGG"], ["RING"]]
+    lines = [["EGG"], ["EGG", "RING", "ROAD"], ["RING"]]
+    surfaces = [["RING"], capped, ["SPRING", "VASE", "WAVES", "HEART"], *lines]
     curves = ["GLOBE", "COURSE", "SPRING", "KNOT"]
-    assert names == [["TOP", "MUG"], ["CUBE"], *surfaces, curves, ["PENCIL"], ["HOUSE"]]
+    splines = [["WIRE", "RING", "BOW", "ARC", "SAIL", "VASE"], ["HILLS"]]
+    assert names == [["TOP", "MUG"], ["CUBE"], *surfaces, curves, *splines, ["PENCIL"], ["HOUSE"]]
 
 
 @pytest.mark.capability("G3.0-language")
