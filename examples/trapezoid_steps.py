@@ -43,7 +43,6 @@ def main(folder: Path) -> None:
     assert np.allclose(flat, [(-1, -1), (1, -1), (1, 1), (-1, 1)])
     behind = start + (axis.top + FOCUS) * along
     assert np.isclose(images([behind], matrix)[0, 1], 0.6), "the focus comes onto the line of 80 percent"
-
     tip = crossing(corners[0], corners[3], corners[1], corners[2])
     low, high = (crossing(behind, behind + left, a, b) for a, b in ((corners[0], corners[3]), (corners[1], corners[2])))
     focus = np.array([corners[0], corners[1], high, low])
