@@ -32,6 +32,7 @@ from vectorplot.plan import (
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seamless_scene import without_seams
+from vectorplot.scene.twins import without_twins
 from vectorplot.scene.unbounded_items import tell_what_is_cut_off
 from vectorplot.scene.view import View, view_of
 from vectorplot.shading.depth.coplanar import coplanar_faces
@@ -206,7 +207,8 @@ def render(
     facets = FacetedScene(scene, (None,) * len(scene.items))
     if walk.calls_for("facets"):
         demand = Within(allowed_in_space(scene, projection, Page(*fine, 0.0), fit, FACET_PIXELS))
-        facets = walk.run("facets", faceted, scene, lambda number: demand, budget_of(budget))
+        shown = without_twins(scene)
+        facets = walk.run("facets", faceted, shown, lambda number: demand, budget_of(budget))
     view = walk.run("look", view_of, facets.scene, projection)
     triangles = walk.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
     placement = picture_placement(view, *fine, fit)

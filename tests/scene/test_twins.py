@@ -12,9 +12,12 @@ from support.top_fills import assert_same_picture
 import vectorplot as vp
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import segments
+from vectorplot.geometry.rotations import rotation_z
+from vectorplot.scene.same_place import are_in_one_place
 from vectorplot.scene.twins import NOTHING, fingerprint, first_twins, without_twins
 from vectorplot.scene.view import look
-from vectorplot.surfaces import Torus
+from vectorplot.surfaces import Domain, Sphere, Torus, graph
+from vectorplot.surfaces.placed import PlacedSurface
 from vectorplot.testing.shapes import box
 
 CAMERA = vp.Camera((9.0, -8.0, 6.0), (0.0, 0.0, 0.0))
@@ -46,6 +49,38 @@ def test_only_what_hides_all_of_it_takes_the_place_of_another() -> None:
         assert without_twins(scene) is scene
     left = without_twins(scene_of(glass, wire, plain, replace(plain, colour="red")))
     assert [item.mesh.face_count for item in left.items] == [0, 0, 0, 6]
+
+
+def turned(shape, angle: float, axis=(0.0, 0.0, 0.0)) -> PlacedSurface:
+    """Turned about a parallel of the z-axis by degrees."""
+    matrix, axis = rotation_z(np.radians(angle)), np.array(axis)
+    return PlacedSurface(shape, matrix, axis - axis @ matrix)
+
+
+@pytest.mark.parametrize("angle", [30.0, 77.0, 180.0])
+def test_surfaces_turned_in_themselves_are_in_one_place(angle: float) -> None:
+    for shape, axis in ((Torus(1.4, 0.4, (1e3, 0, 2)), (1e3, 0, 0)), (Sphere(2.0, (0, 5, 0)), (0, 5, 0))):
+        same, other = turned(shape, angle, axis), turned(shape, angle, np.add(axis, (1e-4, 0.0, 0.0)))
+        assert are_in_one_place(shape, same) and are_in_one_place(same, shape)
+        assert not are_in_one_place(shape, other) and not are_in_one_place(other, shape)
+
+
+def test_surfaces_that_share_a_part_only_are_not_in_one_place() -> None:
+    whole, half = (graph(lambda x, y: x * y, Domain(0.0, 1.0, 0.0, end)) for end in (1.0, 0.5))
+    assert not are_in_one_place(whole, half) and not are_in_one_place(half, whole)
+    assert not are_in_one_place(Torus(1.4, 0.4), Torus(1.4, 0.4 + 1e-6))
+
+
+def test_of_turned_tori_the_last_one_is_painted_and_rendered() -> None:
+    torus = Torus(1.4, 0.4)
+    one, other = vp.Item("A", torus, "red"), vp.Item("B", turned(torus, 30.0), "blue")
+    for first, last in ((one, other), (other, one)):
+        both, alone = scene_of(first, last), scene_of(last)
+        fills = [vp.paint(scene, CAMERA, tolerance_mm=0.5).layers[0].fills[0] for scene in (both, alone)]
+        # The boxes of both scenes differ in the last digits.
+        assert len(fills[0]) == len(fills[1]) and np.ptp([some.colours.astype(int) for some in fills], axis=0).max() < 2
+        pixels = [vp.render(scene, CAMERA, size=(80, 60), samples=1).pixels for scene in (both, alone)]
+        assert np.ptp(np.array(pixels, dtype=int), axis=0).max() < 3
 
 
 def test_shapes_are_the_same_where_all_their_numbers_are() -> None:

@@ -14,31 +14,32 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.extent import smooth_bounds
+from vectorplot.scene.same_place import are_in_one_place
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
+from vectorplot.surfaces.surface import Surface, is_parametrised
 
 _WEIGHT = float(np.sqrt(2.0))
 """Sums with irrational steps between their weights differ where bodies do, nearly always."""
+
+BOX_ERROR = 1.0 / 250.0
+"""Boxes of surfaces in one place differ by no more than this part of their extent."""
 
 NOTHING = Mesh(np.zeros((0, 3)), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
 
 
 def without_twins(scene: Scene) -> Scene:
-    """The scene with nothing in place of items whose shape is, to the last digit, that of a later one that hides it.
+    """The scene with nothing in place of items whose shape is, to the last digit, that of a later one that hides it, or
+    a surface made of the same points.
 
     Pictures of faces show the same: of faces in one place the last one is painted over the others. Shapes are the same
     where all that they are made of is: functions only where they are the same object.
     """
     last: dict[Hashable, int] = {}
-    glances = [_glance(item.shape) for item in scene.items]
-    alike = Counter(glances)
-    if len(alike) == len(glances):
+    keys = _keys_of_turned(scene, _keys(scene))
+    if len(set(keys)) == len(keys):
         return scene
-    # What differs at a glance is not looked at closely.
-    keys = [
-        fingerprint(item.shape) if alike[glance] > 1 else glance
-        for item, glance in zip(scene.items, glances, strict=True)
-    ]
     for number, (key, item) in enumerate(zip(keys, scene.items, strict=True)):
         if item.hides and not item.material.is_clear and item.material.opacity == 1.0:
             last[key] = number
@@ -47,6 +48,36 @@ def without_twins(scene: Scene) -> Scene:
         return scene
     pairs = zip(scene.items, covered, strict=True)
     return replace(scene, items=tuple(replace(item, shape=NOTHING) if gone else item for item, gone in pairs))
+
+
+def _keys(scene: Scene) -> list[Hashable]:
+    """What is equal for items of the same shape only."""
+    glances = [_glance(item.shape) for item in scene.items]
+    alike = Counter(glances)
+    # What differs at a glance is not looked at closely.
+    return [
+        fingerprint(item.shape) if alike[glance] > 1 else glance
+        for item, glance in zip(scene.items, glances, strict=True)
+    ]
+
+
+def _keys_of_turned(scene: Scene, keys: list[Hashable]) -> list[Hashable]:
+    """The keys, those of parametrised surfaces in one place being that of the first."""
+    shapes: dict[Hashable, Surface] = {
+        key: item.shape for key, item in zip(keys, scene.items, strict=True) if is_parametrised(item.shape)
+    }
+    if len(shapes) < 2:
+        return keys
+    names, surfaces = list(shapes), list(shapes.values())
+    boxes = np.array([smooth_bounds(surface) for surface in surfaces]).reshape(-1, 6)
+    # Boxes are known to a thousandth.
+    near = BOX_ERROR * (boxes[:, 3:] - boxes[:, :3]).max(axis=1)
+    first = dict(zip(names, names, strict=True))
+    for k, surface in enumerate(surfaces):
+        others = np.flatnonzero((np.abs(boxes[:k] - boxes[k]) <= near[k]).all(axis=1))
+        same = (m for m in others.tolist() if first[names[m]] == names[m] and are_in_one_place(surfaces[m], surface))
+        first[names[k]] = names[next(same, k)]
+    return [first.get(key, key) for key in keys]
 
 
 def first_twins(view: View) -> Ints:
