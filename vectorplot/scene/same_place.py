@@ -6,7 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.surfaces.surface import Surface
-from vectorplot.tolerances.of_numbers import LEAST_DIVISOR, SAME_PLACE
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR, ONE_SURFACE
 
 SAMPLES = (11, 13)
 """Columns and rows of the points of one surface that have to lie on the other one: odd numbers, so that few of them are
@@ -22,7 +22,7 @@ STEPS = 12
 def are_in_one_place(one: Surface, other: Surface) -> bool:
     """Whether samples of each of two surfaces lie on the other one, and their borders there, too.
 
-    Error: surfaces that differ by less than SAME_PLACE of their extent are taken for one; so are those that differ
+    Error: surfaces that differ by less than ONE_SURFACE of their extent are taken for one; so are those that differ
     between the samples only. Degenerate: those with holes are not, nor are those of which a point is not found.
     Source: Gauss and Newton's method for the foot of a perpendicular.
     """
@@ -43,7 +43,7 @@ def _lies_on(one: Surface, other: Surface) -> bool:
     distance, nearest = cKDTree(starts).query(points)
     if distance.max() > extent:
         return False
-    return bool(_distances(other, places[nearest], points).max() <= SAME_PLACE * extent)
+    return bool(_distances(other, places[nearest], points).max() <= ONE_SURFACE * extent)
 
 
 def _distances(surface: Surface, places: Floats, points: Floats) -> Floats:

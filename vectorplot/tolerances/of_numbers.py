@@ -65,6 +65,6 @@ INFINITE = float("inf")
 NEGLIGIBLE_PART = 1e-6
 """Regions that differ in so small a part of their area are the same: where they were cut on a grid digits are gone."""
 
-SAME_PLACE = 1e-9
+ONE_SURFACE = 1e-9
 """Surfaces that are no farther apart than this part of their extent are in one place: where they are turned digits are
 gone, and steps to a point end a few digits before the last."""
