@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.placed import PlacedCurve
+from vectorplot.curves.splines.spline_curve import SplineCurve
 
 
 @runtime_checkable
@@ -24,6 +25,18 @@ class PiecewiseCurve(Protocol):
 def breaks_of(curve: Curve) -> Floats:
     """(k,) the parameters at which a curve passes from one piece to the next, those of its ends among them; none where
     it is a single piece."""
+    curve = _at_home(curve)
+    return curve.breaks if isinstance(curve, PiecewiseCurve) and len(curve.breaks) > 2 else np.zeros(0)
+
+
+def is_cubic(curve: Curve) -> bool:
+    """Whether all pieces of a curve are polynomials of degree 3 or less: parallel images of them are Bézier curves."""
+    curve = _at_home(curve)
+    return isinstance(curve, SplineCurve) and curve.weights is None and curve.order <= 4
+
+
+def _at_home(curve: Curve) -> Curve:
+    """What is placed, if it is."""
     while isinstance(curve, PlacedCurve):
         curve = curve.curve
-    return curve.breaks if isinstance(curve, PiecewiseCurve) and len(curve.breaks) > 2 else np.zeros(0)
+    return curve

@@ -67,6 +67,10 @@ class Paths:
     curve : (m,) array of int
         The curve that a path is a part of, by a number of its own in the drawing; -1, as everywhere unless said
         otherwise, where it is none or not known. Of a path that follows several curves that of its first part.
+    handles : (p, 2) array of float
+        The lengths in mm of the handles, from each point back and ahead, of the Bézier curves that are exactly the
+        curve that a smooth path follows from point to point. NaN, as everywhere unless said otherwise, where there are
+        none.
 
     Examples
     --------
@@ -88,12 +92,15 @@ class Paths:
     smooth: Bools = field(default_factory=lambda: np.zeros(0, dtype=np.bool_), metadata=EACH_LINE)
     directions: Floats = field(default_factory=lambda: np.zeros((0, 2)), metadata=EACH_POINT)
     curve: Ints = field(default_factory=lambda: np.zeros(0, dtype=np.intp), metadata=EACH_LINE)
+    handles: Floats = field(default_factory=lambda: np.zeros((0, 2)), metadata=EACH_POINT)
 
     def __post_init__(self) -> None:
         if not len(self.smooth):
             object.__setattr__(self, "smooth", np.zeros(len(self), dtype=np.bool_))
         if not len(self.directions) and len(self.points):
             object.__setattr__(self, "directions", np.full((len(self.points), 2), np.nan))
+        if not len(self.handles) and len(self.points):
+            object.__setattr__(self, "handles", np.full((len(self.points), 2), np.nan))
         if not len(self.curve):
             object.__setattr__(self, "curve", np.full(len(self), NO_CURVE))
 

@@ -46,7 +46,8 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
     if parts.chords:
         # A page shows the image larger, not turned.
         directions = _at_ends(parts.chords.directions(view))
-        paths = replace(paths, directions=directions, curve=parts.chords.curve)
+        handles = placement.scale * _at_ends(parts.chords.handles(view))
+        paths = replace(paths, directions=directions, curve=parts.chords.curve, handles=handles)
     straight, smooth = np.flatnonzero(~paths.smooth), chosen(paths, paths.smooth)
     once = without_duplicates(chosen(paths, straight), rank[straight], COINCIDENT_MM, placement.page_from_world)
     if not len(smooth):
@@ -56,8 +57,8 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
 
 
 def _at_ends(directions: Floats) -> Floats:
-    """(2n,2) the directions at the ends of strokes of two points; (n,2): how each leaves its first, arrives at its last
-    one."""
+    """(2n,2) the directions, or the lengths of handles, at the ends of strokes of two points; (n,2): how each leaves
+    its first, arrives at its last one."""
     result = np.full((2 * len(directions), 2), np.nan)
     result[::2, 1], result[1::2, 0] = directions.T
     return result

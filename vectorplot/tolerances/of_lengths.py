@@ -10,6 +10,10 @@ ARC_OF_TOLERANCE = 1e-3
 """An arc of an ellipse is one only if all points agree within this part of the tolerance: what was an arc agrees to
 rounding, and what merely resembles one does not."""
 
+CUBIC_OF_TOLERANCE = 1e-4
+"""Neighbouring Bézier curves that are exact become one where all control points agree within this part of the
+tolerance: those of one polynomial do to rounding."""
+
 COVERED_OF_TOLERANCE = 1e-3
 """A piece of a line that another one leaves uncovered is real if it is longer than this part of the tolerance."""
 

@@ -11,11 +11,12 @@ from vectorplot.curves.bezier.elliptic_arcs import EllipseArcs, arc_segments, re
 from vectorplot.curves.bezier.fit import fitted_paths
 from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.drawing.drawing import CurvedStrokes, Paths
+from vectorplot.drawing.strokes.exact_cubics import exact_cubics
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import joined
-from vectorplot.tolerances.of_lengths import ARC_OF_TOLERANCE
+from vectorplot.tolerances.of_lengths import ARC_OF_TOLERANCE, CUBIC_OF_TOLERANCE
 
 CHORD_SHARE = 0.5
 """The part of the tolerance that chords may be off their curves."""
@@ -50,6 +51,8 @@ def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | CurvedStrokes:
 
     Notes
     -----
+    Strokes of which all handles are known leave as the Bézier curves that they are, without an error.
+
     Degenerate: without smooth strokes of three points or more the strokes themselves.
 
     Source: vectorplot.curves.bezier.fit and vectorplot.curves.bezier.elliptic_arcs.
@@ -75,6 +78,9 @@ def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | CurvedStrokes:
     if not len(which):
         return paths
     smooth = chosen(paths, which)
+    known, cubics = exact_cubics(smooth, tolerance=CUBIC_OF_TOLERANCE * tolerance_mm)
+    exact, which = which[known], np.delete(which, known)
+    smooth = chosen(paths, which)
     arcs = recognised_arcs(smooth.points, smooth.offsets, smooth.closed, tolerance=ARC_OF_TOLERANCE * tolerance_mm)
     fit = FIT_SHARE * tolerance_mm
     round_ones = arc_segments(arcs, smooth.closed[arcs.stroke], tolerance=fit)
@@ -89,7 +95,7 @@ def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | CurvedStrokes:
         corner_angle=CORNER_ANGLE,
         sag=CHORD_SHARE * tolerance_mm,
     )
-    beziers = _in_places((round_ones, fitted), (which[arcs.stroke], which[others]), paths)
+    beziers = _in_places((cubics, round_ones, fitted), (exact, which[arcs.stroke], which[others]), paths)
     return CurvedStrokes(paths, beziers, replace(arcs, stroke=which[arcs.stroke]))
 
 

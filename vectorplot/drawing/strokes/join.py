@@ -11,7 +11,7 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.chains import NO_END, Chains, chains
 from vectorplot.drawing.strokes.neighbours import clusters
 from vectorplot.drawing.strokes.rows import SAME_PLACE, going_on, in_rows
-from vectorplot.drawing.strokes.stroke_paths import chosen, directed, world_per_mm
+from vectorplot.drawing.strokes.stroke_paths import chosen, directed, swapped, world_per_mm
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import with_points
 from vectorplot.geometry.repair.weld import close_points
@@ -184,10 +184,11 @@ def _assembled(paths: Paths, open_: Ints, order: Chains) -> Paths:
     whole = with_points(paths, index, source, ragged.offsets(counts))
     turned = np.zeros(len(index), dtype=np.bool_)
     turned[: kept.sum()] = np.repeat(backwards, kept)
-    directions = directed(whole.directions, turned)
+    directions, handles = directed(whole.directions, turned), swapped(whole.handles, turned).copy()
     joint, first = _joints(order, kept, dropped), np.where(backwards, begin + dropped, begin - dropped)
     directions[joint, 1] = directed(paths.directions[first], backwards)[~head, 1]
-    return replace(whole, closed=closed, directions=directions)
+    handles[joint, 1] = swapped(paths.handles[first], backwards)[~head, 1]
+    return replace(whole, closed=closed, directions=directions, handles=handles)
 
 
 def _joints(order: Chains, kept: Ints, dropped: Ints) -> Ints:

@@ -48,9 +48,10 @@ def in_rows(paths: Paths, going: Bools) -> Paths:
     kept[dropped] = False
     counts = np.add.reduceat(np.diff(paths.offsets) - going, head)
     rows = with_points(paths, np.flatnonzero(kept), head, ragged.offsets(counts))
-    directions = paths.directions.copy()
-    directions[dropped - 1, 1] = directions[dropped, 1]
-    return replace(rows, directions=directions[kept])
+    directions, handles = paths.directions.copy(), paths.handles.copy()
+    for values in (directions, handles):
+        values[dropped - 1, 1] = values[dropped, 1]
+    return replace(rows, directions=directions[kept], handles=handles[kept])
 
 
 def without_dots(paths: Paths, tolerance_mm: float) -> Paths:

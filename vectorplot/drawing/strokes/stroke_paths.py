@@ -52,6 +52,11 @@ def directed(directions: Floats, backwards: Bools) -> Floats:
     return np.where(backwards[:, None], other_way, directions)
 
 
+def swapped(handles: Floats, backwards: Bools) -> Floats:
+    """(p,2) the lengths of handles at points, those back and ahead changed where strokes run backwards (p,) now."""
+    return np.where(backwards[:, None], handles[:, ::-1], handles) if backwards.any() else handles
+
+
 def sections(
     paths: Paths, stroke: Ints, first: Ints, t_first: Floats, last: Ints, t_last: Floats, page_from_world: Floats
 ) -> Paths:
@@ -60,21 +65,21 @@ def sections(
     Part i belongs to stroke[i]; it begins on the segment that starts at point first[i], at the fraction t_first[i],
     and ends on the segment of last[i] at t_last[i]. The points in the world divide their segments so that their
     images are the points on the page: for a central projection the fraction differs from that on the page. Directions
-    are those of the points; in the middle of a segment none is known.
+    and handles are those of the points; in the middle of a segment none is known.
     """
     offsets = ragged.offsets(last - first + 2)
     index = ragged.ranges(first, last - first + 2)
     points, points3d = paths.points.take(index, axis=0), paths.points3d.take(index, axis=0)
-    directions = paths.directions.take(index, axis=0)
+    directions, handles = (values.take(index, axis=0) for values in (paths.directions, paths.handles))
     for places, segment, t in ((offsets[:-1], first, t_first), (offsets[1:] - 1, last, t_last)):
         inside = np.flatnonzero((t != 0.0) & (t != 1.0))
         cut = places[inside]
         points[cut], points3d[cut] = _divided(paths, segment[inside], t[inside], page_from_world)
-        directions[cut] = np.nan
+        directions[cut] = handles[cut] = np.nan
         for point, there in ((segment, t == 0.0), (segment + 1, t == 1.0)):
             at, of = places[there], point[there]
             points[at], points3d[at] = paths.points.take(of, axis=0), paths.points3d.take(of, axis=0)
-            directions[at] = paths.directions.take(of, axis=0)
+            directions[at], handles[at] = paths.directions.take(of, axis=0), paths.handles.take(of, axis=0)
     open_ = np.zeros(len(stroke), dtype=np.bool_)
     return Paths(
         points,
@@ -87,6 +92,7 @@ def sections(
         paths.smooth[stroke],
         directions,
         paths.curve[stroke],
+        handles,
     )
 
 

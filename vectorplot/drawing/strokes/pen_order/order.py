@@ -11,7 +11,7 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.pen_order.tour import greedy_tour
 from vectorplot.drawing.strokes.pen_order.tour_ends import Places, curves_through
 from vectorplot.drawing.strokes.pen_order.tour_moves import shortened
-from vectorplot.drawing.strokes.stroke_paths import chosen, directed
+from vectorplot.drawing.strokes.stroke_paths import chosen, directed, swapped
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import with_points
 
@@ -195,7 +195,8 @@ def _drawn(paths: Paths, start: Ints, order: Ints, against: Bools) -> Paths:
     local -= np.where(local >= size, size, 0)
     index = np.repeat(paths.offsets[:-1][order], counts) + local
     drawn = with_points(paths, index, order, ragged.offsets(counts))
-    return replace(drawn, directions=directed(drawn.directions, np.repeat(against, counts)))
+    turned = np.repeat(against, counts)
+    return replace(drawn, directions=directed(drawn.directions, turned), handles=swapped(drawn.handles, turned))
 
 
 # Closed strokes ---------------------------------------------------------------------------------------------------

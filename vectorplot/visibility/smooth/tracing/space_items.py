@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
-from vectorplot.curves.breaks import breaks_of
+from vectorplot.curves.breaks import breaks_of, is_cubic
 from vectorplot.curves.curve import Curve
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry import ragged
@@ -40,6 +40,11 @@ class SpaceCurve:
     surface: SmoothSheet | None
     sheet: int
     second: int = -1
+
+    @property
+    def is_cubic(self) -> bool:
+        """Whether the images of its chords are those of polynomials of degree 3 or less."""
+        return self.view.eye is None and is_cubic(self.curve)
 
     def between(self, chords: Chords, part: Floats) -> Along:
         """The curve at a part of its chords."""

@@ -1,0 +1,85 @@
+"""Splines in parallel projection leave as the Bézier curves that they are."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vectorplot as vp
+from vectorplot.curves import AkimaSpline, BSpline, CubicSpline, PlacedCurve, SplineCurve, nurbs_curve, spline_curve
+from vectorplot.drawing import CurvedStrokes, curved_strokes
+from vectorplot.testing.shapes import box
+
+POINTS = np.array([(0, 0, 0), (2, 1, 0), (3, 0, 1), (2, -2, 2), (0, -1, 1), (1, 1, 3)], dtype=float)
+SOUTH = vp.Camera((5, -8, 6), target=(1.5, 0, 1), parallel=True)
+
+
+def drawn(*items: vp.Item, camera: vp.Camera = SOUTH) -> tuple[vp.Drawing, CurvedStrokes]:
+    drawing = vp.draw(vp.Scene(items), camera)
+    (paths,) = (mark for layer in drawing.layers for mark in layer.strokes if (mark.kind == vp.LineKind.CURVE).any())
+    return drawing, curved_strokes(paths, 0.01)
+
+
+def on_page(drawing: vp.Drawing, points: np.ndarray) -> np.ndarray:
+    return (points @ drawing.page_from_world[:, :3].T + drawing.page_from_world[:, 3])[..., :2]
+
+
+@pytest.mark.capability("G9.1-span")
+@pytest.mark.parametrize("placed", [False, True])
+@pytest.mark.parametrize("kind", [AkimaSpline(), CubicSpline(), BSpline(4)])
+def test_every_piece_is_one_bezier_curve_with_the_images_of_its_control_points(kind, placed):
+    curve = spline_curve(POINTS, kind)
+    pieces, _ = curve.bezier_pieces()
+    matrix, shift = np.array([[0, 2, 0], [-1, 0, 0], [0, 0.5, 1.0]]), np.array([0.5, 1, 0])
+    if placed:
+        pieces = pieces @ matrix + shift
+    drawing, strokes = drawn(vp.Item("A", PlacedCurve(curve, matrix, shift) if placed else curve))
+    truth, found = on_page(drawing, pieces), strokes.beziers.control
+    if np.abs(found[0, 0] - truth[0, 0]).max() > 1e-3:
+        found = found[::-1, ::-1]
+    np.testing.assert_allclose(found, truth, atol=1e-5)
+    assert strokes.beziers.error.tolist() == [0.0]
+
+
+@pytest.mark.parametrize(
+    "curve",
+    [
+        spline_curve(POINTS, CubicSpline(closed=True)),
+        spline_curve(POINTS, BSpline(3, closed=True)),
+        spline_curve(np.repeat(POINTS, [1, 1, 3, 1, 1, 1], axis=0), BSpline(4)),
+    ],
+)
+def test_loops_quadratic_pieces_and_corners_are_exact_too(curve: SplineCurve):
+    drawing, strokes = drawn(vp.Item("A", curve))
+    pieces = len(curve.breaks) - 1
+    assert pieces <= len(strokes.beziers.control) <= pieces + 1  # the pen may begin inside of a piece
+    part = np.linspace(0, 1, 9)
+    bernstein = np.stack([(1 - part) ** 3, 3 * part * (1 - part) ** 2, 3 * part**2 * (1 - part), part**3], axis=1)
+    found = (bernstein @ strokes.beziers.control).reshape(-1, 2)
+    dense = on_page(drawing, curve.points(np.linspace(curve.start, curve.end, 500_001)))
+    from scipy.spatial import cKDTree
+
+    assert cKDTree(dense).query(found)[0].max() < 2e-3
+
+
+def test_what_is_cut_by_what_hides_it_is_exact():
+    """The visible parts of the pieces, split at the very parameters at which they vanish behind a box."""
+    curve = spline_curve(POINTS, AkimaSpline())
+    post = vp.Item("BOX", box((0.5, -1.5, -1), (1.0, -1.0, 3)))
+    _, strokes = drawn(vp.Item("A", curve), post)
+    own = strokes.paths.kind == vp.LineKind.CURVE
+    assert own.sum() > 1 and (strokes.beziers.error[own] == 0.0).all()
+    assert (np.diff(strokes.beziers.offsets)[own] > 0).all()
+
+
+@pytest.mark.parametrize(
+    ("curve", "camera"),
+    [
+        (spline_curve(POINTS, AkimaSpline()), vp.Camera((5, -8, 6))),
+        (spline_curve(POINTS, BSpline(5)), SOUTH),
+        (nurbs_curve(POINTS, [1, 2, 1, 1, 3, 1]), SOUTH),
+    ],
+)
+def test_what_is_no_cubic_in_the_image_is_fitted(curve, camera):
+    _, strokes = drawn(vp.Item("A", curve), camera=camera)
+    assert np.isnan(strokes.paths.handles).all() and 0.0 < strokes.beziers.error.max() < 0.01
