@@ -135,7 +135,8 @@ def picture_verb(
             def picture(scene: Scene, report: Report) -> Drawing | Image:
                 return verb(scene, **told.keywords(scene), progress=report.progress, explain=report.explain)
 
-            make_picture(scene_file, out, format_of(out, format_, formats), picture, quiet=quiet, explain=explain)
+            written, jobs = format_of(out, format_, formats), told.rest["jobs"]
+            make_picture(scene_file, out, written, picture, quiet=quiet, explain=explain, jobs=jobs)
 
         return command
 

@@ -39,17 +39,21 @@ def make_picture(
     *,
     quiet: bool,
     explain: bool,
+    jobs: int | None = None,
 ) -> None:
     """Read a scene, make a picture of it and write that; nothing is written unless all of it succeeds.
 
-    quiet: no warnings, no progress bar; explain: print what each stage cost.
+    quiet: no warnings, no progress bar; explain: print what each stage cost; jobs: threads to read on, as many as
+    processors where it is None.
     """
+    from vectorplot.geometry.chunks import threads_of
     from vectorplot.io.read_file import read
     from vectorplot.plan import Stage, Walk
     from vectorplot.save import write
 
     reports: list[StageReport] = []
-    walk = Walk((Stage("read", scene_file), Stage("write", f"as {format_}")), reports.append, None)
+    stages = (Stage("read", scene_file), Stage("write", f"as {format_}"))
+    walk = Walk(stages, reports.append, None, threads_of(jobs))
     with told_warnings(quiet=quiet):
         check_place(out)
         with progress_bar(quiet=quiet) as progress:

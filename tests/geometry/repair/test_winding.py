@@ -1,7 +1,11 @@
 import numpy as np
 import pytest
 
+from vectorplot.geometry.chunks import threads
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.repair.circulation import circulation
+from vectorplot.geometry.repair.degenerate import thin_faces
+from vectorplot.geometry.repair.weld import distinct_points
 from vectorplot.geometry.repair.winding import (
     consistent_winding,
     edge_uses,
@@ -11,6 +15,7 @@ from vectorplot.geometry.repair.winding import (
     signed_volumes,
     turned_faces,
 )
+from vectorplot.testing.curved_meshes import bumpy_icosphere
 
 CUBE = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
 
@@ -99,3 +104,17 @@ def test_repeated_faces_are_those_with_the_same_corners_the_same_way_round() -> 
     points = np.random.default_rng(0).random((4, 3))
     mesh = Mesh.from_polygons(points, [[0, 1, 2, 3], [1, 2, 3, 0], [3, 2, 1, 0], [0, 2, 1, 3], [0, 1, 2, 3]])
     assert repeated_faces(mesh).tolist() == [False, True, False, False, True]
+
+
+def test_what_is_told_of_a_large_mesh_is_the_same_on_any_number_of_threads() -> None:
+    ball = bumpy_icosphere(6, bump=0.1)
+    soup = ball.vertices[ball.corners]
+
+    def told(count: int) -> list[np.ndarray]:
+        with threads(count):
+            first, number = distinct_points(soup)
+            mesh = Mesh(soup[first], number, ball.offsets)
+            around = circulation(len(first), number, ball.offsets)
+            return [first, number, signed_volumes(mesh), thin_faces(mesh), around]
+
+    assert all(np.array_equal(one, two) for one, two in zip(told(1), told(3), strict=True))

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import mapped, slices
 
 _PIECE = 1 << 15
 
@@ -59,12 +60,15 @@ def circulation(vertices: int, corners: Ints, offsets: Ints) -> NDArray[np.uint6
         return np.add.reduceat(terms, offsets[:-1]) if len(terms) else terms
     packed, faces = numbers.view(np.complex128), corners.reshape(-1, size)
     sums = np.zeros(len(faces), dtype=np.uint64)
-    for start in range(0, len(faces), _PIECE):
-        some = np.ascontiguousarray(faces[start : start + _PIECE].T)
-        first, *others = (np.take(packed, corner).view(np.uint64) for corner in some)
+
+    def add(some: slice) -> None:
+        first, *others = (np.take(packed, corner).view(np.uint64) for corner in np.ascontiguousarray(faces[some].T))
         for arm in others:
             arm -= first
-        sums[start : start + _PIECE] = sum(a[0::2] * b[1::2] - a[1::2] * b[0::2] for a, b in pairwise(others))
+        sums[some] = sum(a[0::2] * b[1::2] - a[1::2] * b[0::2] for a, b in pairwise(others))
+
+    for _ in mapped(add, slices(len(faces), _PIECE)):
+        pass
     return sums
 
 

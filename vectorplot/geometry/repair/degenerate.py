@@ -6,6 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.geometry.columns import cross, dot, triangle_corners
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.tolerances.of_lengths import THIN_OF_LENGTH
@@ -95,12 +96,15 @@ def thin_faces(mesh: Mesh) -> Bools:
         return np.asarray(~thin)
     noise = 4.0 * ULP * float(np.abs(mesh.bounds).max()) / extent
     points = np.ascontiguousarray(mesh.vertices.T)
-    for start in range(0, mesh.face_count, _PIECE):
-        end = min(start + _PIECE, mesh.face_count)
-        corners = mesh.corners[mesh.offsets[start] : mesh.offsets[end]]
-        offsets = mesh.offsets[start : end + 1] - mesh.offsets[start]
+
+    def look(some: slice) -> None:
+        corners = mesh.corners[mesh.offsets[some.start] : mesh.offsets[some.stop]]
+        offsets = mesh.offsets[some.start : some.stop + 1] - mesh.offsets[some.start]
         area, length = _squares(points, corners, offsets, 1.0 / extent)
-        thin[start:end] = (area <= THIN_OF_LENGTH**2 * length * length) | (area <= noise**2 * length)
+        thin[some] = (area <= THIN_OF_LENGTH**2 * length * length) | (area <= noise**2 * length)
+
+    for _ in mapped(look, slices(mesh.face_count, _PIECE)):
+        pass
     return thin
 
 

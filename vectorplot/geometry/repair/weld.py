@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry.chunks import mapped, slices
 
 # Work in pieces that stay in the processor's cache.
 _PIECE = 1 << 15
@@ -48,8 +49,12 @@ def distinct_points(points: NDArray[np.floating[Any]]) -> tuple[Ints, Ints]:
     order = np.cumsum(chosen, dtype=position)
     order -= 1
     number = np.zeros(len(points), dtype=np.intp)
-    for start in range(0, len(points), _PIECE):
-        number[start : start + _PIECE] = order[stand_in[start : start + _PIECE]]
+
+    def numbered(some: slice) -> None:
+        number[some] = order[stand_in[some]]
+
+    for _ in mapped(numbered, slices(len(points), _PIECE)):
+        pass
     return np.flatnonzero(chosen), number
 
 
@@ -64,30 +69,32 @@ def _round(
     bits = max(4, count.bit_length())
     table = np.zeros(1 << bits, dtype=stand_in.dtype)
     slots = np.zeros(count, dtype=stand_in.dtype)
-    for start in range(0, count, _PIECE):
-        which, piece = _piece(points, pending, start, count)
-        slot = _slots(piece, multipliers, bits)
-        slots[start : start + _PIECE] = slot
-        table[slot] = which
-    left = [np.zeros(0, dtype=stand_in.dtype)]
-    for start in range(0, count, _PIECE):
-        which, piece = _piece(points, pending, start, count)
-        found = table[slots[start : start + _PIECE]]
+    chunks = slices(count, _PIECE)
+
+    def hashed(some: slice) -> NDArray[np.int64]:
+        return _slots(_piece(points, pending, some)[1], multipliers, bits)
+
+    for some, slot in zip(chunks, mapped(hashed, chunks), strict=True):
+        slots[some] = slot
+        table[slot] = _piece(points, pending, some)[0]
+
+    def unmet(some: slice) -> NDArray[Any]:
+        which, piece = _piece(points, pending, some)
+        found = table[slots[some]]
         other = np.take(points, found, axis=0)
         same = (piece[:, 0] == other[:, 0]) & (piece[:, 1] == other[:, 1]) & (piece[:, 2] == other[:, 2])
         same |= found == which
         stand_in[which] = np.where(same, found, which)
-        left.append(which[~same].astype(stand_in.dtype))
-    return np.concatenate(left)
+        return np.asarray(which[~same].astype(stand_in.dtype))
+
+    return np.concatenate([np.zeros(0, dtype=stand_in.dtype), *mapped(unmet, chunks)])
 
 
-def _piece(
-    points: NDArray[Any], pending: NDArray[Any] | None, start: int, count: int
-) -> tuple[NDArray[Any], NDArray[Any]]:
-    """The next positions to look at, and their points."""
+def _piece(points: NDArray[Any], pending: NDArray[Any] | None, some: slice) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Some of the positions to look at, and their points."""
     if pending is None:
-        return np.arange(start, min(start + _PIECE, count)), points[start : start + _PIECE]
-    which = pending[start : start + _PIECE]
+        return np.arange(some.start, some.stop), points[some]
+    which = pending[some]
     return which, np.take(points, which, axis=0)
 
 

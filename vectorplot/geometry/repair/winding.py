@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.geometry.columns import cross, dot, triangle_corners
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.circulation import circulation, scrambled
@@ -219,19 +220,22 @@ def signed_volumes(mesh: Mesh) -> Floats:
     scale = 1.0 / max(float((high - low).max()), LEAST_DIVISOR)
     points = np.ascontiguousarray(((mesh.vertices - 0.5 * (low + high)) * scale).T)
     volumes = np.zeros(mesh.face_count)
-    for start in range(0, mesh.face_count, _PIECE):
-        end = min(start + _PIECE, mesh.face_count)
-        corners = mesh.corners[mesh.offsets[start] : mesh.offsets[end]]
-        if len(corners) == 3 * (end - start):
+
+    def measure(some: slice) -> None:
+        begin, end = mesh.offsets[some.start], mesh.offsets[some.stop]
+        corners = mesh.corners[begin:end]
+        if len(corners) == 3 * (some.stop - some.start):
             a, b, c = triangle_corners(points, corners)
-            volumes[start:end] = dot(a, cross(b, c))
-            continue
-        offsets = mesh.offsets[start:end] - mesh.offsets[start]
+            volumes[some] = dot(a, cross(b, c))
+            return
+        offsets = mesh.offsets[some] - begin
         at_corner = points.take(corners, axis=1)
-        first = np.repeat(at_corner.take(offsets, axis=1), mesh.face_sizes[start:end], axis=1)
-        following = mesh.next_corner[mesh.offsets[start] : mesh.offsets[end]] - mesh.offsets[start]
-        sides = dot(first, cross(at_corner, at_corner.take(following, axis=1)))
-        volumes[start:end] = np.add.reduceat(sides, offsets)
+        first = np.repeat(at_corner.take(offsets, axis=1), mesh.face_sizes[some], axis=1)
+        sides = dot(first, cross(at_corner, at_corner.take(mesh.next_corner[begin:end] - begin, axis=1)))
+        volumes[some] = np.add.reduceat(sides, offsets)
+
+    for _ in mapped(measure, slices(mesh.face_count, _PIECE)):
+        pass
     return volumes
 
 

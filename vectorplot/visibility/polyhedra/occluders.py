@@ -8,11 +8,12 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.geometry.columns import cross
 from vectorplot.geometry.repair.circulation import unbalanced_vertices
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_numbers import SINGLE_DEPTH_LEAST, SINGLE_DEPTH_SHARE
-from vectorplot.visibility.projected_faces import Floats32, ProjectedFaces, newell
+from vectorplot.visibility.projected_faces import CHUNK, Floats32, ProjectedFaces, newell
 
 MAX_SOLID_FACES = 128
 """A convex solid with more faces hides through its faces: few of them matter to a line, but all of its outline
@@ -114,6 +115,11 @@ def _blocks(sizes: Ints, most: int = 1 << 20) -> list[tuple[int, int]]:
 
 def face_occluders(view: View, faces: ProjectedFaces, which: Ints) -> Occluders:
     """Some faces as occluders, whichever side they show; none of them may be edge-on."""
+    chunks = slices(len(which), CHUNK) or [slice(0, 0)]
+    return joined(*mapped(lambda some: _faces_as_occluders(view, faces, which[some]), chunks))
+
+
+def _faces_as_occluders(view: View, faces: ProjectedFaces, which: Ints) -> Occluders:
     sizes = view.face_sizes[which]
     normal, _, first = newell(view, which)
     toward = -faces.facing[which].astype(np.float64)
@@ -159,16 +165,18 @@ def solid_occluders(view: View, faces: ProjectedFaces, items: Ints) -> Occluders
     return _interleaved(view, depth_planes, depth_counts, side, side_counts, faces, which, items)
 
 
-def joined(one: Occluders, two: Occluders) -> Occluders:
-    """Both sets of occluders."""
+def joined(*parts: Occluders) -> Occluders:
+    """All occluders of some sets, at least one, in their order."""
+    if len(parts) == 1:
+        return parts[0]
     return Occluders(
-        np.concatenate([one.planes, two.planes], axis=1),
-        np.concatenate([one.first, two.first[1:] + one.first[-1]]),
-        np.concatenate([one.behind, two.behind]),
-        np.concatenate([one.box, two.box], axis=1),
-        np.concatenate([one.nearest, two.nearest]),
-        np.concatenate([one.farthest, two.farthest]),
-        np.concatenate([one.item, two.item]),
+        np.concatenate([part.planes for part in parts], axis=1),
+        ragged.offsets(np.concatenate([np.diff(part.first) for part in parts])),
+        np.concatenate([part.behind for part in parts]),
+        np.concatenate([part.box for part in parts], axis=1),
+        np.concatenate([part.nearest for part in parts]),
+        np.concatenate([part.farthest for part in parts]),
+        np.concatenate([part.item for part in parts]),
     )
 
 
