@@ -22,13 +22,16 @@ HEIGHT = 220
 """Height of a picture on the page, in pixels."""
 
 LOOK_AT = {
+    "asymptotic_lines": "Along them a surface does not bend towards its normals; on a minimal one they cross squarely.",
     "box": "A hollow box has no bottom and no top; `+bottom` closes it below. The back walls are seen inside.",
     "capped": "Flat ends make bodies of cylinders, cones and balls; their rims and contours are arcs in closed form.",
     "cone": "A meridian with its upper end on the axis: all faces meet in a single vertex. `edges` shows them.",
     "cubes": "They have their centre in common; edges stop where one cube enters the other, and the section is drawn.",
     "curves": "Curves in space, some of them on surfaces that hide half of them: a course, a knot, borders of holes.",
+    "curvature_lines": "They cross at right angles, close, and bend round the umbilics, of which one is in front.",
     "cyclide": "A torus inverted in a sphere; all parameter lines are circles, before and after.",
     "cylinder": "One looks in at the open top: inside the faces show their back, and the near rim hides the bottom.",
+    "geodesics": "Straightest lines: those that start steeply wind round the tube, the flat one stays outside.",
     "house": "The scene of the first page: a body and a ball, whose contour is a circle, not a polygon.",
     "implicit": "Surfaces by their equations alone: level lines on a rounded cube, isophotes on a pretzel.",
     "interpenetrating": "Beams driven through one another; the tips that come out of the die are small and complete.",

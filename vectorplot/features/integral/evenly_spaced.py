@@ -25,6 +25,9 @@ from vectorplot.tolerances.of_extent import INTEGRATED_AS_DRAWN
 DRAWN = Accuracy(INTEGRATED_AS_DRAWN)
 """How well curves are integrated that are only to be drawn."""
 
+ACROSS = Accuracy(100.0 * INTEGRATED_AS_DRAWN)
+"""How well those are that only say where others begin."""
+
 LONGEST = 3.0
 """Times the extent of the surface that a curve runs to each side, at most."""
 
@@ -46,10 +49,10 @@ MOST_LINES = 500
 GRID = 160
 """Places along u, and along v, at which gaps are looked for, at most."""
 
-GAPS = 12
+GAPS = 24
 """Gaps that are filled at a time."""
 
-ROUNDS = 16
+ROUNDS = 4
 """How often gaps are filled."""
 
 
@@ -197,7 +200,9 @@ def _seeds(
     from scipy.spatial import cKDTree
 
     across = TurnedField(field, 0.5 * np.pi)
-    lines = integral_curves(surface, across, gaps, length=size, accuracy=DRAWN, tracing=Tracing(tolerance=0.05 * apart))
+    lines = integral_curves(
+        surface, across, gaps, length=size, accuracy=ACROSS, tracing=Tracing(tolerance=0.05 * apart)
+    )
     if not len(lines):
         return gaps, _sixfold(surface, gaps, apart)
     own = gaps[lines.levels.astype(np.intp)]

@@ -180,13 +180,17 @@ def courses(
         last, own_way = now.tangents, way[now.which]
         step = np.minimum(now.step, now.left)
 
+        new = last
+
         def rates(states: Floats, now: _Points = now, last: Floats = last, own_way: Floats = own_way) -> Floats:
-            return flow.rates(now.chart, states, last, own_way)[0]
+            nonlocal new
+            found, new = flow.rates(now.chart, states, last, own_way)
+            return found
 
         with np.errstate(all="ignore"):
+            # The last stage is the end of the step: its derivatives and tangents are those to go on with.
             tried = steps(rates, now.states, now.rates, step)
-            end = tried.start + tried.move
-            ahead, new = flow.rates(now.chart, end, last, own_way)
+            end, ahead = tried.start + tried.move, tried.last / step[:, None]
             places = charts.parameters(now.chart, end[:, :2])
             off = _length_of(flow, now.chart, places, tried.error, size)
             allowed = accuracy.error * step + ROUNDING_OF_POINTS * large
