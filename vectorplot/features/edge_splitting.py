@@ -76,8 +76,9 @@ class Vertices:
 class Between(Protocol):
     """A surface between vertices of its triangles."""
 
-    def __call__(self, start: Vertices, end: Vertices, t: Floats) -> Vertices:
-        """The vertices (n,) of the surface at parts t (n,) of the way from some vertices (n,) to others."""
+    def __call__(self, start: Vertices, end: Vertices, t: Floats, border: Bools) -> Vertices:
+        """The vertices (n,) of the surface at parts t (n,) of the way from some vertices (n,) to others; on borders
+        (n,) of the triangles, which follow those of the surface, or not."""
         ...
 
     def ends(self, start: Vertices, end: Vertices) -> tuple[Vertices, Vertices]:
@@ -95,6 +96,11 @@ class Edges:
     at: Vertices
     t: Floats
     fold: Ints
+
+    def some(self, which: Ints | Bools) -> Edges:
+        """Those with these numbers."""
+        at = Vertices(self.at.places[:, which], self.at.points[:, which], self.at.normals[:, which])
+        return Edges(self.start.some(which), self.end.some(which), at, self.t[:, which], self.fold[:, which])
 
 
 class Demand(Protocol):
@@ -157,7 +163,7 @@ def refined(net: Net, between: Between, demand: Demand, most: int) -> Net:
         edges, sides, uses = edges_of(net.triangles, count)
         key = edges[:, 0] << 32 | edges[:, 1]
         new = np.flatnonzero(~np.isin(key, found.key))
-        found = found.joined(key[new], _splits(net, edges[new], between, demand))
+        found = found.joined(key[new], _splits(net, edges[new], uses[new] == 1, between, demand))
         excess, as_border, part = found.rows[:, np.searchsorted(found.key, key)]
         border = (uses == 1) | _outlines(net, sides, len(edges), demand)
         excess = np.where(border, np.maximum(excess, as_border), excess)
@@ -171,7 +177,7 @@ def refined(net: Net, between: Between, demand: Demand, most: int) -> Net:
         if len(net.triangles) + int((middle[sides] >= 0).sum()) > most:
             return replace(net, complete=False)
         ends = net.vertices.some(edges[which, 0]), net.vertices.some(edges[which, 1])
-        vertices = net.vertices.joined(between(*ends, part[which]))
+        vertices = net.vertices.joined(between(*ends, part[which], uses[which] == 1))
         net = Net(vertices, _divided(net.triangles, middle[sides], vertices))
     return net
 
@@ -189,17 +195,17 @@ def _outlines(net: Net, sides: Ints, count: int, demand: Demand) -> Bools:
     return found
 
 
-def _splits(net: Net, edges: Ints, between: Between, demand: Demand) -> Floats:
+def _splits(net: Net, edges: Ints, border: Bools, between: Between, demand: Demand) -> Floats:
     """(3,n) by how many times sides are too coarse, and would be as borders; at which part they are to be split."""
     start, end = net.vertices.some(edges[:, 0]), net.vertices.some(edges[:, 1])
     found = np.repeat([[0.0], [0.0], [0.5]], len(edges), axis=1)
     apart = _apart(net.vertices, edges)
     inside = np.flatnonzero(start.known & end.known & apart)
     if len(inside):
-        found[:, inside] = _in_sight(start.some(inside), end.some(inside), between, demand)
+        found[:, inside] = _in_sight(start.some(inside), end.some(inside), border[inside], between, demand)
     rim = np.flatnonzero((start.known != end.known) & apart)
     if len(rim):
-        part = _rim(start.some(rim), end.some(rim), between)
+        part = _rim(start.some(rim), end.some(rim), border[rim], between)
         found[:, rim] = np.where(part > 0.0, np.inf, 0.0), np.zeros(len(rim)), part
     return found
 
@@ -213,15 +219,15 @@ def _apart(vertices: Vertices, edges: Ints) -> Bools:
     return np.asarray((way > JUMP_OF_DOMAIN * extent).any(axis=1))
 
 
-def _in_sight(start: Vertices, end: Vertices, between: Between, demand: Demand) -> Floats:
+def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, demand: Demand) -> Floats:
     """As _splits, for sides both ends of which are known."""
     start, end = between.ends(start, end)
     count = len(start.points)
-    looks = [between(start, end, np.full(count, t)) for t in LOOKS]
+    looks = [between(start, end, np.full(count, t), border) for t in LOOKS]
     values = np.stack([demand.folds(some.points, some.normals) for some in (start, *looks, end)], axis=1)
-    root, number = _roots(start, end, values, between, demand)
+    root, number = _roots(start, end, values, border, between, demand)
     t = np.stack([*(np.full(count, t) for t in LOOKS), root])
-    looks.append(between(start, end, root))
+    looks.append(between(start, end, root, border))
     at = Vertices(*(np.stack(some) for some in zip(*((v.places, v.points, v.normals) for v in looks), strict=True)))
     on = np.abs(values[:, [0, -1]]) <= ON
     over = np.abs(values[:, 1:-1])
@@ -255,15 +261,17 @@ def _in_sight(start: Vertices, end: Vertices, between: Between, demand: Demand) 
 def _bulging(edges: Edges, hole: Ints) -> Edges:
     """The sides with a hole beneath them, its points taken for points that are off the side by BULGE of its length:
     both ends of a side along the rim of a hole are on the rim, but never all of it."""
-    start, end = edges.start.some(hole), edges.end.some(hole)
-    at = Vertices(edges.at.places[:, hole], edges.at.points[:, hole], edges.at.normals[:, hole])
-    way = end.points - start.points
-    off = BULGE * np.linalg.norm(way, axis=1, keepdims=True) * np.nan_to_num(start.normals)
-    points = np.where(at.known[..., None], at.points, start.points + edges.t[:, hole, None] * way + off)
-    return Edges(start, end, Vertices(at.places, points, at.normals), edges.t[:, hole], edges.fold[:, hole])
+    found = edges.some(hole)
+    at, start = found.at, found.start.points
+    way = found.end.points - start
+    off = BULGE * np.linalg.norm(way, axis=1, keepdims=True) * np.nan_to_num(found.start.normals)
+    points = np.where(at.known[..., None], at.points, start + found.t[..., None] * way + off)
+    return replace(found, at=replace(at, points=points))
 
 
-def _roots(start: Vertices, end: Vertices, values: Floats, between: Between, demand: Demand) -> tuple[Floats, Ints]:
+def _roots(
+    start: Vertices, end: Vertices, values: Floats, border: Bools, between: Between, demand: Demand
+) -> tuple[Floats, Ints]:
     """(n,) the part of each side at which it crosses a fold, and the number of the fold; 0.5 and NONE for most.
 
     values (s,k,n): the functions of folds at the ends and the looks between them.
@@ -282,7 +290,7 @@ def _roots(start: Vertices, end: Vertices, values: Floats, between: Between, dem
     first, last = start.some(which), end.some(which)
     for _ in range(STEPS):
         t = low + (high - low) * at_low / (at_low - at_high)
-        found = between(first, last, t)
+        found = between(first, last, t, border[which])
         at_t = demand.folds(found.points, found.normals)[fold, np.arange(len(which))]
         before = at_t * at_low > 0.0
         # The end that stays is weighted less, or it would stay for ever.
@@ -293,13 +301,13 @@ def _roots(start: Vertices, end: Vertices, values: Floats, between: Between, dem
     return part, number
 
 
-def _rim(start: Vertices, end: Vertices, between: Between) -> Floats:
+def _rim(start: Vertices, end: Vertices, border: Bools, between: Between) -> Floats:
     """The last parts of sides, one end of which is in a hole, that are not in it; 0 next to the other end."""
     known = start.known
     low, high = np.where(known, 0.0, 1.0), np.where(known, 1.0, 0.0)
     for _ in range(RIM_STEPS):
         t = 0.5 * (low + high)
-        good = between(start, end, t).known
+        good = between(start, end, t, border).known
         low, high = np.where(good, t, low), np.where(good, high, t)
     return np.where(np.abs(low - np.where(known, 0.0, 1.0)) > NEAR, low, 0.0)
 

@@ -14,6 +14,7 @@ from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, 
 from vectorplot.features.implicit.implicit_singular_lines import SingularLines, singular_lines, usual_gradient
 from vectorplot.features.implicit.polygonize import onto_surface, polygonized, settled_mesh
 from vectorplot.features.implicit.singular_set import led_into_singular_set
+from vectorplot.features.parametric.holes import beside_rim_chords, cut_at_holes
 from vectorplot.features.parametric.poles import Pole, poles
 from vectorplot.features.tessellation import grid_numbers
 from vectorplot.features.zeros.grid_triangulation import triangulate_surface
@@ -50,6 +51,9 @@ TURN = np.radians(8.5)
 
 JUMP = np.radians(45.0)
 """Normals that differ by more at neighbouring looks jump, as on creases: finer sides would not help."""
+
+ON_RIM = 1.0
+"""The third number of a place on the rim of a hole."""
 
 INSIDE = 0.75
 """In the middle of a triangle the surface may be farther off than over its sides, by a third."""
@@ -116,7 +120,8 @@ def facets(shape: Surface | ImplicitSurface, demand: Demand, most: int = USUAL_B
     Triangles turn as u to v does; those of an implicit surface are counter-clockwise from where F > 0. Vertices on
     seams and at poles are one; neighbours of different sizes share their vertices.
     Error: the demand is kept at LOOKS of every side, and where it crosses a fold; what is smaller may be missed, and
-    where it calls for more than most triangles it is not kept. Sides that lead into a hole end at its rim.
+    where it calls for more than most triangles it is not kept. Sides that lead into a hole end at its rim, and those
+    along a rim follow it.
     Errors: InputError for what is no smooth surface.
     Degenerate: triangles in holes, those without area, and those beneath which the surface jumps are left out.
     Source: Glaeser, section 8.4 (polygonised surfaces).
@@ -140,17 +145,17 @@ def _without_jumps(surface: Surface, net: Net) -> Net:
     places, points = net.vertices.places, net.vertices.points
     a, b = (x.ravel() for x in (net.triangles, np.roll(net.triangles, -1, axis=1)))
     domain = surface.domain
-    way = places[b] - places[a]
+    way = (places[b] - places[a])[:, :2]
     for axis, (closed, size) in enumerate(zip((domain.closed_u, domain.closed_v), domain.size, strict=True)):
         if closed:
             way[:, axis] -= size * np.round(way[:, axis] / size)
     with np.errstate(all="ignore"):
-        along_u, along_v = surface.partials(*places.T)
+        along_u, along_v = surface.partials(*places[:, :2].T)
         expected = [np.linalg.norm(along_u[k] * way[:, :1] + along_v[k] * way[:, 1:], axis=1) for k in (a, b)]
         long = np.linalg.norm(points[b] - points[a], axis=1) > TOO_LONG * np.maximum(*expected)
     side = np.flatnonzero(long)
     torn = np.zeros(len(a), dtype=np.bool_)
-    torn[side] = jumps(surface, places[a][side], places[a][side] + way[side])
+    torn[side] = jumps(surface, places[a][side, :2], places[a][side, :2] + way[side])
     return replace(net, triangles=net.triangles[~torn.reshape(-1, 3).any(axis=1)])
 
 
@@ -165,7 +170,7 @@ def _facets(net: Net, sharp: Bools) -> Facets:
 
 @dataclass(frozen=True, eq=False)
 class _Patch:
-    """A parametrised surface between vertices whose places are (u, v)."""
+    """A parametrised surface between vertices whose places are (u, v), and 1 on the rim of a hole, 0 elsewhere."""
 
     surface: Surface
     poles: tuple[Pole, ...]
@@ -175,14 +180,27 @@ class _Patch:
         """The v of sharp edges."""
         return creases(self.surface)
 
-    def __call__(self, start: Vertices, end: Vertices, t: Floats) -> Vertices:
+    def __call__(self, start: Vertices, end: Vertices, t: Floats, border: Bools) -> Vertices:
         domain = self.surface.domain
         first, last = self._without_poles(start.places, end.places)
         way = last - first
         for axis, (closed, size) in enumerate(zip((domain.closed_u, domain.closed_v), domain.size, strict=True)):
             if closed:
                 way[:, axis] -= size * np.round(way[:, axis] / size)
-        return self.at(_wrapped(domain, first + t[:, None] * way))
+        places = first + t[:, None] * way
+        places[:, 2] = 0.0
+        found = self.at(_wrapped(domain, places.copy()))
+        # A border between two places on a rim lies along it; what leads over a hole goes round it.
+        rim = border & (first[:, 2] == ON_RIM) & (last[:, 2] == ON_RIM)
+        rim = np.flatnonzero(rim | (~found.known & start.known & end.known))
+        if not len(rim):
+            return found
+        places[rim, :2], on = beside_rim_chords(self.surface, first[rim, :2], first[rim, :2] + way[rim, :2], t[rim])
+        places[rim, 2] = np.where(on, ON_RIM, 0.0)
+        moved = self.at(_wrapped(domain, places[rim]))
+        for own, new in ((found.places, moved.places), (found.points, moved.points), (found.normals, moved.normals)):
+            own[rim] = new
+        return found
 
     def ends(self, start: Vertices, end: Vertices) -> tuple[Vertices, Vertices]:
         """The ends of sides; on the rim of a cap normals are those of the cap for sides that lead into it."""
@@ -193,14 +211,14 @@ class _Patch:
         """Vertices, some of them with the normals that they have on the way to others."""
         if not which.any():
             return own
-        u, v = own.places[which].T
+        u, v = own.places[which, :2].T
         normals = own.normals.copy()
         with np.errstate(all="ignore"):
             normals[which] = unit_normals(self.surface, u, v + ASIDE_OF_CREASE * (other.places[which, 1] - v))
         return replace(own, normals=normals)
 
     def at(self, places: Floats) -> Vertices:
-        """The vertices at some places (n,2)."""
+        """The vertices at some places (n,3)."""
         with np.errstate(all="ignore"):
             points = np.array(self.surface.points(places[:, 0], places[:, 1]), dtype=np.float64)
             normals = unit_normals(self.surface, places[:, 0], places[:, 1])
@@ -236,21 +254,34 @@ def _first_net(surface: Surface, demand: Demand) -> Net:
     near = np.abs(v[:, None] - sharp) <= ON_BORDER_OF_DOMAIN * domain.size[1]
     v = np.sort(np.concatenate([v[~near.any(axis=1)], sharp]))
     rows = len(v) - 1
-    places = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1)
+    places = _on_grid(u, v).reshape(-1, 3)
     number = grid_numbers(surface, columns, rows).ravel()
-    vertices = patch.at(places.reshape(-1, 2))
+    vertices = patch.at(places)
     grid = vertices.points.reshape(columns + 1, rows + 1, 3)
     cut, _ = triangulate_surface(grid, closed_u=domain.closed_u, closed_v=domain.closed_v)
     triangles = number[cut]
     triangles = triangles[(triangles != np.roll(triangles, -1, axis=1)).all(axis=1)]
-    return Net(vertices, triangles)
+    holed = cut_at_holes(surface, places[:, :2], triangles, vertices.known)
+    new = np.column_stack([holed.places[len(places) :], np.full(len(holed.places) - len(places), ON_RIM)])
+    vertices.places[holed.on_rim[: len(places)], 2] = ON_RIM
+    return Net(vertices.joined(patch.at(_wrapped(domain, new))), holed.triangles)
+
+
+def _on_grid(u: Floats, v: Floats) -> Floats:
+    """(m,n,3) the places of a grid, none of them on a rim."""
+    return np.stack([*np.meshgrid(u, v, indexing="ij"), np.zeros((len(u), len(v)))], axis=-1)
 
 
 def _enough(lines: Callable[[int], Edges], closed: bool, demand: Demand) -> int:
     """How many parts of lines of a grid are enough to begin with."""
     count = FEWEST[int(closed)]
     while True:
-        excess = np.nan_to_num(demand.excess(lines(count)), nan=2.0).max(axis=0)
+        sides = lines(count)
+        # What lies in a hole is not cut at all.
+        inside = sides.start.known | sides.end.known
+        excess = np.nan_to_num(demand.excess(sides.some(inside)), nan=2.0).max(axis=0)
+        if not len(excess):
+            return USUAL
         if count < USUAL:
             if excess.max() <= 1.0:
                 return count
@@ -267,11 +298,11 @@ def _lines(patch: _Patch, count: int, across: bool) -> Edges:
     """Some lines of a grid in so many parts each, along u (across) or along v."""
     domain = patch.surface.domain
     u, v = domain.grid(*((count, USUAL) if across else (USUAL, count)))
-    places = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1)
+    places = _on_grid(u, v)
     places = places if across else places.swapaxes(0, 1)
-    first, last = places[:-1].reshape(-1, 2), places[1:].reshape(-1, 2)
+    first, last = places[:-1].reshape(-1, 3), places[1:].reshape(-1, 3)
     t = np.repeat(np.array(LOOKS)[:, None], len(first), axis=1)
-    at = patch.at((first + t[..., None] * (last - first)).reshape(-1, 2))
+    at = patch.at((first + t[..., None] * (last - first)).reshape(-1, 3))
     looks = Vertices(*(some.reshape(*t.shape, -1) for some in (at.places, at.points, at.normals)))
     return Edges(patch.at(first), patch.at(last), looks, t, np.full(t.shape, NONE))
 
@@ -304,7 +335,7 @@ class _Level:
         """The length of gradients that are not but for rounding."""
         return VANISHED_GRADIENT * usual_gradient(self.surface, self.mesh.vertices)
 
-    def __call__(self, start: Vertices, end: Vertices, t: Floats) -> Vertices:
+    def __call__(self, start: Vertices, end: Vertices, t: Floats, border: Bools) -> Vertices:
         first, last = start.points, end.points
         low, high = np.asarray(self.surface.box, dtype=np.float64)
         fixed = (first == last) & ((first == low) | (first == high))

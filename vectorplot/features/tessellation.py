@@ -9,8 +9,9 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.features.parametric.curve_tracing import TURN, wrapped
+from vectorplot.features.parametric.curve_tracing import TURN
 from vectorplot.features.parametric.poles import poles
+from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.features.zeros.grid_triangulation import average_normals, cut_cells
 from vectorplot.surfaces.surface import Domain, Surface
 

@@ -53,6 +53,16 @@ CENTRAL_DIFFERENCE = 6e-6
 BORDER_SEEN_FROM = 1e-7
 """Part of the domain by which a border that is a single point of the surface is looked at from inside."""
 
+RIM_SEEN_FROM = 1e-9
+"""Part of the domain by which the rim of a hole is looked at from inside: a surface that ends with a vertical tangent,
+as a square root does, has no normal on it; so near it is off the rim by the root of that, less than is drawn."""
+
+AROUND_RIM = 1e-6
+"""Part of the domain by which it is tried out on which side of the rim of a hole a surface lies."""
+
+OFF_RIM = 1e-3
+"""Part of the domain by which curvatures are looked at from inside of the rim of a hole: differences reach as far."""
+
 ASIDE_OF_POLE = 1e-6
 """Part of the domain by which a pole is looked at from inside where the normal's derivatives are asked for: the
 rounding of a cross product as small as that is no larger than what the normal turns on the way."""

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.features.parametric.curve_tracing import wrapped
 from vectorplot.features.parametric.poles import poles
+from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.tolerances.of_parameters import AT_POLE

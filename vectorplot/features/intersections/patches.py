@@ -9,7 +9,8 @@ from typing import Protocol
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.parametric.curve_tracing import extent, wrapped
+from vectorplot.features.parametric.curve_tracing import extent
+from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.features.tessellation import FREE, Tessellation, edges_of, surface_tessellation
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.convex_faces import convex_faces

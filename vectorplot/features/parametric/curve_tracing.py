@@ -7,20 +7,32 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.parametric.conditions import Condition
+from vectorplot.features.parametric.holes import up_to_rims
 from vectorplot.features.parametric.poles import through_poles
 from vectorplot.features.parametric.stacked_conditions import C, StackedConditions, alone
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
+from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.features.zeros.zero_manifold import ZeroManifold, zero_manifolds
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget
+from vectorplot.geometry.polylines import some
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT
 from vectorplot.tolerances.of_parameters import RESOLUTION
 from vectorplot.tolerances.of_values import FLAT_OF_VALUES
 
 Picture = Callable[[Floats], Floats]
+
+REACH = 4.0
+"""Times the resolution within which a curve that ends before a hole is led to its rim."""
+
+CRUMB = 8.0
+"""Times the resolution that a curve with an end at a rim is long at least."""
+
+LED = (0.75, 0.9375, 1.0)
+"""Parts of the way there at which it gets points: a square root falls to half on each."""
 
 TURN = 0.0137
 """Part of a closed direction by which the grid is turned."""
@@ -94,16 +106,6 @@ def samples_of_each(conditions: StackedConditions[C]) -> list[Floats]:
     return [own[np.isfinite(own).all(axis=1)] for own in points]
 
 
-def wrapped(domain: Domain, u: Floats, v: Floats) -> tuple[Floats, Floats]:
-    """The parameters moved by whole periods into the domain, in its closed directions."""
-    width, height = domain.size
-    if domain.closed_u:
-        u = u - np.floor((u - domain.u_start) / width) * width
-    if domain.closed_v:
-        v = v - np.floor((v - domain.v_start) / height) * height
-    return u, v
-
-
 def curves_where_zero(
     surface: Surface,
     condition: Condition,
@@ -168,7 +170,45 @@ def curves_on_each(
         budget=tracing.budget,
     )
     led = [through_poles(surface, curves) for surface, curves in zip(conditions.surfaces, found, strict=True)]
-    return _in_space(conditions, led)
+    curves = _in_space(conditions, led)
+    holed: Bools = np.asarray(np.isnan(on_grid).reshape(len(conditions), -1).any(axis=1))
+    return [
+        _to_rims(surface, own, tracing.resolution) if has_holes else own
+        for surface, own, has_holes in zip(conditions.surfaces, curves, holed, strict=True)
+    ]
+
+
+def _to_rims(surface: Surface, curves: SurfaceCurves, resolution: float) -> SurfaceCurves:
+    """The curves, those that end just before a hole led on straight to its rim: cells with a corner in a hole have no
+    curve, and where a surface ends with a vertical tangent the last of them is high."""
+    own = np.flatnonzero(~curves.closed & (np.diff(curves.offsets) > 1))
+    first, last = curves.offsets[:-1][own], curves.offsets[1:][own] - 1
+    # The end of a curve comes before the beginning of the next.
+    at, before = np.concatenate([last, first]), np.concatenate([last - 1, first + 1])
+    places = np.stack([curves.u, curves.v], axis=1)
+    size = np.array(surface.domain.size)
+    way = (places[at] - places[before]) / size
+    long = np.linalg.norm(way, axis=1, keepdims=True)
+    way = size * np.divide(REACH * resolution * way, long, out=np.zeros_like(way), where=long > 0.0)
+    ends, found = up_to_rims(surface, places[at], way)
+    share = np.repeat(LED, len(at)).reshape(len(LED), -1)
+    more = places[at] + share[..., None] * (ends - places[at])
+    begins = np.arange(len(at)) >= len(own)
+    # Before the first point the farthest comes first.
+    more[:, begins] = more[::-1, begins]
+    put = np.flatnonzero(found)
+    where = np.repeat(at[put] + ~begins[put], len(LED))
+    added = more[:, put].swapaxes(0, 1).reshape(-1, 2)
+    grown = np.bincount(np.tile(own, 2)[put], minlength=len(curves)) * len(LED)
+    u, v = np.ascontiguousarray(np.insert(places, where, added, axis=0).T)
+    new = surface.points(*wrapped(surface.domain, *np.ascontiguousarray(added.T)))
+    points = np.insert(curves.points, where, new, axis=0)
+    led = replace(curves, u=u, v=v, points=points, offsets=ragged.offsets(np.diff(curves.offsets) + grown))
+    # A curve that comes to a rim at a flat angle has crumbs beyond its end, between cells with corners in the hole.
+    crumb = np.zeros(len(curves), dtype=np.bool_)
+    across = np.linalg.norm((places[first] - places[last]) / size, axis=1)
+    crumb[own] = found.reshape(2, -1).any(axis=0) & (across <= CRUMB * resolution)
+    return some(led, ~crumb) if crumb.any() else led
 
 
 def _in_space(conditions: StackedConditions[C], found: Sequence[ZeroManifold]) -> list[SurfaceCurves]:

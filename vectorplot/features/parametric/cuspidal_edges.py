@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.features.parametric.curve_tracing import Tracing, curves_where_zero, samples, wrapped
+from vectorplot.features.parametric.curve_tracing import Tracing, curves_where_zero, samples
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves
+from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.features.zeros.zero_manifold import check_grid
 from vectorplot.geometry.polylines import some
 from vectorplot.geometry.vectors import cross, dot

@@ -10,9 +10,9 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.parametric.conditions import Contour
-from vectorplot.features.parametric.curve_tracing import wrapped
 from vectorplot.features.parametric.stacked_conditions import StackedConditions, alone
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, with_points
+from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.polylines import joined
 from vectorplot.geometry.vectors import dot, length

@@ -9,9 +9,11 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.features.parametric.curve_tracing import Tracing, extent, wrapped
+from vectorplot.features.parametric.curve_tracing import Tracing, extent
+from vectorplot.features.parametric.hole_rims import hole_rims
 from vectorplot.features.parametric.poles import poles
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
+from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.chord_refinement import Traces, refined, straight_between, torn, with_standstills
 from vectorplot.geometry.polylines import some
@@ -147,7 +149,7 @@ def v_lines(surface: Surface, values: ArrayLike, *, tracing: Tracing = DEFAULT) 
 
 
 def borders(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
-    """The lines at the ends of the domain that are borders of the surface: not where it closes, not poles.
+    """The lines at which a surface ends: ends of its domain, but not where it closes nor poles, and rims of its holes.
 
     Parameters
     ----------
@@ -163,7 +165,8 @@ def borders(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
 
     Notes
     -----
-    Degenerate: the borders of holes inside the domain are not among them.
+    Rims are where the points of the surface are not finite any more, and where it is cut off because it runs to
+    infinity; their level is 0. Degenerate: holes smaller than half a cell of the tracing's grid may be missed.
 
     Examples
     --------
@@ -171,6 +174,11 @@ def borders(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     >>> len(features.borders(surfaces.Cylinder())), len(features.borders(surfaces.Paraboloid()))
     (2, 1)
     """
+    return together([domain_borders(surface, tracing), hole_rims(surface, tracing)])
+
+
+def domain_borders(surface: Surface, tracing: Tracing) -> SurfaceCurves:
+    """The borders at the ends of the domain alone."""
     domain, single = surface.domain, {(pole.axis, pole.place) for pole in poles(surface)}
     u = [] if domain.closed_u else [t for t in (domain.u_start, domain.u_end) if (0, t) not in single]
     v = [] if domain.closed_v else [t for t in (domain.v_start, domain.v_end) if (1, t) not in single]

@@ -7,9 +7,10 @@ from collections.abc import Callable
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
-from vectorplot.features.parametric.curve_tracing import Tracing, extent, wrapped
+from vectorplot.features.parametric.curve_tracing import Tracing, extent
 from vectorplot.features.parametric.parameter_lines import DEFAULT
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
+from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.chord_refinement import Refined, Traces, refined, straight_between
 from vectorplot.surfaces.surface import Surface

@@ -11,6 +11,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.features.implicit.implicit_conditions import SpatialCondition
 from vectorplot.features.implicit.singular_equations import SingularEquations, line_tangents, onto_lines
 from vectorplot.features.parametric.conditions import SurfaceCondition
+from vectorplot.features.parametric.holes import beside_rim_chords
 from vectorplot.geometry import records
 from vectorplot.geometry.vectors import dot
 from vectorplot.surfaces.stacked import of_some
@@ -21,6 +22,9 @@ from vectorplot.visibility.smooth.sheets.parametric_places import OnParametrised
 
 ROUNDS, RENEWED = 8, 4
 """Steps of Newton from a chord to its curve; the one at which slopes are computed anew."""
+
+RIM_STEP = 1.0 / 64.0
+"""Parts of a chord to both sides over which the slope of a rim is taken."""
 
 FARTHEST = 0.5
 """So many lengths of its chord a curve may be away from it."""
@@ -109,6 +113,30 @@ class ParameterCurves:
         u, v = inside(surface.domain, at)
         along_u, along_v = surface.partials(u, v)
         return Along(at, surface.points(u, v), way[:, :1] * along_u + way[:, 1:2] * along_v)
+
+
+@dataclass(frozen=True, eq=False)
+class RimCurves:
+    """Rims of the holes of a parametrised surface."""
+
+    surface: OnParametrised
+    sheet: int
+    second: int = -1
+
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The rims at a part of their chords: straight across in the parameters. There is no derivative at a rim that
+        the surface comes to with a vertical tangent: slopes are differences."""
+        start, end = chords.places
+        surface = self.surface.surface_at(start)
+
+        def at(part: Floats) -> tuple[Floats, Floats]:
+            beside, _ = beside_rim_chords(surface, start[:, :2], end[:, :2], part)
+            places = np.concatenate([beside, start[:, 2:]], axis=1)
+            return places, surface.points(*inside(surface.domain, places))
+
+        middle = np.clip(part, RIM_STEP, 1.0 - RIM_STEP)
+        slopes = (at(middle + RIM_STEP)[1] - at(middle - RIM_STEP)[1]) / (2.0 * RIM_STEP)
+        return Along(*at(part), slopes)
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,13 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
-from vectorplot.features.parametric.curve_tracing import wrapped
+from vectorplot.features.parametric.holes import into_surface, is_known
+from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.surfaces.normals import tangent_planes, unit_normals
-from vectorplot.surfaces.stacked import StackedSurfaces
+from vectorplot.surfaces.stacked import StackedSurfaces, of_some
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
-from vectorplot.tolerances.of_parameters import OUTSIDE_DOMAIN
+from vectorplot.tolerances.of_parameters import OFF_RIM, OUTSIDE_DOMAIN
 from vectorplot.visibility.smooth.sheets.sheet import solved
 
 LONGEST_STEP = 0.05
@@ -44,6 +45,11 @@ class OnParametrised(ABC):
     def surface_at(self, places: Floats) -> Surface:
         """The surface, in the view's coordinates, to be asked for parameters at these places (k,3)."""
 
+    @property
+    @abstractmethod
+    def holed(self) -> bool:
+        """Whether there is a surface with holes."""
+
     def points(self, places: Floats) -> Floats:
         """(k,3) points."""
         surface = self.surface_at(places)
@@ -66,8 +72,11 @@ class OnParametrised(ABC):
         return TangentPlanes(places, surface.points(u, v), *tangent_planes(surface, u, v))
 
     def bends(self, places: Floats, directions: Floats) -> Floats:
-        """(k,) normal parts of the accelerations along tangential directions; 0 at singular points."""
+        """(k,) normal parts of the accelerations along tangential directions; 0 at singular points; at rims of holes
+        those a little inside: there is no second derivative where a surface ends with a vertical tangent."""
         surface = self.surface_at(places)
+        if self.holed:
+            places = off_rims(surface, places)
         u, v = inside(surface.domain, places)
         along_u, along_v = surface.partials(u, v)
         uu, uv, vv = surface.second_partials(u, v)
@@ -94,7 +103,19 @@ class OnParametrised(ABC):
             if not closed:
                 part = (places[:, axis] - start) / size
                 inner += (part <= OUTSIDE_DOMAIN)[:, None] * along - (part >= 1.0 - OUTSIDE_DOMAIN)[:, None] * along
+        inside_domain = np.flatnonzero(~inner.any(axis=1))
+        if self.holed and len(inside_domain):
+            inner[inside_domain] = self._into_holed(places[inside_domain])
         return inner
+
+    def _into_holed(self, places: Floats) -> Floats:
+        """(k,3) short ways into the sheet from places on rims of holes; 0 elsewhere. Differences: where a surface
+        comes to its rim with a vertical tangent there is no derivative."""
+        surface = self.surface_at(places)
+        way = into_surface(surface, places[:, :2])
+        inner = places + np.concatenate([way, np.zeros((len(way), 1))], axis=1)
+        found = surface.points(*inside(surface.domain, inner)) - surface.points(*inside(surface.domain, places))
+        return np.where(np.isfinite(found), found, 0.0)
 
     def turnings(self, places: Floats) -> Floats:
         """(k,3) second derivatives along the direction in which the point stands still."""
@@ -155,10 +176,27 @@ class StackedSheets(OnParametrised):
     """Many parametrised sheets as one; the third number of a place says on which of them it is."""
 
     surfaces: StackedSurfaces
+    holed: bool = False
 
     def surface_at(self, places: Floats) -> Surface:
         """That of the sheet of each place."""
         return self.surfaces.at(places[:, 2].astype(np.intp))
+
+
+def off_rims(surface: Surface, places: Floats) -> Floats:
+    """The places (k,3), those on the rims of holes moved away from them into the surface by a part of the domain."""
+    way = into_surface(surface, places[:, :2])
+    at = np.flatnonzero(way.any(axis=1))
+    if not len(at):
+        return places
+    own = of_some(surface, at)
+    size = np.stack(np.broadcast_arrays(*own.domain.size), axis=-1)
+    long = np.linalg.norm(way[at] / size, axis=1, keepdims=True)
+    inner = places[at, :2] + OFF_RIM * way[at] / long
+    good = is_known(own, inner)
+    result = places.copy()
+    result[at[good], :2] = inner[good]
+    return result
 
 
 def _moved(places: Floats, along_u: Floats, along_v: Floats, steps: Floats) -> Floats:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.parametric.holes import cut_at_holes
 from vectorplot.surfaces.jumps import jumping_cells, jumps
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.visibility.smooth.sheets.parametric_places import OnParametrised
@@ -24,11 +25,15 @@ VAIN, MOST_VAIN = 0.8, 2
 vain; after so many times nothing finer is tried. At a vertical tangent they leave less."""
 
 
+HALF = 0.1
+"""Part of its longest side by which the surface may be off a triangle at the rim of a hole."""
+
+
 @dataclass(frozen=True, eq=False)
 class ParametricSheet(OnParametrised):
     """A parametrised surface, already in the view's coordinates, and its tessellation; jumps: whether it has triangles
-    that were left out, because the surface jumps beneath them; creases: the v at which another sheet of the item begins
-    behind a sharp edge; is_cap: whether it is a flat end, without parameter lines."""
+    that were left out, because the surface jumps beneath them; holed: whether it has holes; creases: the v at which
+    another sheet of the item begins behind a sharp edge; is_cap: whether it is a flat end, without parameter lines."""
 
     surface: Surface
     item: int
@@ -38,6 +43,7 @@ class ParametricSheet(OnParametrised):
     corners: Ints
     sags: Floats
     jumps: bool
+    holed: bool = False
     creases: tuple[float, ...] = ()
     is_cap: bool = False
 
@@ -49,7 +55,7 @@ class ParametricSheet(OnParametrised):
 def parametric_sheet(surface: Surface, item: int, hides: bool) -> ParametricSheet:
     """The sheet of a surface that is given in the view's coordinates.
 
-    Degenerate: triangles with a corner in a hole, and those beneath which the surface jumps, are left out.
+    Degenerate: triangles beneath which the surface jumps are left out; those with a corner in a hole end at its rim.
     """
     columns, rows, sag = _fineness(surface)
     u_line, v_line = surface.domain.grid(columns, rows)
@@ -60,12 +66,23 @@ def parametric_sheet(surface: Surface, item: int, hides: bool) -> ParametricShee
     lower = (np.arange(columns)[:, None] * (rows + 1) + np.arange(rows)).ravel()
     right, upper = lower + rows + 1, lower + 1
     corners = np.concatenate([np.stack([lower, right, right + 1], 1), np.stack([lower, right + 1, upper], 1)])
-    whole: Bools = np.asarray(np.isfinite(vertices).all(axis=1))
-    kept = whole[corners].all(axis=1) & ~np.tile(torn, 2)
+    own = np.flatnonzero(~np.tile(torn, 2))
+    known: Bools = np.asarray(np.isfinite(vertices).all(axis=1))
+    cut = cut_at_holes(surface, np.stack([u, v], axis=1), corners[own], known)
+    u, v = np.ascontiguousarray(cut.places.T)
+    points = np.concatenate([vertices, surface.points(u[len(vertices) :], v[len(vertices) :])])
     off = np.maximum(_cell_sags(grid), SAG) if sag > SAG else np.full((columns, rows), sag)
-    sags = np.tile(np.minimum(off, _around(grid)).ravel(), 2)[kept]
+    sags = np.tile(np.minimum(off, _around(grid)).ravel(), 2)[own[cut.of]]
+    # Beside a rim nothing is told by what is beyond.
+    at_rim = cut.on_rim[cut.triangles].any(axis=1)
+    sags[at_rim] = np.maximum(sags[at_rim], HALF * _longest(points[cut.triangles[at_rim]]))
     places = np.stack([u, v, np.zeros_like(u)], axis=1)
-    return ParametricSheet(surface, item, hides, vertices, places, corners[kept], sags, bool(torn.any()))
+    return ParametricSheet(surface, item, hides, points, places, cut.triangles, sags, bool(torn.any()), not known.all())
+
+
+def _longest(triangles: Floats) -> Floats:
+    """(t,) the longest sides of triangles (t,3,3)."""
+    return np.asarray(np.linalg.norm(triangles - np.roll(triangles, 1, axis=1), axis=2).max(axis=1))
 
 
 def _fineness(surface: Surface) -> tuple[int, int, float]:

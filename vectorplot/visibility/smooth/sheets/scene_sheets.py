@@ -70,9 +70,9 @@ class Sheets:
         of = np.array(numbers, dtype=np.intp)
         if len(of) == 1:
             return SheetGroup(self.sheets[of[0]], of, False)
-        surfaces = [sheet.surface for sheet in map(self.__getitem__, numbers) if isinstance(sheet, ParametricSheet)]
-        placed = tuple(surface for surface in surfaces if isinstance(surface, PlacedSurface))
-        return SheetGroup(StackedSheets(StackedSurfaces(placed)), of, True)
+        sheets = [sheet for sheet in map(self.__getitem__, numbers) if isinstance(sheet, ParametricSheet)]
+        placed = tuple(sheet.surface for sheet in sheets if isinstance(sheet.surface, PlacedSurface))
+        return SheetGroup(StackedSheets(StackedSurfaces(placed), any(sheet.holed for sheet in sheets)), of, True)
 
     @cached_property
     def group(self) -> Ints:

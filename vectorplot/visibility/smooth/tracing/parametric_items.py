@@ -19,8 +19,9 @@ from vectorplot.features.parametric.contour import contours, parallel_contours
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.cuspidal_edges import singular_lines
 from vectorplot.features.parametric.cusps import contours_with_cusps
+from vectorplot.features.parametric.hole_rims import hole_rims
 from vectorplot.features.parametric.isophotes import isophotes, point_light_isophotes
-from vectorplot.features.parametric.parameter_lines import borders, parameter_lines
+from vectorplot.features.parametric.parameter_lines import domain_borders, parameter_lines
 from vectorplot.features.parametric.sections import plane_sections
 from vectorplot.features.parametric.stacked_conditions import stacked, stacks
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
@@ -34,14 +35,14 @@ from vectorplot.surfaces.embedded import is_embedded
 from vectorplot.surfaces.parts import covered_once, smooth_parts
 from vectorplot.surfaces.placed import placed_once
 from vectorplot.surfaces.surface import Surface
-from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves
+from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves, RimCurves
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet, parametric_sheet
 from vectorplot.visibility.smooth.tracing.integral_items import integral_curves_in_view
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.visibility.smooth.tracing.traced_surface_curves import as_curves
 from vectorplot.words import LineKind
 
-Found = tuple[LineKind, ConditionCurves | ParameterCurves, SurfaceCurves]
+Found = tuple[LineKind, ConditionCurves | ParameterCurves | RimCurves, SurfaceCurves]
 
 
 def sheets_of_parametrised(view: View, surface: Surface, item: int, hides: bool) -> list[ParametricSheet]:
@@ -100,9 +101,12 @@ def curves_of_parametrised(
 
 
 def _edges(sheet: ParametricSheet, number: int, tracing: Tracing) -> list[Found]:
-    """Borders and cuspidal edges."""
+    """Borders, the rims of holes among them, and cuspidal edges."""
     surface, straight = sheet.surface, ParameterCurves(sheet, number)
-    result: list[Found] = [(LineKind.BOUNDARY, straight, borders(surface, tracing=tracing))]
+    result: list[Found] = [(LineKind.BOUNDARY, straight, domain_borders(surface, tracing))]
+    # What has no hole in the tessellation has none on the coarser grid of its curves.
+    if sheet.holed:
+        result.append((LineKind.BOUNDARY, RimCurves(sheet, number), hole_rims(surface, tracing)))
     if not is_embedded(surface):
         result.append((LineKind.CREASE, straight, singular_lines(surface, tracing=tracing)))
     return result

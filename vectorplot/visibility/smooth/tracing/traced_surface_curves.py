@@ -7,12 +7,12 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.geometry.polylines import closed_round
-from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves
+from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves, RimCurves
 from vectorplot.visibility.smooth.sheets.meeting_families import FaceCurves
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.words import LineKind
 
-OnSurface = ConditionCurves | ParameterCurves | FaceCurves
+OnSurface = ConditionCurves | ParameterCurves | RimCurves | FaceCurves
 
 
 def as_curves(
