@@ -91,8 +91,8 @@ def evenly_spaced_curves(
     field : TangentField
         What they follow.
     apart : float
-        About how far neighbours are from each other, in world units: half of it, where they run together, to twice, at
-        most, where they run apart.
+        About how far neighbours are from each other, in world units: half of it at least, where they run together; and
+        mostly less than twice, where they run apart, as gaps are filled a few times only.
     accuracy : Accuracy
         How well they are integrated.
     tracing : Tracing
