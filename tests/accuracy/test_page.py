@@ -35,8 +35,10 @@ def without_times(text: str) -> str:
 
 def test_the_page_is_fresh_but_for_its_times(writer):
     assert PAGE.startswith(writer.INTRO)
-    for one in vp.accuracy("refraction", "arc-fit"):
+    found = vp.accuracy("refraction", "arc-fit")
+    for one in found:
         assert without_times(writer.section(one)) in without_times(PAGE)
+    assert without_times(writer.page(found, PAGE)) == without_times(PAGE), "what is not measured stays"
 
 
 def test_notes_are_about_approximations(writer):
