@@ -18,7 +18,7 @@ from vectorplot.save import _BACKENDS
 PACKAGE = Path(vectorplot.__file__).parent
 
 ORDER = [
-    *("errors", "words", "arrays", "tolerances"),
+    *("errors", "spelling", "words", "arrays", "tolerances"),
     *("exact", "geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
     *("drawing", "charts", "effects", "animation", "textbook", "backends"),
     *("verbs", "testing", "accuracy", "speed", "cli"),

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import click
 import numpy as np
 import pytest
 
 import vectorplot as vp
 from vectorplot.cli.main import run
+from vectorplot.cli.verbs import meant_option
+from vectorplot.cli.verbs import vectorplot as verbs
 from vectorplot.geometry.solids import box
+from vectorplot.io.scenes.reserved_words import RESERVED
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.shading.light.illumination import FINISHES
 from vectorplot.shading.light.palettes import PALETTE_LIMITS, PLAIN, palette
@@ -120,6 +124,14 @@ def test_kinds_come_once_and_none_is_none():
         ("fov", ("field_of_vision", "eye"), "field_of_vision"),
         ("pen-width", ("fit", "no-fit", "halo"), None),
         ("output", ("out", "quiet"), "out"),
+        ("widht", ("page", "out"), "page"),
+        ("width", ("page", "size"), "size"),
+        ("fiedl-of-view", ("fov", "eye"), "fov"),
+        ("field_of_view", ("field_of_vision", "eye"), "field_of_vision"),
+        ("hidden-line", ("hidden", "lines"), "hidden"),
+        ("otu", ("out", "quiet"), "out"),
+        ("contour", LINE_WORDS, None),
+        ("box", ("fit", "b"), None),
         ("x" * 100_000, LINE_WORDS, None),
     ],
 )
@@ -140,6 +152,58 @@ def test_the_nearest_known_word(word, known, meant):
 def test_the_command_says_what_may_be_meant(arguments, hint, capsys):
     assert run(arguments) == 2
     assert hint in capsys.readouterr().err
+
+
+ALL_OPTIONS = {
+    name: [text for option in command.params for text in option.opts + option.secondary_opts if text[:2] == "--"]
+    for name, command in verbs.commands.items()
+}
+
+
+def misspelled(word: str) -> set[str]:
+    """A word with each letter left out, twice, and swapped with its neighbour."""
+    cuts = [(word[:k], word[k:]) for k in range(len(word))]
+    swapped = {a + b[1] + b[0] + b[2:] for a, b in cuts if len(b) > 1}
+    return ({a + b[1:] for a, b in cuts} | {a + b[0] + b for a, b in cuts} | swapped) - {word}
+
+
+def one_slip_apart(word: str, other: str) -> bool:
+    """Whether one letter is left out, too many, another one, or swapped."""
+    if len(word) == len(other):
+        wrong = [k for k, pair in enumerate(zip(word, other, strict=True)) if pair[0] != pair[1]]
+        ends = wrong[0], wrong[-1] + 1
+        swapped = len(wrong) == 2 and word[slice(*ends)] == other[slice(*ends)][::-1]
+        return len(wrong) == 1 or (swapped and ends[1] - ends[0] == 2)
+    short, long = sorted((word, other), key=len)
+    return any(long[:k] + long[k + 1 :] == short for k in range(len(long)))
+
+
+@pytest.mark.parametrize("verb", ALL_OPTIONS)
+def test_an_option_with_one_slip_is_known_again(verb):
+    known = ALL_OPTIONS[verb]
+    for option in known:
+        for typed in misspelled(option[2:]) - {name[2:] for name in known}:
+            error = click.NoSuchOption(f"--{typed}", ctx=click.Context(verbs.commands[verb]))
+            hint = meant_option(error).removeprefix(" Did you mean '--").removesuffix("'?")
+            assert f"--{hint}" in [*known, "--help"] and one_slip_apart(typed, hint), (option, typed, hint)
+
+
+def test_a_word_of_the_scene_language_with_one_slip_is_known_again():
+    for word in sorted(word for word in RESERVED if len(word) > 1)[::12]:
+        for typed in misspelled(word) - RESERVED:
+            found = nearest(typed, RESERVED)
+            assert found is not None and one_slip_apart(typed, found), (word, typed, found)
+
+
+def test_no_hint_is_the_word_itself():
+    for word in RESERVED:
+        assert nearest(word, RESERVED) is None
+
+
+@pytest.mark.parametrize("word", ["tube", "mauve", "cat"])
+def test_an_unknown_colour_is_no_misspelled_word(word):
+    with pytest.warns(vp.InputWarning, match="gray is used"):
+        assert of_file(word).colour == "gray"
 
 
 def test_the_command_does_not_guess_wildly(capsys):

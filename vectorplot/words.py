@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from difflib import get_close_matches
 from enum import IntEnum
 
 from vectorplot.errors import InputError
+from vectorplot.spelling import ALIKE, most_alike, one_slip, share
 
 
 class LineKind(IntEnum):
@@ -146,30 +146,51 @@ MATERIALS = {
 """Words for physical properties, and the material each one names."""
 
 _MEANT = {
-    "ball": "sphere",
-    "border": "boundary",
-    "cube": "box",
-    "extrude": "translation",
-    "extrusion": "translation",
-    "field_of_view": "field_of_vision",
-    "field-of-view": "fov",
-    "falloff": "fading",
-    "fov": "field_of_vision",
-    "isoline": "section",
-    "lamp": "light",
-    "lathe": "revolution",
-    "move": "translation",
-    "outline": "contour",
-    "output": "out",
-    "penumbra": "aura",
-    "rotate": "rotation",
-    "sharp": "crease",
-    "silhouette": "contour",
-    "transparency": "opacity",
-    "translate": "translation",
-    "verbose": "explain",
+    "antialiasing": ("samples",),
+    "ball": ("sphere",),
+    "border": ("boundary",),
+    "camera": ("eye",),
+    "cube": ("box",),
+    "dashed": ("hidden",),
+    "extrude": ("translation",),
+    "extrusion": ("translation",),
+    "falloff": ("fading",),
+    "field-of-view": ("fov", "field_of_vision"),
+    "field-of-vision": ("fov",),
+    "focal-length": ("fov",),
+    "fov": ("field_of_vision",),
+    "hidden-lines": ("hidden",),
+    "isoline": ("section",),
+    "lamp": ("light",),
+    "lamps": ("lights",),
+    "lathe": ("revolution",),
+    "look-at": ("target",),
+    "move": ("translation",),
+    "orthographic": ("parallel",),
+    "outline": ("contour",),
+    "output": ("out",),
+    "paper": ("page",),
+    "penumbra": ("aura",),
+    "precision": ("tolerance",),
+    "processes": ("jobs",),
+    "resolution": ("size",),
+    "roll": ("twist",),
+    "rotate": ("rotation",),
+    "sharp": ("crease",),
+    "silent": ("quiet",),
+    "silhouette": ("contour",),
+    "size": ("page",),
+    "soft-shadows": ("aura",),
+    "supersampling": ("samples",),
+    "threads": ("jobs",),
+    "translate": ("translation",),
+    "transparency": ("opacity",),
+    "verbose": ("explain",),
+    "viewpoint": ("eye",),
+    "width": ("size", "page"),
+    "workers": ("jobs",),
 }
-"""Words of other programs, and ours for the same."""
+"""Words of other programs, and ours for the same: the first one that is known where it stands."""
 
 _MATERIALS_MEANT = {
     "chrome": "metallic",
@@ -186,22 +207,32 @@ _MATERIALS_MEANT = {
 }
 """Words of other programs for materials, and ours for the like."""
 
-ALIKE = 0.72
-"""Words that share fewer of their letters, as a part of both words' letters, are not taken for each other."""
-
 
 def nearest(word: str, known: Iterable[str]) -> str | None:
-    """The known word that another one resembles or is another program's word for, or None."""
+    """The known word that another one resembles, or that means what it, or a word one slip away from it, means to other
+    programs; None where there is none, and for what is known."""
     words = sorted(known)
-    if _MEANT.get(word) in words:
-        return _MEANT[word]
-    found = get_close_matches(word[:40], words, n=1, cutoff=ALIKE)
-    return found[0] if found else None
+    if word in words:
+        return None
+    meant = {word: word for word in words}
+    for other, ours in _MEANT.items():
+        own = next((one for one in ours if one in words), None)
+        if own is not None and one_slip(word, other):
+            meant.setdefault(other, own)
+    found = most_alike(word, list(meant))
+    return found if found is None else meant[found]
+
+
+def is_alike(word: str, known: Iterable[str]) -> bool:
+    """Whether a word is hardly anything but one of those known: most of the letters are shared, or other programs have
+    it for one of them."""
+    words = list(known)
+    return any(one in words for one in _MEANT.get(word, ())) or any(share(word, other) >= ALIKE for other in words)
 
 
 def nearest_material(word: str) -> str | None:
     """The word for a material that another one resembles or is another program's word for, or None."""
-    found = nearest(word, [*MATERIALS, *_MATERIALS_MEANT])
+    found = word if word in _MATERIALS_MEANT else nearest(word, [*MATERIALS, *_MATERIALS_MEANT])
     return found if found is None else _MATERIALS_MEANT.get(found, found)
 
 

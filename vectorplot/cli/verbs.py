@@ -53,6 +53,8 @@ def meant_option(error: click.NoSuchOption) -> str:
     """A hint at the option of the command that an unknown one may have meant, or nothing."""
     if error.ctx is None:
         return ""
-    known = [name for option in error.ctx.command.get_params(error.ctx) for name in option.opts if name[:2] == "--"]
-    near = nearest(error.option_name.lstrip("-").lower(), (name[2:] for name in known))
+    known = [
+        name for option in error.ctx.command.get_params(error.ctx) for name in (*option.opts, *option.secondary_opts)
+    ]
+    near = nearest(error.option_name.lstrip("-").lower(), (name[2:] for name in known if name[:2] == "--"))
     return f" Did you mean '--{near}'?" if near else ""

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from difflib import get_close_matches
 from math import isfinite, pi
 from typing import NoReturn
 
 from vectorplot.errors import InputError
 from vectorplot.io.expressions.expression_nodes import OPERATIONS, Nodes
+from vectorplot.words import nearest
 
 MAX_LENGTH = 10_000
 """A formula has no more characters than this."""
@@ -176,6 +176,6 @@ class Parser:
 
 
 def _unknown(kind: str, name: str, known: tuple[str, ...]) -> str:
-    close = get_close_matches(name[:40], known, n=1, cutoff=0.6)
-    meant = f"did you mean '{close[0]}'" if close else "known are " + " ".join(known)
+    close = nearest(name, known)
+    meant = f"did you mean '{close}'" if close else "known are " + " ".join(known)
     return f"unknown {kind} ({meant})"

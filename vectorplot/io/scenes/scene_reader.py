@@ -37,6 +37,7 @@ from vectorplot.words import (
     LINE_WORDS,
     MATERIALS,
     PALETTES,
+    is_alike,
     is_colour,
     nearest,
     nearest_material,
@@ -107,12 +108,14 @@ class ItemReader:
         plain = word and word not in SCENE_WORDS and word[0] not in '",' and not source.is_number(self.at)
         if plain:
             self._named_shape(draft, word)
-        near = nearest(word, _HEADER) if plain else None
+        # A colour may look a little like a word of the language, but no number follows it.
+        near = nearest(word, _HEADER) if plain and (source.is_number(self.at + 1) or is_alike(word, _HEADER)) else None
         if plain and not near and draft.colour is not None:
             near = nearest_material(word)
         if near:
             self.fail(f"unknown word '{word}', expected '{near}'", draft)
-        if plain and draft.colour is None and nearest(draft.name, HANDLERS) is None:
+        named = not is_alike(draft.name, HANDLERS)
+        if plain and draft.colour is None and named:
             draft.colour = self.colour(draft.name)
             return False
         # Surfaces and curves are loaded for scenes that name one, and to say what a word may have meant.
@@ -120,8 +123,8 @@ class ItemReader:
 
         meant = nearest(draft.name, RESERVED)
         hint = f" (or is '{draft.name}' meant to be '{meant}'?)" if meant else ""
-        if meant == draft.name:
-            hint = f" ('{meant}' is a word of the language, but none of what stands before it)"
+        if draft.name in RESERVED:
+            hint = f" ('{draft.name}' is a word of the language, but none of what stands before it)"
         self.fail(f"expected one of {', '.join(KIND_WORDS)}, got {source.shown(self.at)}{hint}", draft)
 
     def _named_shape(self, draft: Draft, word: str) -> None:

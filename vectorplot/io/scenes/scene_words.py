@@ -12,7 +12,7 @@ from typing import NoReturn
 
 from vectorplot.errors import InputError
 from vectorplot.tolerances.of_numbers import LARGEST
-from vectorplot.words import nearest
+from vectorplot.words import is_alike, nearest
 
 INTEGRAL_WORDS = (
     *("loxodromes", "slope_lines", "helices", "curvature_lines", "asymptotic_lines", "field_lines"),
@@ -113,7 +113,8 @@ class Words:
         Only a word on the line of the statement that could not be the name of an item: what comes next is none of what
         stands after a name.
         """
-        near = nearest(self.words[index].lower(), known) if self.words[index][:1] not in ("", ",", '"') else None
+        word = self.words[index].lower()
+        near = nearest(word, known) if word[:1] not in ("", ",", '"') and is_alike(word, known) else None
         if near is None or self.line(index) != self.line(start):
             return None
         after = self.words[index + 1]
