@@ -48,6 +48,10 @@ NOTES = {
     "inside makes good. Akima's rule trades a power for tangents that feel five points only.",
     "zero-manifold": "The book's cubic parabola through values and average normals gains a power over the chord, true "
     "slopes gain another one. Refining every point on the function itself costs little, and is exact.",
+    "field-steps": "The book's step is off by millimetres at the end. The four tangents of Runge and Kutta take three "
+    "times as long, and are off by less than any pen shows.",
+    "integral-curves": "Where nothing else is said the package takes 1e-9. Above 1e-8 nothing is saved: no step is "
+    "longer than a sixth of the extent, so that none jumps over what lies between.",
     "painted-outline": "Polygons are compared with the surface at a few places of each side: outlines may be off by "
     "a tenth more than the tolerance.",
     "depth-buffer": "Exact hidden lines of these boxes take the time of a buffer of 500 x 500 pixels.",

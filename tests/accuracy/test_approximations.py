@@ -18,6 +18,8 @@ FEW = {
     "arc-fit": (0.01, 1e-3, 1e-4, 1e-5),
     "spline-fit": (32, 64, 128),
     "zero-manifold": (12, 24, 48),
+    "field-steps": (30.0, 15.0, 7.5),
+    "integral-curves": (1e-9, 1e-10, 1e-11),
     "mesh-contour": (16, 64),
     "polygonised": (16, 32, 64),
     "painted-outline": (1.0, 0.1),
@@ -36,6 +38,8 @@ SLOPES = {
     "arc-fit": {"cubic segments": 1.0},
     "spline-fit": {"natural cubic": -2.0, "Akima": -3.0, "clamped cubic": -4.0, "of order 4": -4.0, "of order 6": -6.0},
     "zero-manifold": {"linear": -2.0, "cubic parabola": -3.0, "with true slopes": -4.0},
+    "field-steps": {"Euler": 1.0, "Runge and Kutta": 4.0},
+    "integral-curves": {"Dormand and Prince": 1.25},
     "mesh-contour": {"along edges": -2.0, "across faces": -2.0},
     "polygonised": {"triangles": -2.0},
     "painted-outline": {"painted polygons": 1.0},
@@ -50,6 +54,7 @@ OFF = 0.25
 
 EXACT = {
     "zero-manifold": 2e-6,
+    "field-steps": 1e-8,
     "mesh-contour": 2e-4,
     "depth-buffer": 0.0,
     "sampled-visibility": 0.03,

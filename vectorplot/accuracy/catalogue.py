@@ -6,6 +6,7 @@ from vectorplot.accuracy.approximation import Approximation
 from vectorplot.accuracy.of_curves.arc_fit import ARC_FIT
 from vectorplot.accuracy.of_curves.bezier_fit import BEZIER_FIT
 from vectorplot.accuracy.of_curves.drawn_curves import DRAWN_CURVES
+from vectorplot.accuracy.of_curves.integral_curves import FIELD_STEPS, INTEGRAL_CURVES
 from vectorplot.accuracy.of_curves.spline_fit import SPLINE_FIT
 from vectorplot.accuracy.of_curves.zero_crossings_on_grids import ZERO_MANIFOLD
 from vectorplot.accuracy.of_light.refracted_rays import REFRACTION
@@ -18,7 +19,7 @@ from vectorplot.accuracy.of_visibility.sampled_visibility import SAMPLED_VISIBIL
 from vectorplot.accuracy.of_visibility.snapping import SNAPPING
 
 APPROXIMATIONS: tuple[Approximation, ...] = (
-    *(DRAWN_CURVES, BEZIER_FIT, ARC_FIT, SPLINE_FIT, ZERO_MANIFOLD),
+    *(DRAWN_CURVES, BEZIER_FIT, ARC_FIT, SPLINE_FIT, ZERO_MANIFOLD, FIELD_STEPS, INTEGRAL_CURVES),
     *(MESH_CONTOUR, POLYGONISED, PAINTED_OUTLINE, PAINTED_COLOURS),
     *(DEPTH_BUFFER, SAMPLED_VISIBILITY, SNAPPING),
     *(SHADOW_MAPS, REFRACTION),

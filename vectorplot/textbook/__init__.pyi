@@ -1,6 +1,7 @@
 from .depth_queries import depth_planes, points_visible, visible_line_pixels
 from .device import DepthCueing, Device
 from .erasing_faces import Erased, erasing_edges, interleaved
+from .field_steps import euler_curves, runge_kutta_curves
 from .framebuffer import (
     Framebuffer,
     cleared,
@@ -54,6 +55,7 @@ __all__ = [
     "dehomogenized",
     "depth_planes",
     "erasing_edges",
+    "euler_curves",
     "frame_from_world",
     "graph_order",
     "graph_triangles",
@@ -68,6 +70,7 @@ __all__ = [
     "polygons_common_segment",
     "relative_position",
     "ring_order",
+    "runge_kutta_curves",
     "segments",
     "segments_to_pixels",
     "sliced_meridian",

@@ -11,6 +11,9 @@ FINEST_ARC_MM = 1e-5
 FINEST_STROKE_MM = 1e-3
 """The smallest tolerance that drawings are tried with: the last digit of an SVG file."""
 
+FINEST_OF_EXTENT = 1e-13
+"""The smallest part of the extent that integral curves are tried with as their accuracy: below it, all is rounding."""
+
 PART_OF_FINEST = 1e-2
 """Chords by which errors are measured are within this part of the smallest tolerance of their curves."""
 
