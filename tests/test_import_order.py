@@ -29,6 +29,11 @@ VERBS = {"draw", "paint", "painting", "read", "render", "save", "plan"}
 ALLOWED = {("drawing/drawing.py", "backends")}
 
 FOR_PROGRAMS = {
+    "features/integral/face_sites.py",
+    "features/integral/mesh_courses.py",
+    "features/integral/mesh_flows.py",
+    "features/integral/mesh_integral_curves.py",
+    "features/integral/mesh_sides.py",
     "surfaces/curvature.py",
     "surfaces/height_grid.py",
 }

@@ -14,9 +14,11 @@ from .implicit.implicit_tracing import ImplicitCurves, ImplicitTracing
 from .implicit.polygonize import polygonized
 from .integral.curvature_fields import AsymptoticDirections, PrincipalDirections
 from .integral.evenly_spaced import evenly_spaced_curves
+from .integral.face_sites import FaceSites, face_sites
 from .integral.integral_curves import geodesics, integral_curves
 from .integral.integration import Accuracy
-from .integral.sites import Sites
+from .integral.mesh_integral_curves import mesh_geodesics, mesh_integral_curves
+from .integral.sites import Sites, TangentPlanes
 from .integral.tangent_fields import (
     ConstantElevation,
     ParameterDirection,
@@ -66,6 +68,7 @@ __all__ = [
     "Cusps",
     "DoubleCurves",
     "Edges",
+    "FaceSites",
     "Faces",
     "ImplicitCurves",
     "ImplicitMesh",
@@ -82,6 +85,7 @@ __all__ = [
     "SteepestSlope",
     "SurfaceCurves",
     "TangentField",
+    "TangentPlanes",
     "Tessellation",
     "Tracing",
     "TurnedField",
@@ -94,6 +98,7 @@ __all__ = [
     "contour_with_cusps",
     "evenly_spaced_curves",
     "face_intersections",
+    "face_sites",
     "geodesics",
     "implicit_contour",
     "implicit_contour_cusps",
@@ -112,6 +117,8 @@ __all__ = [
     "loxodromes",
     "mesh_contour_across_faces",
     "mesh_edges",
+    "mesh_geodesics",
+    "mesh_integral_curves",
     "mesh_isophote_edges",
     "mesh_isophotes",
     "mesh_level_lines",

@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
-from vectorplot.features.integral.sites import Sites, unit
+from vectorplot.features.integral.sites import Sites, TangentPlanes, on_surface, unit
 from vectorplot.geometry.vectors import cross
 from vectorplot.tolerances.of_values import UMBILIC
 
@@ -50,9 +50,9 @@ class PrincipalDirections:
         if self.family not in (1, 2):
             raise InputError(f"lines of curvature: family {self.family!r}, expected 1 or 2")
 
-    def tangents(self, sites: Sites) -> Floats:
+    def tangents(self, sites: TangentPlanes) -> Floats:
         """(2,k,3) unit tangent vectors, those of the family first."""
-        (most, least), _ = principal(sites)
+        (most, least), _ = principal(on_surface(sites, "lines of curvature"))
         return np.stack([most, least] if self.family == 1 else [least, most])
 
 
@@ -93,9 +93,9 @@ class AsymptoticDirections:
         if self.family not in (1, 2):
             raise InputError(f"asymptotic lines: family {self.family!r}, expected 1 or 2")
 
-    def tangents(self, sites: Sites) -> Floats:
+    def tangents(self, sites: TangentPlanes) -> Floats:
         """(1,k,3) unit tangent vectors."""
-        (most, least), (largest, smallest) = principal(sites)
+        (most, least), (largest, smallest) = principal(on_surface(sites, "asymptotic lines"))
         with np.errstate(all="ignore"):
             ahead, aside = np.sqrt(-smallest), np.sqrt(largest)
         side = 1.0 if self.family == 1 else -1.0

@@ -1,19 +1,50 @@
-"""Places on a surface, and what is known there of its tangent planes and how it bends."""
+"""Places on surfaces and in faces of meshes, and what is known there of tangent planes and how the surface bends."""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.surfaces.surface import Surface
 
 
+class TangentPlanes(ABC):
+    """Places in space with a tangent plane at each: of a surface (`Sites`), or of the faces of a mesh (`FaceSites`).
+
+    Examples
+    --------
+    >>> from vectorplot import features, geometry
+    >>> issubclass(features.Sites, features.TangentPlanes), issubclass(features.FaceSites, features.TangentPlanes)
+    (True, True)
+    """
+
+    @property
+    @abstractmethod
+    def points(self) -> Floats:
+        """(k,3) in world coordinates."""
+
+    @property
+    @abstractmethod
+    def normals(self) -> Floats:
+        """(k,3) unit normals; NaN where there is no tangent plane."""
+
+    def tangential(self, vectors: Floats) -> Floats:
+        """(k,3) the parts of vectors (k,3) in the tangent planes."""
+        return np.asarray(vectors - dot(vectors, self.normals)[:, None] * self.normals)
+
+    def turned(self, tangents: Floats, angle: float) -> Floats:
+        """(k,3) tangent vectors turned about the normals, counter-clockwise seen from their tips."""
+        return np.asarray(np.cos(angle) * tangents + np.sin(angle) * cross(self.normals, tangents))
+
+
 @dataclass(frozen=True, eq=False)
-class Sites:
+class Sites(TangentPlanes):
     """Places on a surface, with its tangent planes there.
 
     Parameters
@@ -64,14 +95,6 @@ class Sites:
         uu, uv, vv = self.surface.second_partials(self.u, self.v)
         return dot(self.normals, uu), dot(self.normals, uv), dot(self.normals, vv)
 
-    def tangential(self, vectors: Floats) -> Floats:
-        """(k,3) the parts of vectors (k,3) in the tangent planes."""
-        return np.asarray(vectors - dot(vectors, self.normals)[:, None] * self.normals)
-
-    def turned(self, tangents: Floats, angle: float) -> Floats:
-        """(k,3) tangent vectors turned about the normals, counter-clockwise seen from their tips."""
-        return np.asarray(np.cos(angle) * tangents + np.sin(angle) * cross(self.normals, tangents))
-
     def steps(self, tangents: Floats) -> tuple[Floats, Floats]:
         """du and dv (k,) that move along tangent vectors (k,3); not finite at poles and singular points."""
         e, f, g = self.first_form
@@ -87,6 +110,16 @@ class Sites:
         p, m, q = self.second_form
         with np.errstate(all="ignore"):
             return np.asarray((p * du + 2.0 * m * dv) * du + q * dv * dv)
+
+
+def on_surface(planes: TangentPlanes, what: str) -> Sites:
+    """The places, which must be those of a surface with parameters.
+
+    Errors: InputError for those of a mesh.
+    """
+    if not isinstance(planes, Sites):
+        raise InputError(f"{what}: only surfaces with parameters u and v have them, no meshes")
+    return planes
 
 
 def unit(vectors: Floats) -> Floats:

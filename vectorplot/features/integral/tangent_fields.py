@@ -11,7 +11,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import number, vector
 from vectorplot.errors import InputError
-from vectorplot.features.integral.sites import Sites, unit
+from vectorplot.features.integral.sites import TangentPlanes, on_surface, unit
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.tolerances.of_angles import FLAT_SLOPE
 
@@ -26,15 +26,16 @@ class TangentField(Protocol):
     Notes
     -----
     A protocol: whatever has these members is a field, of this package or of a user. directed says whether a direction
-    and its opposite differ: curves of a field that is not directed go on in the sense they came with. tangents(sites)
-    are (j, k, 3): j unit tangent vectors at each of k sites, the first one of the field's own, NaN where it has no
-    direction. Where j > 1 a curve goes on along the one that is nearest to the way it came.
+    and its opposite differ: curves of a field that is not directed go on in the sense they came with. sites are those
+    of a surface, or of the faces of a mesh. tangents(sites) are (j, k, 3): j unit tangent vectors at each of k sites,
+    the first one of the field's own, NaN where it has no direction. Where j > 1 a curve goes on along the one that is
+    nearest to the way it came.
 
     Examples
     --------
     >>> import numpy as np
     >>> from vectorplot import features, surfaces
-    >>> def first(field: features.TangentField, sites: features.Sites) -> list[float]:
+    >>> def first(field: features.TangentField, sites: features.TangentPlanes) -> list[float]:
     ...     return (field.tangents(sites)[0, 0] + 0.0).round(9).tolist()
     >>> sites = features.Sites(surfaces.Sphere(), np.array([0.0]), np.array([0.0]))
     >>> first(features.SteepestSlope(), sites)
@@ -46,7 +47,7 @@ class TangentField(Protocol):
         """Whether a direction and its opposite differ."""
         ...
 
-    def tangents(self, sites: Sites) -> Floats:
+    def tangents(self, sites: TangentPlanes) -> Floats:
         """(j,k,3) unit tangent vectors."""
         ...
 
@@ -81,9 +82,10 @@ class ParameterDirection:
         if self.constant not in ("u", "v"):
             raise InputError(f"parameter direction: {self.constant!r}, expected 'u' or 'v'")
 
-    def tangents(self, sites: Sites) -> Floats:
+    def tangents(self, sites: TangentPlanes) -> Floats:
         """(1,k,3) unit tangent vectors."""
-        return unit(sites.planes[1 if self.constant == "u" else 0])[None]
+        planes = on_surface(sites, "parameter lines").planes
+        return unit(planes[1 if self.constant == "u" else 0])[None]
 
 
 @dataclass(frozen=True)
@@ -122,7 +124,7 @@ class SteepestSlope:
     def __post_init__(self) -> None:
         object.__setattr__(self, "up", _direction("steepest slope", self.up))
 
-    def tangents(self, sites: Sites) -> Floats:
+    def tangents(self, sites: TangentPlanes) -> Floats:
         """(1,k,3) unit tangent vectors."""
         return _upwards(sites, self.up)[0][None]
 
@@ -173,7 +175,7 @@ class ConstantElevation:
             raise InputError(f"helices: side {self.side!r}, expected 1 or -1")
         object.__setattr__(self, "up", _direction("helices", self.up))
 
-    def tangents(self, sites: Sites) -> Floats:
+    def tangents(self, sites: TangentPlanes) -> Floats:
         """(1,k,3) unit tangent vectors."""
         slope, steep = _upwards(sites, self.up)
         with np.errstate(all="ignore"):
@@ -208,9 +210,9 @@ class VectorField:
     function: Callable[[Floats], Floats]
     directed: ClassVar[bool] = True
 
-    def tangents(self, sites: Sites) -> Floats:
+    def tangents(self, sites: TangentPlanes) -> Floats:
         """(1,k,3) unit tangent vectors. Errors: InputError for a function that does not give (k,3) real numbers."""
-        return unit(sites.tangential(_rows(self.function(sites.points), len(sites.u), 3)))[None]
+        return unit(sites.tangential(_rows(self.function(sites.points), len(sites.points), 3)))[None]
 
 
 @dataclass(frozen=True)
@@ -241,10 +243,11 @@ class ParameterField:
     function: Callable[[Floats, Floats], Floats]
     directed: ClassVar[bool] = True
 
-    def tangents(self, sites: Sites) -> Floats:
+    def tangents(self, sites: TangentPlanes) -> Floats:
         """(1,k,3) unit tangent vectors. Errors: InputError for a function that does not give (k,2) real numbers."""
-        du, dv = _rows(self.function(sites.u, sites.v), len(sites.u), 2).T
-        along_u, along_v, _ = sites.planes
+        own = on_surface(sites, "rates of parameters")
+        du, dv = _rows(self.function(own.u, own.v), len(own.u), 2).T
+        along_u, along_v, _ = own.planes
         return unit(du[:, None] * along_u + dv[:, None] * along_v)[None]
 
 
@@ -291,7 +294,7 @@ class TurnedField:
         """As the other field."""
         return self.field.directed
 
-    def tangents(self, sites: Sites) -> Floats:
+    def tangents(self, sites: TangentPlanes) -> Floats:
         """(j,k,3) unit tangent vectors."""
         return np.stack([sites.turned(tangents, self.angle) for tangents in self.field.tangents(sites)])
 
@@ -339,7 +342,7 @@ def _direction(what: str, up: Vector) -> Vector:
     return x, y, z
 
 
-def _upwards(sites: Sites, up: Vector) -> tuple[Floats, Floats]:
+def _upwards(sites: TangentPlanes, up: Vector) -> tuple[Floats, Floats]:
     """The unit vectors (k,3) along which the surface is steepest, and the sine (k,) of its slope there."""
     slope = sites.tangential(np.broadcast_to(np.asarray(up), sites.normals.shape))
     steep = np.sqrt(dot(slope, slope))

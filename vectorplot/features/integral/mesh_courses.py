@@ -1,0 +1,125 @@
+"""Lines led across the faces of a mesh, all of them face by face at once."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.integral.mesh_flows import MeshFlow, Onward
+from vectorplot.features.integral.mesh_sides import NO_SIDE, MeshSides
+from vectorplot.geometry import ragged
+from vectorplot.geometry.vectors import dot, point_on_line
+from vectorplot.tolerances.of_extent import CLOSED_OF_EXTENT
+
+MOST_FACES = 100_000
+"""A line runs across so many faces at most."""
+
+
+class MeshCourses(NamedTuple):
+    """The segments of lines on a mesh in their order: line (s,), the point (s,3) where each begins and where it ends,
+    and its face (s,); last (k,3): where the lines end; closed (k,): which came back, their first segment is from the
+    start to where they do."""
+
+    line: Ints
+    begin: Floats
+    end: Floats
+    face: Ints
+    last: Floats
+    closed: Bools
+
+
+class _Exits(NamedTuple):
+    """Where lines (k,) leave their faces: distance (k,), inf where they do not; points (k,3); over sides (k,), or,
+    where at_vertex (k,), where these begin."""
+
+    distance: Floats
+    points: Floats
+    side: Ints
+    at_vertex: Bools
+
+
+def mesh_courses(
+    sides: MeshSides, flow: MeshFlow, face: Ints, points: Floats, directions: Floats, way: Floats, length: float
+) -> MeshCourses:
+    """Lines from points (k,3) in faces (k,) along directions (k,3), with a flow or (way: -1) against it.
+
+    A line ends where the flow does not lead on, where it is as long as it may be, and where it comes back to where it
+    left its first face, into the same face in the same direction: it is closed then.
+    """
+    count = len(face)
+    nowhere = np.full(count, NO_SIDE)
+    now = Onward(face, directions, nowhere, nowhere, np.zeros(count, dtype=np.bool_))
+    line, here, left = np.arange(count), points, np.full(count, length)
+    closed, last = np.zeros(count, dtype=np.bool_), np.array(points)
+    first_point, first_way = np.full((count, 3), np.nan), np.zeros((count, 3))
+    first_face = np.full(count, -1)
+    segments: list[tuple[Ints, Floats, Floats, Ints]] = []
+    for step in range(MOST_FACES):
+        alive = np.isfinite(now.directions).all(axis=1) & (now.face >= 0)
+        line, here, now = line[alive], here[alive], now.rows(alive)
+        if not len(line):
+            break
+        exits = _exits(sides, here, now)
+        # What has nowhere to leave its face goes nowhere.
+        runs = np.isfinite(exits.distance)
+        whole = exits.distance <= left[line]
+        short = here + np.minimum(left[line], exits.distance)[:, None] * now.directions
+        end = np.where(whole[:, None], exits.points, short)
+        segments.append((line[runs], here[runs], end[runs], now.face[runs]))
+        last[line[runs]] = end[runs]
+        left[line] -= exits.distance
+        go = runs & whole
+        line, here, old = line[go], end[go], now.directions[go]
+        now = _onward(flow, exits.side[go], exits.at_vertex[go], old, way[line])
+        if step == 0:
+            first_point[line], first_way[line], first_face[line] = here, now.directions, now.face
+            continue
+        back = (now.face == first_face[line]) & (now.face >= 0)
+        near = CLOSED_OF_EXTENT * sides.extent
+        back &= np.linalg.norm(here - first_point[line], axis=1) <= near
+        back &= np.linalg.norm(now.directions - first_way[line], axis=1) <= CLOSED_OF_EXTENT
+        closed[line[back]] = True
+        now = now._replace(face=np.where(back, -1, now.face))
+    parts = [np.concatenate([s[i] for s in segments]) if segments else np.zeros(0) for i in range(4)]
+    order = np.argsort(parts[0], kind="stable")
+    rows, begin, end, faces = (part[order] for part in parts)
+    return MeshCourses(
+        rows.astype(np.intp), begin.reshape(-1, 3), end.reshape(-1, 3), faces.astype(np.intp), last, closed
+    )
+
+
+def _onward(flow: MeshFlow, side: Ints, at_vertex: Bools, directions: Floats, way: Floats) -> Onward:
+    """How lines go on that leave over sides, or where these begin."""
+    edge, vertex = np.flatnonzero(~at_vertex), np.flatnonzero(at_vertex)
+    over = flow.over_edge(side[edge], directions[edge], way[edge])
+    beyond = flow.over_vertex(side[vertex], directions[vertex], way[vertex])
+    order = np.argsort(np.concatenate([edge, vertex]))
+    return Onward(*(np.concatenate([a, b])[order] for a, b in zip(over, beyond, strict=True)))
+
+
+def _exits(sides: MeshSides, here: Floats, now: Onward) -> _Exits:
+    """Where lines leave their faces that run from points (k,3)."""
+    all_sides, offsets = ragged.take(sides.mesh.offsets, now.face)
+    line = ragged.owner(np.diff(offsets))
+    off = np.maximum(dot(sides.inwards[all_sides], here[line] - sides.starts(all_sides)), 0.0)
+    speed = -dot(sides.inwards[all_sides], now.directions[line])
+    ahead = (speed > 0.0) & (all_sides != now.first[line]) & (all_sides != now.second[line])
+    distance = np.where(ahead, off / np.where(ahead, speed, 1.0), np.inf)
+    chosen = np.lexsort((distance, line))[offsets[:-1]]
+    side, distance = all_sides[chosen], distance[chosen]
+    along = dot(sides.along[now.first], now.directions) > 0.0
+    # Along a side it is left at one of its ends.
+    side = np.where(now.follows, now.first, side)
+    a, b = sides.starts(side), sides.ends(side)
+    to_end = np.linalg.norm(np.where(along[:, None], b, a) - here, axis=1)
+    distance = np.where(now.follows, to_end, distance)
+    reached = here + np.where(np.isfinite(distance), distance, 0.0)[:, None] * now.directions
+    place = np.clip(dot(reached - a, sides.along[side]), 0.0, sides.lengths[side])
+    place = np.where(now.follows, np.where(along, sides.lengths[side], 0.0), place)
+    at_start, at_end = place <= sides.rounding, sides.lengths[side] - place <= sides.rounding
+    points = point_on_line(a, b, place / np.where(sides.lengths[side] > 0.0, sides.lengths[side], 1.0))
+    points = np.where(at_start[:, None], a, np.where(at_end[:, None], b, points))
+    # A vertex is where a side of this face begins.
+    return _Exits(distance, points, np.where(at_end & ~at_start, sides.after[side], side), at_start | at_end)
