@@ -83,7 +83,7 @@ def test_vertices_are_on_edges_and_every_segment_has_the_direction_of_its_face(n
 def test_orbits_close_exactly_and_run_around_once(sides):
     band = prism(sides)
     level = features.TurnedField(features.SteepestSlope(), np.pi / 2)
-    at = features.face_sites(band).points[:sides] + (0.0, 0.0, 0.3)
+    at = features.face_sites(band).points[:sides] + np.array([0.0, 0.0, 0.3])
     for found in (
         mesh_integral_curves(band, level, np.arange(sides), at),
         mesh_integral_curves(band, AROUND, np.arange(sides), at),
