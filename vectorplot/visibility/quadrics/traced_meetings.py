@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.features.intersections.patches import SurfaceGrids
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Scene
@@ -27,10 +28,11 @@ from vectorplot.words import LineKind
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """A smooth part of a body: its sheet, the body's number, and the form (4,) that is negative where the part is
-    turned away."""
+    """A smooth part of a body: its sheet, polygonised once for all that it meets, the body's number, and the form (4,)
+    that is negative where the part is turned away."""
 
     sheet: ParametricSheet
+    grids: SurfaceGrids
     body: int
     form: Floats
 
@@ -56,7 +58,8 @@ def traced_meetings(
         item = owner(int(bodies.item[one]), int(bodies.item[two]))
         for first in parts[one]:
             for second in parts[two]:
-                curves, unsure = curves_of_pair((first.sheet, second.sheet), item, tracing)
+                sheets, grids = (first.sheet, second.sheet), (first.grids, second.grids)
+                curves, unsure = curves_of_pair(sheets, grids, item, tracing)
                 found.append(_on_bodies(curves, (first, second)))
                 doubts += [(names, text) for text in unsure]
     for body, other in forms.in_faces.tolist():
@@ -84,7 +87,7 @@ def _parts(scene: Scene, view: View, bodies: Bodies, body: int) -> list[_Part]:
             form = np.array([0.0, 0.0, 0.0, 1.0 if shows else -1.0])
         else:
             (form,) = bodies.capped.polar_planes(np.array([body - count]))
-        result.append(_Part(sheet, body, form))
+        result.append(_Part(sheet, SurfaceGrids(sheet.surface), body, form))
     return result
 
 

@@ -120,12 +120,15 @@ def _with_mesh(
 
 
 def curves_of_pair(
-    sheets: tuple[ParametricSheet, ParametricSheet], item: int, tracing: Tracing
+    sheets: tuple[ParametricSheet, ParametricSheet],
+    grids: tuple[SurfaceGrids, SurfaceGrids],
+    item: int,
+    tracing: Tracing,
 ) -> tuple[Curves, tuple[str, ...]]:
-    """The curves of two sheets that are none of a scene's, and doubts about them; item: whose they are."""
+    """The curves of two sheets that are none of a scene's, with their grids, and doubts about them; item: whose they
+    are."""
     if not _overlap(*(_box(sheet.vertices) for sheet in sheets)):
         return no_curves(), ()
-    grids = [SurfaceGrids(sheet.surface) for sheet in sheets]
     return _pair(sheets, grids, 0, 1, item, tracing)
 
 
