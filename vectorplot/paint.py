@@ -175,7 +175,7 @@ def paint(
     tell_groups(walk, scene, painted)
     faces = painted.faces
     if walk.calls_for("unseen facets"):
-        faces = walk.run("unseen facets", without_unseen_facets, facets, view, projected, painted)
+        faces = walk.run("unseen facets", without_unseen_facets, facets, view, projected, painted, budget_of(budget))
     placement = placement_of_faces(view, faces, page, fit)
     if walk.calls_for("transparent sheets"):
         from vectorplot.visibility.painter.transparent_sheets import in_sheets

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vectorplot.geometry.budget import Budget
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
@@ -31,11 +32,14 @@ class Seen:
     placement: Placement
 
 
-def without_unseen_facets(faceted: FacetedScene, view: View, projected: ProjectedFaces, painted: Painted) -> ImageFaces:
-    """The polygons without those of smooth surfaces that are wholly covered."""
+def without_unseen_facets(
+    faceted: FacetedScene, view: View, projected: ProjectedFaces, painted: Painted, budget: Budget
+) -> ImageFaces:
+    """The polygons without those of smooth surfaces that are wholly covered; all of them where the budget does not do
+    to find these."""
     smooth = np.array([normals is not None for normals in faceted.normals], dtype=np.bool_)
     pieces = np.bincount(painted.faces.source, minlength=view.face_count)
-    unseen = unseen_faces(view, projected, (pieces > 0) & smooth[view.face_item], pieces > 1)
+    unseen = unseen_faces(view, projected, (pieces > 0) & smooth[view.face_item], pieces > 1, budget)
     return painted.faces.some(np.flatnonzero(~unseen[painted.faces.source]))
 
 

@@ -9,6 +9,7 @@ import pytest
 import shapely
 
 import vectorplot as vp
+from vectorplot.geometry.budget import USUAL, Budget
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.painting.seen import without_unseen_facets
 from vectorplot.scene.placement import allowed_in_space
@@ -36,14 +37,20 @@ def square(name: str, low: float, high: float, height: float, **what) -> vp.Item
     return vp.Item(name, vp.Mesh.from_polygons(corners, [(0, 1, 2, 3)]), **what)
 
 
-def unseen_in(*items: vp.Item) -> list[bool]:
+def unseen_in(*items: vp.Item, budget: Budget = USUAL) -> list[bool]:
     view = look(vp.Scene(items), ABOVE)
     every = np.ones(view.face_count, dtype=np.bool_)
-    return unseen_faces(view, project_faces(view), every, ~every).tolist()
+    return unseen_faces(view, project_faces(view), every, ~every, budget).tolist()
 
 
 def test_what_is_below_something_larger_is_not_seen():
     assert unseen_in(square("LOW", 1, 2, 0), square("HIGH", 0, 3, 1)) == [True, False]
+
+
+def test_what_lies_in_piles_that_the_budget_does_not_do_for_is_painted_whole():
+    pile = [square(f"SHEET {k}", 1 - 0.01 * k, 2 + 0.01 * k, 0.01 * k) for k in range(80)]
+    assert unseen_in(*pile) == 79 * [True] + [False]
+    assert not any(unseen_in(*pile, budget=Budget(pairs=1)))
 
 
 def test_what_is_below_two_that_meet_is_not_seen():
@@ -79,7 +86,7 @@ def test_all_of_what_is_left_out_is_painted_over(name, eye, tmp_path):
     view = view_of(coarse.scene, projection)
     projected = project_faces(view)
     painted = painters_order(view, projected)
-    left = without_unseen_facets(coarse, view, projected, painted)
+    left = without_unseen_facets(coarse, view, projected, painted, USUAL)
     kept = np.isin(painted.faces.source, left.source)
     offsets = painted.faces.offsets
     rings = [painted.faces.points[:2, low:high].T for low, high in pairwise(offsets)]

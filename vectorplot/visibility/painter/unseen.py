@@ -7,22 +7,26 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.budget import Budget
 from vectorplot.scene.view import View
-from vectorplot.visibility.polyhedra.hidden_lines import visible_parts
+from vectorplot.visibility.polyhedra.hidden_lines import tried_pairs, visible_parts
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.polyhedra.pairs import Segments
 from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces
 
+IN_ONE_CELL = 64
+"""So many pairs of a side and a face in one cell of the image are as much work as one that is looked at closely."""
 
-def unseen_faces(view: View, projected: ProjectedFaces, asked: Bools, cut: Bools) -> Bools:
+
+def unseen_faces(view: View, projected: ProjectedFaces, asked: Bools, cut: Bools, budget: Budget) -> Bools:
     """(f,) which of the faces asked about (f,) are wholly covered by faces of items that occlude.
 
     What can be seen of a face is bounded by its own sides and, where something in front of it ends, by sides with faces
     on one side only in the image; so a face none of whose sides is seen, and over which no such side is seen, is not
     seen either. That holds for faces that nothing pierces.
     cut (f,): the faces that the painter had to cut; where they are, something may pierce another, and all is seen.
-    Degenerate: nothing is unseen where faces reach through the near plane; a face along the border of what covers it is
-    seen.
+    Degenerate: nothing is unseen where faces reach through the near plane, or where so many lie on each other that
+    finding out costs more than the budget's pairs; a face along the border of what covers it is seen.
     Source: Glaeser, section 7.2 (visibility changes only at contours).
     """
     none = np.zeros(view.face_count, dtype=np.bool_)
@@ -34,7 +38,10 @@ def unseen_faces(view: View, projected: ProjectedFaces, asked: Bools, cut: Bools
     needed[of_corner[corner]] = True
     which = np.flatnonzero(needed)
     segments = Segments(view.points[:, start[which]], view.points[:, end[which]])
-    seen = visible_parts(view, projected, solid_items(view, projected), segments, lambda _: None)
+    solid = solid_items(view, projected)
+    if tried_pairs(view, projected, solid, segments) > IN_ONE_CELL * budget.pairs:
+        return none
+    seen = visible_parts(view, projected, solid, segments, lambda _: None)
     open_side = np.zeros(len(start), dtype=np.bool_)
     open_side[which[seen.segment]] = True
     face = ragged.owner(view.face_sizes)
