@@ -57,6 +57,9 @@ RIM_SEEN_FROM = 1e-9
 """Part of the domain by which the rim of a hole is looked at from inside: a surface that ends with a vertical tangent,
 as a square root does, has no normal on it; so near it is off the rim by the root of that, less than is drawn."""
 
+RIM_FOUND_TO = 1e-12
+"""Part of the domain to which the rim of a hole is found: a thousandth of what it is looked at from inside by."""
+
 AROUND_RIM = 1e-6
 """Part of the domain by which it is tried out on which side of the rim of a hole a surface lies."""
 

@@ -9,10 +9,19 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.surfaces.surface import Domain, Surface
-from vectorplot.tolerances.of_parameters import AROUND_RIM, OUTSIDE_DOMAIN, REPEATED_OF_DOMAIN, RIM_SEEN_FROM
+from vectorplot.tolerances.of_parameters import (
+    AROUND_RIM,
+    OUTSIDE_DOMAIN,
+    REPEATED_OF_DOMAIN,
+    RIM_FOUND_TO,
+    RIM_SEEN_FROM,
+)
 
-HALVINGS = 40
-"""How often the way to a rim is halved: to a thousandth of what it is looked at from inside by."""
+AT_ONCE = 1 << 10
+"""Places that are looked at in one step to a rim, at least one each: few of them take as long as one."""
+
+MOST_PARTS = 32
+"""A way is divided into no more parts in one step."""
 
 ASIDE = (1.0 / 64.0, 1.0 / 16.0, 1.0 / 4.0, 1.0 / 2.0, 3.0 / 4.0)
 """How far beside a chord its rim is looked for, in lengths of the chord: at the corner of a square hole it is half of
@@ -45,20 +54,39 @@ class CutTriangles:
 
 
 def is_known(surface: Surface, places: Floats) -> Bools:
-    """(k,) whether places (k,2) are in the domain of a surface and in none of its holes."""
-    u, v = wrapped(surface.domain, places[:, 0], places[:, 1])
+    """(...,k) whether places (...,k,2) are in the domain of a surface and in none of its holes; of stacked surfaces,
+    each of the k on its own one."""
+    u, v = wrapped(surface.domain, places[..., 0], places[..., 1])
     with np.errstate(all="ignore"):
-        known = np.isfinite(surface.points(u, v)).all(axis=1)
+        known = np.isfinite(surface.points(u, v)).all(axis=-1)
     starts = (surface.domain.u_start, surface.domain.v_start)
-    for at, closed, start, size in zip(places.T, _closed(surface.domain), starts, surface.domain.size, strict=True):
-        part = (at - start) / size
+    for axis, (closed, start, size) in enumerate(
+        zip(_closed(surface.domain), starts, surface.domain.size, strict=True)
+    ):
+        part = (places[..., axis] - start) / size
         known &= closed | ((part >= -OUTSIDE_DOMAIN) & (part <= 1.0 + OUTSIDE_DOMAIN))
     return np.asarray(known, dtype=np.bool_)
 
 
-def _each_known(surface: Surface, places: Floats) -> Bools:
-    """(m,k) the same for places (m,k,2), the k of them each on its own of stacked surfaces."""
-    return np.stack([is_known(surface, some) for some in places])
+def _last_alike(surface: Surface, base: Floats, ways: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
+    """Parts of ways (k,2) from places base (k,2) between parts low and high (k,), the places at which are in a hole at
+    one of both: the last parts that are as at low, and the first ones that are not, no farther apart in the domain than
+    RIM_FOUND_TO."""
+    size = np.stack(np.broadcast_arrays(*surface.domain.size), axis=-1)
+    with np.errstate(all="ignore"):
+        long = np.nan_to_num(float(np.max(np.abs((high - low)[:, None] * ways / size), initial=0.0)), nan=0.0)
+    number = int(np.clip(AT_ONCE // max(len(base), 1), 2, MOST_PARTS))
+    steps = int(np.ceil(np.log(max(long / RIM_FOUND_TO, 1.0)) / np.log(number)))
+    there = is_known(surface, base + low[:, None] * ways)
+    inner = np.arange(1, number)[:, None] / number
+    for _ in range(steps):
+        tried = low + inner * (high - low)
+        alike = is_known(surface, base + tried[..., None] * ways) == there
+        last = np.where(alike.all(axis=0), number - 1, np.argmin(alike, axis=0))
+        nodes = np.concatenate([low[None], tried, high[None]])
+        every = np.arange(len(base))
+        low, high = nodes[last, every], nodes[last + 1, every]
+    return low, high
 
 
 def cut_at_holes(surface: Surface, places: Floats, triangles: Ints, known: Bools) -> CutTriangles:
@@ -100,11 +128,7 @@ def _crossings(surface: Surface, places: Floats, known: Bools, one: Ints, two: I
     way = places[end] - places[start]
     for axis, (closed, size) in enumerate(zip(_closed(surface.domain), surface.domain.size, strict=True)):
         way[:, axis] -= closed * size * np.round(way[:, axis] / size)
-    part, beyond = np.zeros(len(pair)), np.ones(len(pair))
-    for _ in range(HALVINGS):
-        middle = 0.5 * (part + beyond)
-        there = is_known(surface, places[start] + middle[:, None] * way)
-        part, beyond = np.where(there, middle, part), np.where(there, beyond, middle)
+    part, _ = _last_alike(surface, places[start], way, np.zeros(len(pair)), np.ones(len(pair)))
     # Sides that end in one place have one crossing where the rim runs through it.
     number = len(places) + np.arange(len(pair))
     through = part >= 1.0 - REPEATED_OF_DOMAIN
@@ -135,16 +159,13 @@ def beside_rim_chords(surface: Surface, start: Floats, end: Floats, part: Floats
     across = np.stack([way[:, 1], -way[:, 0]], axis=1) * size
     aside = np.stack([ASIDE, np.negative(ASIDE)], axis=1).ravel()
     tried = base + aside[:, None, None] * across
-    changed = _each_known(surface, tried) != there
+    changed = is_known(surface, tried) != there
     found: Bools = np.asarray(changed.any(axis=0))
     first = np.argmax(changed, axis=0)
     low, high = np.concatenate([[0.0, 0.0], aside])[first], aside[first]
     row = np.flatnonzero(found)
     low, high = low[row], high[row]
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        same = is_known(surface, base[row] + middle[:, None] * across[row]) == there[row]
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    low, high = _last_alike(surface, base[row], across[row], low, high)
     result = np.where(there[:, None], base, np.where((part < 0.5)[:, None], start, end))
     inwards = np.where(there[row], -np.sign(high), np.sign(high))[:, None] * across[row]
     result[row] = _just_inside(surface, base[row] + np.where(there[row], low, high)[:, None] * across[row], inwards)
@@ -163,14 +184,11 @@ def up_to_rims(surface: Surface, start: Floats, ways: Floats) -> tuple[Floats, B
     """(k,2) the places at which ways (k,2) from places start (k,2) first come to a hole; and which of them do."""
     parts = np.arange(1, STEPS + 1) / STEPS
     tried = start + parts[:, None, None] * ways
-    gone = ~_each_known(surface, tried)
+    gone = ~is_known(surface, tried)
     found: Bools = np.asarray(gone.any(axis=0))
     high = parts[np.argmax(gone, axis=0)]
     low = high - 1.0 / STEPS
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        there = is_known(surface, start + middle[:, None] * ways)
-        low, high = np.where(there, middle, low), np.where(there, high, middle)
+    low, _ = _last_alike(surface, start, ways, low, high)
     return _just_inside(surface, start + low[:, None] * ways, -ways), found
 
 
@@ -181,7 +199,7 @@ def into_surface(surface: Surface, places: Floats) -> Floats:
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     size = np.broadcast_to(np.stack(np.broadcast_arrays(*surface.domain.size), axis=-1), places.shape)
     tried = places + AROUND_RIM * ring[:, None] * size
-    known = _each_known(surface, tried)
+    known = is_known(surface, tried)
     way = AROUND_RIM * size * (known[..., None] * ring[:, None]).mean(axis=0)
     return np.where(np.asarray(known.all(axis=0))[:, None], 0.0, way)
 
