@@ -8,7 +8,7 @@ from vectorplot import features, surfaces
 from vectorplot.features.facets import Within, facets
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.hole_rims import hole_rims
-from vectorplot.features.parametric.holes import cut_at_holes, into_surface, is_known
+from vectorplot.features.parametric.holes import beside_rim_chords, cut_at_holes, into_surface, is_known
 from vectorplot.testing.curve_points import curves_in_space
 
 
@@ -93,3 +93,22 @@ def test_a_dome_hides_the_half_of_its_rim_behind_it():
     assert seen.min() > edge - 0.02 and seen.max() > 0.999
     around = np.concatenate(list(curves_in_space(drawing, kind="boundary")))
     assert np.ptp(np.arctan2(around[:, :2] @ (-towards[1], towards[0]), around[:, :2] @ towards)) > 2.8
+
+
+@pytest.mark.parametrize("count", [1, 40, 2000])
+def test_rims_are_found_in_few_steps_whatever_the_number_of_chords(count):
+    asked = []
+
+    def height(x, y):
+        asked.append(np.size(x))
+        return np.sqrt(1.0 - x * x - y * y)
+
+    surface = surfaces.graph(height, surfaces.Domain(-1.2, 1.2, -1.3, 1.2))
+    angle = np.linspace(0.0, 6.0, count)
+    start, end = (np.stack([np.cos(a), np.sin(a)], axis=1) for a in (angle, angle + 0.2))
+    asked.clear()
+    places, on = beside_rim_chords(surface, start, end, np.linspace(0.1, 0.9, count))
+    off = 1.0 - np.hypot(*places.T)
+    assert on.all() and off.min() > 0.0 and off.max() < 1e-8
+    few = count < 100
+    assert len(asked) < (20 if few else 50) and sum(asked) < 400 * max(count, 10)
