@@ -315,6 +315,8 @@ FIGURES = {
     "9.3 and 9.6": "spline_surfaces",
     "9.4 and 9.5": "b_splines",
     "9.7": "function_graph",
+    "9.8": "slope_lines",
+    "9.9": "potential_surface",
 }
 """The figures of mathematical curves and surfaces, and the scripts that draw them and assert what they show."""
 

@@ -229,3 +229,20 @@ def test_a_constant_graph_is_flat():
     surface = graph(lambda x, y: 2.0, Domain(0, 1, 0, 1))
     assert np.array_equal(surface.points(U[:2] / 7, V[:2] / 7)[..., 2], np.full((2, 13), 2.0))
     assert np.array_equal(surface.partials(np.array([0.5]), np.array([0.5]))[0], [(1, 0, 0)])
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_a_graph_over_a_ring_is_not_asked_in_its_hole_and_not_cut_off_for_a_pole_there(scale):
+    asked = []
+
+    def hill(x, y):
+        asked.append(np.hypot(x - 3.0 * scale, y).min())
+        return scale * scale / np.hypot(x - 3.0 * scale, y)
+
+    ring = graph_over_disc(hill, Disc(2.0 * scale, (3.0 * scale, 0.0)), hole=0.1 * scale)
+    turn = np.linspace(0.0, 2.0 * np.pi, 13)
+    rim = ring.points(np.full(13, 0.1 * scale), turn)
+    assert np.allclose(rim[:, 2], 10.0 * scale) and all(
+        np.isfinite(d).all() for d in ring.partials(rim[:, 0] * 0 + 0.1 * scale, turn)
+    )
+    assert min(asked) > 0.0999 * scale

@@ -240,13 +240,25 @@ def graph_over_disc(
     if not 0.0 <= hole < disc.radius:
         raise InputError(f"a hole of radius {hole:g} in a disc of radius {disc.radius:g}")
     polar = Domain(hole, disc.radius, 0.0, 2.0 * np.pi, closed_v=True)
-    return PolarGraph(polar, disc.centre, _over_square(function, disc, slopes))
+    return PolarGraph(polar, disc.centre, _over_square(function, disc, hole, slopes))
 
 
-def _over_square(function: Callable[..., Any], disc: Disc, slopes: Sequence[Callable[..., Any]]) -> Graph:
-    """The graph whose function is asked in the disc only, rounding at its border forgiven."""
-    wider = Disc(disc.radius * (1.0 + ROUNDING_OF_DOMAIN), disc.centre)
-    return graph(function, wider, slopes=slopes)
+@dataclass(frozen=True)
+class _Ring(Disc):
+    """The points of a disc that are no nearer to its centre than the radius of a hole."""
+
+    hole: float = 0.0
+
+    def contains(self, x: Floats, y: Floats) -> Bools:
+        """(...,) whether points are in the ring."""
+        outside = np.hypot(x - self.centre[0], y - self.centre[1]) >= self.hole
+        return np.asarray(super().contains(x, y) & outside, dtype=np.bool_)
+
+
+def _over_square(function: Callable[..., Any], disc: Disc, hole: float, slopes: Sequence[Callable[..., Any]]) -> Graph:
+    """The graph whose function is asked in the disc only, and not in its hole, rounding at the borders forgiven."""
+    slack = ROUNDING_OF_DOMAIN * disc.radius
+    return graph(function, _Ring(disc.radius + slack, disc.centre, hole - slack), slopes=slopes)
 
 
 def is_graph(shape: object) -> bool:
