@@ -9,7 +9,7 @@ import vectorplot as vp
 from vectorplot.curves import AkimaSpline, BSpline, CubicSpline, PlacedCurve, spline_curve
 from vectorplot.drawing import curved_strokes
 from vectorplot.surfaces import landscape, spline_surface
-from vectorplot.testing import assert_drawing_is_right, assert_on_surface, curves_in_space
+from vectorplot.testing import assert_drawing_is_right, assert_isophote, assert_on_surface, curves_in_space
 
 TURN = np.linspace(0, 2 * np.pi, 8, endpoint=False)
 WAVES = np.array([[1.2 * np.sin(1.3 * x) * np.cos(1.1 * y) + 0.1 * (x * y % 3) for y in range(6)] for x in range(6)])
@@ -73,3 +73,22 @@ def test_a_curve_of_many_pieces_loses_none():
     line = np.concatenate(curves_in_space(drawing, kind="curve"))
     away = np.linalg.norm(points[:, None] - line, axis=2).min(axis=1)
     assert away.max() < 1e-9, "its points are among those of the stroke"
+
+
+@pytest.mark.capability("G9.3-isophote", "G9.3-sections")
+@pytest.mark.parametrize("scale", [1e-3, 1.0])
+def test_isophotes_and_sections_of_spline_surfaces_are_those_of_the_surface_itself(scale):
+    surface = landscape(scale * WAVES, (0, 5 * scale), (0, 5 * scale))
+    lamp, normal, levels = vp.Light((1, -2, 3), parallel=True), np.array((1.0, 1.0, 2.0)), (4 * scale, 6 * scale)
+    lines = vp.SurfaceLines(isophotes=(0.8,), sections=(vp.Section(tuple(normal), levels),))
+    scene = vp.Scene((vp.Item("A", surface, curves=lines),), (lamp,))
+    camera = vp.Camera(scale * np.array((12.0, -9.0, 7.0)), target=scale * np.array((2.5, 2.5, 0.0)))
+    drawing = vp.draw(scene, camera, lines=("isophote", "section"), hidden="solid")
+    isophotes, sections = (curves_in_space(drawing, kind=kind) for kind in ("isophote", "section"))
+    assert_isophote(isophotes, surface, lamp, np.arccos(0.8), tolerance=1e-6)
+    assert isophotes and sections
+    points = np.concatenate(sections)
+    heights = points @ normal / np.linalg.norm(normal)
+    off = np.abs(heights[:, None] - levels).min(axis=1)
+    assert off.max() < 1e-9 * scale
+    assert_on_surface([points, *isophotes], surface, tolerance=1e-9 * scale)
