@@ -55,14 +55,22 @@ def point() -> vp.Drawing:
     return with_dots(drawing, [POINT], INK, 1.2)
 
 
+def fourth_point() -> np.ndarray:
+    """The first point, and parts of the way to the other two."""
+    return P + PARTS @ np.array([Q - P, R - P])
+
+
+def unit_normal() -> np.ndarray:
+    """Of the plane of the three points."""
+    normal = np.cross(Q - P, R - P)
+    return normal / np.linalg.norm(normal)
+
+
 def plane() -> vp.Drawing:
     """Three points, their plane, and the way to a fourth."""
-    to_q, to_r = Q - P, R - P
-    between, there = P + PARTS[0] * to_q, P + PARTS @ np.array([to_q, to_r])
+    to_q, to_r, normal = Q - P, R - P, unit_normal()
+    between, there = P + PARTS[0] * to_q, fourth_point()
     corners = [P + a * to_q + b * to_r for a, b in ((-0.25, -0.25), (1.2, -0.25), (1.2, 1.2), (-0.25, 1.2))]
-    normal = np.cross(to_q, to_r) / np.linalg.norm(np.cross(to_q, to_r))
-    assert abs(normal @ (there - P)) < 1e-12, "the fourth point is in the plane"
-    assert Plane.through(P, Q, R).side([there + 0.1 * normal, there - 0.1 * normal]).tolist() == [1, -1]
     items = [*axes(), *outline("PLANE", corners, BLUE), line("POSITION", (0, 0, 0), P, INK)]
     sheet = vp.Item("SHEET", vp.Mesh.from_polygons(corners, [range(4)]), CREAM)
     lines = [line("TO Q", P, Q, RED), line("TO R", P, R, RED), line("NORMAL", P, P + 1.5 * normal, OCHRE)]
@@ -78,6 +86,9 @@ def plane() -> vp.Drawing:
 
 
 def main(folder: Path) -> None:
+    there, normal = fourth_point(), unit_normal()
+    assert abs(normal @ (there - P)) < 1e-12, "the fourth point is in the plane"
+    assert Plane.through(P, Q, R).side([there + 0.1 * normal, there - 0.1 * normal]).tolist() == [1, -1]
     vp.save(point(), folder / "coordinates_point.svg")
     vp.save(plane(), folder / "coordinates_plane.svg")
 

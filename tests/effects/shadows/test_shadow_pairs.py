@@ -84,10 +84,19 @@ def test_two_crowds_that_shade_each_other_keep_their_shadows_on_the_ground() -> 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("material", ["", "transparent"])
-def test_paint_names_what_throws_them_and_the_lamps_in_one_line(material: str) -> None:
-    crowd = Item("CROWD", plates(), "blue", vp.Material(material) if material else vp.Material())
+def test_paint_names_what_throws_them_and_the_lamps_in_one_line() -> None:
+    crowd = Item("CROWD", plates(), "blue")
     lamps = (LAMPS[0], Light((-1.0, 0.3, 0.5), parallel=True))
     scene = Scene((crowd, Item("FLOOR", box((-50, -50, -2), (400, 150, -1)), "red")), lights=lamps)
     (line,) = lines_of(scene, budget=1e-4)
     assert line.startswith("CROWD: ") and "itself" in line and "LOW, light 2" in line and "--budget" in line
+
+
+@pytest.mark.slow
+def test_paint_names_what_is_transparent_and_what_lacks_its_shadows() -> None:
+    """What is transparent itself shows no shadows of what is."""
+    crowd = Item("CROWD", plates(), "blue", vp.Material("transparent"))
+    scene = Scene((crowd, Item("OTHERS", plates(0.5), "red")), lights=LAMPS[:1])
+    itself, others = lines_of(scene, budget=1e-4)
+    assert itself.startswith("OTHERS: more shadows on itself ")
+    assert others.startswith("CROWD: more shadows on OTHERS ") and "LOW" in others and "--budget" in others
