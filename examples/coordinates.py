@@ -34,6 +34,8 @@ CAMERA = vp.Camera(eye=(13, 8, 8), target=(1.6, 1.6, 1.0), fov_deg=24)
 POINT = np.array([2.6, 3.4, 2.2])
 P, Q, R = np.array([(0.9, 0.4, 2.6), (3.6, 0.9, 1.2), (0.7, 3.6, 1.5)])
 PARTS = np.array([0.45, 0.75])
+FOURTH, ACROSS = P + PARTS @ np.array([Q - P, R - P]), np.cross(Q - P, R - P)
+NORMAL = ACROSS / np.linalg.norm(ACROSS)
 AXES = np.diag([4.6, 4.6, 3.6])
 
 
@@ -55,21 +57,10 @@ def point() -> vp.Drawing:
     return with_dots(drawing, [POINT], INK, 1.2)
 
 
-def fourth_point() -> np.ndarray:
-    """The first point, and parts of the way to the other two."""
-    return P + PARTS @ np.array([Q - P, R - P])
-
-
-def unit_normal() -> np.ndarray:
-    """Of the plane of the three points."""
-    normal = np.cross(Q - P, R - P)
-    return normal / np.linalg.norm(normal)
-
-
 def plane() -> vp.Drawing:
     """Three points, their plane, and the way to a fourth."""
-    to_q, to_r, normal = Q - P, R - P, unit_normal()
-    between, there = P + PARTS[0] * to_q, fourth_point()
+    to_q, to_r, normal, there = Q - P, R - P, NORMAL, FOURTH
+    between = P + PARTS[0] * to_q
     corners = [P + a * to_q + b * to_r for a, b in ((-0.25, -0.25), (1.2, -0.25), (1.2, 1.2), (-0.25, 1.2))]
     items = [*axes(), *outline("PLANE", corners, BLUE), line("POSITION", (0, 0, 0), P, INK)]
     sheet = vp.Item("SHEET", vp.Mesh.from_polygons(corners, [range(4)]), CREAM)
@@ -86,9 +77,8 @@ def plane() -> vp.Drawing:
 
 
 def main(folder: Path) -> None:
-    there, normal = fourth_point(), unit_normal()
-    assert abs(normal @ (there - P)) < 1e-12, "the fourth point is in the plane"
-    assert Plane.through(P, Q, R).side([there + 0.1 * normal, there - 0.1 * normal]).tolist() == [1, -1]
+    assert abs(NORMAL @ (FOURTH - P)) < 1e-12, "the fourth point is in the plane"
+    assert Plane.through(P, Q, R).side([FOURTH + 0.1 * NORMAL, FOURTH - 0.1 * NORMAL]).tolist() == [1, -1]
     vp.save(point(), folder / "coordinates_point.svg")
     vp.save(plane(), folder / "coordinates_plane.svg")
 

@@ -53,6 +53,10 @@ def test_what_lies_in_piles_that_the_budget_does_not_do_for_is_painted_whole():
     assert not any(unseen_in(*pile, budget=Budget(pairs=1)))
 
 
+def test_what_hides_nothing_covers_nothing():
+    assert unseen_in(square("LOW", 1, 2, 0, occludes=False), square("HIGH", 0, 3, 1, occludes=False)) == [False, False]
+
+
 def test_what_is_below_two_that_meet_is_not_seen():
     corners = [(0, 0, 1), (2, 0, 1), (2, 3, 1), (0, 3, 1), (4, 0, 1), (4, 3, 1)]
     roof = vp.Item("ROOF", vp.Mesh.from_polygons(corners, [(0, 1, 2, 3), (1, 4, 5, 2)]))

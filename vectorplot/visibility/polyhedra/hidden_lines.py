@@ -235,6 +235,8 @@ def tried_pairs(view: View, faces: ProjectedFaces, solid: Bools, segments: Segme
         return 0
     grid, pieces = _pieces(view, faces, segments)
     occluders = _occluders(view, faces, solid, grid, grids.deepest(grid, pieces))
+    if not len(occluders):
+        return 0
     entries = entered(view, grid, occluders, np.arange(len(occluders)), len(pieces))
     count = 0
     for level in entries.levels():
