@@ -131,10 +131,9 @@ def test_water_follows_valleys_climbers_ridges_and_all_end_where_nothing_leads_o
 
 @pytest.mark.capability("G9.4-polyhedron")
 def test_steepest_slope_on_a_height_grid_comes_near_that_of_the_smooth_graph():
-    graph = lambda x, y: x**2 + 2.0 * y  # noqa: E731
     errors = []
     for n in (17, 33, 65):
-        mesh = height_grid(graph, n)
+        mesh = height_grid(lambda x, y: x**2 + 2.0 * y, n)
         at = features.face_sites(mesh).points
         start = int(np.argmin(np.linalg.norm(at[:, :2] - (0.31, -0.62), axis=1)))
         line = mesh_integral_curves(mesh, features.SteepestSlope(), start, both_ways=False)[0]
