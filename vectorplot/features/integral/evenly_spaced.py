@@ -43,6 +43,9 @@ SHORTEST = 1.5
 SAMPLES = 4
 """Places along a curve for each distance, at which it is compared with others."""
 
+MOST_SAMPLES = 16
+"""And so many at most, however near each other its points are."""
+
 MOST_LINES = 500
 """Times the distance of curves that a surface may be large, at most."""
 
@@ -243,7 +246,10 @@ def _compared(surface: Surface, curves: SurfaceCurves, spots: Floats, apart: flo
     counts = np.diff(rounds.offsets)
     total -= np.repeat(total[rounds.offsets[:-1]], counts)
     # Between two points of a curve as many places as its chord is long; and the ends of open curves.
-    count = np.maximum(np.ceil(steps * SAMPLES / apart), 1).astype(np.intp)
+    cell = np.floor(total * MOST_SAMPLES / apart)
+    fresh = cell[begins + 1] != cell[begins]
+    fresh[np.searchsorted(begins, rounds.offsets[:-1])] = True
+    count = np.maximum(np.ceil(steps * SAMPLES / apart), fresh).astype(np.intp)
     node = np.concatenate(
         [np.repeat(begins, count) + ragged.place(count) / np.repeat(count, count), ends[~curves.closed]]
     )
