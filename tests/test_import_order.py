@@ -29,6 +29,9 @@ VERBS = {"draw", "paint", "painting", "read", "render", "save", "plan"}
 ALLOWED = {("drawing/drawing.py", "backends")}
 
 FOR_PROGRAMS = {
+    "drawing/lettering/accents.py",
+    "drawing/lettering/hershey.py",
+    "drawing/lettering/text.py",
     "features/integral/face_sites.py",
     "features/integral/mesh_courses.py",
     "features/integral/mesh_flows.py",

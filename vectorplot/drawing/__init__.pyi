@@ -1,6 +1,7 @@
 from .drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
 from .fills import FillKind, Fills
 from .fills_without_overlaps import visible_fills
+from .lettering.text import Lettering, lettered, lettered_along
 from .painted_fills import placement_of_faces
 from .strokes.curved_strokes import curved_strokes
 from .strokes.long_strokes import split_long
@@ -12,9 +13,12 @@ __all__ = [
     "FillKind",
     "Fills",
     "Layer",
+    "Lettering",
     "Paths",
     "Pen",
     "curved_strokes",
+    "lettered",
+    "lettered_along",
     "pen_ordered",
     "placement_of_faces",
     "split_long",

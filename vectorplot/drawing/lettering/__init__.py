@@ -1,0 +1,1 @@
+"""Letters of single strokes, as a pen writes them."""
