@@ -7,8 +7,9 @@ import signal
 # Before numpy comes: the workers have a core each, and threads that wait for work would take it from the other one.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+import pytest
 from hypothesis import settings
-from support.effort import register_profiles
+from support.effort import register_profiles, rows_to_try
 
 register_profiles()
 # --hypothesis-profile=long loads the other one after this.
@@ -20,6 +21,14 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 if hasattr(signal, "SIGHUP"):
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Of tables a few rows, as the profile says; a row that is named runs."""
+    if not any("[" in argument for argument in config.args):
+        kept = rows_to_try(items)
+        config.hook.pytest_deselected(items=list(set(items).difference(kept)))
+        items[:] = kept
 
 
 def pytest_collection_finish() -> None:

@@ -306,6 +306,7 @@ def test_one_text_names_kinds_of_lines_as_on_the_command_line() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("name", ["town", "torus", "shadows"])
 @pytest.mark.parametrize("hidden", ["none", "dashed"])
 def test_no_stroke_is_longer_than_asked_for_and_the_picture_is_the_same(name, hidden):

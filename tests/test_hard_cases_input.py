@@ -41,6 +41,7 @@ def scene_text(name: str) -> str:
 
 
 @pytest.mark.hard(60)
+@pytest.mark.spread
 @pytest.mark.parametrize("name", STEERING)
 @pytest.mark.parametrize("verb", ["info", "draw", "paint", "render"])
 def test_hard_60_names_never_steer_a_terminal(

@@ -91,6 +91,7 @@ def test_an_offset_of_a_million_gives_the_same_drawing(parallel: bool) -> None:
 
 
 @pytest.mark.hard(19)
+@pytest.mark.spread
 @pytest.mark.parametrize("scale", [1e-6, 1e6, 1e-50, 1e50])
 @pytest.mark.parametrize("parallel", [True, False])
 def test_any_scale_gives_the_same_drawing(scale: float, parallel: bool) -> None:

@@ -77,6 +77,7 @@ def test_the_eye_inside_a_solid_sees_its_inner_walls_and_nothing_mirrored() -> N
 
 
 @pytest.mark.hard(4)
+@pytest.mark.spread
 @pytest.mark.parametrize(
     "eye", [(1, 1, 1), (1, 0, 1), (1, 0.2, 0.1), (0, 0, 0)], ids=["vertex", "edge", "face", "middle"]
 )

@@ -9,7 +9,7 @@ from vectorplot.testing.curved_meshes import bumpy_icosphere
 from vectorplot.testing.shapes import rotated_boxes
 
 LAMP = vp.Light((6.0, -5.0, 8.0))
-MANY = (1, 2, 5)
+MANY = (1, 5)
 
 
 def scenes():
@@ -18,6 +18,7 @@ def scenes():
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("name", list(scenes()))
 @pytest.mark.parametrize("hidden", ["none", "dashed"])
 def test_drawings(name, hidden):

@@ -175,6 +175,7 @@ def pixels_before(scene: str, verb: str) -> Floats:
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("change", [*SAME, with_something_inside], ids=lambda change: change.__name__)
 def test_lines_are_drawn_as_before(scene: str, change: Callable[[Seen], Seen]) -> None:
@@ -191,6 +192,7 @@ def test_lines_of_the_mirrored_scene_are_mirrored(scene: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("verb", VERBS)
 @pytest.mark.parametrize("change", SAME, ids=lambda change: change.__name__)
@@ -199,6 +201,7 @@ def test_pictures_are_as_before(scene: str, verb: str, change: Callable[[Seen], 
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("verb", VERBS)
 def test_pictures_of_the_mirrored_scene_are_mirrored(scene: str, verb: str) -> None:

@@ -104,6 +104,7 @@ def test_a_fitted_picture_touches_its_margins_and_is_otherwise_the_same(camera: 
 
 @pytest.mark.slow
 @pytest.mark.hard(18, 19)
+@pytest.mark.spread
 @pytest.mark.parametrize("kind", ["piercing boxes", "table", "mirror and glass"])
 @pytest.mark.parametrize("offset, scale", [(1e6, 1.0), (0.0, 1e-6), (0.0, 1e6)])
 def test_far_tiny_and_huge_scenes_give_the_same_picture(kind: str, offset: float, scale: float) -> None:
@@ -161,6 +162,7 @@ def test_an_empty_scene_is_an_empty_page(scene: Scene) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("name", sorted(HARD_SHAPES))
 @pytest.mark.parametrize("lights", [(), (SUN, LAMP)], ids=["dark", "lit"])
 def test_hard_shapes_are_painted_with_finite_numbers(name: str, lights: tuple[Light, ...]) -> None:

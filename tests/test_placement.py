@@ -25,6 +25,7 @@ CAMERAS = [Camera((8.0, -9.0, 7.0), (0.5, 0.2, -0.3), twist_deg=20.0), Camera((8
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize(("fit", "camera"), [(True, CAMERAS[0]), (False, CAMERAS[0]), (True, CAMERAS[1])])
 @pytest.mark.parametrize("surface", [False, True])
 @pytest.mark.parametrize("verb", ["draw", "paint", "erasing", "render"])

@@ -120,6 +120,7 @@ def test_ears_of_a_polygon_with_many_notches_cover_it_once(seed):
     assert areas.sum() == pytest.approx(np.linalg.norm(mesh.area_vectors[0]) / 2.0, rel=1e-12)
 
 
+@pytest.mark.spread
 @pytest.mark.parametrize("offset", [0.0, 1e3])
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 def test_corners_that_are_straight_but_for_rounding_are_no_ears(scale, offset):
@@ -310,6 +311,7 @@ def test_a_visible_line_that_is_left_out_is_found():
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("name", sorted(HARD_SHAPES))
 def test_every_family_is_drawn_as_rays_see_it(name, parallel):

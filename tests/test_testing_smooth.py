@@ -62,6 +62,7 @@ def some_points(shape, scene: Scene, random: np.random.Generator) -> np.ndarray:
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("name", SURFACES)
 def test_rays_agree_with_closed_forms(name: str, parallel: bool) -> None:

@@ -114,6 +114,7 @@ def test_svg_has_paths_for_smooth_strokes_only(curved):
     assert not list(kept.iter(f"{SVG}path"))
 
 
+@pytest.mark.spread
 @pytest.mark.parametrize("backwards", [False, True])
 @pytest.mark.parametrize("angle", [0.3, 1.5, 2.9, 4.0, 6.0])
 @pytest.mark.parametrize("turn", [0.0, 0.7, 2.0, 4.5])

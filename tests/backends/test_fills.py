@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import shapely
 from support.backend_samples import paths_of, run
+from support.effort import several
 from support.fill_samples import colour_at, fan, flat, page_of, pictures, rgb, shaded
 from support.svg_fills import HREF, points_of
 
@@ -78,6 +79,7 @@ def grid(cells) -> np.ndarray:
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("kind", ["flat", "shaded", "both"])
 @pytest.mark.parametrize("shape", ["fan", "grid"])
 def test_no_seam_between_dark_neighbours_on_white_paper(shape, kind, tmp_path):
@@ -309,5 +311,5 @@ def test_any_polygons_make_files_that_can_be_read(seed, tmp_path):
             assert points.min() >= -SEAM_MM - 1e-9 and points.max() <= 60 + SEAM_MM + 1e-9
     save(drawing, tmp_path / "a.json")
     assert np.array_equal(read_drawing(tmp_path / "a.json").layers[0].fills[0].points, fills.points)
-    if seed < 3:
+    if seed < several(1, long=3):
         assert len({picture.shape[1] // 8 for picture in pictures(drawing, tmp_path, dpi=100).values()}) == 1

@@ -97,6 +97,7 @@ def test_without_an_eye_models_that_stand_upright_along_y_are_seen_from_above_an
 
 @pytest.mark.slow
 @pytest.mark.capability("G2.2-fov")
+@pytest.mark.spread
 @pytest.mark.parametrize("verb", ["draw", "paint", "render"])
 @pytest.mark.parametrize(
     ("fov", "word"), [(4, "telephoto"), (9.9, "telephoto"), (10, ""), (15, ""), (40, ""), (60, ""), (61, "distorts")]

@@ -78,6 +78,7 @@ def test_the_picture_stays_the_same_and_nothing_overlaps(name: str) -> None:
     assert_same_picture(paint(vp.read(DATA / f"{name}.scene"), smooth=False))
 
 
+@pytest.mark.spread
 @pytest.mark.parametrize("kind", STREWN)
 @pytest.mark.parametrize("seed", range(3))
 def test_strewn_faces_show_the_same_picture(kind: str, seed: int) -> None:

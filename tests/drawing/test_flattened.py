@@ -127,6 +127,7 @@ FINER = 4
 
 @pytest.mark.slow
 @pytest.mark.hard(75)
+@pytest.mark.spread
 @pytest.mark.parametrize("opacity", [1.0, 0.5])
 @pytest.mark.parametrize("height", [0.0, 0.4])
 def test_no_light_between_faces_in_the_shadow(height: float, opacity: float) -> None:

@@ -22,6 +22,7 @@ def scene_of(colour: str, background: str | None, lights: tuple[vp.Light, ...]) 
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("camera", CAMERAS, ids=["central", "parallel"])
 @pytest.mark.parametrize("colour", ["cyan", "black", "darkorange"])
 @pytest.mark.parametrize("background", [None, "cyan", "darkblue"])

@@ -137,6 +137,7 @@ def test_smooth_surfaces_and_curves_are_seen_through():
 
 @pytest.mark.slow
 @pytest.mark.capability("G4.4-wireframe", "G4.4-depthcue")
+@pytest.mark.spread
 @pytest.mark.parametrize("style", ["wireframe", "depth-cue"])
 @pytest.mark.parametrize("camera", [vp.Camera(eye=(3, -4, 30)), vp.Camera(eye=(30, 0, 0), parallel=True)])
 def test_smooth_surfaces_are_drawn_as_if_none_of_them_hid_anything(style, camera):

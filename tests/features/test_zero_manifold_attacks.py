@@ -74,6 +74,7 @@ DOUBLE_LINES = {
 
 @pytest.mark.slow
 @pytest.mark.hard(39)
+@pytest.mark.spread
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize("at", [0.0, 0.25, 0.1])
 @pytest.mark.parametrize("name", DOUBLE_LINES)

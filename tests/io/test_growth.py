@@ -100,6 +100,7 @@ MEGABYTES = 3_000_000
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("suffix", ["scene", "obj", "off", "ply", "stl", "glb"])
 @pytest.mark.parametrize("part", ["a", "1", "-", "\\", '"', "#", "v", ".", "OFF", "é", "\n"])
 def test_megabytes_of_one_word_get_their_line_at_once(tmp_path: Path, suffix: str, part: str) -> None:
@@ -132,6 +133,7 @@ HEADS = {
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("suffix", list(HEADS))
 @pytest.mark.parametrize("part", ["1", "x", "1 "])
 def test_megabytes_of_one_number_get_their_line_at_once(tmp_path: Path, suffix: str, part: str) -> None:

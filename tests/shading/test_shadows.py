@@ -57,6 +57,7 @@ def bounds(points):
     return np.array([points.min(axis=0), points.max(axis=0)])
 
 
+@pytest.mark.spread
 @pytest.mark.parametrize("light", LAMPS, ids=["sun", "lamp", "lamp in the scene"])
 @pytest.mark.parametrize("seed", [0, 2, 3, 4])
 def test_exact_shadows_are_those_of_rays(seed, light):
@@ -71,6 +72,7 @@ def test_exact_shadows_are_those_of_rays(seed, light):
 
 @pytest.mark.slow
 @pytest.mark.capability("G8.6-shadow-buffer")
+@pytest.mark.spread
 @pytest.mark.parametrize("light", LAMPS, ids=["sun", "lamp", "lamp in the scene"])
 @pytest.mark.parametrize("seed", [0, 2, 3])
 def test_shadow_buffers_agree_with_exact_shadows_and_larger_ones_more(seed, light):
@@ -126,6 +128,7 @@ def test_a_convex_body_casts_no_shadow_on_itself():
 
 @pytest.mark.slow
 @pytest.mark.capability("N6-z", "N2-orientation")
+@pytest.mark.spread
 @pytest.mark.parametrize("frame", ["standard", "trapezoid"])
 @pytest.mark.parametrize("light", [SUN, FAR_LAMP], ids=["parallel", "lamp"])
 @pytest.mark.parametrize("seed", range(3))

@@ -1,10 +1,14 @@
 """How much tests try: what finds most at every change, and by hand much more (--hypothesis-profile=long).
 
-The profile counts for what Hypothesis makes up and for views and samples that tests draw at random.
+The profile counts for what Hypothesis makes up, for views and samples that tests draw at random, and for the rows of
+tables: tests with several parameters that have the mark `spread`.
 """
 
 from __future__ import annotations
 
+from collections import defaultdict
+
+import pytest
 from hypothesis import settings
 
 USUAL, LONG = 25, 600
@@ -26,3 +30,45 @@ def examples(count: int) -> int:
 def several(usual: int, *, long: int) -> int:
     """How many views or samples to draw at random."""
     return long if settings().max_examples >= LONG else usual
+
+
+def rows_to_try(items: list[pytest.Item]) -> list[pytest.Item]:
+    """The tests to run: in ci so few rows of a table with the mark `spread` that each value of each parameter comes.
+
+    What goes wrong for one value goes wrong in its row, whatever stands beside it; what needs two values at once is
+    left to the whole table, in long.
+    """
+    if settings().max_examples >= LONG:
+        return items
+    tables: dict[tuple[str, str], list[pytest.Item]] = defaultdict(list)
+    for item in items:
+        if item.get_closest_marker("spread"):
+            tables[item.nodeid.partition("[")[0], item.name.partition("[")[0]].append(item)
+    left_out = {item for rows in tables.values() for item in _left_out(rows)}
+    return [item for item in items if item not in left_out]
+
+
+def _left_out(rows: list[pytest.Item]) -> list[pytest.Item]:
+    """The rows of a table that are left to the whole of it."""
+    columns = [_numbered(column) for column in zip(*map(_values, rows), strict=True)]
+    lengths = [max(column) + 1 for column in columns]
+    # One step further in each round, so that parameters with as many values do not always meet in the same way.
+    tried = {
+        tuple((row + number * (row // length)) % length for number, length in enumerate(lengths))
+        for row in range(max(lengths))
+    }
+    return [row for row, place in zip(rows, zip(*columns, strict=True), strict=True) if place not in tried]
+
+
+def _values(row: pytest.Item) -> list[tuple[int, ...]]:
+    """What stands for the values that a test has of each of its lists of parameters."""
+    params = row.callspec.params  # type: ignore[attr-defined]
+    named = [mark.args[0] for mark in row.iter_markers("parametrize")]
+    lists = [[name.strip() for name in names.split(",")] if isinstance(names, str) else names for names in named]
+    return [tuple(id(params[name]) for name in names) for names in lists]
+
+
+def _numbered(column: tuple[tuple[int, ...], ...]) -> list[int]:
+    """Equal ones have equal numbers, by where they come first."""
+    first = {value: number for number, value in enumerate(dict.fromkeys(column))}
+    return [first[value] for value in column]

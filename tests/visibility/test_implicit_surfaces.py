@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from support.effort import several
 from support.smooth_scenes import lit, ring, views
 from support.smooth_seen import Chords, chords_seen
 
@@ -109,7 +110,7 @@ def images(view: View, chords: Chords, which: np.ndarray) -> list[np.ndarray]:
 @pytest.mark.parametrize("name", BOTH_FORMS)
 def test_both_forms_of_a_surface_give_the_same_drawing(name: str) -> None:
     one, two = (lit(Item(name, shape, curves=LINES)) for shape in BOTH_FORMS[name])
-    for camera in views(one, 2, len(name)):
+    for camera in views(one, several(1, long=2), len(name)):
         a, b = (chords_seen(scene, camera) for scene in (one, two))
         assert np.abs(a.lengths() - b.lengths()).max() < 1e-4 * a.length.sum()
         view = look(one, camera)

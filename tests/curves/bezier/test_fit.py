@@ -58,6 +58,7 @@ def test_a_circle_is_smooth_and_within_the_tolerance(tolerance):
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("tolerance", [1e-1, 1e-2, 1e-3, 1e-4, 1e-5])
 @pytest.mark.parametrize("with_tangents", [False, True])
 def test_the_tolerance_is_kept_on_sine_ellipse_and_helix(tolerance, with_tangents):

@@ -76,6 +76,7 @@ CURVES = {
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("tolerance", [0.2, 0.02, 0.002])
 @pytest.mark.parametrize("name", CURVES)
 def test_curves_lie_within_the_tolerance_of_the_true_ones(name, tolerance):

@@ -51,6 +51,7 @@ def test_lines_side_by_side_stay_two(angle, gap):
     assert canonical(once(both)) == canonical(both)
 
 
+@pytest.mark.spread
 @pytest.mark.parametrize("angle", np.radians([0.0, 30.0, 44.9999, 45.0, 45.0001, 90.0, 135.0, 179.999999]))
 @pytest.mark.parametrize("length", [0.05, 1.0, 40.0, 250.0])
 def test_lines_within_the_tolerance_are_one_at_every_angle_and_length(angle, length):

@@ -135,6 +135,7 @@ def test_the_double_of_a_light_is_its_mirror_image_and_weaker() -> None:
     assert np.isclose(lamp.intensity, MIRRORED_SHARE / np.sqrt(3.0))
 
 
+@pytest.mark.spread
 @pytest.mark.parametrize("sun", [(1.0, 0.0, 1.0), (2.0, -0.5, 3.0), (1.0, 1.0, 0.7)])
 @pytest.mark.parametrize("eye", [(6.0, -9.0, 7.0), (2.0, 3.0, 9.0)])
 @pytest.mark.parametrize("turn", range(4))

@@ -30,6 +30,7 @@ def scene_view(parallel: bool, turned: bool = False) -> View:
 
 
 @pytest.mark.capability("G6.3-aura")
+@pytest.mark.spread
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("turned", [False, True])
 @pytest.mark.parametrize("lights", [1, 3])

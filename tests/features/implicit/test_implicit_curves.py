@@ -318,6 +318,7 @@ def test_a_user_function_without_derivatives():
     assert_same_curve(lines(implicit_contour(stacked, EYE)), lines(curves), 1e-2)
 
 
+@pytest.mark.spread
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("offset", [0.0, 1e6])
 def test_scaled_and_shifted_scenes_are_the_same(scale, offset):

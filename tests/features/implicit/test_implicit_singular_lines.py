@@ -136,6 +136,7 @@ def test_lines_in_which_a_surface_crosses_itself_are_found_whole(name: str) -> N
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("away", [0.0, 1e3])
 def test_wherever_the_surface_stands_and_whatever_its_size(size: float, away: float) -> None:

@@ -100,6 +100,7 @@ CUBE = box((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0))
 
 @pytest.mark.slow
 @pytest.mark.capability("G9.3-sections")
+@pytest.mark.spread
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("offset", [0.0, 1e6])
 def test_a_sphere_cuts_round_holes_into_the_faces_of_a_cube(scale, offset) -> None:

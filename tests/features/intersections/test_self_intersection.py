@@ -100,6 +100,7 @@ def test_double_curve_of_a_klein_bottle_closes_though_its_domain_does_not():
 
 @pytest.mark.slow
 @pytest.mark.hard(48)
+@pytest.mark.spread
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("offset", [0.0, 1e6])
 def test_double_line_of_the_umbrella_ends_in_the_pinch_point(scale, offset):

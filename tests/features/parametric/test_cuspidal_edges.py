@@ -18,6 +18,7 @@ SQUARE = Domain(-1, 1, -1, 1)
 
 @pytest.mark.slow
 @pytest.mark.hard(49)
+@pytest.mark.spread
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("end", [1.0, 1.3])
 def test_edge_of_the_tangents_of_a_helix_is_the_helix(scale, end):

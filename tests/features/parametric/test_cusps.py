@@ -30,6 +30,7 @@ def torus_cusps(major, minor, slant):
 
 @pytest.mark.hard(29)
 @pytest.mark.capability("G8.4-contour")
+@pytest.mark.spread
 @pytest.mark.parametrize(("major", "minor"), [(3.0, 1.0), (3.0, 2.0), (3e6, 2e6)])
 @pytest.mark.parametrize("slant", [1.0, 1.2, 1.4, 1.55])
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4])

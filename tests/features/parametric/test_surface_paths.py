@@ -26,6 +26,7 @@ def knot(p: int, q: int):
 
 @pytest.mark.slow
 @pytest.mark.capability("G8.2-surface")
+@pytest.mark.spread
 @pytest.mark.parametrize(("p", "q"), KNOTS)
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
 def test_knots_on_a_torus_are_one_closed_curve_over_all_seams(p: int, q: int, tolerance: float) -> None:
@@ -98,6 +99,7 @@ def on_curve(drawing: vp.Drawing) -> tuple[float, float]:
 
 @pytest.mark.slow
 @pytest.mark.capability("G8.2-surface", "G3.0-language")
+@pytest.mark.spread
 @pytest.mark.parametrize(
     "camera", [vp.Camera((9, -14, 10)), vp.Camera((3, 2, 12)), vp.Camera((8, 1, 3), parallel=True)]
 )

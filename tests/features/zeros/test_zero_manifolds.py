@@ -77,6 +77,7 @@ def assert_same(one, other):
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("chords", [False, True])
 @pytest.mark.parametrize("members", [OPEN, ROUND, BALLS], ids=["open", "round", "balls"])
 def test_each_is_traced_as_if_it_were_alone(members, chords):

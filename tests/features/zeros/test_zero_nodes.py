@@ -25,6 +25,7 @@ def distances(found, expected):
 
 
 @pytest.mark.hard(38)
+@pytest.mark.spread
 @pytest.mark.parametrize("cells", [8, 11, 12, 25, 32, 47])
 @pytest.mark.parametrize(("f", "nodes"), WITH_NODES.values(), ids=WITH_NODES.keys())
 def test_nodes_at_lattice_points_are_found(f, nodes, cells):
@@ -77,6 +78,7 @@ def test_single_points_at_lattice_points_are_found(sign, cells):
 
 
 @pytest.mark.hard(39)
+@pytest.mark.spread
 @pytest.mark.parametrize("sign", [1.0, -1.0], ids=["valley", "hill"])
 @pytest.mark.parametrize("share", [(0, 0.5), (0.5, 0.5), (0.25, 0), (1 / 3, 0), (0.1875, 0.25), (0.2718, 1 / 512)])
 def test_single_points_anywhere_in_a_cell_are_found_whether_hills_or_valleys(share, sign):
@@ -92,6 +94,7 @@ def test_single_points_anywhere_in_a_cell_are_found_whether_hills_or_valleys(sha
 
 
 @pytest.mark.hard(38)
+@pytest.mark.spread
 @pytest.mark.parametrize("cells", [8, 9, 10, 24, 25, 47])
 @pytest.mark.parametrize("start", [0.0, 1.0])
 @pytest.mark.parametrize(

@@ -199,6 +199,7 @@ def test_scale_changes_nothing():
 
 
 @pytest.mark.capability("G5.8-sepplane")
+@pytest.mark.spread
 @pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("count", [0, 1, 3, 14])
 def test_what_keeps_shapes_apart_is_found_again_for_those_that_moved(seed, count, monkeypatch):

@@ -62,6 +62,7 @@ def scene(*meshes: Mesh) -> vp.Scene:
 
 @pytest.mark.slow
 @pytest.mark.hard(73)
+@pytest.mark.spread
 @pytest.mark.parametrize("name", SHAPES)
 @pytest.mark.parametrize("pieces", [2, 5, None])
 def test_seams_of_arrays_are_no_boundaries_in_any_verb(name: str, pieces: int | None) -> None:

@@ -51,6 +51,7 @@ def image_areas(scene: Scene, camera: Camera) -> list[float]:
 
 @pytest.mark.slow
 @pytest.mark.hard(76, 18, 19)
+@pytest.mark.spread
 @pytest.mark.parametrize(("scale", "shift"), [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 1e6)])
 @pytest.mark.parametrize("size", [(60, 45), (500, 380)])
 def test_the_smaller_of_faces_in_one_plane_is_seen_at_every_size_distance_and_scale(scale, shift, size) -> None:

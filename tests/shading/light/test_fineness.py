@@ -49,6 +49,7 @@ def made(surface, camera: Camera | None = None, tolerance_mm: float = 0.02):
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("name", CLOSED)
 @pytest.mark.parametrize("eye", [(8.0, -16.0, 11.0), (3.0, 20.0, -4.0)])
 def test_neighbours_of_different_sizes_share_their_vertices(name, eye):
@@ -105,7 +106,9 @@ def true_outlines(name, eye):
     return [*(true[k] for k in range(len(true))), *borders]
 
 
-@pytest.mark.parametrize("tolerance", [1.0, 0.1, *(pytest.param(t, marks=pytest.mark.slow) for t in (0.02, 0.01))])
+@pytest.mark.slow
+@pytest.mark.spread
+@pytest.mark.parametrize("tolerance", [0.1, 0.02, 1.0, 0.01])
 @pytest.mark.parametrize("eye", [(7.0, -5.0, 14.0), (8.0, -16.0, 11.0), (3.0, 20.0, -8.0)])
 @pytest.mark.parametrize("name", OUTLINED)
 def test_outlines_are_within_the_tolerance_whatever_it_is(name, eye, tolerance):

@@ -44,6 +44,7 @@ def painted_items(scene: Scene, camera: Camera) -> tuple[np.ndarray, np.ndarray]
 
 
 @pytest.mark.capability("G5.7-groups", "G3.0-language")
+@pytest.mark.spread
 @pytest.mark.parametrize("camera", AROUND)
 @pytest.mark.parametrize("seed", range(3))
 def test_paint_keeps_groups_of_files_together_and_shows_the_same_picture(camera, seed):

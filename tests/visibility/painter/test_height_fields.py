@@ -76,6 +76,7 @@ def seen_from_everywhere(mesh: Mesh, seed: int, parallel: bool) -> Camera:
 
 @pytest.mark.slow
 @pytest.mark.capability("G5.4-graph")
+@pytest.mark.spread
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("make", [field, scattered])
 def test_what_is_in_front_comes_later(make, parallel: bool) -> None:

@@ -52,6 +52,7 @@ def assert_right(scene: Scene, camera: Camera, samples: int = 400) -> None:
 
 @pytest.mark.slow
 @pytest.mark.capability("G5.0-painter", "G5.0-sepplane-rule", "G5.1-facetypes", "G5.1-convex")
+@pytest.mark.spread
 @pytest.mark.parametrize("seed", range(21))
 @pytest.mark.parametrize("kind", STREWN)
 def test_random_scenes_as_rays_see_them(kind, seed):

@@ -108,6 +108,7 @@ def test_in_the_system_of_a_light_what_is_in_front_shadows_what_is_behind(light,
 
 @pytest.mark.slow
 @pytest.mark.capability("G5.5-rect", "G5.5-depth", "G5.5-outlines", "G5.5-which-first", "G5.6-priorities")
+@pytest.mark.spread
 @pytest.mark.parametrize("critical", [False, True])
 @pytest.mark.parametrize("seed", range(8))
 def test_tables_agree_with_rays(seed, critical):

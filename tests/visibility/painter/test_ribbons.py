@@ -110,6 +110,7 @@ def wrong_points(view, faces, samples=400):
 
 @pytest.mark.slow
 @pytest.mark.capability("G5.3-sliced")
+@pytest.mark.spread
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("name", SHAPES)
 def test_surfaces_painted_ribbon_by_ribbon_show_what_is_nearest(name, parallel):

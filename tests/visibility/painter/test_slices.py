@@ -159,6 +159,7 @@ DOMAINS = {
 
 
 @pytest.mark.capability("G5.4-graph-horizontal")
+@pytest.mark.spread
 @pytest.mark.parametrize("domain", DOMAINS)
 @pytest.mark.parametrize("height", [4.0, 0.6, 0.05, -0.4, -5.0])
 def test_graphs_over_any_domain_in_horizontal_slices_from_above_below_and_amid_them(domain, height):
@@ -202,6 +203,7 @@ def revolved(meridian, order):
 
 
 @pytest.mark.capability("G5.2-revolution")
+@pytest.mark.spread
 @pytest.mark.parametrize("name", MERIDIANS)
 @pytest.mark.parametrize(
     "eye",

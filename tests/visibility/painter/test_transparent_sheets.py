@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
+from support.effort import several
 
 from vectorplot.arrays import Ints
 from vectorplot.backends.page.page_marks import page_marks
@@ -89,8 +90,9 @@ def test_the_most_transparent_one_is_cut_where_others_end():
     assert front.area == pytest.approx(4.0), "what lies on the other item, and no more"
 
 
+@pytest.mark.spread
 @pytest.mark.parametrize("opacity", [(0.5, 0.5, 0.5), (0.2, 0.5, 0.8), (0.5, 0.5, 0.8)])
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(several(4, long=24)))
 def test_random_heaps_show_the_same(seed, opacity):
     random = np.random.default_rng(seed)
     faces = squares(random.uniform(0.0, 10.0, (40, 2)))
@@ -112,6 +114,7 @@ def ball(x: float, radius: float, opacity: float = 0.5) -> Item:
 
 @pytest.mark.slow
 @pytest.mark.hard(77)
+@pytest.mark.spread
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("eye", [(10.0, -20.0, 8.0), (0.0, -20.0, 0.0), (18.0, -3.0, 2.0), (-3.0, 2.0, 20.0)])
 @pytest.mark.parametrize("kind", ["apart", "one in the other", "ring about a ball", "with an opaque one"])
@@ -144,6 +147,7 @@ BODIES = {
 
 @pytest.mark.slow
 @pytest.mark.hard(77)
+@pytest.mark.spread
 @pytest.mark.parametrize("opacities", [(0.5, 0.5), (0.3, 0.6), (0.8, 0.2)])
 @pytest.mark.parametrize("eye", [(10.0, -20.0, 8.0), (18.0, -3.0, 2.0)])
 @pytest.mark.parametrize("kind", BODIES)

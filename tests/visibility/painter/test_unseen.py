@@ -77,6 +77,7 @@ def test_what_does_not_hide_covers_nothing():
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("eye", EYES)
 @pytest.mark.parametrize("name", SURFACES)
 def test_all_of_what_is_left_out_is_painted_over(name, eye, tmp_path):

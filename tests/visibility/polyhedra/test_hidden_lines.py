@@ -54,7 +54,7 @@ def test_hard_shapes_as_rays_see_them(name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(several(20, long=40)))
 def test_random_scenes_as_rays_see_them(seed: int) -> None:
     scenes = random_convex_solids(14, seed), rotated_boxes(25, seed)
     for scene in scenes:
@@ -108,6 +108,7 @@ def lengths_by_count(result: Seen) -> np.ndarray:
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
 @pytest.mark.parametrize("name", ["rotated boxes", "box on table", "torus mesh", "nine touching cubes", "hollow tube"])
 def test_the_size_of_the_scene_changes_nothing(name: str, scale: float) -> None:

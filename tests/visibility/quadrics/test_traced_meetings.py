@@ -32,6 +32,7 @@ def strokes_of(drawing):
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("name", PAIRS)
 def test_every_point_is_hidden_by_as_many_items_as_rays_meet(name, parallel):

@@ -69,6 +69,7 @@ def test_directions_are_those_of_the_curves(name):
 
 @pytest.mark.slow
 @pytest.mark.hard(29)
+@pytest.mark.spread
 @pytest.mark.parametrize("shape", [Torus(3.0, 1.0), ImplicitTorus(3.0, 1.0)], ids=["parametrised", "implicit"])
 @pytest.mark.parametrize("parallel", [True, False])
 def test_at_a_cusp_a_contour_arrives_and_turns_back(shape, parallel):
