@@ -13,13 +13,14 @@ from support.drawn import drawn
 from support.hard_shapes import HARD_SHAPES
 from support.paths import DATA, MODELS
 
-from vectorplot.draw import default_camera, draw
+from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.read_file import read
 from vectorplot.plan import StageReport
+from vectorplot.scene.point_of_view import default_camera
 from vectorplot.scene.scene import Item, Page, Pattern, Scene
 from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, edge_points
 from vectorplot.testing.shapes import box, rotated_boxes

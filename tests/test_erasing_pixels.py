@@ -16,10 +16,10 @@ from support.paths import DATA
 import vectorplot as vp
 from vectorplot.arrays import Floats
 from vectorplot.backends.cairo.surfaces import png_bytes
-from vectorplot.draw import default_camera
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import FillKind
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.scene.point_of_view import default_camera
 from vectorplot.scene.scene import Scene
 from vectorplot.words import LINE_WORDS
 

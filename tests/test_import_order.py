@@ -25,8 +25,8 @@ ORDER = [
 ]
 VERBS = {"draw", "paint", "painting", "read", "render", "save", "plan"}
 
-# A Drawing shows itself in a notebook; the import happens when the notebook asks.
-ALLOWED = {("drawing/drawing.py", "backends")}
+# Pictures show themselves in a notebook and save themselves; the import happens when they are asked to.
+ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "verbs"), ("shading/raster/image.py", "verbs")}
 
 FOR_PROGRAMS = {
     "drawing/lettering/accents.py",

@@ -13,11 +13,11 @@ from support.rendered import SIZE, SUN, coloured_boxes, grown, levels, sphere
 
 import vectorplot as vp
 from vectorplot import render as render_verb
-from vectorplot.draw import default_camera
 from vectorplot.errors import InputError
 from vectorplot.plan import StageReport
 from vectorplot.render import render
 from vectorplot.save import write
+from vectorplot.scene.point_of_view import default_camera
 from vectorplot.shading.light.illumination import AMBIENT, DARK_SIDE, DIRECT_SHARE, FINISHES
 from vectorplot.shading.light.palettes import PALETTE_LIMITS, palette
 from vectorplot.shading.raster import scene_pixels

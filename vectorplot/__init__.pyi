@@ -9,6 +9,7 @@ from .paint import paint
 from .read import read
 from .render import render
 from .save import save
+from .scene.plots import graph, surface, tube
 from .scene.scene import Item, Light, Material, Page, Pattern, Scene
 from .scene.surface_lines import Section, SurfaceLines
 from .shading.raster.image import Image
@@ -38,8 +39,11 @@ __all__ = [
     "SurfaceLines",
     "accuracy",
     "draw",
+    "graph",
     "paint",
     "read",
     "render",
     "save",
+    "surface",
+    "tube",
 ]

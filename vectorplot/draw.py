@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import replace
@@ -19,12 +18,13 @@ from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.drawing.strokes.shared_kinds import with_shared_kinds
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.budget import Budget, budget_of, line_each
-from vectorplot.geometry.cameras.camera import Camera, Point
+from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.chunks import threads_of
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.vectors import cross, normalize
+from vectorplot.io.anything import scene_of
 from vectorplot.plan import StageReport, Walk, accuracy_of_draw, plan_cuts, plan_draw, with_accuracy
 from vectorplot.scene.placement import Placement, mm_per_image
+from vectorplot.scene.point_of_view import camera_of, page_of
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.seamless_scene import without_seams
 from vectorplot.scene.unbounded_items import tell_what_is_cut_off
@@ -57,26 +57,11 @@ SHORTEST_MM = 1.0
 """To parts shorter than this no stroke is cut: it would be dots."""
 
 
-def default_camera(scene: Scene, up: Point = (0.0, 0.0, 1.0)) -> Camera:
-    """A central projection of the whole scene from the front, the right and above, for what stands upright along up.
-
-    The front of a scene with z upwards is where y is smallest, with y upwards where z is largest.
-    """
-    low, high = scene.bounds
-    centre, size = (low + high) / 2.0, math.dist(low, high)
-    above = normalize(up)
-    # Without a direction upwards, or with x upwards, something has to be the right.
-    front = cross((1.0, 0.0, 0.0) if abs(above[0]) < 0.9 else (0.0, -1.0, 0.0), above)
-    direction = normalize(0.45 * cross(above, normalize(front)) + 0.8 * normalize(front) + 0.45 * above)
-    eye = centre + direction * 2.2 * (size if size > 0.0 else 1.0)
-    return Camera(eye=tuple(eye.tolist()), target=tuple(centre.tolist()))
-
-
 def draw(
-    scene: Scene,
-    camera: Camera | None = None,
+    scene: object,
+    camera: Camera | str | None = None,
     *,
-    page: Page | None = None,
+    page: Page | str | None = None,
     fit: bool = True,
     lines: str | Iterable[str] | None = None,
     crease_angle_deg: float = 25.0,
@@ -96,12 +81,12 @@ def draw(
 
     Parameters
     ----------
-    scene : Scene
-        What is drawn.
-    camera : Camera, optional
-        That of the scene where None, else default_camera.
-    page : Page, optional
-        That of the scene where None, else A4.
+    scene : Scene, path, Item, Mesh, surface, curve, or several of these
+        What is drawn, as of `io.scene_of`.
+    camera : Camera or str, optional
+        Or the name of a main view, such as "front" or "iso"; where None that of the scene, else default_camera.
+    page : Page or str, optional
+        Or its name or size, such as "A4", "A5 landscape" or "200x150"; where None that of the scene, else A4.
     fit : bool
         The picture fills the page but for its margin; otherwise the page centre is the target and the page height the
         camera's picture height.
@@ -142,9 +127,12 @@ def draw(
     Raises
     ------
     InputError
+        As of `io.scene_of`.
         For unknown words, impossible cameras, and widths and angles out of range; for a tolerance or a budget that is
         not finite and positive; for hidden lines, a halo or layers other than by kind in a wireframe, which has colours
         of its own.
+    TypeError
+        For what is nothing of that kind.
 
     Warns
     -----
@@ -176,10 +164,10 @@ def draw(
     allowed, threads = budget_of(budget), threads_of(jobs)
     _check_style(style, hidden=hidden != "none", halo_mm=halo_mm > 0.0, layers=layers != "kind")
     kinds = line_kinds((DRAWN if style == "plain" else WIRES) if lines is None else lines)
-    scene = without_seams(scene)
+    scene = without_seams(scene_of(scene))
     tell_what_is_cut_off(scene)
-    camera = camera or scene.camera or default_camera(scene)
-    page = page or scene.page or Page()
+    camera = camera_of(camera, scene)
+    page = page_of(page, scene)
     smooth = curves == "bezier" and any(not isinstance(item.shape, Mesh) for item in scene.items)
     stages = with_accuracy(plan_draw(scene, kinds, hidden, halo_mm, style), accuracy_of_draw(tolerance_mm, smooth))
     walk = Walk((*plan_cuts(camera), *stages), explain, progress, threads)

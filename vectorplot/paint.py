@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from vectorplot.arrays import Ints
-from vectorplot.draw import default_camera, seen_part
+from vectorplot.draw import seen_part
 from vectorplot.drawing.drawing import Drawing, Layer
 from vectorplot.drawing.painted_fills import placement_of_faces, shown_faces
 from vectorplot.errors import InputError
@@ -18,6 +18,7 @@ from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.chunks import threads_of
+from vectorplot.io.anything import scene_of
 from vectorplot.painting.coloured import coloured
 from vectorplot.painting.erased import erased
 from vectorplot.painting.reports import tell_groups, tell_knots, tell_slices, warn_of_guesses
@@ -25,6 +26,7 @@ from vectorplot.painting.ruler import PEN, Ruler
 from vectorplot.painting.seen import Seen, without_unseen_facets
 from vectorplot.plan import StageReport, Walk, accuracy_of_paint, plan_cuts, plan_paint, with_accuracy
 from vectorplot.scene.placement import allowed_in_space
+from vectorplot.scene.point_of_view import camera_of, page_of
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seamless_scene import without_seams
 from vectorplot.scene.twins import without_twins
@@ -47,10 +49,10 @@ from vectorplot.words import LINE_WORDS, check_word, line_kinds
 
 
 def paint(
-    scene: Scene,
-    camera: Camera | None = None,
+    scene: object,
+    camera: Camera | str | None = None,
     *,
-    page: Page | None = None,
+    page: Page | str | None = None,
     fit: bool = True,
     lights: Sequence[Light] | None = None,
     shadows: Literal["auto", "none"] = "auto",
@@ -70,12 +72,12 @@ def paint(
 
     Parameters
     ----------
-    scene : Scene
-        What is painted.
-    camera : Camera, optional
-        That of the scene where None, else default_camera.
-    page : Page, optional
-        That of the scene where None, else A4.
+    scene : Scene, path, Item, Mesh, surface, curve, or several of these
+        What is painted, as of `io.scene_of`.
+    camera : Camera or str, optional
+        As of draw.
+    page : Page or str, optional
+        As of draw.
     fit : bool
         The picture fills the page but for its margin; otherwise the page centre is the target and the page height the
         camera's picture height.
@@ -117,7 +119,10 @@ def paint(
 
     Raises
     ------
+    TypeError
+        For what is nothing of that kind.
     InputError
+        As of `io.scene_of`.
         For unknown words and colours, impossible cameras, and widths and counts out of range; for a tolerance or a
         budget that is not finite and positive.
 
@@ -142,10 +147,11 @@ def paint(
     _check_options(shadows, aura_mm, palette, fills, crease_angle_deg, tolerance_mm)
     budget_of(budget)
     threads = threads_of(jobs)
-    scene = without_seams(scene if lights is None else replace(scene, lights=tuple(lights)))
+    given = scene_of(scene)
+    scene = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
     tell_what_is_cut_off(scene)
-    camera = camera or scene.camera or default_camera(scene)
-    page = page or scene.page or Page()
+    camera = camera_of(camera, scene)
+    page = page_of(page, scene)
     kinds = line_kinds(lines)
     stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
     walk = Walk((*plan_cuts(camera), *stages), explain, progress, threads)

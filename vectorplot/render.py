@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from vectorplot.arrays import Bools, Ints
-from vectorplot.draw import default_camera, lines_in_place, seen_part, with_smooth_surfaces
+from vectorplot.draw import lines_in_place, seen_part, with_smooth_surfaces
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.facets import Within
 from vectorplot.geometry.budget import budget_of
@@ -18,6 +18,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.projection import CoordinateSystem
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.chunks import threads_of
+from vectorplot.io.anything import scene_of
 from vectorplot.plan import (
     StageReport,
     Walk,
@@ -30,6 +31,7 @@ from vectorplot.plan import (
     with_accuracy,
 )
 from vectorplot.scene.placement import Placement, allowed_in_space
+from vectorplot.scene.point_of_view import camera_of
 from vectorplot.scene.scene import Light, Page, Scene
 from vectorplot.scene.seamless_scene import without_seams
 from vectorplot.scene.twins import without_twins
@@ -87,8 +89,8 @@ BACKGROUND = "white"
 
 
 def render(
-    scene: Scene,
-    camera: Camera | None = None,
+    scene: object,
+    camera: Camera | str | None = None,
     *,
     size: tuple[int, int] = SIZE,
     fit: bool = True,
@@ -111,10 +113,10 @@ def render(
 
     Parameters
     ----------
-    scene : Scene
-        What is shown.
-    camera : Camera, optional
-        That of the scene where None, else default_camera.
+    scene : Scene, path, Item, Mesh, surface, curve, or several of these
+        What is shown, as of `io.scene_of`.
+    camera : Camera or str, optional
+        As of draw.
     size : (int, int)
         Columns and rows, in pixels.
     fit : bool
@@ -159,7 +161,10 @@ def render(
 
     Raises
     ------
+    TypeError
+        For what is nothing of that kind.
     InputError
+        As of `io.scene_of`.
         For unknown words and colours, impossible cameras, and sizes out of range; for a budget that is not finite and
         positive, and for lights without a direction or too far away.
 
@@ -192,10 +197,11 @@ def render(
     settings = MapSettings(shadow_size, shadow_bits, shadow_casters, shadow_focus)
     budget_of(budget)
     threads = threads_of(jobs)
-    scene = without_seams(scene if lights is None else replace(scene, lights=tuple(lights)))
+    given = scene_of(scene)
+    scene = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
     _check_lights(scene.lights)
     tell_what_is_cut_off(scene)
-    camera = camera or scene.camera or default_camera(scene)
+    camera = camera_of(camera, scene)
     how, why = chosen_shadows(scene, camera, size, fit) if shadows == "auto" else (shadows, "")
     said = accuracy_of_render(FACET_PIXELS, how, shadow_size)
     stages = with_accuracy(plan_render(scene, how, bool(kinds), why), said)

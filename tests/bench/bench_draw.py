@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from vectorplot.draw import default_camera
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.point_of_view import default_camera
 from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.scene.view import look
 from vectorplot.speed.clock import cpu_seconds

@@ -8,12 +8,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.draw import default_camera
 from vectorplot.effects.glass.glass_polygons import seen_in_glass
 from vectorplot.effects.mirrors.reflections import mirrors, reflections
 from vectorplot.geometry.bodies_of_revolution import revolution
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
+from vectorplot.scene.point_of_view import default_camera
 from vectorplot.scene.scene import Item, Light, Material, Scene
 from vectorplot.scene.view import look
 from vectorplot.speed.clock import cpu_seconds

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from vectorplot.backends.svg.document import svg_bytes
-from vectorplot.draw import default_camera
 from vectorplot.drawing.fills_without_overlaps import visible_fills
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.convex_hulls import hull_mesh
 from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
+from vectorplot.scene.point_of_view import default_camera
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View, look
 from vectorplot.speed.clock import cpu_seconds

@@ -17,7 +17,7 @@ pytestmark = pytest.mark.bench
 SCRIPT = """
 import time
 import numpy as np
-from vectorplot.draw import default_camera
+from vectorplot.scene.point_of_view import default_camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.render import render
 from vectorplot.scene.scene import Item, Light, Material, Scene

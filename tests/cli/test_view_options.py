@@ -5,8 +5,8 @@ import pytest
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.cli.view_options import CameraOptions, PageOptions, camera_from, page_from
-from vectorplot.draw import default_camera
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
+from vectorplot.scene.point_of_view import default_camera
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.view import look
 from vectorplot.shading.raster.screen import picture_placement, pixel_system

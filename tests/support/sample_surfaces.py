@@ -26,10 +26,9 @@ from vectorplot.surfaces.families.translation import translation_surface
 from vectorplot.surfaces.function import surface_of_function
 from vectorplot.surfaces.graph_regions import Disc
 from vectorplot.surfaces.graphs import graph, graph_over_disc
-from vectorplot.surfaces.implicit_function import hessians
 from vectorplot.surfaces.splines.landscape import landscape
 from vectorplot.surfaces.splines.spline_surface import nurbs_surface, spline_surface
-from vectorplot.surfaces.surface import Domain, is_parametrised
+from vectorplot.surfaces.surface import Domain, hessians, is_parametrised
 from vectorplot.surfaces.trimmed import TrimmedSurface
 
 

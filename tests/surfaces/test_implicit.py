@@ -23,9 +23,10 @@ from vectorplot.surfaces.families.quadric import (
     implicit_sphere,
 )
 from vectorplot.surfaces.families.torus import ImplicitTorus, ImplicitTorusByDistance, Torus
-from vectorplot.surfaces.implicit_function import hessians, implicit_of_function
+from vectorplot.surfaces.implicit_function import implicit_of_function
 from vectorplot.surfaces.inversion import InvertedImplicit, InvertedSurface, inverted
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.surface import hessians
 
 BOX = np.array([(-4, -4, -4), (4, 4, 4)])
 TEN = [1, 2, 3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, -1]

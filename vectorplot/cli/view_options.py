@@ -105,10 +105,10 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
 
     An InputWarning says where its field of vision will not look natural.
     """
-    from vectorplot.draw import default_camera
     from vectorplot.errors import InputWarning
     from vectorplot.geometry.cameras.camera import Camera
     from vectorplot.geometry.cameras.lens import lens_advice
+    from vectorplot.scene.point_of_view import default_camera
 
     upright = options.up if options.up is not None and any(options.up) else (0.0, 0.0, 1.0)
     base = scene.camera or default_camera(scene, upright)

@@ -10,12 +10,13 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import is_whole_turns, parameter_range, positive, vector
+from vectorplot.curves.placed import MovableCurve
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import axis_frame
 
 
 @dataclass(frozen=True, eq=False)
-class Circle:
+class Circle(MovableCurve):
     """The circle about an axis of any direction, t the angle; an arc of it where start and end say so.
 
     Parameters

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
@@ -13,6 +13,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import number, positive
+from vectorplot.curves.placed import MovableCurve
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.tolerances.of_numbers import ROUNDING
 
@@ -121,7 +122,7 @@ def cylinder_branches(r: float, s: float, a: float) -> tuple[Curve, ...]:
 
 
 @dataclass(frozen=True)
-class CylinderBranch(ABC):
+class CylinderBranch(MovableCurve):
     """What all branches share: the coordinates as functions with two derivatives; r, s, a: which cylinders."""
 
     r: float

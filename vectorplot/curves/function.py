@@ -9,10 +9,11 @@ from typing import Any
 from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
 from vectorplot.curves.parameters import parameter_range
+from vectorplot.curves.placed import MovableCurve
 
 
 @dataclass(frozen=True, eq=False)
-class FunctionCurve:
+class FunctionCurve(MovableCurve):
     """The curve of a user's function, with its derivatives.
 
     Parameters

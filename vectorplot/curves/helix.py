@@ -12,10 +12,11 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.circle import Circle
 from vectorplot.curves.parameters import number
+from vectorplot.curves.placed import MovableCurve
 
 
 @dataclass(frozen=True, eq=False)
-class Helix:
+class Helix(MovableCurve):
     """The path of a point that turns about an axis and rises along it by `rise` for each radian.
 
     Parameters

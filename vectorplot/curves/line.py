@@ -10,11 +10,12 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import parameter_range, vector
+from vectorplot.curves.placed import MovableCurve
 from vectorplot.errors import InputError
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class Line(MovableCurve):
     """The points p + t q of a straight line, start <= t <= end.
 
     Parameters

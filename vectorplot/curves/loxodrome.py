@@ -9,12 +9,13 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import number, parameter_range, positive
+from vectorplot.curves.placed import MovableCurve
 from vectorplot.errors import InputError
 from vectorplot.tolerances.of_angles import PARALLEL_SINE
 
 
 @dataclass(frozen=True)
-class Loxodrome:
+class Loxodrome(MovableCurve):
     """The curve on a sphere about the origin that crosses all meridians at the same angle.
 
     Parameters

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +12,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import invertible, vector
 from vectorplot.curves.second_derivatives import second_derivatives
+from vectorplot.geometry.motions.movable import Movable
 
 
 class Placed:
@@ -27,6 +29,11 @@ class Placed:
         object.__setattr__(self, "matrix", invertible("a placement", self.matrix))
         object.__setattr__(self, "shift", vector("placement: shift", self.shift))
 
+    def followed_by(self, matrix: ArrayLike) -> tuple[Floats, Floats]:
+        """The matrix (3,3) and the shift (3,) of this placement and, after it, a matrix (4,4) that acts on columns."""
+        rows, shift = rows_and_shift(matrix)
+        return np.asarray(self.matrix) @ rows, np.asarray(self.shift) @ rows + shift
+
     def placed_points(self, points: Floats) -> Floats:
         """(..., 3) where points (..., 3) are placed."""
         return np.asarray(points @ np.asarray(self.matrix) + np.asarray(self.shift))
@@ -36,8 +43,23 @@ class Placed:
         return np.asarray(vectors @ np.asarray(self.matrix))
 
 
+def rows_and_shift(matrix: ArrayLike) -> tuple[Floats, Floats]:
+    """What a matrix (4,4) that acts on columns is to a placement: its matrix (3,3), its shift (3,)."""
+    m = np.asarray(matrix, dtype=np.float64)
+    return m[:3, :3].T, m[:3, 3]
+
+
+class MovableCurve(Movable["PlacedCurve"]):
+    """A curve that can be moved: it becomes a placed one."""
+
+    def transformed(self, matrix: ArrayLike) -> PlacedCurve:
+        """The curve under a matrix (4,4) that acts on columns."""
+        curve: Any = self
+        return PlacedCurve(curve, *rows_and_shift(matrix))
+
+
 @dataclass(frozen=True, eq=False)
-class PlacedCurve(Placed):
+class PlacedCurve(Placed, MovableCurve):
     """A curve moved to where it is wanted: its points x at x @ matrix + shift.
 
     Parameters
@@ -66,6 +88,10 @@ class PlacedCurve(Placed):
     curve: Curve
     matrix: ArrayLike
     shift: ArrayLike = (0.0, 0.0, 0.0)
+
+    def transformed(self, matrix: ArrayLike) -> PlacedCurve:
+        """The curve under a matrix (4,4) that acts on columns, in a single placement."""
+        return PlacedCurve(self.curve, *self.followed_by(matrix))
 
     @property
     def start(self) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -225,6 +226,34 @@ class Drawing:
     def __repr__(self) -> str:
         layers = ", ".join(f"{layer.name} {sum(map(len, layer.marks))}" for layer in self.layers)
         return f"<Drawing {self.title!r}: {self.width_mm:g}x{self.height_mm:g} mm, marks: {layers or 'none'}>"
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the drawing in the format of the suffix, as `vp.save` does.
+
+        Parameters
+        ----------
+        path : str or path
+            The file: svg, ps, eps, pdf, png, json.
+
+        Raises
+        ------
+        InputError
+            For an unknown suffix.
+        OSError
+            Where the file cannot be written.
+
+        Examples
+        --------
+        >>> import os, tempfile
+        >>> import vectorplot as vp
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     vp.Drawing(100, 80, ()).save(os.path.join(folder, "empty.svg"))
+        ...     os.listdir(folder)
+        ['empty.svg']
+        """
+        from vectorplot.save import save
+
+        save(self, path)
 
     def _repr_svg_(self) -> str:
         from vectorplot.backends.svg.document import svg_text

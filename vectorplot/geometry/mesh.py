@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.motions.movable import Movable
 from vectorplot.geometry.repair.circulation import faces_are_closed
 from vectorplot.geometry.repair.pieces import pieces_of_faces
 
@@ -24,7 +25,7 @@ def next_positions(offsets: Ints, position: Ints) -> Ints:
 
 
 @dataclass(frozen=True, eq=False)
-class Mesh:
+class Mesh(Movable["Mesh"]):
     """Vertices and polygonal faces, counter-clockwise seen from outside.
 
     Parameters

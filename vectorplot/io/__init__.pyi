@@ -1,3 +1,4 @@
+from .anything import scene_of
 from .description import describe
 from .expressions.expression import Expression, parse_expression
 from .molecules.molecule import Molecule
@@ -15,5 +16,6 @@ __all__ = [
     "parse_scene",
     "read_molecule",
     "read_scene",
+    "scene_of",
     "write_scene",
 ]

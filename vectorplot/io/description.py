@@ -9,28 +9,36 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.degenerate import without_stutter
 from vectorplot.geometry.repair.mesh_repair import MeshReport, mesh_report, without_loose_vertices
+from vectorplot.io.anything import scene_of
 from vectorplot.io.scenes.scene_surface_writer import curve_text, surface_text
 from vectorplot.scene.extent import smooth_bounds
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Item
 from vectorplot.scene.seamless_scene import without_seams
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.surfaces.parts import creases
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 
 
-def describe(scene: Scene) -> list[str]:
+def describe(scene: object) -> list[str]:
     r"""The lines that say in words what is in a scene, as the command info prints them.
 
     Parameters
     ----------
-    scene : Scene
-        What is described.
+    scene : Scene, path, Item, Mesh, surface, curve, or several of these
+        What is described, as of `scene_of`.
 
     Returns
     -------
     list of str
         One line for every item: counts, closedness, convexity and size of a mesh, or which surface it is and which
         lines there are on it, or which curve; then one line on the whole.
+
+    Raises
+    ------
+    InputError
+        As of `scene_of`.
+    TypeError
+        For what has no shape.
 
     Notes
     -----
@@ -44,6 +52,7 @@ def describe(scene: Scene) -> list[str]:
     ball: surface (sphere), closed in u, size 4 x 4 x 4
     1 item, 1 surface, 0 vertices, 0 edges, 0 faces, 0 lights, size 4 x 4 x 4
     """
+    scene = scene_of(scene)
     low, high = scene.bounds
     joined = without_seams(scene)
     reports = [

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -54,6 +54,10 @@ class FieldLines:
             positive("field lines: distance", self.apart)
         object.__setattr__(self, "through", _rows("field lines", self.through, 2))
 
+    def scaled(self, factor: float) -> FieldLines:
+        """The lines of the surface where it is so many times larger."""
+        return self if self.apart is None else replace(self, apart=factor * self.apart)
+
 
 @dataclass(frozen=True)
 class GeodesicLines:
@@ -87,6 +91,10 @@ class GeodesicLines:
         if self.length is not None:
             positive("geodesics: length", self.length)
         object.__setattr__(self, "starts", _rows("geodesics", self.starts, 3))
+
+    def scaled(self, factor: float) -> GeodesicLines:
+        """The lines of the surface where it is so many times larger."""
+        return self if self.length is None else replace(self, length=factor * self.length)
 
 
 IntegralLines = FieldLines | GeodesicLines

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.motions.movable import Movable
 from vectorplot.scene.extent import in_range, smooth_bounds
-from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
+from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, linear_growth
 from vectorplot.surfaces.balls import ball_of, bounds_of_balls
 from vectorplot.surfaces.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
+from vectorplot.surfaces.placed import placed_shape
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 from vectorplot.words import MATERIALS, check_colour, line_words, unknown_material
 
@@ -166,7 +169,7 @@ class Pattern:
 
 
 @dataclass(frozen=True, eq=False)
-class Item:
+class Item(Movable["Item"]):
     """A shape in the scene, and how it is drawn.
 
     Parameters
@@ -218,6 +221,40 @@ class Item:
         check_colour(self.colour, f"{self.name}: ")
         if self.lines is not None:
             object.__setattr__(self, "lines", line_words(self.lines))
+
+    def transformed(self, matrix: ArrayLike) -> Item:
+        """The item under a 4x4 matrix acting on columns, with what lies on it.
+
+        Parameters
+        ----------
+        matrix : (4, 4) array_like of float
+            Rows 0 to 2: rotation, scale and translation.
+
+        Returns
+        -------
+        Item
+            Its sections are in the moved planes; distances on it, and patterns, are larger by the cube root of what its
+            volume is larger by.
+
+        Raises
+        ------
+        InputError
+            For a matrix that cannot be inverted.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> from vectorplot.surfaces import Sphere
+        >>> ball = vp.Item("ball", Sphere(1.0)).scaled(2.0).moved(5.0, 0.0, 0.0)
+        >>> vp.Scene((ball,)).bounds.round(9).tolist()
+        [[3.0, -2.0, -2.0], [7.0, 2.0, 2.0]]
+        """
+        shape = placed_shape(self.shape, matrix)
+        m = np.asarray(matrix, dtype=np.float64)
+        larger = linear_growth(m)
+        patterns = tuple(replace(one, points=larger * one.points) for one in self.patterns) if larger != 1.0 else None
+        curves = self.curves.transformed(m) if self.curves else self.curves
+        return replace(self, shape=shape, curves=curves, patterns=self.patterns if patterns is None else patterns)
 
     @property
     def hides(self) -> bool:
@@ -276,7 +313,7 @@ class Page:
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class Scene(Movable["Scene"]):
     """Items in the order of the file, lights, and what the file says about camera, page and background.
 
     Parameters
@@ -323,6 +360,33 @@ class Scene:
 
     def __len__(self) -> int:
         return len(self.items)
+
+    def transformed(self, matrix: ArrayLike) -> Scene:
+        """The scene with its items under a 4x4 matrix acting on columns; lights, camera and page stay.
+
+        Parameters
+        ----------
+        matrix : (4, 4) array_like of float
+            Rows 0 to 2: rotation, scale and translation.
+
+        Returns
+        -------
+        Scene
+            With all items moved.
+
+        Raises
+        ------
+        InputError
+            For a matrix that cannot be inverted.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+        >>> vp.Scene((vp.Item("triangle", triangle),)).turned("x", 90).bounds.tolist()
+        [[0.0, 0.0, 0.0], [1.0, 0.0, 1.0]]
+        """
+        return replace(self, items=tuple(item.transformed(matrix) for item in self.items))
 
     def __repr__(self) -> str:
         return f"<Scene {self.title!r}: {len(self.items)} items, {len(self.lights)} lights>"

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.errors import InputError
@@ -79,6 +80,36 @@ class Section:
         x, y, z = normal.tolist()
         object.__setattr__(self, "normal", (x, y, z))
         object.__setattr__(self, "offsets", _numbers("sections", self.offsets))
+
+    def transformed(self, matrix: Floats) -> Section:
+        """The same planes under a 4x4 matrix acting on columns.
+
+        Parameters
+        ----------
+        matrix : (4, 4) array of float
+            Rows 0 to 2: rotation, scale and translation.
+
+        Returns
+        -------
+        Section
+            In the moved planes.
+
+        Raises
+        ------
+        InputError
+            Where numbers leave their range.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import vectorplot as vp
+        >>> vp.Section((0, 0, 1), (1, 2)).transformed(np.diag([1.0, 1.0, 3.0, 1.0]))
+        Section(normal=(0.0, 0.0, 1.0), offsets=(3.0, 6.0), slices=False)
+        """
+        normal = np.linalg.solve(matrix[:3, :3].T, self.normal)
+        length, away = float(np.linalg.norm(normal)), float(matrix[:3, 3] @ normal)
+        x, y, z = (normal / length).tolist()
+        return Section((x, y, z), tuple((offset + away) / length for offset in self.offsets), self.slices)
 
 
 @dataclass(frozen=True)
@@ -236,6 +267,37 @@ class SurfaceLines:
         if sum(section.slices for section in self.sections) > 1:
             raise InputError("slices: an item is cut into slices in one direction only")
 
+    def transformed(self, matrix: Floats) -> SurfaceLines:
+        """The lines of the item under a 4x4 matrix acting on columns.
+
+        Parameters
+        ----------
+        matrix : (4, 4) array of float
+            Rows 0 to 2: rotation, scale and translation.
+
+        Returns
+        -------
+        SurfaceLines
+            Sections lie in the moved planes, distances on the surface are larger by the cube root of what volumes are
+            larger by.
+
+        Raises
+        ------
+        InputError
+            Where numbers leave their range.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import vectorplot as vp
+        >>> lines = vp.SurfaceLines(columns=4, sections=(vp.Section((0, 0, 1), (1,)),))
+        >>> lines.transformed(np.diag([2.0, 2.0, 2.0, 1.0])).sections[0].offsets
+        (2.0,)
+        """
+        larger = linear_growth(matrix)
+        integral = tuple(one.scaled(larger) for one in self.integral)
+        return replace(self, sections=tuple(one.transformed(matrix) for one in self.sections), integral=integral)
+
     @property
     def slices(self) -> Section | None:
         """The planes between the slices of the item, or None."""
@@ -243,6 +305,11 @@ class SurfaceLines:
 
     def __bool__(self) -> bool:
         return bool(self.columns or self.rows or self.isophotes or self.sections or self.paths or self.integral)
+
+
+def linear_growth(matrix: Floats) -> float:
+    """How many times longer lengths become, on average, under a matrix (4,4) that acts on columns."""
+    return float(np.cbrt(abs(np.linalg.det(matrix[:3, :3]))))
 
 
 NO_LINES = SurfaceLines()

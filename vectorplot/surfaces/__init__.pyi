@@ -22,6 +22,7 @@ from .families.spiral import spiral_surface
 from .families.swept import Swept
 from .families.torus import ImplicitTorus, ImplicitTorusByDistance, Torus
 from .families.translation import translation_surface
+from .families.tube import tube
 from .function import FunctionSurface, surface_of_function
 from .graph_regions import Disc, PolygonRegion, Region
 from .graphs import Graph, PolarGraph, graph, graph_over_disc
@@ -103,5 +104,6 @@ __all__ = [
     "spline_surface",
     "surface_of_function",
     "translation_surface",
+    "tube",
     "unit_normals",
 ]

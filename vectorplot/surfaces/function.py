@@ -11,6 +11,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, cut_off, numeric_function
 from vectorplot.errors import InputError
+from vectorplot.surfaces.placed import MovableSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_extent import GAP_OF_EXTENT
 
@@ -27,7 +28,7 @@ def ranges_of(domain: Domain) -> tuple[Range, Range]:
 
 
 @dataclass(frozen=True, eq=False)
-class FunctionSurface:
+class FunctionSurface(MovableSurface):
     """The surface of a user's function, with its derivatives.
 
     Parameters

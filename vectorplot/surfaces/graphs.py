@@ -14,12 +14,13 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.function import ranges_of
 from vectorplot.surfaces.graph_regions import Disc, Region
+from vectorplot.surfaces.placed import MovableSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_parameters import ROUNDING_OF_DOMAIN
 
 
 @dataclass(frozen=True, eq=False)
-class Graph:
+class Graph(MovableSurface):
     """The points (u, v, f(u, v)) above a rectangle or a region, normals upwards.
 
     Parameters
@@ -140,7 +141,7 @@ def graph(
 
 
 @dataclass(frozen=True, eq=False)
-class PolarGraph:
+class PolarGraph(MovableSurface):
     """The points (x0 + u cos v, y0 + u sin v, f) above a disc, normals upwards.
 
     Parameters

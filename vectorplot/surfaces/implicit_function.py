@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,11 +12,11 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
 from vectorplot.surfaces.families.quadric import checked_box
-from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.surfaces.placed import MovableImplicit
 
 
 @dataclass(frozen=True, eq=False)
-class ImplicitFunction:
+class ImplicitFunction(MovableImplicit):
     """The zeros of a user's function within a box.
 
     Parameters
@@ -125,29 +125,3 @@ def implicit_of_function(
     ranges = [Range(float(low), float(high)) for low, high in limits.T]
     slopes = None if gradient is None else numeric_function(gradient, 3, ranges)
     return ImplicitFunction(limits, numeric_function(function, 1, ranges), slopes, degree)
-
-
-@runtime_checkable
-class BendingImplicit(Protocol):
-    """An implicit surface that knows its second derivatives; most of this package do."""
-
-    def hessians(self, points: Floats) -> Floats:
-        """(..., 3, 3) second derivatives of F."""
-        ...
-
-
-def hessians(surface: ImplicitSurface, points: Floats) -> Floats:
-    """(..., 3, 3) second derivatives of F at points (..., 3).
-
-    Error: those a surface gives itself are as good as it says; else differences of its gradients, about 1e-12.
-    """
-    if isinstance(surface, BendingImplicit):
-        return surface.hessians(points)
-
-    def gradient(x: Floats, y: Floats, z: Floats) -> Floats:
-        return surface.gradients(np.stack([x, y, z], axis=-1))
-
-    ranges = [Range(float(low), float(high)) for low, high in np.asarray(surface.box).T]
-    slopes = numeric_function(gradient, 3, ranges)
-    rows = np.stack(slopes.gradient(*_coordinates(points)), axis=-2)
-    return np.asarray(0.5 * (rows + np.swapaxes(rows, -1, -2)))

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
 from vectorplot.surfaces.families.quadric import checked_box
+from vectorplot.surfaces.placed import MovableImplicit, MovableSurface
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
 
 
@@ -60,7 +61,7 @@ def _over_square(q: Floats) -> Floats:
 
 
 @dataclass(frozen=True, eq=False)
-class InvertedSurface:
+class InvertedSurface(MovableSurface):
     """A parametrised surface inverted in a sphere.
 
     Parameters
@@ -141,7 +142,7 @@ class InvertedSurface:
 
 
 @dataclass(frozen=True, eq=False)
-class InvertedImplicit:
+class InvertedImplicit(MovableImplicit):
     """An implicit surface inverted in a sphere, the zeros of F(inverse of x), within a box.
 
     Parameters

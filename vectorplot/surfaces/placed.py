@@ -4,19 +4,39 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, runtime_checkable
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
-from vectorplot.curves.placed import Placed
-from vectorplot.surfaces.implicit_function import hessians
-from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
+from vectorplot.curves.curve import Curve, is_curve
+from vectorplot.curves.placed import Placed, PlacedCurve, rows_and_shift
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.motions.movable import Movable
+from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, hessians, is_implicit, is_parametrised
+
+
+class MovableSurface(Movable["PlacedSurface"]):
+    """A parametrised surface that can be moved: it becomes a placed one."""
+
+    def transformed(self, matrix: ArrayLike) -> PlacedSurface:
+        """The surface under a matrix (4,4) that acts on columns."""
+        surface: Any = self
+        return PlacedSurface(surface, *rows_and_shift(matrix))
+
+
+class MovableImplicit(Movable["PlacedImplicit"]):
+    """An implicit surface that can be moved: it becomes a placed one."""
+
+    def transformed(self, matrix: ArrayLike) -> PlacedImplicit:
+        """The surface under a matrix (4,4) that acts on columns."""
+        surface: Any = self
+        return PlacedImplicit(surface, *rows_and_shift(matrix))
 
 
 @dataclass(frozen=True, eq=False)
-class PlacedSurface(Placed):
+class PlacedSurface(Placed, MovableSurface):
     """A surface moved to where it is wanted: its points x at x @ matrix + shift.
 
     Parameters
@@ -45,6 +65,10 @@ class PlacedSurface(Placed):
     surface: Surface
     matrix: ArrayLike
     shift: ArrayLike = (0.0, 0.0, 0.0)
+
+    def transformed(self, matrix: ArrayLike) -> PlacedSurface:
+        """The surface under a matrix (4,4) that acts on columns, in a single placement."""
+        return PlacedSurface(self.surface, *self.followed_by(matrix))
 
     @cached_property
     def domain(self) -> Domain:
@@ -102,7 +126,7 @@ def placed_once(surface: Surface, matrix: ArrayLike, shift: ArrayLike, origin: A
 
 
 @dataclass(frozen=True, eq=False)
-class PlacedImplicit(Placed):
+class PlacedImplicit(Placed, MovableImplicit):
     """An implicit surface moved to where it is wanted: its points x at x @ matrix + shift.
 
     Parameters
@@ -136,6 +160,10 @@ class PlacedImplicit(Placed):
     matrix: ArrayLike
     shift: ArrayLike = (0.0, 0.0, 0.0)
 
+    def transformed(self, matrix: ArrayLike) -> PlacedImplicit:
+        """The surface under a matrix (4,4) that acts on columns, in a single placement."""
+        return PlacedImplicit(self.surface, *self.followed_by(matrix))
+
     @property
     def box(self) -> Floats:
         """(2,3) the box around the eight moved corners."""
@@ -164,3 +192,16 @@ class PlacedImplicit(Placed):
 
 
 _PICKS = [(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+
+
+def placed_shape(shape: Any, matrix: ArrayLike) -> Mesh | Surface | ImplicitSurface | Curve:
+    """A mesh, surface or curve, of this package or of a user, under a matrix (4,4) that acts on columns."""
+    if isinstance(shape, Movable):
+        moved: Mesh | Surface | ImplicitSurface | Curve = shape.transformed(matrix)
+        return moved
+    if is_curve(shape):
+        return PlacedCurve(shape, *rows_and_shift(matrix))
+    if is_parametrised(shape):
+        return PlacedSurface(shape, *rows_and_shift(matrix))
+    assert is_implicit(shape)
+    return PlacedImplicit(shape, *rows_and_shift(matrix))

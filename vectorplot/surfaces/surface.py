@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol, TypeGuard
+from typing import Protocol, TypeGuard, runtime_checkable
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
+from vectorplot.curves.derivatives import Range, numeric_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import cross
 
@@ -155,3 +156,29 @@ def is_parametrised(shape: object) -> TypeGuard[Surface]:
 def is_implicit(shape: object) -> TypeGuard[ImplicitSurface]:
     """Whether a shape is an implicit surface: it has a box and gradients, and no domain."""
     return hasattr(shape, "box") and hasattr(shape, "gradients") and not hasattr(shape, "domain")
+
+
+@runtime_checkable
+class BendingImplicit(Protocol):
+    """An implicit surface that knows its second derivatives; most of this package do."""
+
+    def hessians(self, points: Floats) -> Floats:
+        """(..., 3, 3) second derivatives of F."""
+        ...
+
+
+def hessians(surface: ImplicitSurface, points: Floats) -> Floats:
+    """(..., 3, 3) second derivatives of F at points (..., 3).
+
+    Error: those a surface gives itself are as good as it says; else differences of its gradients, about 1e-12.
+    """
+    if isinstance(surface, BendingImplicit):
+        return surface.hessians(points)
+
+    def gradient(x: Floats, y: Floats, z: Floats) -> Floats:
+        return surface.gradients(np.stack([x, y, z], axis=-1))
+
+    ranges = [Range(float(low), float(high)) for low, high in np.asarray(surface.box).T]
+    slopes = numeric_function(gradient, 3, ranges)
+    rows = np.stack(slopes.gradient(*np.moveaxis(np.asarray(points, dtype=np.float64), -1, 0)), axis=-2)
+    return np.asarray(0.5 * (rows + np.swapaxes(rows, -1, -2)))

@@ -8,6 +8,7 @@ from functools import cached_property
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.errors import InputError
+from vectorplot.surfaces.placed import MovableSurface
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_numbers import ROUNDING
 
@@ -15,7 +16,7 @@ Range = tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False)
-class TrimmedSurface:
+class TrimmedSurface(MovableSurface):
     """The part of a parametrised surface over smaller ranges of u and v.
 
     Parameters

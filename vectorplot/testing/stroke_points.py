@@ -12,8 +12,7 @@ from vectorplot.features.parametric.conditions import CentralContour, ParallelCo
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.vectors import norm
 from vectorplot.scene.scene import Scene
-from vectorplot.surfaces.implicit_function import hessians
-from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
+from vectorplot.surfaces.surface import ImplicitSurface, Surface, hessians, is_implicit, is_parametrised
 from vectorplot.testing.rays.nearest import inside, nearest_places
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.words import LineKind

@@ -15,6 +15,10 @@ ROUNDING = 16.0 * ULP
 """What a few additions and multiplications of doubles may lose, relative to the largest number among them: each loses
 half a step, and a cross product of differences has about a dozen of them one after the other."""
 
+COMPUTED = 2.0**-44
+"""What coordinates that a program computed may be off, relative to the largest of them: sines and sums of sines lose a
+few steps, a seam closes where ends differ by no more."""
+
 ROUNDING_OF_TERMS = 4.0 * ULP
 """What a single sum of a few terms may lose, relative to the largest of its terms: a value no larger is zero."""
 

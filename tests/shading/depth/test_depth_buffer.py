@@ -9,11 +9,11 @@ import pytest
 from support.pixel_rays import beside_edges, first_triangles, pixel_rays
 from support.shaded_scenes import COLUMNS, ROWS, camera_of, floor, sample, triangles_of
 
-from vectorplot.draw import default_camera
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import box
+from vectorplot.scene.point_of_view import default_camera
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.shading.depth.depth_buffer import depth_buffer, depth_range, strips
 from vectorplot.shading.depth.depth_code import DepthCode

@@ -11,7 +11,6 @@ from support.line_distances import distances
 
 from vectorplot.accuracy.of_surfaces.painted_facets import outlines
 from vectorplot.accuracy.truth import on_page
-from vectorplot.draw import default_camera
 from vectorplot.features.facets import facets
 from vectorplot.features.parametric.contour import contour
 from vectorplot.features.parametric.curve_tracing import Tracing
@@ -19,6 +18,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.paint import paint
 from vectorplot.scene.placement import allowed_in_space
+from vectorplot.scene.point_of_view import default_camera
 from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.shading.light.fineness import picture_fineness
 from vectorplot.shading.light.refinement import SHADE_ERROR

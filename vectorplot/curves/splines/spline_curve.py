@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
+from vectorplot.curves.placed import MovableCurve
 from vectorplot.curves.splines.basis import Basis, checked_basis, refined_controls
 from vectorplot.curves.splines.homogeneous import (
     Homogeneous,
@@ -26,7 +27,7 @@ from vectorplot.tolerances.of_numbers import ROUNDING
 
 
 @dataclass(frozen=True, eq=False)
-class SplineCurve:
+class SplineCurve(MovableCurve):
     """A curve of polynomial pieces, or of their quotients: control points over knots (NURBS).
 
     Parameters

@@ -15,8 +15,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import number, vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import dot, normalize
-from vectorplot.surfaces.implicit_function import hessians
-from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.surfaces.surface import ImplicitSurface, hessians
 
 
 class SpatialCondition(Protocol):

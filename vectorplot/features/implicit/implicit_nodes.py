@@ -15,8 +15,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.chord_refinement import Traces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.weld import close_points, one_each
-from vectorplot.surfaces.implicit_function import hessians
-from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.surfaces.surface import ImplicitSurface, hessians
 from vectorplot.tolerances.of_extent import CRITICAL_SETTLED, SECOND_DIFFERENCE_IN_SPACE
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.tolerances.of_values import (

@@ -20,8 +20,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import Polylines
 from vectorplot.geometry.repair.weld import chained, one_each
-from vectorplot.surfaces.implicit_function import hessians
-from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.surfaces.surface import ImplicitSurface, hessians
 from vectorplot.tolerances.of_extent import SAME_ON_LINE
 
 STEPS = 48

@@ -14,8 +14,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.polygonize import checked_values
-from vectorplot.surfaces.implicit_function import hessians
-from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.surfaces.surface import ImplicitSurface, hessians
 from vectorplot.tolerances.of_extent import SECOND_DIFFERENCE_IN_SPACE, SETTLED_ON_LINE
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.tolerances.of_values import RANK_OF_BENDING, SHALLOW_CROSSING, VANISHED_ON_LINE

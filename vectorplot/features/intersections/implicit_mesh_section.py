@@ -17,8 +17,7 @@ from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.tessellation import FREE, Tessellation, edges_of
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import dot
-from vectorplot.surfaces.implicit_function import hessians
-from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.surfaces.surface import ImplicitSurface, hessians
 
 DEFAULT = ImplicitTracing()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 
 from vectorplot.errors import InputError
@@ -54,6 +55,35 @@ class Image:
     def rows(self) -> int:
         """How many rows of pixels there are."""
         return int(self.pixels.shape[0])
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the picture as PNG, as `vp.save` does.
+
+        Parameters
+        ----------
+        path : str or path
+            The file, whose name ends in .png.
+
+        Raises
+        ------
+        InputError
+            For another suffix.
+        OSError
+            Where the file cannot be written.
+
+        Examples
+        --------
+        >>> import os, tempfile
+        >>> import numpy as np
+        >>> import vectorplot as vp
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     vp.Image(np.zeros((4, 6, 3), dtype=np.uint8)).save(os.path.join(folder, "night.png"))
+        ...     os.listdir(folder)
+        ['night.png']
+        """
+        from vectorplot.save import save
+
+        save(self, path)
 
     def png(self) -> bytes:
         """The picture as a PNG file. The same picture gives the same bytes."""

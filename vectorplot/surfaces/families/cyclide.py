@@ -14,6 +14,7 @@ from vectorplot.errors import InputError
 from vectorplot.surfaces.families.quadric import checked_box
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.inversion import InvertedSurface
+from vectorplot.surfaces.placed import MovableImplicit
 from vectorplot.tolerances.of_numbers import ROUNDING
 
 
@@ -57,7 +58,7 @@ def dupin_cyclide(major: float, minor: float, centre: ArrayLike, radius: float) 
 
 
 @dataclass(frozen=True, eq=False)
-class ImplicitCyclide:
+class ImplicitCyclide(MovableImplicit):
     """The polynomial of Dupin's cyclide: the torus' F at the inverse of x, times (its distance / radius)^4.
 
     Parameters

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from dataclasses import replace
 from typing import Any, Self
 
@@ -10,13 +10,14 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry.vectors import from_components
+from vectorplot.surfaces.placed import MovableSurface
 from vectorplot.surfaces.surface import Domain
 
 # (p, q), their first and their second derivatives.
 Profile = tuple[tuple[Floats, Floats], tuple[Floats, Floats], tuple[Floats, Floats]]
 
 
-class EllipticSections(ABC):
+class EllipticSections(MovableSurface):
     """The surface centre + (a p(v) cos u, b p(v) sin u, q(v)): p scales the ellipse of semi-axes a, b at height q.
 
     u runs counter-clockwise from above; where v rises on the outside, the normals point outwards.

@@ -9,11 +9,12 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
+from vectorplot.surfaces.placed import MovableSurface
 from vectorplot.surfaces.surface import Domain
 
 
 @dataclass(frozen=True, eq=False)
-class HyperbolicParaboloid:
+class HyperbolicParaboloid(MovableSurface):
     """The saddle z = x^2/a^2 - y^2/b^2 above the rectangle from -width, -depth to width, depth.
 
     Parameters

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import is_whole_turns, number
 from vectorplot.errors import InputError
+from vectorplot.surfaces.placed import MovableSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_angles import RIGHT_ANGLE_COSINE
 
@@ -56,7 +57,7 @@ class IsotropicCurve(Protocol):
 
 
 @dataclass(frozen=True)
-class MinimalSurface:
+class MinimalSurface(MovableSurface):
     """The real part of exp(i bending) P(u + iv), P an isotropic curve in complex space.
 
     Parameters

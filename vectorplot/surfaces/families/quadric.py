@@ -12,10 +12,11 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import normalize
+from vectorplot.surfaces.placed import MovableImplicit
 
 
 @dataclass(frozen=True, eq=False)
-class Quadric:
+class Quadric(MovableImplicit):
     """F = c0 x^2 + c1 y^2 + c2 z^2 + c3 xy + c4 yz + c5 zx + c6 x + c7 y + c8 z + c9 within a box.
 
     Parameters

@@ -12,11 +12,12 @@ from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.curves.second_derivatives import second_derivatives
 from vectorplot.surfaces.families.motions import Motion
+from vectorplot.surfaces.placed import MovableSurface
 from vectorplot.surfaces.surface import Domain
 
 
 @dataclass(frozen=True, eq=False)
-class Swept:
+class Swept(MovableSurface):
     """The points x(u, v) of a generating curve g(u) after a motion for the time v.
 
     Parameters

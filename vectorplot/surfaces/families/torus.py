@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
 from vectorplot.surfaces.families.elliptic_sections import EllipticSections, Profile
+from vectorplot.surfaces.placed import MovableImplicit
 from vectorplot.surfaces.surface import Domain
 
 
@@ -82,7 +83,7 @@ class Torus(EllipticSections):
 
 
 @dataclass(frozen=True, eq=False)
-class ImplicitTorus:
+class ImplicitTorus(MovableImplicit):
     """F = (x^2 + y^2 + z^2 + a^2 - b^2)^2 - 4 a^2 (x^2 + y^2), negative inside the tube.
 
     Parameters
@@ -148,7 +149,7 @@ class ImplicitTorus:
 
 
 @dataclass(frozen=True, eq=False)
-class ImplicitTorusByDistance:
+class ImplicitTorusByDistance(MovableImplicit):
     """F = (a - sqrt(x^2 + y^2))^2 + z^2 - b^2: squared distance from the middle circle, less b^2; not algebraic.
 
     Parameters

@@ -22,6 +22,7 @@ from vectorplot.curves.splines.homogeneous import (
 )
 from vectorplot.curves.splines.kinds import AkimaSpline, BSpline, SplineKind
 from vectorplot.errors import InputError
+from vectorplot.surfaces.placed import MovableSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
@@ -32,7 +33,7 @@ Pair = tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False)
-class SplineSurface:
+class SplineSurface(MovableSurface):
     """A surface of polynomial pieces, or of their quotients: a grid of control points over knots (NURBS).
 
     Parameters

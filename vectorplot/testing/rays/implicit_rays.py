@@ -8,8 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import norm
-from vectorplot.surfaces.implicit_function import hessians
-from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.surfaces.surface import ImplicitSurface, hessians
 from vectorplot.testing.rays.mesh_rays import Rays
 from vectorplot.testing.rays.surface_rays import AROUND, Hiding
 from vectorplot.tolerances.of_angles import ON_CONTOUR_SINE

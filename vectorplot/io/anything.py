@@ -1,0 +1,183 @@
+"""Whatever has a shape -> a scene: what the verbs take."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, NoReturn
+
+import numpy as np
+
+from vectorplot.arrays import Ints
+from vectorplot.curves.curve import is_curve
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.repair.mesh_repair import mended
+from vectorplot.io.meshes.cells import faces_of_cells
+from vectorplot.io.read_file import read
+from vectorplot.scene.scene import Item, Scene
+from vectorplot.surfaces.surface import is_implicit, is_parametrised
+from vectorplot.tolerances.of_numbers import SINGLE_ULP, ULP
+
+TAKEN = "a path, Scene, Item, Mesh, surface, curve, (vertices, faces), a mesh of trimesh or meshio, or a list of these"
+"""What the verbs take, in words."""
+
+
+def scene_of(shown: object) -> Scene:
+    """The scene that something with a shape is, or makes up.
+
+    Parameters
+    ----------
+    shown : Scene, path, Item, Mesh, surface, curve, mesh of another library, arrays, or several of these
+        A path is read as by `vp.read`. Shapes become gray items named after what they are. A mesh of another library is
+        known by what it has: vertices and faces, as those of trimesh, or points and cells, as those of meshio, whose
+        volumes show their outer faces. Arrays of vertices (n, 3) and of faces (f, k) are a pair. A list or a tuple is
+        all of what is in it, a mapping names it.
+
+    Returns
+    -------
+    Scene
+        Of several scenes all items and lights; camera, page, background and title are those of the first one that has
+        any.
+
+    Raises
+    ------
+    TypeError
+        For anything else, in one sentence.
+    InputError
+        As `vp.read`, for meshes that make no sense, and for a drawing.
+
+    Warns
+    -----
+    InputWarning
+        What was mended of a mesh of another library, or of arrays, as of files.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import io, surfaces
+    >>> corners = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
+    >>> triangles = np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
+    >>> scene = io.scene_of([surfaces.Torus(3, 1), (corners, triangles)])
+    >>> [item.name for item in scene.items]
+    ['torus', 'mesh']
+    """
+    if isinstance(shown, Scene):
+        return shown
+    if isinstance(shown, str | os.PathLike):
+        return _read(shown)
+    item = _item(shown)
+    if item is not None:
+        return Scene((item,))
+    if isinstance(shown, Mapping):
+        return _together([_named(str(name), scene_of(one)) for name, one in shown.items()])
+    dump = getattr(shown, "dump", None)
+    if callable(dump) and hasattr(shown, "geometry"):
+        return _together([scene_of(one) for one in dump()])
+    if isinstance(shown, Iterable) and not isinstance(shown, np.ndarray | bytes):
+        return _together([scene_of(one) for one in shown])
+    _refuse(shown)
+
+
+def _refuse(shown: object) -> NoReturn:
+    raise TypeError(f"expected {TAKEN}, not {type(shown).__name__}")
+
+
+def _read(path: str | os.PathLike[str]) -> Scene:
+    if Path(path).suffix.lower() == ".json":
+        raise InputError("a drawing that was saved: it has no shapes to draw again", file=os.fspath(path))
+    return read(path)
+
+
+def _item(shown: Any) -> Item | None:
+    """The item that something is; None for what is none, or several."""
+    if isinstance(shown, Item):
+        return shown
+    if isinstance(shown, Mesh):
+        return Item("mesh", shown)
+    if isinstance(shown, tuple | list) and len(shown) == 2 and _is_pair(*shown):
+        return Item("mesh", _from_arrays(shown[0], shown[1]))
+    if is_curve(shown) or is_parametrised(shown) or is_implicit(shown):
+        return Item(type(shown).__name__.lower(), shown)
+    if hasattr(shown, "points") and hasattr(shown, "cells"):
+        corners, offsets = faces_of_cells(shown.cells)
+        return Item("mesh", _mended(np.asarray(shown.points), corners, offsets))
+    if hasattr(shown, "vertices") and hasattr(shown, "faces"):
+        return Item("mesh", _from_arrays(shown.vertices, shown.faces))
+    return None
+
+
+def _is_pair(vertices: object, faces: object) -> bool:
+    """Whether two things are arrays of vertices and of faces."""
+    if not isinstance(vertices, np.ndarray) or vertices.ndim != 2 or vertices.shape[1] != 3:
+        return False
+    if isinstance(faces, np.ndarray):
+        return faces.ndim == 2 and np.issubdtype(faces.dtype, np.integer)
+    return isinstance(faces, Sequence) and all(isinstance(face, Sequence | np.ndarray) for face in faces)
+
+
+def _from_arrays(vertices: Any, faces: Any) -> Mesh:
+    """The mesh of vertices (n,3) and of faces, an array (f,k) or lists of indices."""
+    places = np.asarray(vertices)
+    if isinstance(faces, np.ndarray) and faces.ndim == 2:
+        return _mended(places, faces.ravel(), np.arange(0, faces.size + 1, max(faces.shape[1], 1)))
+    lists = [np.asarray(face).ravel() for face in faces]
+    corners = np.concatenate([np.zeros(0, dtype=np.intp), *lists])
+    return _mended(places, corners, ragged.offsets([len(face) for face in lists]))
+
+
+def _mended(vertices: np.ndarray[Any, Any], corners: Ints, offsets: Ints) -> Mesh:
+    """The mesh, welded where it is open and turned outwards; an InputWarning says what was mended."""
+    if vertices.ndim == 2 and vertices.shape[1] == 2:
+        vertices = np.column_stack([vertices, np.zeros(len(vertices))])
+    mesh = Mesh(np.asarray(vertices, dtype=np.float64), np.asarray(corners, dtype=np.intp), offsets)
+    mesh, done = mended(mesh, SINGLE_ULP if vertices.dtype == np.float32 else ULP)
+    # An open mesh is no mistake of a program.
+    told = str(replace(done, boundary_edges=0))
+    if told:
+        warnings.warn(f"mesh: {told}", InputWarning, stacklevel=4)
+    return mesh
+
+
+def _named(name: str, scene: Scene) -> Scene:
+    """The scene with this name for its only item, or in front of those of its items."""
+    alone = len(scene.items) == 1
+    items = tuple(replace(item, name=name if alone else f"{name} {item.name}") for item in scene.items)
+    return replace(scene, items=items)
+
+
+def _together(scenes: Sequence[Scene]) -> Scene:
+    """All items and lights; what there can be only one of is that of the first scene that has it."""
+    if len(scenes) == 1:
+        return scenes[0]
+    return Scene(
+        _told_apart([item for scene in scenes for item in scene.items]),
+        tuple(light for scene in scenes for light in scene.lights),
+        next((scene.camera for scene in scenes if scene.camera), None),
+        next((scene.page for scene in scenes if scene.page), None),
+        next((scene.background for scene in scenes if scene.background), None),
+        next((scene.title for scene in scenes if scene.title), ""),
+    )
+
+
+def _told_apart(items: Sequence[Item]) -> tuple[Item, ...]:
+    """The items, those whose names came before with numbers behind them."""
+    count: Counter[str] = Counter()
+    taken = {item.name for item in items}
+    result = []
+    for item in items:
+        count[item.name] += 1
+        name = item.name
+        if count[item.name] > 1:
+            number = count[item.name]
+            while f"{item.name} {number}" in taken:
+                number += 1
+            count[item.name], name = number, f"{item.name} {number}"
+            taken.add(name)
+        result.append(item if name == item.name else replace(item, name=name))
+    return tuple(result)

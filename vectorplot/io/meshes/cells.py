@@ -1,0 +1,64 @@
+"""Cells of finite elements, as other libraries keep them, as faces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from vectorplot.arrays import Ints
+from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
+
+FACES = {
+    "triangle": ((0, 1, 2),),
+    "quad": ((0, 1, 2, 3),),
+    "tetra": ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)),
+    "pyramid": ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
+    "wedge": ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
+    "hexahedron": ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
+}
+"""The faces of cells, counter-clockwise seen from outside; cells of higher orders list their corners first."""
+
+WITHOUT_FACES = ("vertex", "line")
+
+
+def faces_of_cells(cells: Any) -> tuple[Ints, Ints]:
+    """(c,) and (f+1,) corners and offsets of the faces of blocks of cells: of surfaces all, of volumes the outer ones.
+
+    cells: blocks with a type (a word such as triangle, quad6 or hexahedron20) and data (n,k), pairs of these, or a
+    mapping. Points and lines have no faces.
+    Errors: InputError for cells of another type.
+    """
+    parts = [part for kind, data in _blocks(cells) for part in _faces(kind, data)]
+    sizes = np.concatenate([np.zeros(0, dtype=np.intp), *(np.full(len(part), part.shape[1]) for part in parts)])
+    corners = np.concatenate([np.zeros(0, dtype=np.intp), *(part.ravel() for part in parts)])
+    return corners, ragged.offsets(sizes)
+
+
+def _blocks(cells: Any) -> Iterable[tuple[str, Any]]:
+    pairs: Iterable[Any] = cells.items() if isinstance(cells, Mapping) else cells
+    return [(one.type, one.data) if hasattr(one, "data") and hasattr(one, "type") else tuple(one) for one in pairs]
+
+
+def _faces(kind: str, data: Any) -> list[Ints]:
+    """(n,k) faces, an array for every number of corners."""
+    shape = str(kind).rstrip("0123456789")
+    if shape in WITHOUT_FACES:
+        return []
+    if shape == "polygon":
+        lists = [np.asarray(face, dtype=np.intp) for face in data]
+        return [np.stack([face for face in lists if len(face) == size]) for size in sorted({len(f) for f in lists})]
+    if shape not in FACES:
+        raise InputError(f"cells of the type {kind!r}: expected some of {', '.join(FACES)}, polygon")
+    corners = np.asarray(data, dtype=np.intp)
+    sizes = sorted({len(face) for face in FACES[shape]})
+    every = [np.concatenate([corners[:, face] for face in FACES[shape] if len(face) == size]) for size in sizes]
+    return every if len(FACES[shape]) == 1 else [_met_once(faces) for faces in every]
+
+
+def _met_once(faces: Ints) -> Ints:
+    """The faces of one cell only: those of two lie inside."""
+    _, place, count = np.unique(np.sort(faces, axis=1), axis=0, return_inverse=True, return_counts=True)
+    return np.asarray(faces[count[place.ravel()] == 1])

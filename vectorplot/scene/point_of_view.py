@@ -1,0 +1,64 @@
+"""From where a scene is looked at, and on what page, where that is said in a word or not at all."""
+
+from __future__ import annotations
+
+import math
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.cameras.camera import VIEWS, Camera, Point
+from vectorplot.geometry.vectors import cross, normalize
+from vectorplot.scene.paper import sheet_size
+from vectorplot.scene.scene import Page, Scene
+from vectorplot.words import unknown
+
+
+def default_camera(scene: Scene, up: Point = (0.0, 0.0, 1.0)) -> Camera:
+    """A central projection of the whole scene from the front, the right and above, for what stands upright along up.
+
+    The front of a scene with z upwards is where y is smallest, with y upwards where z is largest.
+    """
+    low, high = scene.bounds
+    centre, size = (low + high) / 2.0, math.dist(low, high)
+    above = normalize(up)
+    # Without a direction upwards, or with x upwards, something has to be the right.
+    front = cross((1.0, 0.0, 0.0) if abs(above[0]) < 0.9 else (0.0, -1.0, 0.0), above)
+    direction = normalize(0.45 * cross(above, normalize(front)) + 0.8 * normalize(front) + 0.45 * above)
+    eye = centre + direction * 2.2 * (size if size > 0.0 else 1.0)
+    return Camera(eye=tuple(eye.tolist()), target=tuple(centre.tolist()))
+
+
+def camera_of(camera: Camera | str | None, scene: Scene) -> Camera:
+    """The camera that a scene is looked at with: the one given, the main view of that name with its target in the
+    middle of the scene, or that of the scene, else default_camera.
+
+    Errors: InputError for another word, TypeError for what is no camera.
+    """
+    if camera is None:
+        return scene.camera or default_camera(scene)
+    if isinstance(camera, Camera):
+        return camera
+    if not isinstance(camera, str):
+        raise TypeError(f"a camera is a Camera or the name of a view, not {type(camera).__name__}")
+    if camera not in VIEWS:
+        raise unknown("view", camera, VIEWS)
+    whole = default_camera(scene)
+    return Camera.view(camera, target=whole.target, distance=whole.distance)
+
+
+def page_of(page: Page | str | None, scene: Scene) -> Page:
+    """The page of a picture: the one given, the sheet of that name or size, landscape where that word follows, or that
+    of the scene, else A4.
+
+    Errors: InputError for another word, TypeError for what is no page.
+    """
+    if page is None:
+        return scene.page or Page()
+    if isinstance(page, Page):
+        return page
+    if not isinstance(page, str):
+        raise TypeError(f"a page is a Page or a text such as 'A4' or '200x150', not {type(page).__name__}")
+    sheet, _, way = page.strip().partition(" ")
+    if way.strip() not in ("", "landscape"):
+        raise InputError(f"page {page!r}: expected a sheet, and perhaps 'landscape'")
+    found = Page(*sheet_size(sheet))
+    return found.landscape if way else found
