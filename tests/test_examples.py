@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from support.data_scenes import scenes_to_try
 from support.paths import ROOT
 from support.svg_fills import area, painted_by_layer
 from support.svg_strokes import SVG, strokes_by_layer
@@ -352,7 +353,7 @@ def test_what_the_book_and_the_examples_are_known_for_is_there():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", scenes_to_try(), ids=lambda path: path.stem)
 def test_rays_confirm_every_scene(path):
     read = vp.read(path)
     scene = replace(read, items=tuple(replace(item, lines=None) for item in read.items))

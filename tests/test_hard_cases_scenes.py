@@ -323,6 +323,7 @@ def test_parallel_and_far_central_projection_converge() -> None:
 
 
 @pytest.mark.hard(32)
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("seed", range(4))
 def test_permuting_the_objects_changes_nothing(seed: int) -> None:
     scene = vp.Scene(rotated_boxes(20, seed).items + dyadic_scene().items)

@@ -59,6 +59,7 @@ def torus_cusps(slant: float) -> np.ndarray:
 
 @pytest.mark.slow
 @pytest.mark.hard(29)
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("slant", [1.1, 1.3, 1.5])
 def test_the_visible_contour_of_a_torus_ends_in_its_cusps(slant: float) -> None:
     camera = vp.Camera((0.0, 20.0 * np.sin(slant), 20.0 * np.cos(slant)), (0.0, 0.0, 0.0), parallel=True)
@@ -78,6 +79,7 @@ def test_the_visible_contour_of_a_torus_ends_in_its_cusps(slant: float) -> None:
 
 @pytest.mark.slow
 @pytest.mark.hard(48)
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("eye", [(6.0, -5.0, 4.0), (5.0, 6.5, 2.0), (-4.0, -6.0, 7.0)])
 def test_the_double_line_of_an_umbrella_is_drawn_up_to_its_pinch_point(eye: tuple[float, float, float]) -> None:
     # x^2 = y^2 z: both halves meet in the z axis, from the pinch point in the origin upwards. None of these eyes is in

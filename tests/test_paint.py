@@ -135,6 +135,7 @@ def test_far_tiny_and_huge_scenes_give_the_same_picture(kind: str, offset: float
 
 @pytest.mark.slow
 @pytest.mark.hard(32)
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("kind", ["tori", "piercing_boxes", "on_a_floor"])
 def test_the_order_of_the_items_does_not_show(kind: str) -> None:
     random = np.random.default_rng(4)
@@ -436,6 +437,7 @@ def test_knots_of_many_bars_are_painted_right_and_stay_few_polygons() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("kind", ["tori", "piercing_boxes", "on_a_floor", "mirror"])
 def test_visible_fills_show_the_same_picture_without_painting_anything_over(kind: str) -> None:
     mirror = Item("MIRROR", box((-3, 2, 0), (3, 2.1, 3)), "cyan", Material("mirror"))
@@ -482,6 +484,7 @@ def test_an_eye_in_the_planes_of_faces_sees_what_there_is() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("seed", [1, 2, 4, 6])
 def test_shadows_seen_edge_on_have_no_aura(seed: int) -> None:
     random = np.random.default_rng(seed)

@@ -58,6 +58,7 @@ def test_pictures_show_what_rays_meet_in_the_shade_of_the_lights_that_reach_it(f
 
 @pytest.mark.slow
 @pytest.mark.capability("G6.4-reflect", "G6.4-window-test", "G6.4-light-double")
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("family", FAMILIES)
 def test_mirrors_show_what_mirrored_rays_meet_in_its_shade(family: str) -> None:
     sure = 0

@@ -37,6 +37,7 @@ MAP_LIGHTS = {
 
 @pytest.mark.slow
 @pytest.mark.capability("N6-z")
+@pytest.mark.spread
 @pytest.mark.parametrize("shadows", ["buffer", "trapezoid"])
 @pytest.mark.parametrize("light", MAP_LIGHTS)
 def test_maps_of_what_turns_away_from_the_light_show_the_same_shadows_without_a_margin(shadows, light):
@@ -108,6 +109,7 @@ def off_the_ball(place, light):
 
 @pytest.mark.slow
 @pytest.mark.capability("G8.6-shadow-buffer", "RN-in-B8.6")
+@pytest.mark.spread
 @pytest.mark.parametrize("shadows", ["buffer", "trapezoid", "exact"])
 @pytest.mark.parametrize("light", [SUN, vp.Light((-2.0, -4.0, 5.0), intensity=1.0)], ids=["sun", "lamp"])
 def test_the_shadow_of_a_ball_is_where_geometry_puts_it(shadows, light):
@@ -156,6 +158,7 @@ def test_a_plane_that_a_light_sees_alone_does_not_shadow_itself():
 
 @pytest.mark.slow
 @pytest.mark.hard(33)
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("shadows", ["auto", "buffer", "trapezoid", "exact"])
 def test_a_lamp_in_the_eye_shows_no_shadow_and_one_in_a_box_lights_nothing_outside(shadows):
     camera = vp.Camera((5, -9, 6), fov_deg=30)
@@ -232,6 +235,7 @@ def shell_seen(name, whorl, shadows):
 
 @pytest.mark.slow
 @pytest.mark.capability("G8.6-nautilus")
+@pytest.mark.spread
 @pytest.mark.parametrize("shadows", ["buffer", "trapezoid", "exact"])
 @pytest.mark.parametrize("name", SHELLS)
 def test_a_shell_a_whorl_further_is_the_same_picture_enlarged(shadows, name):

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.drawn import drawn as measured
+from support.effort import several
 
 import vectorplot as vp
 from vectorplot.curves import Circle, Loxodrome
@@ -83,6 +84,7 @@ def test_graphs_with_poles_are_cut_off_and_right() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("text", ["1/(x^2+y^2)", "1/(x*y)"])
 def test_graphs_with_poles_of_higher_order_end(text: str) -> None:
     _, _, drawing, said = drawn(graph_of(text), lines=2)
@@ -91,6 +93,7 @@ def test_graphs_with_poles_of_higher_order_end(text: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("text", ["x^y", "1/sin(x*y)"])
 def test_curves_beside_poles_and_holes_end_where_the_surface_does(text: str) -> None:
     scene = vp.Scene((vp.Item("S", graph_of(text)),))
@@ -162,6 +165,7 @@ def test_waves_finer_than_any_resolution_are_painted_too() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("text", ["1/(x*y)", "1/x", "1/(x^2-y^2)", "1/(x^2-1)"])
 def test_graphs_with_holes_at_their_borders_are_painted(text: str) -> None:
     scene = vp.Scene((vp.Item("S", graph_of(text)),))
@@ -176,6 +180,7 @@ def test_graphs_with_holes_at_their_borders_are_painted(text: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("lamps", [1, 4])
 def test_waves_without_an_end_are_painted_in_the_light_of_lamps(lamps: int) -> None:
     places = [(3.0, -2.0, 5.0), (-4.0, -3.0, 4.0), (1.0, -3.0, 4.0), (0.0, 4.0, 3.0)][:lamps]
@@ -196,10 +201,10 @@ def test_waves_without_an_end_are_painted_in_the_light_of_lamps(lamps: int) -> N
 @pytest.mark.parametrize(
     "surface",
     [
-        Swept(Loxodrome(3.2, np.pi / 2.0), Rotoid(3.9, -0.7), 0.0, 2.0 * np.pi),
-        Swept(Circle(radius=1.7), Rotoid(3.1, -1.0), 0.0, 2.0 * np.pi),
         minimal_spiral_surface(5.0),
-    ],
+        Swept(Circle(radius=1.7), Rotoid(3.1, -1.0), 0.0, 2.0 * np.pi),
+        Swept(Loxodrome(3.2, np.pi / 2.0), Rotoid(3.9, -0.7), 0.0, 2.0 * np.pi),
+    ][: several(1, long=3)],
 )
 def test_surfaces_that_cover_themselves_and_wind_into_points_end(surface: object) -> None:
     _, _, drawing, _ = drawn(surface, lines=0, budget=0.0625)

@@ -86,6 +86,7 @@ def test_strewn_faces_show_the_same_picture(kind: str, seed: int) -> None:
     assert_same_picture(paint(scene, camera_of(scene, seed), smooth=False))
 
 
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("name", HARD_SHAPES)
 def test_hard_shapes_show_the_same_picture(name: str) -> None:
     assert_same_picture(paint(HARD_SHAPES[name], camera_of(HARD_SHAPES[name], 4), smooth=False))

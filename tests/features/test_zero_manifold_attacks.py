@@ -105,6 +105,7 @@ def test_two_circles_nearer_than_the_resolution_leave_no_crumbs(gap):
 
 @pytest.mark.slow
 @pytest.mark.hard(40)
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("radius", [0.003, 0.01])
 def test_a_resolved_tiny_oval_beside_a_double_line_stays(radius):
     curve = traced(lambda u, v: -((u - 0.25) ** 2) * ((u + 0.4) ** 2 + (v - 0.3) ** 2 - radius**2), 24)

@@ -10,6 +10,7 @@ from vectorplot.geometry.regions import unions
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("grid", [None, 1e-9])
 def test_polygons_that_cross_themselves_are_united_with_all_that_is_in_them(grid: float | None) -> None:
     random = np.random.default_rng(5)

@@ -252,6 +252,7 @@ def unscaled(system, depth):
 
 @pytest.mark.slow
 @pytest.mark.capability("R-two-pass", "RN-in-B8.6", "R-demos", "N2-eta")
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize(
     "light",
     [SUN, Light((-1.0, -0.3, 1.2), parallel=True), Light((0.05, 1.0, 0.8), parallel=True), Light((60.0, -90.0, 150.0))],

@@ -7,6 +7,7 @@ tables: tests with several parameters that have the mark `spread`.
 from __future__ import annotations
 
 from collections import defaultdict
+from zlib import crc32
 
 import pytest
 from hypothesis import settings
@@ -36,7 +37,8 @@ def rows_to_try(items: list[pytest.Item]) -> list[pytest.Item]:
     """The tests to run: in ci so few rows of a table with the mark `spread` that each value of each parameter comes.
 
     What goes wrong for one value goes wrong in its row, whatever stands beside it; what needs two values at once is
-    left to the whole table, in long.
+    left to the whole table, in long. With the mark `spread(parts=3)` every third row of the table is tried, whatever is
+    in it; the name of the test says which: of cases that many tests look at each one tries others.
     """
     if settings().max_examples >= LONG:
         return items
@@ -50,6 +52,11 @@ def rows_to_try(items: list[pytest.Item]) -> list[pytest.Item]:
 
 def _left_out(rows: list[pytest.Item]) -> list[pytest.Item]:
     """The rows of a table that are left to the whole of it."""
+    mark = rows[0].get_closest_marker("spread")
+    if mark is not None and "parts" in mark.kwargs:
+        parts = mark.kwargs["parts"]
+        first = crc32(rows[0].name.partition("[")[0].encode()) % parts
+        return [row for number, row in enumerate(rows) if number % parts != first]
     columns = [_numbered(column) for column in zip(*map(_values, rows), strict=True)]
     lengths = [max(column) + 1 for column in columns]
     # One step further in each round, so that parameters with as many values do not always meet in the same way.

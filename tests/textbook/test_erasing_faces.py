@@ -61,6 +61,7 @@ def in_space(view: View, points: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.capability("G7.1-screen-hl")
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("seed", range(6))
 def test_what_is_left_of_the_edges_is_what_the_eye_sees(seed: int) -> None:
     scene = rotated_boxes(12, seed) if seed else interpenetrating_boxes()

@@ -107,6 +107,7 @@ def images(view: View, chords: Chords, which: np.ndarray) -> list[np.ndarray]:
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("name", BOTH_FORMS)
 def test_both_forms_of_a_surface_give_the_same_drawing(name: str) -> None:
     one, two = (lit(Item(name, shape, curves=LINES)) for shape in BOTH_FORMS[name])
@@ -123,6 +124,7 @@ def test_both_forms_of_a_surface_give_the_same_drawing(name: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("name", SCENES)
 def test_scenes_with_implicit_surfaces_as_rays_see_them(name: str) -> None:
     scene = SCENES[name]

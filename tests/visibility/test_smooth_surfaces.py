@@ -59,18 +59,21 @@ def assert_right(name: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("name", SINGLE)
 def test_a_surface_as_rays_see_it(name: str) -> None:
     assert_right(name)
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("name", IMPLICIT)
 def test_an_implicit_surface_as_rays_see_it(name: str) -> None:
     assert_right(name)
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("name", MIXED)
 def test_surfaces_and_polyhedra_as_rays_see_them(name: str) -> None:
     assert_right(name)
@@ -80,6 +83,7 @@ CLOSED_FORMS = ["torus", "sphere", "hyperbolic paraboloid", "hyperboloid", "cyli
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("name", CLOSED_FORMS)
 def test_views_along_axes_and_rulings_as_in_closed_form(name: str) -> None:
     scene, compared = SINGLE[name], 0
@@ -126,6 +130,7 @@ def moved(scene: Scene, camera: Camera, scale: float, offset: np.ndarray) -> tup
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize(("scale", "offset"), [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e6)])
 @pytest.mark.parametrize("name", ["linked tori", "torus and box"])
 def test_size_and_place_change_nothing(name: str, scale: float, offset: float) -> None:
@@ -136,6 +141,7 @@ def test_size_and_place_change_nothing(name: str, scale: float, offset: float) -
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("name", ["linked tori", "torus and box", "far behind"])
 def test_the_order_of_items_changes_nothing(name: str) -> None:
     scene = MIXED[name]

@@ -44,6 +44,7 @@ def touching(cells: tuple[int, int], turn: np.ndarray, kind: type) -> vp.Scene:
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("cells", [(1, 1), (1, 7), (3, 7), (4, 8), (5, 12)])
 def test_contours_of_touching_bodies_are_whole_however_they_are_cut_and_rounded(cells: tuple[int, int]) -> None:
     turn = rotation(np.random.default_rng(cells[1]))

@@ -30,6 +30,7 @@ def ball_and_cage(seed: int) -> tuple[View, Solid, np.ndarray]:
 
 @pytest.mark.slow
 @pytest.mark.capability("G6.6-solid")
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("seed", range(4))
 def test_every_ray_that_leaves_is_in_a_beam_and_meets_what_the_beam_meets(seed: int) -> None:
     view, solid, front = ball_and_cage(seed)

@@ -126,6 +126,7 @@ class Picture:
 
 @pytest.mark.slow
 @pytest.mark.capability("G6.6-solid")
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("start", [0, 11])
 def test_what_is_seen_in_glass_is_what_the_refracted_ray_meets(start: int) -> None:
     random = np.random.default_rng(start)
@@ -156,6 +157,7 @@ def test_what_is_seen_in_glass_is_what_the_refracted_ray_meets(start: int) -> No
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("seed", [7, 9])
 def test_many_faces_show_what_the_refracted_ray_meets(seed: int) -> None:
     """Balls of sixty triangles: some lie with all their sides on one side of the ball's axis."""
@@ -268,6 +270,7 @@ def triangles_on_faces(view: View, random: np.random.Generator) -> Decals:
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("start", [0, 8])
 def test_what_lies_on_faces_behind_glass_is_where_the_refracted_ray_meets_it(start: int) -> None:
     random = np.random.default_rng(start)

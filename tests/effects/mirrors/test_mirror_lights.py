@@ -93,6 +93,7 @@ class Lit:
 
 @pytest.mark.slow
 @pytest.mark.capability("G6.4-light-double")
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("mirror_faces", [6, 5])
 def test_light_by_way_of_mirrors_falls_where_rays_find_it(mirror_faces: int) -> None:
     random = np.random.default_rng(1)

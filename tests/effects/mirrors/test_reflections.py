@@ -100,6 +100,7 @@ class Picture:
 
 @pytest.mark.slow
 @pytest.mark.capability("G6.4-reflect")
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("start", range(0, 100, 25))
 def test_what_is_seen_in_a_mirror_is_what_the_mirrored_ray_meets(start: int) -> None:
     random = np.random.default_rng(start)

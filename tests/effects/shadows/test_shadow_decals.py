@@ -154,6 +154,7 @@ SLICED = {
 
 @pytest.mark.slow
 @pytest.mark.capability("G6.3-sliced-self")
+@pytest.mark.spread
 @pytest.mark.parametrize("kind", SLICED)
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
 def test_sliced_surfaces_shade_themselves_where_rays_say(kind: str, size: float) -> None:
@@ -178,6 +179,7 @@ def test_sliced_surfaces_shade_themselves_where_rays_say(kind: str, size: float)
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("name", HARD_SHAPES)
 def test_hard_shapes_have_right_shadows(name: str) -> None:
     scene = HARD_SHAPES[name]

@@ -67,6 +67,7 @@ def residual(surface, curves):
 
 @pytest.mark.slow
 @both_ways
+@pytest.mark.spread(parts=2)
 @pytest.mark.capability("G8.4-contour")
 def test_contours_are_those_of_the_parametrised_surfaces(surface, same, sign):
     eye = EYE if sign else np.array([3.0, 5.0, 4.0])
@@ -80,6 +81,7 @@ def test_contours_are_those_of_the_parametrised_surfaces(surface, same, sign):
 
 @pytest.mark.slow
 @both_ways
+@pytest.mark.spread(parts=2)
 @pytest.mark.capability("G8.4-isophote")
 def test_isophotes_are_those_of_the_parametrised_surfaces(surface, same, sign):
     cosines = np.array([-0.7, 0.05, 0.6])

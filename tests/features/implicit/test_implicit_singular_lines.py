@@ -117,6 +117,7 @@ def compared(lines: Polylines, off: Off, whole: float, count: int, size: float) 
 
 @pytest.mark.slow
 @pytest.mark.hard(49)
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("name", list(EDGES))
 def test_cuspidal_edges_are_found_whole(name: str) -> None:
     text, size, off, whole, count = EDGES[name]
@@ -127,6 +128,7 @@ def test_cuspidal_edges_are_found_whole(name: str) -> None:
 
 @pytest.mark.slow
 @pytest.mark.hard(48)
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("name", list(DOUBLES))
 def test_lines_in_which_a_surface_crosses_itself_are_found_whole(name: str) -> None:
     text, size, off, whole, count = DOUBLES[name]

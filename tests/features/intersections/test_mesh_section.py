@@ -128,6 +128,7 @@ def test_a_patch_in_a_face_is_reported_without_noise():
     assert len(section) == 0 and "coincide in an area" in section.curves.doubts[0]
 
 
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("seed", range(24))
 def test_boxes_in_any_place_cut_closed_curves_on_their_faces(seed):
     random = np.random.default_rng(seed)

@@ -169,6 +169,7 @@ def test_touching_along_a_line_is_reported_without_noise():
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("distance", [0.1, 0.01, 0.001])
 def test_nearly_coincident_spheres_meet_in_one_circle_that_does_not_turn_back(distance):
     way = np.array([1.0, 0.3, 0.7]) / np.linalg.norm([1.0, 0.3, 0.7])

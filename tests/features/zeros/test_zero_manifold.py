@@ -207,6 +207,7 @@ def test_a_curve_that_leaves_the_domain_between_two_grid_points_is_cut_there():
 
 
 @pytest.mark.capability("G8.4-zero-manifold")
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("seed", range(12))
 def test_random_waves_have_the_same_branches_as_on_a_much_finer_grid(seed):
     waves = np.random.default_rng(seed).normal(size=(2, 9, 9))

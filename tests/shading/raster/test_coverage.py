@@ -56,6 +56,7 @@ def jittered_net(across, down, width, height, seed):
 
 @pytest.mark.slow
 @pytest.mark.capability("G4.6-fill")
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize(("across", "down"), [(300, 225), (60, 40), (7, 5), (2, 1)])
 def test_triangles_with_common_edges_fill_every_pixel_once(across, down):
     for seed in range(2):

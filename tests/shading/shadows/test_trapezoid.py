@@ -264,6 +264,7 @@ def test_the_map_has_neither_pole_nor_branch():
 
 @pytest.mark.slow
 @pytest.mark.hard(33)
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("beside", [0.3, 0.1, 0.03, 0.01, 0.003])
 def test_beside_the_duelling_position_the_map_turns_no_faster_than_the_axis(beside):
     angles = np.linspace(-20.0 * beside, 20.0 * beside, 4001)

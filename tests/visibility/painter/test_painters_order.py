@@ -60,6 +60,7 @@ def test_random_scenes_as_rays_see_them(kind, seed):
     assert_right(scene, camera_of(scene, seed))
 
 
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("seed", range(14))
 def test_convex_bodies_as_rays_see_them(seed):
     for scene in (random_convex_solids(14, seed), rotated_boxes(25, seed)):
@@ -67,6 +68,7 @@ def test_convex_bodies_as_rays_see_them(seed):
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("name", HARD_SHAPES)
 def test_hard_shapes_as_rays_see_them(name):
     for seed in range(7):

@@ -55,6 +55,7 @@ EYES = [
 
 
 @pytest.mark.capability("G5.4-graph")
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("eye", EYES)
 def test_graphs_from_all_nine_sectors_overhead_and_below(eye):
     view = look(scene_of(GRAPH=graph_mesh(X, Y, HEIGHTS)), Camera(eye, (0.02, 0.03, 0.0)))

@@ -54,6 +54,7 @@ def test_hard_shapes_as_rays_see_them(name: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("seed", range(several(20, long=40)))
 def test_random_scenes_as_rays_see_them(seed: int) -> None:
     scenes = random_convex_solids(14, seed), rotated_boxes(25, seed)

@@ -109,6 +109,7 @@ CASES = [(seed, affine, parallel) for seed in (0, 2) for affine in (False, True)
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("case", CASES)
 def test_every_point_is_hidden_by_as_many_items_as_rays_meet(case):
     scene, camera, bodies, boxes, drawing = drawn(*case)
@@ -164,6 +165,7 @@ ZONE pink surface ellipsoid 1 0.7 1 v -30 45 capped translation 0 -3 0.5 paramet
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize(("eye", "parallel"), VIEWS)
 def test_both_engines_draw_the_same(eye, parallel, monkeypatch):
     scene = parse_scene(MIXED)
@@ -176,6 +178,7 @@ def test_both_engines_draw_the_same(eye, parallel, monkeypatch):
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize(("eye", "parallel"), [((1, -2, -11), False), ((7, 16.7, 6.7), True), ((8.8, -11, 1.8), True)])
 def test_traced_bodies_are_hidden_by_as_many_items_as_rays_meet(eye, parallel, monkeypatch):
     # Some outlines run along rims, and lines end there, where both of the sheets that meet end.
@@ -193,6 +196,7 @@ def test_traced_bodies_are_hidden_by_as_many_items_as_rays_meet(eye, parallel, m
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize(("eye", "parallel"), [*VIEWS, ((0, 0, 15), True), ((0, 0, -15), False)])
 def test_bodies_lie_to_the_side_of_their_traced_outlines_that_is_said(eye, parallel):
     item = Item("can", Capped(Frustum(0.6, 1.1, 1.5)) if eye[0] else Capped(Cylinder(1.0, 0.0, 2.0)))

@@ -92,6 +92,7 @@ CASES = [
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("case", CASES)
 def test_every_point_is_hidden_by_as_many_items_as_rays_meet(case):
     _, camera, balls, boxes, drawing = drawn(*case)

@@ -43,6 +43,7 @@ def by_differences(view, parts):
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("name", SCENES)
 def test_directions_are_those_of_the_curves(name):
     scene = SCENES[name]

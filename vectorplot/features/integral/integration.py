@@ -61,7 +61,7 @@ class Accuracy:
     --------
     >>> import numpy as np
     >>> from vectorplot import features, surfaces
-    >>> rough, fine = features.Accuracy(1e-4), features.Accuracy(1e-12)
+    >>> rough, fine = features.Accuracy(1e-4), features.Accuracy(1e-7)
     >>> ball, field = surfaces.Sphere(), features.loxodromes(1.0)
     >>> ends = [features.integral_curves(ball, field, [(0, 0)], accuracy=a).points[-1] for a in (rough, fine)]
     >>> bool(np.allclose(*ends, atol=1e-3))

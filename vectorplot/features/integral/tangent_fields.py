@@ -327,7 +327,7 @@ def loxodromes(angle: float, constant: Literal["u", "v"] = "u") -> TurnedField:
     --------
     >>> import numpy as np
     >>> from vectorplot import features, surfaces
-    >>> course = features.integral_curves(surfaces.Sphere(), features.loxodromes(np.radians(-80)), [(0.0, 0.0)])
+    >>> course = features.integral_curves(surfaces.Sphere(), features.loxodromes(np.radians(50)), [(0.0, 0.0)])
     >>> len(course)
     1
     """
