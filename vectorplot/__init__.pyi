@@ -9,6 +9,7 @@ from .paint import paint
 from .read import read
 from .render import render
 from .save import save
+from .scene.hatching import Hatching
 from .scene.plots import graph, surface, tube
 from .scene.scene import Item, Light, Material, Page, Pattern, Scene
 from .scene.surface_lines import Section, SurfaceLines
@@ -20,6 +21,7 @@ __version__: str
 __all__ = [
     "Camera",
     "Drawing",
+    "Hatching",
     "Image",
     "InputError",
     "InputWarning",

@@ -13,16 +13,19 @@ import numpy as np
 from vectorplot.arrays import Bools
 from vectorplot.drawing.drawing import Drawing, Layer, Paths
 from vectorplot.drawing.drawn_lines import fitted_lines, strokes_on_page
+from vectorplot.drawing.hatching.hatch_layers import NAME, hatch_layers
 from vectorplot.drawing.layers import layers_by_colour, layers_by_kind, layers_by_object
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.drawing.strokes.shared_kinds import with_shared_kinds
+from vectorplot.drawing.strokes.stroke_paths import concatenated
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.budget import Budget, budget_of, line_each
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.chunks import threads_of
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
-from vectorplot.plan import StageReport, Walk, accuracy_of_draw, plan_cuts, plan_draw, with_accuracy
+from vectorplot.plan import StageReport, Walk, accuracy_of_draw, plan_cuts, plan_draw, plan_hatching, with_accuracy
+from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.placement import Placement, mm_per_image
 from vectorplot.scene.point_of_view import camera_of, page_of
 from vectorplot.scene.scene import Page, Scene
@@ -68,6 +71,7 @@ def draw(
     style: Literal["plain", "wireframe", "depth-cue"] = "plain",
     hidden: Literal["none", "dashed", "solid"] = "none",
     halo_mm: float = 0.0,
+    hatch: Hatching | None = None,
     layers: Literal["kind", "object", "colour"] = "kind",
     curves: Literal["bezier", "polyline"] = "bezier",
     tolerance_mm: float = 0.02,
@@ -101,6 +105,8 @@ def draw(
         Hidden lines are left out, dashed, or solid on a layer of their own.
     halo_mm : float
         Lines end so many mm beside what is in front of them.
+    hatch : Hatching, optional
+        How visible faces are hatched, where their items do not say it themselves; not at all where None.
     layers : {"kind", "object", "colour"}
         What shares a layer.
     curves : {"bezier", "polyline"}
@@ -129,8 +135,8 @@ def draw(
     InputError
         As of `io.scene_of`.
         For unknown words, impossible cameras, and widths and angles out of range; for a tolerance or a budget that is
-        not finite and positive; for hidden lines, a halo or layers other than by kind in a wireframe, which has colours
-        of its own.
+        not finite and positive; for hidden lines, a halo, a hatching or layers other than by kind in a wireframe, which
+        has colours of its own.
     TypeError
         For what is nothing of that kind.
 
@@ -162,14 +168,19 @@ def draw(
     _check_options(hidden, layers, curves, halo_mm, crease_angle_deg, tolerance_mm)
     _check_longest(longest_mm)
     allowed, threads = budget_of(budget), threads_of(jobs)
-    _check_style(style, hidden=hidden != "none", halo_mm=halo_mm > 0.0, layers=layers != "kind")
+    _check_style(
+        style, hidden=hidden != "none", halo_mm=halo_mm > 0.0, hatch=hatch is not None, layers=layers != "kind"
+    )
     kinds = line_kinds((DRAWN if style == "plain" else WIRES) if lines is None else lines)
     scene = without_seams(scene_of(scene))
     tell_what_is_cut_off(scene)
     camera = camera_of(camera, scene)
     page = page_of(page, scene)
     smooth = curves == "bezier" and any(not isinstance(item.shape, Mesh) for item in scene.items)
-    stages = with_accuracy(plan_draw(scene, kinds, hidden, halo_mm, style), accuracy_of_draw(tolerance_mm, smooth))
+    planned = plan_draw(scene, kinds, hidden, halo_mm, style)
+    if style == "plain":
+        planned = plan_hatching(scene, hatch, planned)
+    stages = with_accuracy(planned, accuracy_of_draw(tolerance_mm, smooth))
     walk = Walk((*plan_cuts(camera), *stages), explain, progress, threads)
     scene = seen_part(walk, scene, camera)
     view = walk.run("look", look, scene, camera)
@@ -204,8 +215,15 @@ def draw(
         seen = walk.run("halo", halo, view, framed, seen, halo_mm / placement.scale)
     world = placement.page_from_world
     strokes = walk.run("strokes", strokes_on_page, view, framed, seen, placement)
+    hatches = Paths.empty()
+    if walk.calls_for("hatching"):
+        from vectorplot.painting.hatched import hatched
+
+        done = walk.fraction("hatching")
+        filled = partial(hatched, crease_angle_deg=crease_angle_deg, tolerance_mm=tolerance_mm, budget=allowed)
+        hatches = walk.run("hatching", filled, scene, placement, hatch, progress=done)
     if style == "plain":
-        sorted_layers = walk.run("layers", _layers, scene, strokes, layers)
+        sorted_layers = walk.run("layers", _layers, scene, strokes, hatches, hatch, layers)
     else:
         from vectorplot.effects.wireframe import wire_layers
 
@@ -436,9 +454,14 @@ def _visibility(walk: Walk, view: View, faces: ProjectedFaces, solid: Bools, lin
     return replace(seen, hidden_by=seen.hidden_by + lines.behind[seen.segment])
 
 
-def _layers(scene: Scene, strokes: Paths, layers: str) -> tuple[Layer, ...]:
+def _layers(scene: Scene, strokes: Paths, hatches: Paths, hatch: Hatching | None, layers: str) -> tuple[Layer, ...]:
+    """The layers of lines, and those of strokes that hatch faces."""
+    how = [hatch if item.hatch is None else item.hatch for item in scene.items]
+    colours = [item.colour for item in scene.items]
     if layers == "object":
-        return layers_by_object(strokes, [item.name for item in scene.items])
+        return (*layers_by_object(strokes, [item.name for item in scene.items]), *hatch_layers(hatches, how))
     if layers == "colour":
-        return layers_by_colour(strokes, [item.colour for item in scene.items])
-    return layers_by_kind(strokes)
+        return (*layers_by_colour(strokes, colours), *hatch_layers(hatches, how, colours))
+    named = layers_by_kind(concatenated((strokes, hatches)))
+    hatch_last = [layer for layer in named if layer.name != NAME]
+    return (*hatch_last, *hatch_layers(hatches, how))

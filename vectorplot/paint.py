@@ -8,11 +8,11 @@ from typing import Literal
 
 import numpy as np
 
-from vectorplot.arrays import Ints
 from vectorplot.draw import seen_part
 from vectorplot.drawing.drawing import Drawing, Layer
-from vectorplot.drawing.painted_fills import placement_of_faces, shown_faces
+from vectorplot.drawing.painted_fills import placement_of_faces
 from vectorplot.errors import InputError
+from vectorplot.features.edge_splitting import Demand
 from vectorplot.features.facets import Within
 from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.cameras.camera import Camera
@@ -21,30 +21,20 @@ from vectorplot.geometry.chunks import threads_of
 from vectorplot.io.anything import scene_of
 from vectorplot.painting.coloured import coloured
 from vectorplot.painting.erased import erased
-from vectorplot.painting.reports import tell_groups, tell_knots, tell_slices, warn_of_guesses
+from vectorplot.painting.ordered_faces import ordered_faces, seen_on_page
 from vectorplot.painting.ruler import PEN, Ruler
-from vectorplot.painting.seen import Seen, without_unseen_facets
 from vectorplot.plan import StageReport, Walk, accuracy_of_paint, plan_cuts, plan_paint, with_accuracy
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.point_of_view import camera_of, page_of
-from vectorplot.scene.scene import Light, Page, Scene
+from vectorplot.scene.scene import Light, Page
 from vectorplot.scene.seamless_scene import without_seams
 from vectorplot.scene.twins import without_twins
 from vectorplot.scene.unbounded_items import tell_what_is_cut_off
-from vectorplot.scene.view import View, view_of
 from vectorplot.shading.light.face_shades import view_lights
-from vectorplot.shading.light.faceted import FacetedScene, faceted
 from vectorplot.shading.light.fineness import picture_fineness
-from vectorplot.shading.light.flat_regions import plane_numbers
-from vectorplot.shading.light.painted_colours import Lighting, opacities
+from vectorplot.shading.light.painted_colours import Lighting
 from vectorplot.shading.light.painted_normals import painted_normals
 from vectorplot.shading.light.palettes import PALETTE_SIZE
-from vectorplot.tolerances.of_the_page import SIDE_BY_SIDE_MM
-from vectorplot.visibility.painter.gathering import side_by_side
-from vectorplot.visibility.painter.height_fields import known_orders
-from vectorplot.visibility.painter.image_faces import ImageFaces
-from vectorplot.visibility.painter.painters_order import painters_order
-from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import LINE_WORDS, check_word, line_kinds
 
 
@@ -159,53 +149,27 @@ def paint(
     projection = projection_of(camera, scene.bounds)
     # Lines belong to each item, polygons to what is seen.
     shown = scene if kinds or fills == "erasing" else without_twins(scene)
-    facets = FacetedScene(shown, (None,) * len(shown.items))
-    if walk.calls_for("facets"):
+
+    def demand() -> Callable[[int], Demand]:
         allowed = allowed_in_space(scene, projection, page, fit, tolerance_mm)
         # Where each triangle has one shade they have to be so small that nobody sees it.
-        shaded = smooth and fills == "painted"
+        if not (smooth and fills == "painted"):
+            return lambda _: Within(allowed)
         casts = shadows != "none" and bool(scene.lights)
-        finest = picture_fineness(shown, projection, casts, allowed, tolerance_mm)
-        demand = finest if shaded else lambda _: Within(allowed)
-        facets = walk.run("facets", faceted, shown, demand, budget_of(budget))
-    facets = replace(facets, scene=_with_clear_items(facets.scene))
-    view = walk.run("look", view_of, facets.scene, projection)
-    projected = walk.run("faces", project_faces, view)
-    known, groups = known_orders(shown, view), _groups(scene)
-    sliced = {number: planes for number, item in enumerate(scene.items) if (planes := item.curves.slices)}
-    most = budget_of(budget).pieces
-    painted = walk.run("order", painters_order, view, projected, known=known, sliced=sliced, group=groups, most=most)
-    warn_of_guesses(scene, painted)
-    tell_slices(walk, scene, sliced, painted)
-    tell_knots(walk, scene, painted)
-    tell_groups(walk, scene, painted)
-    faces = painted.faces
-    if walk.calls_for("unseen facets"):
-        faces = walk.run("unseen facets", without_unseen_facets, facets, view, projected, painted, budget_of(budget))
-    placement = placement_of_faces(view, faces, page, fit)
-    if walk.calls_for("transparent sheets"):
-        from vectorplot.visibility.painter.transparent_sheets import in_sheets
+        return picture_fineness(shown, projection, casts, allowed, tolerance_mm)
 
-        item = view.face_item[faces.source]
-        opacity = opacities(facets.scene.items)[item]
-        sheet, width = np.where(opacity < 1.0, item, -1), SIDE_BY_SIDE_MM / placement.scale
-        if walk.calls_for("refraction"):
-            from vectorplot.effects.glass.glass_polygons import refracting_items
-
-            # What is seen in them is mixed, and opaque: nothing of them is blended.
-            sheet = np.where(refracting_items(facets.scene, view, projected)[item], -1, sheet)
-        faces = walk.run("transparent sheets", in_sheets, faces, sheet, opacity, width, view.tolerance)
-    plane = plane_numbers(view)
-    faces = faces.some(side_by_side(faces, _planes_of(facets.scene, view, faces, plane), view.tolerance))
-    seen = Seen(facets.scene, view, projected, shown_faces(faces, placement), placement)
+    ordered = ordered_faces(walk, scene, shown, projection, demand, budget_of(budget))
+    placement = placement_of_faces(ordered.view, ordered.faces, page, fit)
+    seen, plane = seen_on_page(walk, ordered, placement)
+    view, true = seen.view, ordered.facets.normals
     world = placement.page_from_world
     here = view_lights(view, scene.lights)
     normals = np.full((3, len(view.corners)), np.nan)
     if smooth and fills == "painted":
-        normals = painted_normals(view, scene.items, here, facets.normals, plane, crease_angle_deg)
+        normals = painted_normals(view, scene.items, here, true, plane, crease_angle_deg)
     elif smooth and fills == "visible":
         # Pens have no gradients: meshes and planes keep one shade for each of their faces.
-        normals = painted_normals(view, scene.items, (), facets.normals, plane, 0.0)
+        normals = painted_normals(view, scene.items, (), true, plane, 0.0)
     lighting = Lighting(scene.items, here, normals, plane, palette)
     ruler = Ruler(scene, seen, crease_angle_deg, tolerance_mm, budget)
     if walk.calls_for("erasing"):
@@ -224,28 +188,6 @@ def paint(
     if walk.calls_for("lines"):
         layers += walk.run("lines", ruler.layers, kinds, walk.fraction("lines"))
     return Drawing(page.width_mm, page.height_mm, tuple(layers), tuple(i.name for i in scene.items), scene.title, world)
-
-
-def _with_clear_items(scene: Scene) -> Scene:
-    """The scene in which light goes through whatever one can see through."""
-    clear = [item.material.is_clear for item in scene.items]
-    if not any(see and item.hides for see, item in zip(clear, scene.items, strict=True)):
-        return scene
-    items = (replace(item, occludes=item.hides and not see) for see, item in zip(clear, scene.items, strict=True))
-    return replace(scene, items=tuple(items))
-
-
-def _planes_of(scene: Scene, view: View, faces: ImageFaces, plane: Ints) -> Ints:
-    """(n,) the planes of painted polygons, -1 for those of transparent items, which stand together as sheets."""
-    clear = opacities(scene.items)[view.face_item[faces.source]] < 1.0
-    return np.where(clear, -1, plane[faces.source])
-
-
-def _groups(scene: Scene) -> Ints | None:
-    """(i,) the number of each item's group, -1 for none; None where there are no groups."""
-    names = sorted({item.group for item in scene.items} - {""})
-    number = {"": -1, **{name: k for k, name in enumerate(names)}}
-    return np.array([number[item.group] for item in scene.items], dtype=np.intp) if names else None
 
 
 def _check_options(

@@ -14,6 +14,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.chunks import threads
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.placement import box_corners, field_of_vision
 from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.surfaces.balls import ball_of
@@ -141,6 +142,18 @@ def plan_draw(
     stages.append(Stage("layers", "what shares a pen"))
     stages.append(Stage("pen", "strokes joined, in an order that keeps the pen on the paper"))
     return tuple(stages)
+
+
+def plan_hatching(scene: Scene, given: Hatching | None, stages: Sequence[Stage]) -> tuple[Stage, ...]:
+    """The stages of draw, with the one that hatches faces before layers where anything is hatched. given: how items are
+    hatched that do not say it themselves."""
+    how = dict.fromkeys(given if item.hatch is None else item.hatch for item in scene.items)
+    words = dict.fromkeys(one.by for one in how if one is not None and one.by != "none")
+    if not words:
+        return tuple(stages)
+    hatching = Stage("hatching", f"faces are hatched by {', '.join(words)}")
+    at = [stage.name for stage in stages].index("layers")
+    return (*stages[:at], hatching, *stages[at:])
 
 
 def chosen_shadows(scene: Scene, camera: Camera, size: tuple[int, int], fit: bool) -> tuple[str, str]:

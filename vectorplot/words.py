@@ -45,6 +45,8 @@ class LineKind(IntEnum):
     """A curve in space that is an item of its own."""
     INTEGRAL = 10
     """A line of a smooth surface that follows a field of directions, or a geodesic."""
+    HATCH = 11
+    """A stroke of a hatching, which is asked for by its own words."""
 
     @property
     def word(self) -> str:
@@ -58,7 +60,7 @@ class LineKind(IntEnum):
         Parameters
         ----------
         word : str
-            As the command line and the JSON file spell it, in letters of any case.
+            As the command line and the JSON file spell it, in letters of any case; one of those that one can ask for.
 
         Returns
         -------
@@ -76,13 +78,13 @@ class LineKind(IntEnum):
         >>> vp.LineKind.from_word("crease").name
         'CREASE'
         """
-        if word.upper() not in cls.__members__:
+        if word.lower() not in LINE_WORDS:
             raise unknown("line kind", word, LINE_WORDS)
         return cls[word.upper()]
 
 
-LINE_WORDS = tuple(kind.word for kind in LineKind)
-"""The kinds of lines as they are spelled."""
+LINE_WORDS = tuple(kind.word for kind in LineKind if kind is not LineKind.HATCH)
+"""The kinds of lines that one can ask for, as they are spelled."""
 
 
 DRAWN = tuple(word for word in LINE_WORDS if word != LineKind.EDGES.word)

@@ -13,6 +13,7 @@ from vectorplot.cli.common_options import (
     lines_option,
     picture_verb,
 )
+from vectorplot.cli.hatching_options import HATCHING_OPTIONS, hatching_from
 from vectorplot.cli.options import at_least
 from vectorplot.cli.view_options import PAGE_OPTIONS
 
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
         metavar="MM",
         help="Gap beside lines that lie in front.",
     ),
+    *HATCHING_OPTIONS,
     click.option(
         "--layers", type=click.Choice(["kind", "object", "colour"]), default="kind", help="What shares a layer."
     ),
@@ -67,4 +69,5 @@ def draw(scene: Scene, **told: Any) -> Drawing:
     """
     from vectorplot.draw import draw as draw_scene
 
-    return draw_scene(scene, **told)
+    hatch, rest = hatching_from(told)
+    return draw_scene(scene, hatch=hatch, **rest)

@@ -1,6 +1,7 @@
 from .drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
 from .fills import FillKind, Fills
 from .fills_without_overlaps import visible_fills
+from .hatching.hatched_fills import hatched_fills
 from .lettering.text import Lettering, lettered, lettered_along
 from .painted_fills import placement_of_faces
 from .strokes.curved_strokes import curved_strokes
@@ -17,6 +18,7 @@ __all__ = [
     "Paths",
     "Pen",
     "curved_strokes",
+    "hatched_fills",
     "lettered",
     "lettered_along",
     "pen_ordered",

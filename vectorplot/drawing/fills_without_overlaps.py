@@ -52,20 +52,29 @@ def visible_fills(fills: Fills, page_from_world: Floats) -> Fills:
     >>> visible_fills(fills, np.eye(4)).points[:4, 0].max().item()
     20.0
     """
-    import shapely
-
     sizes = np.diff(fills.offsets)
     solid, lines = fills.some(np.flatnonzero(sizes > 2)), fills.some(np.flatnonzero(sizes == 2))
-    regions = _regions(solid) if len(solid) else np.zeros(0, object)
-    below, above, hidden = _overlaps(regions, solid.opacity >= 1.0)
+    parts, source = without_holes(*visible_regions(solid))
+    return Fills.joined(_listed(solid, parts, source, page_from_world), lines)
+
+
+def visible_regions(fills: Fills) -> tuple[Any, Ints]:
+    """What is seen of polygons of three corners or more: polygons of shapely (n,), which may have holes, and the number
+    (n,) of the one each is a part of, ascending.
+
+    Errors as of visible_fills.
+    """
+    import shapely
+
+    regions = _regions(fills) if len(fills) else np.zeros(0, object)
+    below, above, hidden = _overlaps(regions, fills.opacity >= 1.0)
     cut, of = np.unique(below, return_inverse=True)
     if len(cut):
         covers = unions(regions[above], of, GRID_MM)
         regions[cut] = shapely.difference(regions[cut], covers, grid_size=GRID_MM)
     left = np.flatnonzero(~hidden)
     parts, number = without_splinters(regions[left], GRID_MM)
-    parts, number = without_holes(parts, number)
-    return Fills.joined(_listed(solid, parts, left[number], page_from_world), lines)
+    return parts, left[number]
 
 
 def _regions(fills: Fills) -> Any:
@@ -124,7 +133,7 @@ def in_space(fills: Fills, points: Floats, source: Ints, page_from_world: Floats
     """
     if not len(points):
         return np.zeros((0, 3))
-    normal, place = _planes(fills)
+    normal, place = planes_of_fills(fills)
     rows = page_from_world[:2, None] - points.T[:, :, None] * page_from_world[3]
     system = np.stack([rows[0, :, :3], rows[1, :, :3], normal[source]], axis=1)
     # From the first corner of the fill, so that digits are kept far from the origin.
@@ -138,7 +147,7 @@ def in_space(fills: Fills, points: Floats, source: Ints, page_from_world: Floats
     return found
 
 
-def _planes(fills: Fills) -> tuple[Floats, Floats]:
+def planes_of_fills(fills: Fills) -> tuple[Floats, Floats]:
     """(m,3) unit normals of polygons in space, zero for those without area, and (m,3) their first corners."""
     start, sizes = fills.offsets[:-1], np.diff(fills.offsets)
     first = fills.points3d[start]

@@ -24,6 +24,7 @@ PENS = {
     "section": Pen(0.18, BLACK),
     "curve": Pen(0.5, BLACK),
     "integral": Pen(0.18, BLACK),
+    "hatch": Pen(0.18, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -39,6 +40,7 @@ KIND_LAYER = {
     LineKind.SECTION: "section",
     LineKind.CURVE: "curve",
     LineKind.INTEGRAL: "integral",
+    LineKind.HATCH: "hatch",
 }
 
 COLOURS = {

@@ -1,3 +1,4 @@
+from .hatching import Hatching
 from .integral_lines import FieldLines, GeodesicLines
 from .paper import sheet_size
 from .placement import Placement, field_of_vision, fitted_picture
@@ -8,6 +9,7 @@ from .view import View, look
 __all__ = [
     "FieldLines",
     "GeodesicLines",
+    "Hatching",
     "Item",
     "Light",
     "Material",

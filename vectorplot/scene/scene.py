@@ -15,6 +15,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.motions.movable import Movable
 from vectorplot.scene.extent import in_range, smooth_bounds
+from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, linear_growth
 from vectorplot.surfaces.balls import ball_of, bounds_of_balls
 from vectorplot.surfaces.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
@@ -192,6 +193,8 @@ class Item(Movable["Item"]):
         Which lines there are on a smooth surface.
     group : str
         A name that items share which stay together in the painter's order.
+    hatch : Hatching, optional
+        How its faces are hatched (None: as the drawing asks for).
 
     Raises
     ------
@@ -216,6 +219,7 @@ class Item(Movable["Item"]):
     occludes: bool | None = None
     curves: SurfaceLines = NO_LINES
     group: str = ""
+    hatch: Hatching | None = None
 
     def __post_init__(self) -> None:
         check_colour(self.colour, f"{self.name}: ")

@@ -82,3 +82,7 @@ by half of it or more."""
 FLAT_SLOPE = 1e-12
 """Sine of the slope of a surface below which it is level, and has no direction of steepest slope: a thousand roundings
 of a unit normal."""
+
+SAME_PLANE_SINE = 1e-6
+"""Normals of hatched faces that agree when rounded to so much are those of one plane: lines run on from one to the
+other, and are as far off as the thickness of a pen's line where they are not."""

@@ -9,6 +9,9 @@ ZERO_OF_EXTENT = 1e-9
 """A distance below this part of the extent of what is looked at counts as zero: a million times the rounding of
 coordinates, and a thousandth of the finest detail that anything can show."""
 
+SAME_PLANE_OF_EXTENT = 1e-6
+"""Hatched faces with one normal whose heights agree when rounded to so much lie in one plane, and share their lines."""
+
 ROUNDING_OF_POINTS = 1e-14
 """Part of the largest coordinate by which computed points of a surface differ where they should be one: some fifty
 steps of doubles, as a formula with sines and roots may lose."""

@@ -27,3 +27,7 @@ of a screen wide at most, on most of them less."""
 
 ARC_DECIMAL_MM = 1e-5
 """Unit of the numbers of arcs: their radii and centres are kept better than their ends."""
+
+HATCH_GAP_MM = 0.005
+"""Strokes of a hatching on one line that are no further apart are one: between the parts of a region that was cut to
+pieces there are gaps of some GRID_MM, and no pen shows them."""

@@ -29,6 +29,7 @@ from vectorplot.geometry.solids import (
 from vectorplot.io.scenes.scene_curves import CurveDraft
 from vectorplot.io.scenes.scene_placement import Placement
 from vectorplot.io.scenes.scene_words import Words
+from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.scene import Item, Material, Pattern
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
@@ -77,6 +78,7 @@ class Draft:
     lines: tuple[str, ...] | None = None
     occludes: bool | None = None
     group: str | None = None
+    hatch: Hatching | None = None
     surface: Surface | ImplicitSurface | None = None
     curve: Curve | None = None
     curves = CurveDraft()
@@ -131,6 +133,7 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
         draft.occludes,
         curves,
         draft.group or "",
+        draft.hatch,
     )
 
 

@@ -21,6 +21,7 @@ from vectorplot.io.scenes.scene_curves import (
     read_smooth_lines,
     read_surface_curve,
 )
+from vectorplot.io.scenes.scene_hatching import read_hatch
 from vectorplot.io.scenes.scene_item import CAP_WORDS, Draft
 from vectorplot.io.scenes.scene_placement import Placement, moved, read_matrix, read_rotation, read_scale
 from vectorplot.io.scenes.scene_words import (
@@ -334,6 +335,10 @@ class ItemReader:
         draft.group = self.source.string(self.at)
         self.at += 1
 
+    def _read_hatch(self, draft: Draft) -> None:
+        self._once(draft, "hatch")
+        draft.hatch, self.at = read_hatch(self.source, self.at, draft.owner)
+
     def _read_opacity(self, draft: Draft) -> None:
         self._once(draft, "opacity")
         opacity = self.source.number(self.at, draft.owner, "opacity")
@@ -427,6 +432,7 @@ HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
     "lines": ItemReader._read_lines,
     "occludes": ItemReader._read_occludes,
     "group": ItemReader._read_group,
+    "hatch": ItemReader._read_hatch,
     "scale": _modifier(read_scale),
     "matrix": _modifier(read_matrix),
     "surface": ItemReader._read_surface,

@@ -38,7 +38,7 @@ ITEM_WORDS = (
     ),
     *("meridian", "order", "translation", "base_points", "trans_vector", "box", "intersection", "rotation", "patterns"),
     *("lines", "occludes", "group", "scale", "matrix", "surface", "curve", "parameter_lines", "isophotes", "sections"),
-    *("level_lines", "slices", "surface_curve", "smooth_lines", "isophote_edges"),
+    *("level_lines", "slices", "surface_curve", "smooth_lines", "isophote_edges", "hatch"),
     *INTEGRAL_WORDS,
 )
 SCENE_WORDS = ("camera", "light", "page", "background", "title")

@@ -13,6 +13,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.scenes.reserved_words import RESERVED
+from vectorplot.io.scenes.scene_hatching import hatch_text
 from vectorplot.io.scenes.scene_words import bare_word
 from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
@@ -122,6 +123,8 @@ def _item(item: Item, lights: tuple[Light, ...]) -> str:
     words.append(f"occludes {'yes' if item.hides else 'no'}")
     if item.group:
         words.append(f"group {_name(item.group)}")
+    if item.hatch is not None:
+        words.append(hatch_text(item.hatch))
     if item.lines is not None:
         words.append(f"lines {', '.join(item.lines) or 'none'}")
     return " ".join(words) + _shape(item, lights) + _patterns(item.patterns)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -31,7 +31,8 @@ POINTS_AT_ONCE = 1 << 16
 class Lighting:
     """What colours are made of: items and lights of the view, the latter as of view_lights; normals (3,c) at the
     corners of the faces of the view, as of painted_normals; plane (f,) as of plane_numbers; size: shades of each
-    palette; doubles: of lights in mirrors, where such light falls."""
+    palette; doubles: of lights in mirrors, where such light falls; ambient: what ambient light adds everywhere, where
+    None more to what is nearer to the eye."""
 
     items: Sequence[Item]
     lights: Sequence[Light]
@@ -39,6 +40,7 @@ class Lighting:
     plane: Ints
     size: int = PALETTE_SIZE
     doubles: tuple[Light, ...] = ()
+    ambient: float | None = None
 
 
 def smooth_faces(view: View, normals: Floats) -> Bools:
@@ -75,7 +77,7 @@ def corner_shades_of(view: View, lighting: Lighting, points: Floats, offsets: In
     found.cue[on_flat] = one.cue[number]
     every = np.flatnonzero(smooth[face])
     if not len(every):
-        return found
+        return _with_ambient(found, lighting)
     flat_normals, inside = face_normals(view), shows_inside(view)
 
     def shade(some: slice) -> None:
@@ -88,7 +90,12 @@ def corner_shades_of(view: View, lighting: Lighting, points: Floats, offsets: In
 
     for _ in mapped(shade, slices(len(every), POINTS_AT_ONCE)):
         pass
-    return found
+    return _with_ambient(found, lighting)
+
+
+def _with_ambient(found: Shades, lighting: Lighting) -> Shades:
+    """The shades, with the same ambient light everywhere if the lighting says so."""
+    return found if lighting.ambient is None else replace(found, cue=np.full(len(found), lighting.ambient))
 
 
 def colours_of(view: View, lighting: Lighting, source: Ints, shade: Floats) -> Colours:

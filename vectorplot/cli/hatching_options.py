@@ -1,0 +1,56 @@
+"""Options that say how faces are hatched."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vectorplot.cli.options import at_least, number
+
+if TYPE_CHECKING:
+    from vectorplot.scene.hatching import Hatching
+
+_OF = {"spacing": "spacing_mm", "angle": "angle_deg", "cross": "cross", "along": "along", "hatch_width": "width_mm"}
+"""The options that say more of a hatching, and the fields of it that they fill."""
+
+HATCHING_OPTIONS = (
+    click.option(
+        "--hatch",
+        type=click.Choice(["none", "tone", "colour", "even"]),
+        default="none",
+        help="Faces hatched: by light and shadow, by light and colour, or all alike.",
+    ),
+    click.option(
+        "--spacing",
+        type=at_least(0.01),
+        metavar="MM",
+        help="From stroke to stroke where it is darkest.  [default: 0.6]",
+    ),
+    click.option("--angle", type=number, metavar="DEG", help="Of the strokes.  [default: 45]"),
+    click.option("--cross", is_flag=True, default=None, help="Strokes cross where it is darker than a half."),
+    click.option(
+        "--along",
+        type=click.Choice(["page", "face"]),
+        help="Strokes are parallel on the page, or in the planes of faces.  [default: page]",
+    ),
+    click.option("--hatch-width", type=at_least(0.01), metavar="MM", help="Of the pen that hatches.  [default: 0.18]"),
+)
+
+
+def hatching_from(options: Mapping[str, Any]) -> tuple[Hatching | None, dict[str, Any]]:
+    """The hatching that the options of a command ask for, None where they ask for none, and the other options.
+
+    Errors: bad usage for options of a hatching without one, InputError as of Hatching.
+    """
+    from vectorplot.scene.hatching import Hatching
+
+    given = {field: options[name] for name, field in _OF.items() if options[name] is not None}
+    rest = {name: value for name, value in options.items() if name not in (*_OF, "hatch")}
+    if options["hatch"] == "none":
+        if given:
+            name = next(name for name, field in _OF.items() if field in given)
+            raise click.UsageError(f"--{name.replace('_', '-')} goes with --hatch tone, colour or even")
+        return None, rest
+    return Hatching(options["hatch"], **given), rest

@@ -1,0 +1,79 @@
+"""How the faces of a scene, or of an item, are hatched."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from vectorplot.errors import InputError
+from vectorplot.words import check_word
+
+HATCHED_BY = ("tone", "colour", "even", "none")
+"""What the distance of strokes goes by."""
+
+HATCHED_ALONG = ("page", "face")
+"""What strokes are parallel to."""
+
+FINEST_MM = 0.01
+"""No pen draws finer lines, or closer ones."""
+
+
+@dataclass(frozen=True)
+class Hatching:
+    """How faces are hatched: strokes side by side, closer where it is darker.
+
+    Parameters
+    ----------
+    by : {"tone", "colour", "even", "none"}
+        What makes it dark: the light, shadows among it; the light and the colours of things; every face is as dark as
+        can be; or there is no hatching.
+    spacing_mm : float
+        From stroke to stroke on the page where it is darkest; 0.01 or more. In white places there are no strokes, and
+        between the two the ink on the paper grows with the darkness.
+    angle_deg : float
+        Of the strokes, counter-clockwise: from the page's x axis, or in planes from what is level there.
+    cross : bool
+        A second family of strokes crosses the first one at right angles, in what is darker than a half.
+    along : {"page", "face"}
+        Strokes are parallel on the page, or in the planes of faces. What is round is hatched along the page.
+    width_mm : float
+        Of the pen; 0.01 or more, and no more than the spacing.
+
+    Raises
+    ------
+    InputError
+        For other words, and numbers out of range.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Hatching("tone", spacing_mm=0.6, cross=True).darkest
+    0.51
+    """
+
+    by: Literal["tone", "colour", "even", "none"] = "tone"
+    spacing_mm: float = 0.6
+    angle_deg: float = 45.0
+    cross: bool = False
+    along: Literal["page", "face"] = "page"
+    width_mm: float = 0.18
+
+    def __post_init__(self) -> None:
+        check_word("hatching", self.by, HATCHED_BY)
+        check_word("hatching along", self.along, HATCHED_ALONG)
+        for what, value in (("spacing", self.spacing_mm), ("width", self.width_mm)):
+            if not FINEST_MM <= value < np.inf:
+                raise InputError(f"hatching: a {what} of {value:g} mm: expected {FINEST_MM:g} mm or more")
+        if self.width_mm > self.spacing_mm:
+            cause = f"strokes {self.width_mm:g} mm wide at a spacing of {self.spacing_mm:g} mm"
+            raise InputError(f"hatching: {cause}: expected no wider ones")
+        if not np.isfinite(self.angle_deg):
+            raise InputError(f"hatching: an angle of {self.angle_deg:g} degrees: expected a finite number")
+
+    @property
+    def darkest(self) -> float:
+        """The share of the paper that is covered with ink where it is darkest."""
+        share = self.width_mm / self.spacing_mm
+        return round(share * (2.0 - share), 12) if self.cross else share
