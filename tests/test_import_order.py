@@ -38,7 +38,6 @@ FOR_PROGRAMS = {
     "features/integral/mesh_integral_curves.py",
     "features/integral/mesh_sides.py",
     "surfaces/curvature.py",
-    "surfaces/height_grid.py",
 }
 """Files that programs of one's own call for, and no verb."""
 

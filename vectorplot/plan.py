@@ -117,7 +117,7 @@ def plan_draw(
         stages.append(Stage("intersections", "items, or parts of an item, may pierce each other"))
     if LineKind.PATTERN in wanted and any(item.patterns for item in scene.items):
         stages.append(Stage("patterns", "faces carry patterns"))
-    if wanted & {LineKind.ISOPHOTE, LineKind.SECTION} and any(map(_has_mesh_lines, scene.items)):
+    if wanted & {LineKind.ISOPHOTE, LineKind.SECTION, LineKind.INDEX} and any(map(_has_mesh_lines, scene.items)):
         stages.append(Stage("lines on meshes", "polyhedra carry isophotes or sections"))
     smooth = [item.shape for item in scene.items if not isinstance(item.shape, Mesh)]
     balls = any(ball_of(shape) or capped_quadric_of(shape) for shape in smooth)

@@ -9,14 +9,17 @@ from typing import Any
 from vectorplot.scene.scene import Scene
 
 
-def read(path: str | os.PathLike[str]) -> Scene | Any:
+def read(path: str | os.PathLike[str], *, exaggeration: float | None = None) -> Scene | Any:
     """The scene in a file, or the drawing that `save` wrote into one.
 
     Parameters
     ----------
     path : str or path
-        A mesh (obj, stl, ply, off, glb), a molecule (xyz, pdb, cif), a drawing (json), or a text in the scene language
-        (any other suffix).
+        A mesh (obj, stl, ply, off, glb), a molecule (xyz, pdb, cif), a terrain (asc, xyz), a drawing (json), or a text
+        in the scene language (any other suffix).
+    exaggeration : float, optional
+        What heights of a terrain are multiplied with. Where None they are left as they are, unless they would be seen
+        as a plain or a needle: then they are made 1, 2 or 5 times a power of ten higher, and a warning says so.
 
     Returns
     -------
@@ -26,7 +29,7 @@ def read(path: str | os.PathLike[str]) -> Scene | Any:
     Raises
     ------
     InputError
-        One line with the file, the line where there is one, and the cause.
+        One line with the file, the line where there is one, and the cause; for an exaggeration of what is no terrain.
     OSError
         For a drawing that cannot be opened.
 
@@ -44,10 +47,10 @@ def read(path: str | os.PathLike[str]) -> Scene | Any:
     ...     vp.read(path)
     <Scene 'Box': 1 items, 0 lights>
     """
-    if Path(path).suffix.lower() == ".json":
+    if Path(path).suffix.lower() == ".json" and exaggeration is None:
         from vectorplot.backends.json.document import read_drawing
 
         return read_drawing(path)
     from vectorplot.io.read_file import read as read_file
 
-    return read_file(path)
+    return read_file(path, exaggeration=exaggeration)

@@ -47,6 +47,8 @@ class LineKind(IntEnum):
     """A line of a smooth surface that follows a field of directions, or a geodesic."""
     HATCH = 11
     """A stroke of a hatching, which is asked for by its own words."""
+    INDEX = 12
+    """One of the sections that are drawn heavier, as every fifth level line of a map."""
 
     @property
     def word(self) -> str:

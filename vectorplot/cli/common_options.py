@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vectorplot.cli.options import KINDS, at_least, between, format_of, kinds, light
-from vectorplot.cli.picture import make_picture
+from vectorplot.cli.picture import Source, make_picture
 from vectorplot.cli.view_options import CAMERA_OPTIONS, CameraOptions, PageOptions, camera_from, page_from
 
 if TYPE_CHECKING:
@@ -56,6 +56,13 @@ EXPLAIN = click.option("--explain", is_flag=True, help="Print stages, times, cou
 QUIET = click.option("-q", "--quiet", is_flag=True, help="No warnings, no progress bar.")
 
 INPUT = click.argument("scene_file", type=click.Path(), metavar="INPUT")
+
+EXAGGERATION = click.option(
+    "--exaggeration",
+    type=POSITIVE,
+    metavar="FACTOR",
+    help="Times that heights of a terrain file are as high.  [default: 1 where they are to be seen]",
+)
 
 OUT = click.option("-o", "--out", required=True, type=click.Path(), metavar="OUT", help="File to write; - for stdout.")
 
@@ -127,16 +134,36 @@ def picture_verb(
 
     def command_of(verb: Callable[..., Drawing | Image]) -> click.Command:
         @click.command(short_help=short_help, context_settings={"show_default": True})
-        @with_options(INPUT, OUT, format_option(formats), *CAMERA_OPTIONS, *options, BUDGET, JOBS, EXPLAIN, QUIET)
+        @with_options(
+            INPUT,
+            OUT,
+            format_option(formats),
+            EXAGGERATION,
+            *CAMERA_OPTIONS,
+            *options,
+            BUDGET,
+            JOBS,
+            EXPLAIN,
+            QUIET,
+        )
         @wraps(verb)
-        def command(scene_file: str, out: str, format_: str | None, quiet: bool, explain: bool, **options: Any) -> None:
+        def command(
+            scene_file: str,
+            out: str,
+            format_: str | None,
+            exaggeration: float | None,
+            quiet: bool,
+            explain: bool,
+            **options: Any,
+        ) -> None:
             told = Told.of(options)
 
             def picture(scene: Scene, report: Report) -> Drawing | Image:
                 return verb(scene, **told.keywords(scene), progress=report.progress, explain=report.explain)
 
             written, jobs = format_of(out, format_, formats), told.rest["jobs"]
-            make_picture(scene_file, out, written, picture, quiet=quiet, explain=explain, jobs=jobs)
+            source = Source(scene_file, exaggeration)
+            make_picture(source, out, written, picture, quiet=quiet, explain=explain, jobs=jobs)
 
         return command
 

@@ -62,8 +62,8 @@ if TYPE_CHECKING:
     ),
 )
 def draw(scene: Scene, **told: Any) -> Drawing:
-    """Draw INPUT, a scene file, mesh (obj, stl, ply, off, glb) or molecule (xyz, pdb, cif), and write
-    OUT (svg, ps, eps, pdf, png, json).
+    """Draw INPUT, a scene file, mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain (asc, xyz), and
+    write OUT (svg, ps, eps, pdf, png, json).
 
     Camera options replace the fields of the camera in the scene file one by one.
     """

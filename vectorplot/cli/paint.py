@@ -50,8 +50,8 @@ if TYPE_CHECKING:
     TOLERANCE,
 )
 def paint(scene: Scene, *, flat: bool, **told: Any) -> Drawing:
-    """Paint INPUT, a scene file, mesh (obj, stl, ply, off, glb) or molecule (xyz, pdb, cif), and write
-    OUT (svg, ps, eps, pdf, png, json).
+    """Paint INPUT, a scene file, mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain (asc, xyz), and
+    write OUT (svg, ps, eps, pdf, png, json).
 
     Camera options replace the fields of the camera in the scene file one by one.
     """

@@ -8,6 +8,7 @@ import sys
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -31,8 +32,16 @@ class Report:
     explain: Callable[[StageReport], None]
 
 
+@dataclass(frozen=True)
+class Source:
+    """The file that a picture is made of; exaggeration: of the heights of a terrain, None for the usual one."""
+
+    path: str
+    exaggeration: float | None = None
+
+
 def make_picture(
-    scene_file: str,
+    source: Source,
     out: str,
     format_: str,
     picture: Callable[[Scene, Report], Drawing | Image],
@@ -52,15 +61,15 @@ def make_picture(
     from vectorplot.save import write
 
     reports: list[StageReport] = []
-    stages = (Stage("read", scene_file), Stage("write", f"as {format_}"))
+    stages = (Stage("read", source.path), Stage("write", f"as {format_}"))
     walk = Walk(stages, reports.append, None, threads_of(jobs))
     with told_warnings(quiet=quiet):
         check_place(out)
         with progress_bar(quiet=quiet) as progress:
-            scene = walk.run("read", read, scene_file)
+            scene = walk.run("read", partial(read, exaggeration=source.exaggeration), source.path)
             made = picture(scene, Report(progress, reports.append))
             if is_empty(made):
-                warnings.warn(f"{scene_file}: nothing to draw: the picture is empty", InputWarning, stacklevel=2)
+                warnings.warn(f"{source.path}: nothing to draw: the picture is empty", InputWarning, stacklevel=2)
             write_out(out, walk.run("write", write, made, format_))
     if explain:
         click.echo(table(reports), err=True)

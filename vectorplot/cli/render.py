@@ -49,7 +49,8 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
     click.option("--background", metavar="COLOUR", help="A palette, a plain colour or #rrggbb.  [default: white]"),
 )
 def render(scene: Scene, *, shadow_bits: str, **told: Any) -> Image:
-    """Render INPUT, a scene file, mesh (obj, stl, ply, off, glb) or molecule (xyz, pdb, cif), as a PNG picture OUT.
+    """Render INPUT, a scene file, mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain (asc, xyz), as
+    a PNG picture OUT.
 
     Camera options replace the fields of the camera in the scene file one by one.
     """

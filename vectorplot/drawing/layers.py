@@ -25,6 +25,7 @@ PENS = {
     "curve": Pen(0.5, BLACK),
     "integral": Pen(0.18, BLACK),
     "hatch": Pen(0.18, BLACK),
+    "index": Pen(0.35, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -41,6 +42,7 @@ KIND_LAYER = {
     LineKind.CURVE: "curve",
     LineKind.INTEGRAL: "integral",
     LineKind.HATCH: "hatch",
+    LineKind.INDEX: "index",
 }
 
 COLOURS = {

@@ -6,6 +6,7 @@ from .molecules.molecule_scene import molecule_scene
 from .molecules.read_molecule import read_molecule
 from .scenes.scene_language import parse_scene, read_scene
 from .scenes.scene_writer import write_scene
+from .terrains.read_terrain import read_terrain
 
 __all__ = [
     "Expression",
@@ -16,6 +17,7 @@ __all__ = [
     "parse_scene",
     "read_molecule",
     "read_scene",
+    "read_terrain",
     "scene_of",
     "write_scene",
 ]

@@ -22,12 +22,16 @@ from vectorplot.scene.scene import Item, Scene
 
 MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".glb")
 MOLECULE_SUFFIXES = (".xyz", ".pdb", ".ent", ".cif", ".mmcif")
+TERRAIN_SUFFIXES = (".asc",)
 SCENE_SUFFIXES = (".scene", ".txt")
 
 
-def read(path: str | os.PathLike[str]) -> Scene:
-    """The scene in a file: a mesh (obj, stl, ply, off, glb), a molecule (xyz, pdb, cif) or a text in the scene language
-    (any other suffix).
+def read(path: str | os.PathLike[str], *, exaggeration: float | None = None) -> Scene:
+    """The scene in a file: a mesh (obj, stl, ply, off, glb), a molecule (xyz, pdb, cif), a terrain (asc, xyz) or a text
+    in the scene language (any other suffix).
+
+    exaggeration: what heights of a terrain are multiplied with; those much smaller or larger than the terrain is wide
+    are made 1, 2 or 5 times a power of ten higher where None, which an InputWarning says.
 
     A mesh file gives one item named after the file, or one for every object (OBJ) or node (glb) if there are several.
     Meshes are mended (see mesh_repair.mended); what was mended, and what could not be, is said in one InputWarning a
@@ -37,6 +41,12 @@ def read(path: str | os.PathLike[str]) -> Scene:
     """
     path = Path(path)
     check_file(path)
+    if _is_terrain(path):
+        from vectorplot.io.terrains.terrain_scene import scene_of_heights
+
+        return scene_of_heights(path, exaggeration)
+    if exaggeration is not None:
+        raise InputError("heights are exaggerated of terrains only (asc, xyz)", file=shown(path))
     if path.suffix.lower() in MOLECULE_SUFFIXES:
         from vectorplot.io.molecules.molecule_scene import molecule_scene
         from vectorplot.io.molecules.read_molecule import read_molecule
@@ -54,6 +64,15 @@ def read(path: str | os.PathLike[str]) -> Scene:
         raise InputError("too large for the memory", file=shown(path)) from None
     except OSError as error:
         raise InputError(error.strerror or "cannot be read", file=shown(path)) from None
+
+
+def _is_terrain(path: Path) -> bool:
+    """Whether a file holds heights: its suffix tells, and that of molecules with what it begins with."""
+    if path.suffix.lower() != ".xyz":
+        return path.suffix.lower() in TERRAIN_SUFFIXES
+    from vectorplot.io.terrains.read_terrain import holds_points
+
+    return holds_points(path)
 
 
 def _scene_text(path: Path) -> Scene:

@@ -1,9 +1,11 @@
 from .hatching import Hatching
 from .integral_lines import FieldLines, GeodesicLines
+from .level_lines import level_sections, round_heights
 from .paper import sheet_size
 from .placement import Placement, field_of_vision, fitted_picture
 from .scene import Item, Light, Material, Page, Pattern, Scene
 from .surface_lines import Section, SurfaceLines, SurfacePath, even_cosines, path_on_surface
+from .terrains import terrain_mesh, terrain_scene
 from .view import View, look
 
 __all__ = [
@@ -24,7 +26,11 @@ __all__ = [
     "even_cosines",
     "field_of_vision",
     "fitted_picture",
+    "level_sections",
     "look",
     "path_on_surface",
+    "round_heights",
     "sheet_size",
+    "terrain_mesh",
+    "terrain_scene",
 ]

@@ -14,6 +14,7 @@ from vectorplot.curves.parameters import parameter_range
 from vectorplot.errors import InputError
 from vectorplot.scene.integral_lines import IntegralLines
 from vectorplot.tolerances.of_numbers import ROUNDING
+from vectorplot.words import LineKind
 
 Vector = tuple[float, float, float]
 
@@ -46,6 +47,8 @@ class Section:
         Distances from the origin along the normal, in world units.
     slices : bool
         Whether pictures are painted slice by slice between them.
+    index : bool
+        Whether the lines are of the kind index, those that are drawn heavier, instead of section.
 
     Raises
     ------
@@ -62,12 +65,13 @@ class Section:
     --------
     >>> import vectorplot as vp
     >>> vp.Section((0, 0, 2), (1, 2))
-    Section(normal=(0.0, 0.0, 1.0), offsets=(1.0, 2.0), slices=False)
+    Section(normal=(0.0, 0.0, 1.0), offsets=(1.0, 2.0), slices=False, index=False)
     """
 
     normal: Vector
     offsets: tuple[float, ...]
     slices: bool = False
+    index: bool = False
 
     def __post_init__(self) -> None:
         normal = np.array(self.normal, dtype=np.float64)
@@ -109,7 +113,12 @@ class Section:
         normal = np.linalg.solve(matrix[:3, :3].T, self.normal)
         length, away = float(np.linalg.norm(normal)), float(matrix[:3, 3] @ normal)
         x, y, z = (normal / length).tolist()
-        return Section((x, y, z), tuple((offset + away) / length for offset in self.offsets), self.slices)
+        return Section((x, y, z), tuple((offset + away) / length for offset in self.offsets), self.slices, self.index)
+
+    @property
+    def kind(self) -> LineKind:
+        """What its lines are."""
+        return LineKind.INDEX if self.index else LineKind.SECTION
 
 
 @dataclass(frozen=True)
@@ -140,15 +149,17 @@ class SurfacePath:
 
 
 def _each_plane_once(sections: tuple[Section, ...]) -> tuple[Section, ...]:
-    """The sections without the planes that those before them have, whichever way the normals point; those between
-    slices stay."""
+    """The sections without the planes that those before them have, or index lines, whichever way the normals point;
+    those between slices stay."""
     seen: set[tuple[Vector, float]] = set()
+    index = {(section.normal, d) for section in sections if section.index for d in section.offsets}
     kept = []
     for section in sections:
         x, y, z = section.normal
         back = (-x, -y, -z)
-        new = tuple(d for d in section.offsets if (section.normal, d) not in seen and (back, -d) not in seen)
-        seen.update((section.normal, d) for d in section.offsets)
+        taken = seen if section.index else seen | index
+        new = tuple(d for d in section.offsets if (section.normal, d) not in taken and (back, -d) not in taken)
+        seen.update((section.normal, d) for d in new)
         if section.slices or not section.offsets:
             kept.append(section)
         elif new:

@@ -34,6 +34,14 @@ from .placed import PlacedImplicit, PlacedSurface
 from .splines.landscape import landscape
 from .splines.spline_surface import SplineSurface, nurbs_surface, spline_surface
 from .surface import Domain, ImplicitSurface, Surface
+from .terrains.terrain import (
+    Terrain,
+    densified_terrain,
+    exaggerated,
+    terrain,
+    terrain_of_points,
+    thinned_terrain,
+)
 from .trimmed import TrimmedSurface
 
 __all__ = [
@@ -73,11 +81,14 @@ __all__ = [
     "SplineSurface",
     "Surface",
     "Swept",
+    "Terrain",
     "Torus",
     "Translation",
     "TrimmedSurface",
     "densified_grid",
+    "densified_terrain",
     "dupin_cyclide",
+    "exaggerated",
     "first_form",
     "gaussian_curvature",
     "graph",
@@ -103,6 +114,9 @@ __all__ = [
     "spiral_surface",
     "spline_surface",
     "surface_of_function",
+    "terrain",
+    "terrain_of_points",
+    "thinned_terrain",
     "translation_surface",
     "tube",
     "unit_normals",

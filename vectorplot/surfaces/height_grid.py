@@ -2,17 +2,30 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.words import check_word
 
 MOST_POINTS = 1 << 24
 """Points of a grid at most."""
 
+MOST_SCATTERED = 1 << 20
+"""Scattered points at most."""
 
-def grid_of_scattered(points: ArrayLike, columns: int, rows: int) -> Floats:
+
+def grid_of_scattered(
+    points: ArrayLike,
+    columns: int,
+    rows: int,
+    *,
+    between: Literal["smooth", "linear", "nearest"] = "smooth",
+    beyond: Literal["hole", "nearest"] = "hole",
+) -> Floats:
     """A regular grid of points whose heights are interpolated from scattered points.
 
     Parameters
@@ -21,22 +34,26 @@ def grid_of_scattered(points: ArrayLike, columns: int, rows: int) -> Floats:
         In world units, three or more.
     columns, rows : int
         Cells of the grid along x and y, over the box of the points.
+    between : {"smooth", "linear", "nearest"}
+        Cubic pieces over a Delaunay triangulation, its triangles, or the height of the nearest point.
+    beyond : {"hole", "nearest"}
+        What is outside the convex hull of the points: NaN, or the height of the nearest point. Nearest is measured in
+        the box of the points, made a square.
 
     Returns
     -------
     (columns+1, rows+1, 3) array of float
-        The grid; its heights are NaN outside the convex hull of the points.
+        The grid.
 
     Raises
     ------
     InputError
-        For fewer than three points, points that are not finite or lie all on one line, and fewer than one or more than
-        2^24 cells.
+        For fewer than three points or more than 2^20, points that are not finite or lie all on one line, fewer than one
+        or more than 2^24 cells, other words.
 
     Notes
     -----
-    The surface passes through all points and is smooth: cubic pieces over a Delaunay triangulation. Degenerate: of
-    points above one another the first counts.
+    The surface passes through all points. Degenerate: of points above one another the first counts.
 
     Source: Glaeser, section 9.3; Clough and Tocher (1965), as scipy has it.
 
@@ -47,12 +64,16 @@ def grid_of_scattered(points: ArrayLike, columns: int, rows: int) -> Floats:
     >>> grid[..., 2].round(6).tolist()
     [[1.0, 1.0, 1.0], [2.0, 2.0, 2.0], [3.0, 3.0, 3.0]]
     """
-    from scipy.interpolate import CloughTocher2DInterpolator
+    from scipy.interpolate import CloughTocher2DInterpolator, LinearNDInterpolator, NearestNDInterpolator
     from scipy.spatial import QhullError
 
+    check_word("scattered heights: between", between, ("smooth", "linear", "nearest"))
+    check_word("scattered heights: beyond", beyond, ("hole", "nearest"))
     p = np.array(points, dtype=np.float64)
     if p.ndim != 2 or p.shape[1] != 3 or len(p) < 3 or not np.isfinite(p).all():
         raise InputError("scattered heights: at least three points of three finite coordinates")
+    if len(p) > MOST_SCATTERED:
+        raise InputError(f"scattered heights: {len(p)} points, expected at most {MOST_SCATTERED}")
     _check_counts(columns, rows)
     first = np.sort(np.unique(p[:, :2], axis=0, return_index=True)[1])
     p = p[first]
@@ -62,10 +83,18 @@ def grid_of_scattered(points: ArrayLike, columns: int, rows: int) -> Floats:
     # In the unit box, so that neither place nor scale matters.
     scaled = (p - low) / np.where(size > 0.0, size, 1.0)
     u, v = np.meshgrid(np.linspace(0, 1, columns + 1), np.linspace(0, 1, rows + 1), indexing="ij")
+    places, values = scaled[:, :2], scaled[:, 2]
+    smooth = CloughTocher2DInterpolator if between == "smooth" else LinearNDInterpolator
     try:
-        heights = CloughTocher2DInterpolator(scaled[:, :2], scaled[:, 2])(u, v)
+        heights = smooth(places, values)(u, v)
     except QhullError:
         raise InputError("scattered heights: the points lie on one line") from None
+    nearest = NearestNDInterpolator(places, values)(u, v)
+    outside = np.isnan(heights)
+    if between == "nearest":
+        heights = np.where(outside, np.nan, nearest)
+    if beyond == "nearest":
+        heights = np.where(outside, nearest, heights)
     return np.asarray(low + size * np.stack([u, v, heights], axis=-1), dtype=np.float64)
 
 

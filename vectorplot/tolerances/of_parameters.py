@@ -119,3 +119,7 @@ LEAST_PART = 1e-9
 AT_POLE = 1e-7
 """Part of the domain from a pole inside of which the surface is asked beside it: nearer, the derivative along the pole
 has lost half its digits."""
+
+OFF_REGULAR_GRID = 1e-3
+"""Part of its step by which a point may be off a regular grid and still counts as standing on it: files of heights
+write coordinates with few digits."""

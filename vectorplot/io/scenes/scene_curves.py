@@ -22,12 +22,13 @@ AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0
 @dataclass(frozen=True)
 class Planes:
     """Parallel planes as the file asks for them: so many, evenly spread over the item, or at given distances; slices:
-    whether they cut it into slices."""
+    whether they cut it into slices; every: which of them are index lines, 0 for none."""
 
     normal: Vector
     count: int
     offsets: tuple[float, ...]
     slices: bool = False
+    every: int = 0
 
 
 @dataclass(frozen=True)
@@ -75,7 +76,7 @@ def read_isophotes(words: Words, at: int, owner: str, draft: CurveDraft) -> tupl
 def read_sections(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
     """An axis or a normal, and a number of sections or the distances of their planes from the origin."""
     normal, after = _direction(words, at, owner)
-    planes, after = _planes(words, at, after, owner, normal)
+    planes, after = _with_index(words, *_planes(words, at, after, owner, normal), owner)
     return _with_planes(words, at, owner, draft, planes), after
 
 
@@ -93,7 +94,7 @@ def read_slices(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[C
 
 def read_level_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
     """A number of horizontal sections, or their heights."""
-    planes, after = _planes(words, at, at + 1, owner, AXES["z"])
+    planes, after = _with_index(words, *_planes(words, at, at + 1, owner, AXES["z"]), owner)
     return _with_planes(words, at, owner, draft, planes), after
 
 
@@ -149,6 +150,16 @@ def _planes(words: Words, start: int, at: int, owner: str, normal: Vector) -> tu
         return Planes(Section(normal, offsets).normal, count, offsets), at
     except InputError as error:
         words.fail(start, owner + error.cause)
+
+
+def _with_index(words: Words, planes: Planes, at: int, owner: str) -> tuple[Planes, int]:
+    """The planes with every k-th of them an index line, where 'index' stands behind them."""
+    if words.words[at] != "index":
+        return planes, at
+    every = words.whole(at + 1, owner, "index")
+    if every < 1:
+        words.fail(at + 1, f"{owner}index: every {every}, expected 1 or more")
+    return replace(planes, every=every), at + 2
 
 
 def _with_planes(words: Words, start: int, owner: str, draft: CurveDraft, planes: Planes) -> CurveDraft:

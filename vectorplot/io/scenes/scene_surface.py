@@ -17,6 +17,7 @@ from vectorplot.io.scenes.scene_families import SURFACES
 from vectorplot.io.scenes.scene_slots import read_family
 from vectorplot.io.scenes.scene_words import Words
 from vectorplot.scene.extent import smooth_bounds
+from vectorplot.scene.level_lines import with_index_lines
 from vectorplot.scene.surface_lines import Section, SurfaceLines, Vector
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
@@ -67,14 +68,10 @@ def checked_bounds(shape: Surface | ImplicitSurface) -> Floats:
 
 def curves_of(draft: CurveDraft, shape: Mesh | Surface | ImplicitSurface, bounds: Floats) -> SurfaceLines:
     """The lines that a draft asks for on a surface or a polyhedron that stands in its place, within bounds (2,3)."""
-    sections = tuple(
-        Section(
-            planes.normal,
-            planes.offsets or even_offsets(shape, bounds, planes.normal, planes.count),
-            planes.slices,
-        )
-        for planes in draft.planes
-    )
+    sections: tuple[Section, ...] = ()
+    for planes in draft.planes:
+        offsets = planes.offsets or even_offsets(shape, bounds, planes.normal, planes.count)
+        sections += with_index_lines(Section(planes.normal, offsets, planes.slices), planes.every)
     return replace(draft.lines, sections=sections)
 
 

@@ -79,7 +79,8 @@ def lines_text(curves: SurfaceLines, lights: Sequence[Light]) -> str:
     for section in curves.sections:
         if section.offsets:
             word = "slices" if section.slices else "sections"
-            words.append(f"{word} normal {_numbers(section.normal)} at {_list(section.offsets)}")
+            index = " index 1" if section.index else ""
+            words.append(f"{word} normal {_numbers(section.normal)} at {_list(section.offsets)}{index}")
     words += [f"surface_curve {_quoted(path.function)} t {_numbers((path.start, path.end))}" for path in curves.paths]
     if curves.integral:
         from vectorplot.io.scenes.scene_integral import integral_text

@@ -338,10 +338,10 @@ def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Li
             if LineKind.ISOPHOTE in wanted and item.curves.isophotes:
                 found = _mesh_isophotes(scene, view, item)
                 parts.append(_lines_of_curves(view, found, LineKind.ISOPHOTE, number, item.curves.smooth))
-            if LineKind.SECTION in wanted:
-                for section in item.curves.sections:
+            for section in item.curves.sections:
+                if section.kind in wanted:
                     found = mesh_plane_sections(item.shape, section.normal, section.offsets)
-                    parts.append(_lines_of_curves(view, found, LineKind.SECTION, number, item.curves.smooth))
+                    parts.append(_lines_of_curves(view, found, section.kind, number, item.curves.smooth))
     return joined_lines(parts)
 
 

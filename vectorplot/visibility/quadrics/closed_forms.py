@@ -188,7 +188,7 @@ def _has_simple_lines(item: Item, kinds: frozenset[LineKind]) -> bool:
         (lines.paths, LineKind.CURVE),
         (lines.integral, LineKind.INTEGRAL),
         (lines.isophotes, LineKind.ISOPHOTE),
-        (lines.sections, LineKind.SECTION),
+        *((True, section.kind) for section in lines.sections),
     )
     return not any(asked and kind in wanted for asked, kind in curved)
 

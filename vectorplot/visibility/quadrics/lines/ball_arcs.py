@@ -27,7 +27,10 @@ def ball_arcs(scene: Scene, view: View, balls: Balls, wants: Wants) -> list[Foun
         _contours(balls, _wanting(items, wants, LineKind.CONTOUR)),
         *_parameter_lines(balls, items, _wanting(items, wants, LineKind.PARAMETER)),
         _isophotes(scene, view, balls, items, _wanting(items, wants, LineKind.ISOPHOTE)),
-        _sections(view, balls, items, _wanting(items, wants, LineKind.SECTION)),
+        *(
+            _sections(view, balls, items, _wanting(items, wants, kind), kind)
+            for kind in (LineKind.SECTION, LineKind.INDEX)
+        ),
     ]
 
 
@@ -122,13 +125,13 @@ def _isophotes(scene: Scene, view: View, balls: Balls, items: Sequence[Item], wh
     return on_balls(balls, balls.circles(ball, s[owner[kept]], height[kept]), LineKind.ISOPHOTE, ball)
 
 
-def _sections(view: View, balls: Balls, items: Sequence[Item], which: Ints) -> Found:
-    """The sections with planes."""
+def _sections(view: View, balls: Balls, items: Sequence[Item], which: Ints, kind: LineKind) -> Found:
+    """The sections of a kind with planes."""
     ball: list[int] = []
     normals: list[tuple[float, float, float]] = []
     offsets: list[float] = []
     for k in which.tolist():
-        for section in items[k].curves.sections:
+        for section in (s for s in items[k].curves.sections if s.kind == kind):
             ball += [k] * len(section.offsets)
             normals += [section.normal] * len(section.offsets)
             offsets += section.offsets
@@ -138,7 +141,7 @@ def _sections(view: View, balls: Balls, items: Sequence[Item], which: Ints) -> F
     of = np.array(ball, dtype=np.intp)
     sight = balls.sight
     at = sight.points(in_view * height[:, None])
-    return plane_circles(balls, of, sight.vectors(in_view), at, LineKind.SECTION)
+    return plane_circles(balls, of, sight.vectors(in_view), at, kind)
 
 
 def plane_circles(balls: Balls, ball: Ints, normal: Floats, point: Floats, kind: LineKind) -> Found:

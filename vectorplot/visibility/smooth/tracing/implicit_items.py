@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -30,6 +31,7 @@ from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.sheets.family import Family, NearChords, SingularCurves, SpatialCurves
 from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
@@ -54,8 +56,7 @@ def curves_of_implicit(
     found: list[Found] = [_contour(view, sheet, number, tracing)]
     if LineKind.ISOPHOTE in wanted and item.curves.isophotes:
         found.append(_isophotes(scene, view, item, sheet, number, tracing))
-    if LineKind.SECTION in wanted:
-        found += _sections(view, item, sheet, number, tracing)
+    found += _sections(view, [s for s in item.curves.sections if s.kind in wanted], sheet, number, tracing)
     borders = implicit_borders(sheet.home, tracing=tracing)
     found += _singular(sheet, number, tracing)
     parts = [as_spatial_curves(curves, kind, sheet, family) for kind, family, curves in found]
@@ -140,14 +141,16 @@ def _singular(sheet: ImplicitSheet, number: int, tracing: ImplicitTracing) -> li
     return result
 
 
-def _sections(view: View, item: Item, sheet: ImplicitSheet, number: int, tracing: ImplicitTracing) -> list[Found]:
+def _sections(
+    view: View, sections: Sequence[Section], sheet: ImplicitSheet, number: int, tracing: ImplicitTracing
+) -> list[Found]:
     result: list[Found] = []
-    for section in item.curves.sections:
+    for section in sections:
         normal = np.asarray(section.normal)
         family = SpatialCurves(sheet, number, MeetsPlane(view.axes @ normal, 0.0))
         found = implicit_plane_sections(sheet.home, normal, section.offsets, tracing=tracing)
         offsets = (found.levels - view.centre @ normal) / view.scale
-        result.append((LineKind.SECTION, family, replace(found, levels=offsets)))
+        result.append((section.kind, family, replace(found, levels=offsets)))
     return result
 
 

@@ -129,13 +129,13 @@ def _asked_for(
         result.append((LineKind.PARAMETER, ParameterCurves(sheet, number), found))
     if LineKind.ISOPHOTE in wanted and lines.isophotes:
         result.append(_isophotes(scene, view, item, sheet, number, tracing))
-    if LineKind.SECTION in wanted:
-        for section in lines.sections:
+    for section in lines.sections:
+        if section.kind in wanted:
             normal = view.axes @ np.asarray(section.normal)
             offsets = (np.asarray(section.offsets) - view.centre @ np.asarray(section.normal)) / view.scale
             plane = PlaneSection(surface, normal, 0.0)
             found = plane_sections(surface, normal, offsets, tracing=tracing)
-            result.append((LineKind.SECTION, ConditionCurves(sheet, number, plane), found))
+            result.append((section.kind, ConditionCurves(sheet, number, plane), found))
     if LineKind.CURVE in wanted:
         for path in lines.paths:
             found = surface_path(surface, path.function.values, path.start, path.end, tracing=tracing)

@@ -35,6 +35,6 @@ def as_curves(
         np.full(many, int(kind)),
         whole,
         np.zeros(many, dtype=np.intp),
-        found.levels if kind in (LineKind.ISOPHOTE, LineKind.SECTION) else np.zeros(many),
+        found.levels if kind in (LineKind.ISOPHOTE, LineKind.SECTION, LineKind.INDEX) else np.zeros(many),
         (family,),
     )

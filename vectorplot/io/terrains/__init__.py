@@ -1,0 +1,1 @@
+"""Files of heights: grids and scattered points."""
