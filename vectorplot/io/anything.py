@@ -8,11 +8,11 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TypeGuard
 
 import numpy as np
 
-from vectorplot.arrays import Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
@@ -21,10 +21,12 @@ from vectorplot.geometry.repair.mesh_repair import mended
 from vectorplot.io.meshes.cells import faces_of_cells
 from vectorplot.io.read_file import read
 from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.terrains import terrain_scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
+from vectorplot.surfaces.terrains.terrain import Terrain
 from vectorplot.tolerances.of_numbers import SINGLE_ULP, ULP
 
-TAKEN = "a path, Scene, Item, Mesh, surface, curve, (vertices, faces), a mesh of trimesh or meshio, or a list of these"
+TAKEN = "a path, Scene, Item, Mesh, surface, curve, (vertices, faces), heights, a mesh of trimesh or meshio, or a list of these"
 """What the verbs take, in words."""
 
 
@@ -36,8 +38,8 @@ def scene_of(shown: object) -> Scene:
     shown : Scene, path, Item, Mesh, surface, curve, mesh of another library, arrays, or several of these
         A path is read as by `vp.read`. Shapes become gray items named after what they are. A mesh of another library is
         known by what it has: vertices and faces, as those of trimesh, or points and cells, as those of meshio, whose
-        volumes show their outer faces. Arrays of vertices (n, 3) and of faces (f, k) are a pair. A list or a tuple is
-        all of what is in it, a mapping names it.
+        volumes show their outer faces. Arrays of vertices (n, 3) and of faces (f, k) are a pair. A Terrain, or an array
+        of heights (m, n), is drawn with its level lines. A list or a tuple is all of what is in it, a mapping names it.
 
     Returns
     -------
@@ -71,6 +73,8 @@ def scene_of(shown: object) -> Scene:
         return shown
     if isinstance(shown, str | os.PathLike):
         return _read(shown)
+    if isinstance(shown, Terrain) or _is_heights(shown):
+        return terrain_scene(shown)
     item = _item(shown)
     if item is not None:
         return Scene((item,))
@@ -82,6 +86,16 @@ def scene_of(shown: object) -> Scene:
     if isinstance(shown, Iterable) and not isinstance(shown, np.ndarray | bytes):
         return _together([scene_of(one) for one in shown])
     _refuse(shown)
+
+
+def _is_heights(shown: object) -> TypeGuard[Floats]:
+    """Whether something is an array of heights; one of two or three columns may be points."""
+    return (
+        isinstance(shown, np.ndarray)
+        and shown.ndim == 2
+        and shown.dtype.kind in "fiu"
+        and min(shown.shape) > len("xyz")
+    )
 
 
 def _refuse(shown: object) -> NoReturn:

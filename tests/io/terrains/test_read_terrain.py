@@ -126,3 +126,11 @@ def test_heights_that_nobody_would_see_are_exaggerated_and_that_is_said(tmp_path
         read(path)
     with pytest.raises(InputError, match="heights are exaggerated of terrains only"):
         read(written(tmp_path, "BOX box 1 1 1", "box.scene"), exaggeration=2.0)
+
+
+def test_verbs_take_arrays_of_heights_and_terrains():
+    heights = hills(12, 9)
+    for given in (heights, np.ma.masked_less(heights, -0.99), terrain(heights)):
+        assert sum(len(layer.marks) for layer in vp.draw(given).layers) > 0
+    with pytest.raises(TypeError):
+        vp.draw(np.zeros((5, 3)))
