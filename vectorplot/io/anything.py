@@ -26,7 +26,10 @@ from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.surfaces.terrains.terrain import Terrain
 from vectorplot.tolerances.of_numbers import SINGLE_ULP, ULP
 
-TAKEN = "a path, Scene, Item, Mesh, surface, curve, (vertices, faces), heights, a mesh of trimesh or meshio, or a list of these"
+TAKEN = (
+    "a path, Scene, Item, Mesh, surface, curve, (vertices, faces), heights, a mesh of trimesh or meshio, "
+    "or a list of these"
+)
 """What the verbs take, in words."""
 
 

@@ -108,7 +108,7 @@ class Section:
         >>> import numpy as np
         >>> import vectorplot as vp
         >>> vp.Section((0, 0, 1), (1, 2)).transformed(np.diag([1.0, 1.0, 3.0, 1.0]))
-        Section(normal=(0.0, 0.0, 1.0), offsets=(3.0, 6.0), slices=False)
+        Section(normal=(0.0, 0.0, 1.0), offsets=(3.0, 6.0), slices=False, index=False)
         """
         normal = np.linalg.solve(matrix[:3, :3].T, self.normal)
         length, away = float(np.linalg.norm(normal)), float(matrix[:3, 3] @ normal)
