@@ -29,9 +29,6 @@ VERBS = {"draw", "paint", "painting", "read", "render", "save", "plan"}
 ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "verbs"), ("shading/raster/image.py", "verbs")}
 
 FOR_PROGRAMS = {
-    "drawing/lettering/accents.py",
-    "drawing/lettering/hershey.py",
-    "drawing/lettering/text.py",
     "features/integral/face_sites.py",
     "features/integral/mesh_courses.py",
     "features/integral/mesh_flows.py",

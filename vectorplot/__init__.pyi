@@ -10,6 +10,7 @@ from .read import read
 from .render import render
 from .save import save
 from .scene.hatching import Hatching
+from .scene.labels import Along, AtVertex, Label, OnPage
 from .scene.plots import graph, surface, tube
 from .scene.scene import Item, Light, Material, Page, Pattern, Scene
 from .scene.surface_lines import Section, SurfaceLines
@@ -19,6 +20,8 @@ from .words import LineKind
 __version__: str
 
 __all__ = [
+    "Along",
+    "AtVertex",
     "Camera",
     "Drawing",
     "Hatching",
@@ -26,11 +29,13 @@ __all__ = [
     "InputError",
     "InputWarning",
     "Item",
+    "Label",
     "Layer",
     "Light",
     "LineKind",
     "Material",
     "Mesh",
+    "OnPage",
     "Page",
     "Paths",
     "Pattern",

@@ -26,6 +26,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
 from vectorplot.plan import StageReport, Walk, accuracy_of_draw, plan_cuts, plan_draw, plan_hatching, with_accuracy
 from vectorplot.scene.hatching import Hatching
+from vectorplot.scene.label_anchors import LabelAnchors, label_anchors
 from vectorplot.scene.placement import Placement, mm_per_image
 from vectorplot.scene.point_of_view import camera_of, page_of
 from vectorplot.scene.scene import Page, Scene
@@ -49,6 +50,7 @@ from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 from vectorplot.words import DRAWN, WIRES, LineKind, check_word, line_kinds
 
 if TYPE_CHECKING:
+    from vectorplot.drawing.lettering.scene_labels import SceneLabels
     from vectorplot.visibility.quadrics.closed_forms import ClosedForms, Seen
     from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet
     from vectorplot.visibility.smooth.tracing.traced import TracedScene
@@ -172,7 +174,8 @@ def draw(
         style, hidden=hidden != "none", halo_mm=halo_mm > 0.0, hatch=hatch is not None, layers=layers != "kind"
     )
     kinds = line_kinds((DRAWN if style == "plain" else WIRES) if lines is None else lines)
-    scene = without_seams(scene_of(scene))
+    given = scene_of(scene)
+    anchors, scene = label_anchors(given), without_seams(given)
     tell_what_is_cut_off(scene)
     camera = camera_of(camera, scene)
     page = page_of(page, scene)
@@ -215,6 +218,10 @@ def draw(
         seen = walk.run("halo", halo, view, framed, seen, halo_mm / placement.scale)
     world = placement.page_from_world
     strokes = walk.run("strokes", strokes_on_page, view, framed, seen, placement)
+    labels = None
+    if walk.calls_for("labels"):
+        labels = walk.run("labels", labels_in_place, scene, view, faces, placement, anchors, strokes, hidden, style)
+        strokes = labels.interrupted(strokes, world)
     hatches = Paths.empty()
     if walk.calls_for("hatching"):
         from vectorplot.painting.hatched import hatched
@@ -222,6 +229,7 @@ def draw(
         done = walk.fraction("hatching")
         filled = partial(hatched, crease_angle_deg=crease_angle_deg, tolerance_mm=tolerance_mm, budget=allowed)
         hatches = walk.run("hatching", filled, scene, placement, hatch, progress=done)
+        hatches = hatches if labels is None else labels.interrupted(hatches, world)
     if style == "plain":
         sorted_layers = walk.run("layers", _layers, scene, strokes, hatches, hatch, layers)
     else:
@@ -231,6 +239,8 @@ def draw(
     curved = tolerance_mm if curves == "bezier" else None
     pens = walk.run("pen", inked, sorted_layers, hidden, world, curved, longest_mm)
     names = tuple(item.name for item in scene.items)
+    if labels is not None:
+        pens = labels.on_top(pens, layers == "kind" and style == "plain", longest_mm, world)
     return Drawing(page.width_mm, page.height_mm, pens, names, scene.title, world)
 
 
@@ -306,6 +316,29 @@ def _straight_lines(
     if walk.calls_for("lines on meshes"):
         found.append(walk.run("lines on meshes", mesh_curve_lines, scene, view, kinds))
     return with_shared_kinds(view, joined_lines(found))
+
+
+def labels_in_place(
+    scene: Scene,
+    view: View,
+    faces: ProjectedFaces,
+    placement: Placement,
+    anchors: LabelAnchors,
+    strokes: Paths,
+    hidden: str = "none",
+    style: str = "plain",
+    *,
+    mm: float = 1.0,
+) -> SceneLabels:
+    """The labels of a scene where a picture of it has its place on the page.
+
+    anchors: what they name in the scene as it was given; strokes: of the picture; hidden, style: as of draw; mm: how
+    long a millimetre is in units of the page.
+    """
+    from vectorplot.drawing.lettering.scene_labels import labels_on_page, seen_labels
+
+    seen = seen_labels(scene, view, faces, placement, anchors, style != "plain", mm)
+    return labels_on_page(seen, placement, strokes, hidden, mm)
 
 
 def _check_options(

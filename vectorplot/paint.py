@@ -24,6 +24,7 @@ from vectorplot.painting.erased import erased
 from vectorplot.painting.ordered_faces import ordered_faces, seen_on_page
 from vectorplot.painting.ruler import PEN, Ruler
 from vectorplot.plan import StageReport, Walk, accuracy_of_paint, plan_cuts, plan_paint, with_accuracy
+from vectorplot.scene.label_anchors import label_anchors
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.point_of_view import camera_of, page_of
 from vectorplot.scene.scene import Light, Page
@@ -138,6 +139,7 @@ def paint(
     budget_of(budget)
     threads = threads_of(jobs)
     given = scene_of(scene)
+    anchors = label_anchors(given)
     scene = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
     tell_what_is_cut_off(scene)
     camera = camera_of(camera, scene)
@@ -184,10 +186,17 @@ def paint(
         from vectorplot.effects.windows.screened_fills import screened
 
         polygons = walk.run("screen door", screened, polygons, PEN.width_mm, world)
-    layers = [Layer("fills", PEN, (polygons,))]
-    if walk.calls_for("lines"):
-        layers += walk.run("lines", ruler.layers, kinds, walk.fraction("lines"))
-    return Drawing(page.width_mm, page.height_mm, tuple(layers), tuple(i.name for i in scene.items), scene.title, world)
+    layers: tuple[Layer, ...] = (Layer("fills", PEN, (polygons,)),)
+    found = walk.run("lines", ruler.found, kinds, walk.fraction("lines")) if walk.calls_for("lines") else None
+    labels = None
+    if walk.calls_for("labels"):
+        labels = walk.run("labels", ruler.labels, anchors, found)
+        found = found and labels.interrupted(found, world)
+    if found is not None:
+        layers += ruler.layers(found)
+    if labels is not None:
+        layers = labels.on_top(layers, False, None, world)
+    return Drawing(page.width_mm, page.height_mm, layers, tuple(i.name for i in scene.items), scene.title, world)
 
 
 def _check_options(

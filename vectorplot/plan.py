@@ -139,9 +139,15 @@ def plan_draw(
     if halo_mm > 0.0:
         stages.append(Stage("halo", f"lines end {halo_mm:g} mm beside what is in front of them"))
     stages.append(Stage("strokes", "lines on the page, those that lie on each other once"))
+    stages += _label_stages(scene)
     stages.append(Stage("layers", "what shares a pen"))
     stages.append(Stage("pen", "strokes joined, in an order that keeps the pen on the paper"))
     return tuple(stages)
+
+
+def _label_stages(scene: Scene) -> list[Stage]:
+    """The stage that letters places, where the scene has names for any."""
+    return [Stage("labels", "places have names; lines end before the letters")] if scene.labels else []
 
 
 def plan_hatching(scene: Scene, given: Hatching | None, stages: Sequence[Stage]) -> tuple[Stage, ...]:
@@ -214,6 +220,7 @@ def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple
         stages.append(Stage("transparency", "what one sees through"))
     if lines:
         stages.append(Stage("lines", "drawn over the picture, with exact hidden lines"))
+    stages += _label_stages(scene)
     stages.append(Stage("average", "the pixels of the picture"))
     return tuple(stages)
 
@@ -357,4 +364,5 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
             stages.append(Stage("screen door", "transparent polygons become sparse lines"))
     if kinds and fills != "erasing":
         stages.append(Stage("lines", ", ".join(sorted(kind.word for kind in kinds)) + " on top"))
+    stages += _label_stages(scene)
     return tuple(stages)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from vectorplot.arrays import Bools, Ints
-from vectorplot.draw import lines_in_place, seen_part, with_smooth_surfaces
+from vectorplot.draw import labels_in_place, lines_in_place, seen_part, with_smooth_surfaces
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.facets import Within
 from vectorplot.geometry.budget import budget_of
@@ -30,6 +30,7 @@ from vectorplot.plan import (
     plan_render,
     with_accuracy,
 )
+from vectorplot.scene.label_anchors import LabelAnchors, label_anchors
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.point_of_view import camera_of
 from vectorplot.scene.scene import Light, Page, Scene
@@ -68,6 +69,12 @@ SIZE = (800, 600)
 
 SAMPLES = 2
 """Along each side of a pixel, unless told otherwise."""
+
+PIXELS_PER_MM = 96.0 / 25.4
+"""How large a millimetre of letters is, as on screens."""
+
+LETTER_PIXELS = 1.25
+"""The width of the strokes of letters."""
 
 MOST_SAMPLES = 8
 """Along each side of a pixel."""
@@ -198,6 +205,7 @@ def render(
     budget_of(budget)
     threads = threads_of(jobs)
     given = scene_of(scene)
+    anchors = label_anchors(given)
     scene = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
     _check_lights(scene.lights)
     tell_what_is_cut_off(scene)
@@ -231,8 +239,15 @@ def render(
     if how == "exact":
         picture = replace(picture, points_at_once=EXACT_POINTS_AT_ONCE)
     pixels = _pixels(walk, picture, samples)
+    found = None
     if walk.calls_for("lines"):
-        found = walk.run("lines", _lines, walk, scene, placement, view, kinds, crease_angle_deg, budget)
+        how_far = walk.fraction("lines")
+        found = walk.run("lines", _lines, scene, placement, view, crease_angle_deg, budget, kinds, how_far)
+    if walk.calls_for("labels"):
+        beside = (scene, placement, view, crease_angle_deg, budget)
+        found, letters = walk.run("labels", _with_labels, anchors, found, samples, *beside)
+        pixels = _with_lines(pixels, letters, samples * LETTER_PIXELS)
+    if found is not None:
         pixels = _with_lines(pixels, found, float(samples))
     return Image(walk.run("average", averaged_light, pixels, samples), scene.title)
 
@@ -365,13 +380,13 @@ def _pixels(walk: Walk, picture: Picture, samples: int) -> Bytes:
 
 
 def _lines(
-    walk: Walk,
     scene: Scene,
     placement: Placement,
     view: View,
-    kinds: frozenset[LineKind],
     crease_angle_deg: float,
     budget: float,
+    kinds: frozenset[LineKind],
+    progress: Callable[[float], None] | None = None,
 ) -> Paths:
     """The visible lines of a scene on the page whose millimetres are the pixels of its picture."""
     return lines_in_place(
@@ -382,8 +397,26 @@ def _lines(
         crease_angle_deg=crease_angle_deg,
         tolerance_mm=LINE_PIXELS,
         budget=budget,
-        progress=walk.fraction("lines"),
+        progress=progress,
     )
+
+
+def _with_labels(
+    anchors: LabelAnchors,
+    found: Paths | None,
+    samples: int,
+    scene: Scene,
+    placement: Placement,
+    view: View,
+    crease_angle_deg: float,
+    budget: float,
+) -> tuple[Paths | None, Paths]:
+    """The lines of a picture, ending before its letters, and the letters; without lines these keep off contours."""
+    outlines = frozenset({LineKind.CONTOUR, LineKind.BOUNDARY})
+    beside = _lines(scene, placement, view, crease_angle_deg, budget, outlines) if found is None else found
+    seen = with_smooth_surfaces(scene, view, None)
+    labels = labels_in_place(scene, *seen, placement, anchors, beside, mm=samples * PIXELS_PER_MM)
+    return found and labels.interrupted(found, placement.page_from_world), labels.strokes
 
 
 def _with_lines(pixels: Bytes, found: Paths, width: float) -> Bytes:

@@ -49,6 +49,8 @@ class LineKind(IntEnum):
     """A stroke of a hatching, which is asked for by its own words."""
     INDEX = 12
     """One of the sections that are drawn heavier, as every fifth level line of a map."""
+    LABEL = 13
+    """A stroke of a letter, or a leader from a label to what it names."""
 
     @property
     def word(self) -> str:
@@ -85,7 +87,7 @@ class LineKind(IntEnum):
         return cls[word.upper()]
 
 
-LINE_WORDS = tuple(kind.word for kind in LineKind if kind is not LineKind.HATCH)
+LINE_WORDS = tuple(kind.word for kind in LineKind if kind not in (LineKind.HATCH, LineKind.LABEL))
 """The kinds of lines that one can ask for, as they are spelled."""
 
 
@@ -104,7 +106,11 @@ def line_words(words: str | Iterable[str]) -> tuple[str, ...]:
     given = words.split(",") if isinstance(words, str) else list(words)
     if len(given) == 1 and given[0].strip().lower() == "none":
         return ()
-    return tuple(dict.fromkeys(LineKind.from_word(word.strip()).word for word in given))
+    asked = [word.strip().lower() for word in given]
+    for word in asked:
+        if word not in LINE_WORDS:
+            raise unknown("line kind", word, LINE_WORDS)
+    return tuple(dict.fromkeys(asked))
 
 
 def line_kinds(words: str | Iterable[str]) -> frozenset[LineKind]:

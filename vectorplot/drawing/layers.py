@@ -26,6 +26,7 @@ PENS = {
     "integral": Pen(0.18, BLACK),
     "hatch": Pen(0.18, BLACK),
     "index": Pen(0.35, BLACK),
+    "label": Pen(0.25, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -43,6 +44,7 @@ KIND_LAYER = {
     LineKind.INTEGRAL: "integral",
     LineKind.HATCH: "hatch",
     LineKind.INDEX: "index",
+    LineKind.LABEL: "label",
 }
 
 COLOURS = {

@@ -7,6 +7,7 @@ import warnings
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from typing import Any, NoReturn, TypeGuard
 
@@ -20,6 +21,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.mesh_repair import mended
 from vectorplot.io.meshes.cells import faces_of_cells
 from vectorplot.io.read_file import read
+from vectorplot.scene.labels import Label
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.terrains import terrain_scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
@@ -165,20 +167,29 @@ def _named(name: str, scene: Scene) -> Scene:
     """The scene with this name for its only item, or in front of those of its items."""
     alone = len(scene.items) == 1
     items = tuple(replace(item, name=name if alone else f"{name} {item.name}") for item in scene.items)
-    return replace(scene, items=items)
+    return replace(scene, items=items, labels=_labels(scene, items))
+
+
+def _labels(scene: Scene, items: Sequence[Item]) -> tuple[Label, ...]:
+    """The labels of a scene whose items have other names now."""
+    names = {old.name: new.name for old, new in zip(reversed(scene.items), reversed(items), strict=True)}
+    return tuple(label.renamed(names) for label in scene.labels)
 
 
 def _together(scenes: Sequence[Scene]) -> Scene:
     """All items and lights; what there can be only one of is that of the first scene that has it."""
     if len(scenes) == 1:
         return scenes[0]
+    items = _told_apart([item for scene in scenes for item in scene.items])
+    ends = np.cumsum([len(scene) for scene in scenes]).tolist()
     return Scene(
-        _told_apart([item for scene in scenes for item in scene.items]),
+        items,
         tuple(light for scene in scenes for light in scene.lights),
         next((scene.camera for scene in scenes if scene.camera), None),
         next((scene.page for scene in scenes if scene.page), None),
         next((scene.background for scene in scenes if scene.background), None),
         next((scene.title for scene in scenes if scene.title), ""),
+        tuple(chain(*(_labels(scene, items[end - len(scene) : end]) for scene, end in zip(scenes, ends, strict=True)))),
     )
 
 

@@ -5,16 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
-from vectorplot.draw import lines_in_place, with_smooth_surfaces
+from vectorplot.draw import labels_in_place, lines_in_place, with_smooth_surfaces
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.layers import layers_by_kind
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.painting.seen import Seen
+from vectorplot.scene.label_anchors import LabelAnchors
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import ProjectedFaces
 from vectorplot.words import LineKind
+
+if TYPE_CHECKING:
+    from vectorplot.drawing.lettering.scene_labels import SceneLabels
 
 PEN = Pen()
 """What draws lines among fills."""
@@ -30,9 +35,18 @@ class Ruler:
     tolerance_mm: float
     budget: float
 
-    def layers(self, kinds: frozenset[LineKind], progress: Callable[[float], None]) -> tuple[Layer, ...]:
+    def found(self, kinds: frozenset[LineKind], progress: Callable[[float], None]) -> Paths:
+        """The visible lines, as they come."""
+        return self._found(self.scene, kinds, progress)
+
+    def labels(self, anchors: LabelAnchors, strokes: Paths | None) -> SceneLabels:
+        """The labels of the scene, apart from strokes, or where there are none from its contours."""
+        if strokes is None:
+            strokes = self._found(self.scene, frozenset({LineKind.CONTOUR, LineKind.BOUNDARY}), None)
+        return labels_in_place(self.scene, *self._view, self.seen.placement, anchors, strokes)
+
+    def layers(self, found: Paths) -> tuple[Layer, ...]:
         """The visible lines in layers by kind."""
-        found = self._found(self.scene, kinds, progress)
         return inked(layers_by_kind(found), "none", self.seen.placement.page_from_world, self.tolerance_mm)
 
     def strokes(self, scene: Scene, kinds: frozenset[LineKind]) -> Paths:

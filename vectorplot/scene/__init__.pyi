@@ -1,5 +1,6 @@
 from .hatching import Hatching
 from .integral_lines import FieldLines, GeodesicLines
+from .labels import Along, AtVertex, Label, OnPage
 from .level_lines import level_sections, round_heights
 from .paper import sheet_size
 from .placement import Placement, field_of_vision, fitted_picture
@@ -9,12 +10,16 @@ from .terrains import terrain_mesh, terrain_scene
 from .view import View, look
 
 __all__ = [
+    "Along",
+    "AtVertex",
     "FieldLines",
     "GeodesicLines",
     "Hatching",
     "Item",
+    "Label",
     "Light",
     "Material",
+    "OnPage",
     "Page",
     "Pattern",
     "Placement",

@@ -16,6 +16,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.motions.movable import Movable
 from vectorplot.scene.extent import in_range, smooth_bounds
 from vectorplot.scene.hatching import Hatching
+from vectorplot.scene.labels import Label
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, linear_growth
 from vectorplot.surfaces.balls import ball_of, bounds_of_balls
 from vectorplot.surfaces.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
@@ -334,6 +335,8 @@ class Scene(Movable["Scene"]):
         The colour that the file names (None: none).
     title : str
         What the scene is called.
+    labels : tuple of Label
+        Names in the picture.
 
     Raises
     ------
@@ -357,6 +360,7 @@ class Scene(Movable["Scene"]):
     page: Page | None = None
     background: str | None = None
     title: str = ""
+    labels: tuple[Label, ...] = ()
 
     def __post_init__(self) -> None:
         if self.background is not None:
@@ -366,7 +370,7 @@ class Scene(Movable["Scene"]):
         return len(self.items)
 
     def transformed(self, matrix: ArrayLike) -> Scene:
-        """The scene with its items under a 4x4 matrix acting on columns; lights, camera and page stay.
+        """The scene with its items and labels under a 4x4 matrix acting on columns; lights, camera and page stay.
 
         Parameters
         ----------
@@ -390,7 +394,8 @@ class Scene(Movable["Scene"]):
         >>> vp.Scene((vp.Item("triangle", triangle),)).turned("x", 90).bounds.tolist()
         [[0.0, 0.0, 0.0], [1.0, 0.0, 1.0]]
         """
-        return replace(self, items=tuple(item.transformed(matrix) for item in self.items))
+        labels = tuple(label.transformed(matrix) for label in self.labels)
+        return replace(self, items=tuple(item.transformed(matrix) for item in self.items), labels=labels)
 
     def __repr__(self) -> str:
         return f"<Scene {self.title!r}: {len(self.items)} items, {len(self.lights)} lights>"

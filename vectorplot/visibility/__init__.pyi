@@ -1,3 +1,4 @@
+from .hidden_points import points_hidden_by
 from .painter.groups import ObjectOrder, gordian_knots, group_ranks, grouped_order, knot_report, object_order
 from .painter.image_faces import ImageFaces, image_faces, image_points
 from .painter.mikado import Mikado, mikado
@@ -44,6 +45,7 @@ __all__ = [
     "mikado",
     "object_order",
     "painters_order",
+    "points_hidden_by",
     "priorities",
     "project_faces",
     "slice_order",

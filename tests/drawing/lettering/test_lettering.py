@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.drawing.lettering.text import capital_height, lettered, lettered_along
+from vectorplot.drawing.lettering.text import lettered, lettered_along
 
 ASCII = "".join(map(chr, range(33, 127)))
 LATIN = "".join(c for c in map(chr, range(0xC0, 0x180)) if c.isalpha())
@@ -37,7 +37,6 @@ def test_latin_letters_have_their_accents() -> None:
 
 def test_dots_of_i_and_j_give_way_to_accents() -> None:
     assert len(lettered("í")) == len(lettered("i"))
-    assert lettered("ı", size_mm=21.0).bounds.tolist() == lettered("i", size_mm=21.0).bounds.tolist()
     assert lettered("ı", size_mm=21.0).strokes.points[:, 1].max() == pytest.approx(14.0)
 
 
@@ -51,14 +50,6 @@ def test_an_unknown_character_is_one_clear_line(text: str) -> None:
 def test_sizes_are_positive(size: float) -> None:
     with pytest.raises(vp.InputError, match="a size of"):
         lettered("A", size_mm=size)
-
-
-def test_sizes_in_mm_and_in_points() -> None:
-    assert capital_height(3.5) == capital_height("3.5") == capital_height("3.5mm") == 3.5
-    assert capital_height("72pt") == pytest.approx(0.7 * 25.4)
-    for wrong in ("", "big", "-1", "0mm", "nan", "infpt", "3 cm"):
-        with pytest.raises(vp.InputError, match="a size of"):
-            capital_height(wrong)
 
 
 @pytest.mark.parametrize("turn", [0.0, 30.0, 90.0, 200.0])
@@ -78,7 +69,7 @@ def test_alignment_and_levels_say_what_is_at_the_point() -> None:
     for align, x in (("left", 0), ("right", 1)):
         assert lettered("Text", align=align).bounds[x, 0] == pytest.approx(0.0)  # type: ignore[arg-type]
     for level, y in (("bottom", 0), ("top", 1)):
-        assert lettered("Text\nand more", level=level).bounds[y, 1] == pytest.approx(0.0)  # type: ignore[arg-type]
+        assert lettered("Text\n(and more)", level=level).bounds[y, 1] == pytest.approx(0.0, abs=0.1)  # type: ignore[arg-type]
     middle = lettered("HI\nI H", align="centre", level="middle")
     assert middle.bounds.mean(axis=0)[0] == pytest.approx(0.0)
     assert np.ptp(middle.strokes.points[:, 1]) == pytest.approx(2.0 * middle.strokes.points[:, 1].max())
@@ -90,7 +81,7 @@ def test_letters_lie_in_their_boxes_and_follow_one_another() -> None:
     low, high = found.bounds
     points = found.strokes.points
     assert (points[:, 0] >= low[0]).all() and (points[:, 0] <= high[0]).all()
-    assert (points[:, 1] >= low[1] - 0.5).all()
+    assert (points[:, 1] >= low[1] - 1e-12).all() and (points[:, 1] <= high[1] + 1e-12).all()
     starts = points[found.strokes.offsets[:-1], 0]
     assert (np.diff(starts) > -3.5).all()
 

@@ -29,11 +29,6 @@ LINES_APART = 1.7
 DESCENT = 1.0 / 3.0
 """How far letters reach below their line, in heights of capitals."""
 
-TYPE_SIZE = 0.7
-"""The height of capitals as a part of the size of type, which is given in points."""
-
-MM_PER_POINT = 25.4 / 72.0
-
 
 @dataclass(frozen=True, eq=False)
 class Lettering:
@@ -45,7 +40,7 @@ class Lettering:
         Points (p, 2) in mm, y upwards; letter by letter as one reads.
     boxes : (b, 4, 2) array of float
         The corners of the rectangles that the text fills, counter-clockwise from the lower left one as one reads: one
-        for each line, or of a text along a curve for each letter; from the lowest to the highest that letters reach.
+        for each line, as high as its letters; or of a text along a curve one for each letter.
 
     Examples
     --------
@@ -66,23 +61,6 @@ class Lettering:
         """(2, 2) smallest and largest coordinates of its boxes; zeros for an empty text."""
         corners = self.boxes.reshape(-1, 2)
         return np.stack([corners.min(axis=0), corners.max(axis=0)]) if len(corners) else np.zeros((2, 2))
-
-
-def capital_height(size: str | float) -> float:
-    """The height of capitals in mm that a size means: a number or a text in mm, such as 3.5 or 3.5mm; or the size of
-    type in points, such as 10pt, of which capitals are 0.7 high.
-
-    Errors: InputError for what is no size, or not positive.
-    """
-    text = str(size).strip()
-    unit = TYPE_SIZE * MM_PER_POINT if text.endswith("pt") else 1.0
-    try:
-        height = unit * float(text.removesuffix("pt").removesuffix("mm"))
-    except ValueError:
-        raise InputError(f"a size of {size!r}: expected a number of mm, or of points such as 10pt") from None
-    if not 0.0 < height < np.inf:
-        raise InputError(f"a size of {text}: expected a positive, finite length")
-    return height
 
 
 def lettered(
@@ -152,9 +130,10 @@ def lettered(
     place = np.stack([begin[line] + along, foot[line]], axis=1)
     turn = _turn(np.full(len(advance), rotation_deg))
     origin = np.asarray(at, dtype=np.float64)
-    rows = np.flatnonzero(length > 0.0)
-    low_left = np.stack([begin, foot - DESCENT * size_mm], axis=1)[rows]
-    boxes = _rectangles(low_left, length[rows], (1.0 + DESCENT) * size_mm)
+    reach = unit * np.array([_reach(some) for some in lines])
+    rows = np.flatnonzero(reach[:, 1] > reach[:, 0])
+    low_left = np.stack([begin, foot + reach[:, 0]], axis=1)[rows]
+    boxes = _rectangles(low_left, length[rows], np.ptp(reach[rows], axis=1))
     whole = _turn(np.array([rotation_deg]))[0]
     return Lettering(
         _set([*chain(*lines)], unit, origin + place @ whole.T, turn),
@@ -170,6 +149,7 @@ def lettered_along(
     align: Literal["left", "centre", "right"] = "centre",
     level: Literal["base", "middle", "top"] = "middle",
     at: float = 0.5,
+    off_mm: float = 0.0,
 ) -> Lettering:
     """A text whose letters stand along a curve, each upright to it.
 
@@ -185,6 +165,8 @@ def lettered_along(
         Whether the curve runs under the letters, through their middle, or above them.
     at : float
         At what part of the length of the curve the text is.
+    off_mm : float
+        How far above the curve the letters are, as one reads them; negative: below.
 
     Returns
     -------
@@ -227,10 +209,10 @@ def lettered_along(
     middle = begin + np.cumsum(advance) - 0.5 * advance
     place, way = _along(points, middle)
     turn = _turn(np.degrees(np.arctan2(way[:, 1], way[:, 0])))
-    down = {"base": 0.0, "middle": 0.5 * size_mm, "top": size_mm}[level]
+    down = {"base": 0.0, "middle": 0.5 * size_mm, "top": size_mm}[level] - off_mm
     foot = place - np.einsum("nij,nj->ni", turn, np.stack([0.5 * advance, np.full(len(advance), down)], axis=1))
     corner = np.tile([0.0, -DESCENT * size_mm], (len(found), 1))
-    boxes = _rectangles(corner, advance, (1.0 + DESCENT) * size_mm)
+    boxes = _rectangles(corner, advance, np.full(len(advance), (1.0 + DESCENT) * size_mm))
     return Lettering(_set(found, unit, foot, turn), np.einsum("nij,nkj->nki", turn, boxes) + foot[:, None])
 
 
@@ -259,10 +241,17 @@ def _turn(degrees: Floats) -> Floats:
     return np.stack([np.stack([cosine, -sine], axis=1), np.stack([sine, cosine], axis=1)], axis=1)
 
 
-def _rectangles(corner: Floats, width: Floats, height: float) -> Floats:
-    """(n,4,2) the corners of upright rectangles from their lower left ones (n,2), their widths (n,) and one height."""
-    across, up = np.array([0.0, 1.0, 1.0, 0.0]), np.array([0.0, 0.0, height, height])
-    return np.asarray(np.stack([corner[:, :1] + width[:, None] * across, corner[:, 1:] + up], axis=2))
+def _rectangles(corner: Floats, width: Floats, height: Floats) -> Floats:
+    """(n,4,2) the corners of upright rectangles from their lower left ones (n,2), their widths and heights (n,)."""
+    across, up = np.array([0.0, 1.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0, 1.0])
+    right, top = width[:, None] * across, height[:, None] * up
+    return np.asarray(np.stack([corner[:, :1] + right, corner[:, 1:] + top], axis=2))
+
+
+def _reach(line: Sequence[Glyph]) -> tuple[float, float]:
+    """The lowest and the highest point of a line of letters; 0 and 0 for blanks."""
+    heights = [y for one in line for stroke in one.strokes for _, y in stroke]
+    return min(heights, default=0.0), max(heights, default=0.0)
 
 
 def _along(points: Floats, length: Floats) -> tuple[Floats, Floats]:

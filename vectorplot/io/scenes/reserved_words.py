@@ -8,11 +8,12 @@ from vectorplot.io.scenes.scene_words import FORM_WORDS, ITEM_WORDS, SCENE_WORDS
 from vectorplot.words import COLOURS, MATERIALS
 
 _WITHIN = ("position", "direction", "intensity", "fading", "none", "face", "polygon", "at", "normal", "lit_by")
+_OF_LABELS = ("vertex", "along", "size", "place", "hidden", "mark")
 
 RESERVED = frozenset(
     (
         *(*SCENE_WORDS, *ITEM_WORDS, *FORM_WORDS, *CAP_WORDS, *COLOURS, *MATERIALS),
-        *(*SURFACES, *CURVES, *SLOT_WORDS, *_WITHIN),
+        *(*SURFACES, *CURVES, *SLOT_WORDS, *_WITHIN, *_OF_LABELS),
     )
 )
 """Words that are no names unless they are quoted."""

@@ -15,9 +15,11 @@ from vectorplot.errors import InputError, printable
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.scenes.scene_item import Draft, finished
 from vectorplot.io.scenes.scene_reader import ItemReader
-from vectorplot.io.scenes.scene_statements import read_camera, read_light, read_page
+from vectorplot.io.scenes.scene_statements import read_camera, read_label, read_light, read_page
 from vectorplot.io.scenes.scene_words import SCENE_WORDS, Words
 from vectorplot.scene.extent import check_range
+from vectorplot.scene.label_anchors import label_anchors
+from vectorplot.scene.labels import Label
 from vectorplot.scene.scene import Item, Light, Scene
 
 MAX_FILE_BYTES = 64 << 20
@@ -134,6 +136,7 @@ class _Reader(ItemReader):
         self.items: list[Item] = []
         self.parts: set[int] = set()
         self.lights: list[Light] = []
+        self.labels: list[tuple[int, Label]] = []
         self.settings = Scene(items=())
         self.set: set[str] = set()
         self.lit: list[tuple[int, Draft]] = []
@@ -150,7 +153,17 @@ class _Reader(ItemReader):
             self.items[place] = self.lit_item(self.items[place], draft, numbers)
         self.check_range()
         shown = [item for place, item in enumerate(self.items) if place not in self.parts] if self.parts else self.items
-        return replace(self.settings, items=tuple(shown), lights=tuple(self.lights))
+        found = replace(self.settings, items=tuple(shown), lights=tuple(self.lights))
+        return self.labelled(found) if self.labels else found
+
+    def labelled(self, scene: Scene) -> Scene:
+        """The scene with its labels, which may come before the items that they name."""
+        for index, label in self.labels:
+            try:
+                label_anchors(replace(scene, labels=(label,)))
+            except InputError as error:
+                self.source.fail(index, error.cause)
+        return replace(scene, labels=tuple(label for _, label in self.labels))
 
     def check_range(self) -> None:
         """An InputError for polyhedra, as they stand in the scene, whose coordinates leave the range of numbers."""
@@ -164,8 +177,8 @@ class _Reader(ItemReader):
             raise InputError(error.cause, file=self.source.name) from None
 
     def statement(self, word: str) -> None:
-        """camera, light, page, background or title, and what follows it."""
-        if word in self.set and word != "light":
+        """camera, light, page, background, title or label, and what follows it."""
+        if word in self.set and word not in ("light", "label"):
             self.fail(f"a second '{word}'")
         self.set.add(word)
         source, now = self.source, self.settings
@@ -175,6 +188,10 @@ class _Reader(ItemReader):
         elif word == "light":
             light, self.at = read_light(source, self.at)
             self.lights.append(light)
+        elif word == "label":
+            start = self.at
+            label, self.at = read_label(source, self.at)
+            self.labels.append((start, label))
         elif word == "page":
             page, self.at = read_page(source, self.at)
             self.settings = replace(now, page=page)

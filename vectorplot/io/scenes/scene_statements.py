@@ -1,4 +1,4 @@
-"""What a scene file says about the scene as a whole: camera, lights, page."""
+"""What a scene file says about the scene as a whole: camera, lights, page, labels."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.io.scenes.scene_words import Words
+from vectorplot.scene.labels import HIDDEN, MARKS, PLACES, Along, AtVertex, Label, OnPage, capital_height
 from vectorplot.scene.paper import sheet_size
 from vectorplot.scene.scene import Light, Page
 from vectorplot.words import COLOURS, is_colour, nearest
@@ -130,6 +131,79 @@ def read_page(words: Words, at: int) -> tuple[Page, int]:
         if error.file is not None:
             raise
         words.fail(start, error.cause)
+
+
+_LABEL_CHOICES = {"place": PLACES, "hidden": HIDDEN, "mark": MARKS}
+_LABEL_ANCHORS = ("at", "vertex", "along", "page")
+_LABEL_WORDS = (*_LABEL_ANCHORS, "size", *_LABEL_CHOICES)
+
+
+def read_label(words: Words, at: int) -> tuple[Label, int]:
+    """The label that the words from ``label`` on describe, and the word behind them; items are known by their names."""
+    start = at
+    at += 1
+    name = ""
+    if not words.words[at].startswith('"') or words.words[at + 1].startswith('"'):
+        name = words.string(at) if words.words[at] else ""
+        at += 1
+    if not words.words[at].startswith('"'):
+        words.fail(at, f"label {name}: expected a text in quotes, got {words.shown(at)}")
+    text = words.string(at)
+    owner = f"label {name or text}: "
+    at += 1
+    anchor: tuple[float, float, float] | AtVertex | Along | OnPage | None = None
+    given: dict[str, Any] = {}
+    while (word := words.words[at]) in _LABEL_WORDS:
+        at += 1
+        if word in _LABEL_ANCHORS:
+            if anchor is not None:
+                words.fail(at - 1, f"{owner}a second place, {words.shown(at - 1)}")
+            anchor, at = _label_anchor(words, at, owner, word)
+        elif word == "size":
+            try:
+                given["size_mm"] = capital_height(words.string(at))
+            except InputError as error:
+                words.fail(at, owner + error.cause)
+            at += 1
+        else:
+            if words.words[at] not in _LABEL_CHOICES[word]:
+                known = ", ".join(_LABEL_CHOICES[word])
+                words.fail(at, f"{owner}{word}: expected one of {known}, got {words.shown(at)}")
+            given[word] = words.words[at]
+            at += 1
+    _check_spelling(words, start, at, _LABEL_WORDS)
+    if anchor is None:
+        words.fail(at, f"{owner}expected {', '.join(_LABEL_ANCHORS)}, got {words.shown(at)}")
+    try:
+        return Label(text, anchor, name, **given), at
+    except InputError as error:
+        words.fail(start, error.cause)
+
+
+def _label_anchor(
+    words: Words, at: int, owner: str, word: str
+) -> tuple[tuple[float, float, float] | AtVertex | Along | OnPage, int]:
+    """What a label names, and the word behind it."""
+    if word == "at":
+        (x, y, z), at = words.numbers(at, 3, owner, word)
+        return (x, y, z), at
+    if word == "page":
+        (x, y), at = words.numbers(at, 2, owner, word)
+        return OnPage(x, y), at
+    item = words.string(at)
+    if item in ("", ","):
+        words.fail(at, f"{owner}expected the name of an item, got {words.shown(at)}")
+    if word == "vertex":
+        number = words.whole(at + 1, owner, word)
+        if number < 1:
+            words.fail(at + 1, f"{owner}vertices count from 1, got {number}")
+        return AtVertex(item, number - 1), at + 2
+    if not words.is_number(at + 1):
+        return Along(item), at + 1
+    part = words.number(at + 1, owner, word)
+    if not 0.0 <= part <= 1.0:
+        words.fail(at + 1, f"{owner}a part of {part:g} of a curve must lie between 0 and 1")
+    return Along(item, part), at + 2
 
 
 def _check_spelling(words: Words, start: int, at: int, known: tuple[str, ...]) -> None:

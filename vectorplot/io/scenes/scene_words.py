@@ -41,7 +41,7 @@ ITEM_WORDS = (
     *("level_lines", "slices", "surface_curve", "smooth_lines", "isophote_edges", "hatch"),
     *INTEGRAL_WORDS,
 )
-SCENE_WORDS = ("camera", "light", "page", "background", "title")
+SCENE_WORDS = ("camera", "light", "page", "background", "title", "label")
 
 # A string that is not closed is one word too, up to the end of its line. Nothing is tried twice: what these patterns
 # have taken they keep (++ and *+), so that the time grows with the text, whatever the text.

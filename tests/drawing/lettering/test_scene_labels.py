@@ -1,0 +1,198 @@
+"""Labels in pictures: hidden with what they name, apart from lines and each other, in every verb and format."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapely
+
+import vectorplot as vp
+from vectorplot.curves import Circle
+from vectorplot.drawing.drawing import Paths
+from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
+from vectorplot.geometry import box
+from vectorplot.save import FORMATS, write
+from vectorplot.scene import look
+from vectorplot.surfaces import Sphere, Torus
+from vectorplot.testing.rays.sight import visible_by_rays
+from vectorplot.visibility import points_hidden_by, project_faces
+
+NAMES = "ABCDEFGH"
+CUBE = vp.Item("CUBE", box((2, 2, 2)))
+CAMERA = vp.Camera((6, -5, 4), target=(1, 1, 1))
+PAGE = vp.Page(100, 80)
+
+
+def labelled(size: float = 1.0, away: float = 0.0, **more: object) -> vp.Scene:
+    item = replace(CUBE, shape=replace(CUBE.mesh, vertices=CUBE.mesh.vertices * size + away))
+    labels = tuple(vp.Label(name, vp.AtVertex("CUBE", k), **more) for k, name in enumerate(NAMES))  # type: ignore[arg-type]
+    eye, target = (np.array(at) * size + away for at in (CAMERA.eye, CAMERA.target))
+    return vp.Scene((item,), camera=vp.Camera(tuple(eye), tuple(target)), labels=labels)
+
+
+def letters(drawing: vp.Drawing) -> Paths:
+    (layer,) = (layer for layer in drawing.layers if layer.name == "label")
+    return layer.strokes[0]
+
+
+def lines(drawing: vp.Drawing) -> shapely.MultiLineString:
+    paths = [p for layer in drawing.layers if layer.name != "label" for p in layer.strokes]
+    found = [p.points[a:b][[*range(b - a), *([0] if c else [])]] for p in paths for a, b, c in strokes(p)]
+    return shapely.MultiLineString([line for line in found if len(line) > 1])
+
+
+def strokes(paths: Paths) -> list[tuple[int, int, bool]]:
+    ends = paths.offsets.tolist()
+    return list(zip(ends[:-1], ends[1:], paths.closed.tolist(), strict=True))
+
+
+def test_labels_are_hidden_with_what_they_name() -> None:
+    plain = letters(vp.draw(labelled(), page=PAGE))
+    every = letters(vp.draw(labelled(hidden="solid"), page=PAGE))
+    dashed = letters(vp.draw(labelled(), page=PAGE, hidden="dashed"))
+    assert (plain.hidden_by == 0).all() and (every.hidden_by > 0).sum() >= 1
+    assert len(dashed) > len(every) > len(plain) > 0
+    assert (plain.kind == vp.LineKind.LABEL).all()
+    hidden = every.points[np.repeat(every.hidden_by, np.diff(every.offsets)) > 0]
+    assert len(hidden) and (np.ptp(hidden, axis=0) < 5.0).all()
+
+
+def test_without_labels_nothing_changes_and_nothing_loads() -> None:
+    drawing = vp.draw(replace(labelled(), labels=()), page=PAGE)
+    assert "label" not in [layer.name for layer in drawing.layers]
+
+
+@pytest.mark.parametrize(("size", "away"), [(1.0, 0.0), (2.0**-20, 0.0), (2.0**20, 0.0), (1.0, 2.0**17)])
+def test_size_and_place_of_the_scene_change_nothing(size: float, away: float) -> None:
+    here, there = (letters(vp.draw(scene, page=PAGE)) for scene in (labelled(), labelled(size, away)))
+    assert np.allclose(here.points, there.points, rtol=0.0, atol=1e-4)
+
+
+def test_lines_stop_before_letters_and_labels_keep_apart() -> None:
+    ring = vp.Item("RING", Circle((1.0, 1.0, 1.0), radius=3.0))
+    scene = replace(labelled(), items=(CUBE, ring))
+    scene = replace(scene, labels=(*scene.labels, vp.Label("ring", vp.Along("RING", 0.75))))
+    drawing = vp.draw(scene, page=PAGE, hidden="dashed")
+    drawn, written = lines(drawing), letters(drawing)
+    groups = shapely.MultiLineString([written.points[a:b] for a, b, _ in strokes(written)])
+    assert shapely.distance(drawn, groups) >= 0.55
+    bare = lines(vp.draw(replace(scene, labels=()), page=PAGE, hidden="solid"))
+    assert shapely.hausdorff_distance(shapely.intersection(drawn.buffer(0.1), bare), drawn) < 0.2
+
+
+def test_labels_that_name_one_place_stand_apart_with_leaders() -> None:
+    labels = tuple(vp.Label(f"name {k}", (0, 0, 2)) for k in range(12))
+    found = letters(vp.draw(replace(labelled(), labels=labels), page=PAGE))
+    texts = {}
+    for k in range(12):
+        alone = vp.draw(replace(labelled(), labels=labels[: k + 1]), page=PAGE)
+        texts[k] = len(letters(alone))
+    assert len(found) == texts[11] > texts[0] * 11
+    middles = [found.points[a:b].mean(axis=0) for a, b, _ in strokes(found)]
+    assert np.ptp(np.array(middles), axis=0).min() > 8.0
+    inside = (found.points > 0.0) & (found.points < (100.0, 80.0))
+    assert inside.all()
+
+
+@pytest.mark.parametrize("format_", FORMATS)
+def test_every_format_has_the_letters(format_: str) -> None:
+    with_letters, without = (
+        write(vp.draw(scene, page=PAGE), format_) for scene in (labelled(), replace(labelled(), labels=()))
+    )
+    assert len(with_letters) > len(without)
+
+
+def test_json_gives_the_letters_back() -> None:
+    import json
+
+    drawing = vp.draw(labelled(), page=PAGE)
+    strokes_ = json.loads(write(drawing, "json"))["strokes"]
+    assert sum(stroke["kind"] == "label" for stroke in strokes_) == len(letters(drawing))
+    written = letters(drawing)
+    image = np.column_stack([written.points3d, np.ones(len(written.points))]) @ drawing.page_from_world.T
+    assert np.allclose(image[:, :2] / image[:, 3:], written.points, rtol=0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("asked", ["none", "contour,crease"])
+def test_paint_and_render_show_the_same_labels(asked: str) -> None:
+    drawn, painted = (
+        letters(verb(labelled(), page=PAGE)) for verb in (vp.draw, lambda s, **o: vp.paint(s, lines=asked, **o))
+    )
+    assert len(drawn) == len(painted)
+    size = (200, 160)
+    one, other = (
+        vp.render(scene, size=size, lines=asked).pixels for scene in (labelled(), replace(labelled(), labels=()))
+    )
+    changed = (one != other).any(axis=2).sum()
+    assert 50 < changed < 4000
+
+
+@pytest.mark.parametrize("style", ["wireframe", "depth-cue"])
+def test_wireframes_show_all_labels_in_a_colour_that_is_seen(style: str) -> None:
+    drawing = vp.draw(labelled(), page=PAGE, style=style)  # type: ignore[arg-type]
+    assert len(letters(drawing)) == len(letters(vp.draw(labelled(hidden="solid"), page=PAGE)))
+    assert drawing.layers[-1].pen.colour == "#ffffff"
+
+
+@pytest.mark.parametrize("layers", ["kind", "object", "colour"])
+def test_labels_have_a_layer_of_their_own(layers: str) -> None:
+    names = [layer.name for layer in vp.draw(labelled(), page=PAGE, layers=layers).layers]  # type: ignore[arg-type]
+    assert names[-1] == "label" and (layers != "kind" or names[-2] == "index")
+
+
+def test_unknown_characters_name_the_label() -> None:
+    with pytest.raises(vp.InputError, match="label X: there are no strokes for the character '漢'"):
+        vp.draw(replace(labelled(), labels=(vp.Label("漢", (0, 0, 0), "X"),)))
+
+
+@pytest.mark.parametrize("parallel", [True, False])
+def test_hidden_points_agree_with_rays(parallel: bool) -> None:
+    rng = np.random.default_rng(3)
+    items = (
+        vp.Item("box", box((2, 2, 2))),
+        vp.Item("ball", Sphere(1.0, (3.0, 1.0, 1.0))),
+        vp.Item("ring", Torus(1.5, 0.4, (1.0, 3.5, 1.0))),
+        vp.Item("glass", box((9, 0.1, 9)), material=vp.Material("transparent")),
+    )
+    scene, camera = vp.Scene(items), replace(vp.Camera((9, -7, 5), (1, 1, 1)), parallel=parallel)
+    points = rng.uniform((-2, -2, -1), (5, 5, 3), (300, 3))
+    view = look(scene, camera)
+    found = points_hidden_by(scene, view, project_faces(view), view.points_of(points))
+    truth = visible_by_rays(scene, camera, points)
+    sure = truth.clearance > 1e-5
+    assert sure.sum() > 250 and (found[sure] == truth.hidden_by[sure]).all() and 0 < (found > 0).sum() < 300
+
+
+def test_vertices_seen_exactly_through_edges_are_hidden() -> None:
+    view = look(vp.Scene((CUBE,)), vp.Camera((5, 5, 5), (1, 1, 1), parallel=True))
+    corners = view.points_of(np.array([(0.0, 0, 0), (2, 2, 2), (2, 0, 0), (1, 1, 2)]))
+    assert points_hidden_by(vp.Scene((CUBE,)), view, project_faces(view), corners).tolist() == [1, 0, 0, 0]
+
+
+def test_what_lies_in_boxes_is_cut_away_and_nothing_else() -> None:
+    rng = np.random.default_rng(5)
+    sizes = rng.integers(0, 6, 60)
+    offsets = np.concatenate([[0], np.cumsum(sizes)])
+    points = rng.uniform(0, 50, (offsets[-1], 2))
+    none = np.zeros(60, dtype=np.intp)
+    closed = (rng.random(60) < 0.3) & (sizes > 2)
+    paths = Paths(points, offsets, closed, none, np.arange(60), none, np.column_stack([points, points[:, 0]]))
+    corner = rng.uniform(5, 40, (8, 1, 2))
+    turn = np.array([(np.cos(a), np.sin(a)) for a in rng.uniform(0, 6, 8)])
+    square = np.array([(0.0, 0.0), (9.0, 0.0), (9.0, 4.0), (0.0, 4.0)])
+    boxes = corner + square @ np.stack([turn, turn[:, ::-1] * (-1, 1)], axis=1)
+    boxes = grown(boxes, 0.5)
+    cut = outside_boxes(paths, boxes, np.eye(4))
+    mask = shapely.union_all(shapely.polygons(boxes))
+    assert shapely.area(shapely.polygons(boxes)) == pytest.approx(50.0)
+    before, after = (
+        shapely.MultiLineString(
+            [p.points[a:b][[*range(b - a), *([0] if c else [])]] for a, b, c in strokes(p) if b - a > 1]
+        )
+        for p in (paths, cut)
+    )
+    assert after.length == pytest.approx(sum(shapely.difference(line, mask).length for line in before.geoms))
+    assert max(shapely.intersection(line, mask.buffer(-1e-6)).length for line in after.geoms) < 1e-6
+    assert (np.diff(cut.item) >= 0).all()

@@ -1,0 +1,233 @@
+"""The labels of a scene on the page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.drawing.drawing import Layer, Paths
+from vectorplot.drawing.layers import PENS
+from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
+from vectorplot.drawing.lettering.placing import GAP, places
+from vectorplot.drawing.lettering.text import Lettering, lettered, lettered_along
+from vectorplot.drawing.strokes.dashes import dashed
+from vectorplot.drawing.strokes.long_strokes import split_long
+from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
+from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import segments
+from vectorplot.scene.label_anchors import LabelAnchors
+from vectorplot.scene.labels import Along, Label, OnPage
+from vectorplot.scene.placement import Placement
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import View
+from vectorplot.visibility.hidden_points import points_hidden_by
+from vectorplot.visibility.projected_faces import ProjectedFaces
+from vectorplot.words import LineKind
+
+HALO_MM = 0.6
+"""Lines end so far before the letters."""
+
+DASH = (0.25, 0.15)
+"""Dash and gap of the letters of what is hidden, in heights of capitals."""
+
+MARK_MM = 0.6
+"""Half of the size of marks at points."""
+
+MIDDLE_TONE = 128.0
+"""Darker sheets have white letters."""
+
+NO_ITEM = -1
+"""Strokes of labels belong to no item."""
+
+
+@dataclass(frozen=True, eq=False)
+class SceneLabels:
+    """Labels on the page: letters, leaders and marks as strokes; boxes (b,4,2) before which the lines of the drawing
+    end."""
+
+    strokes: Paths
+    boxes: Floats
+
+    def __len__(self) -> int:
+        return len(self.boxes)
+
+    def interrupted(self, strokes: Paths, page_from_world: Floats) -> Paths:
+        """The strokes of a drawing without what lies behind the letters."""
+        return outside_boxes(strokes, self.boxes, page_from_world)
+
+    def on_top(
+        self, layers: tuple[Layer, ...], by_kind: bool, longest_mm: float | None, page_from_world: Floats
+    ) -> tuple[Layer, ...]:
+        """The layers of a drawing, and one of the labels; by_kind: it has its number among the layers by kind.
+
+        longest_mm: longer strokes leave in parts.
+        """
+        missing = (*PENS,)[len(layers) : -1] if by_kind else ()
+        empty = (Layer(name, PENS[name], (Paths.empty(),), name != "hidden") for name in missing)
+        strokes = self.strokes if longest_mm is None else split_long(self.strokes, longest_mm, page_from_world)
+        return (*layers, *empty, Layer("label", replace(PENS["label"], colour=_ink(layers)), (strokes,)))
+
+
+@dataclass(frozen=True, eq=False)
+class SeenLabels:
+    """Labels that a picture shows: anchors; points (l,2) on the page, by how many items (l,) each is hidden."""
+
+    anchors: LabelAnchors
+    points: Floats
+    hidden_by: Ints
+
+
+def seen_labels(
+    scene: Scene, view: View, faces: ProjectedFaces, placement: Placement, anchors: LabelAnchors, wires: bool, mm: float
+) -> SeenLabels:
+    """The labels on the page of which what they name is before the eye and on the page.
+
+    anchors: of the scene as it was read; wires: nothing hides anything; mm: how long a millimetre is in
+    units of the page.
+    """
+    on_page = np.array([isinstance(label.at, OnPage) for label in anchors.labels], dtype=np.bool_)
+    inside = np.flatnonzero(~on_page)
+    points = view.points_of(anchors.points[inside])
+    ahead = view.depth_of(points) > view.near
+    inside, points = inside[ahead], points.compress(ahead, axis=1)
+    found = np.full((len(anchors), 2), np.nan)
+    found[inside] = placement.on_page(view.image_of(points))
+    for number in np.flatnonzero(on_page).tolist():
+        at = anchors.labels[number].at
+        assert isinstance(at, OnPage)
+        found[number] = at.x_mm * mm, at.y_mm * mm
+    hidden = np.zeros(len(anchors), dtype=np.intp)
+    if not wires and len(inside):
+        hidden[inside] = points_hidden_by(scene, view, faces, points)
+    page = placement.page
+    with np.errstate(invalid="ignore"):
+        shown = ((found >= 0.0) & (found <= (page.width_mm, page.height_mm))).all(axis=1)
+    some = np.flatnonzero(shown | on_page)
+    kept = LabelAnchors(
+        tuple(anchors.labels[k] for k in some), anchors.points[some], tuple(anchors.courses[k] for k in some)
+    )
+    return SeenLabels(kept, found[some], hidden[some])
+
+
+def labels_on_page(seen: SeenLabels, placement: Placement, strokes: Paths, hidden: str, mm: float = 1.0) -> SceneLabels:
+    """The letters of labels, apart from strokes and from each other.
+
+    strokes: of the drawing; hidden: what becomes of hidden lines; mm: how long a millimetre is in units of the page.
+    Errors: InputError, with the label's name, for a character without strokes.
+    """
+    ways = [label.hidden or hidden for label in seen.anchors.labels]
+    some = [k for k, way in enumerate(ways) if not seen.hidden_by[k] or way != "none"]
+    labels = [seen.anchors.labels[k] for k in some]
+    along = [k for k in some if seen.anchors.courses[k] is not None]
+    set_: dict[int, Lettering] = {k: _along(seen, k, placement, mm) for k in along}
+    beside = [k for k in some if k not in set_]
+    texts = [_set(seen.anchors.labels[k], mm) for k in beside]
+    shown = strokes if hidden != "none" else chosen(strokes, strokes.hidden_by == 0)
+    begin, end = shown.points[segments(shown)].transpose(1, 0, 2)
+    sizes = np.array([np.ptp(text.bounds, axis=0) for text in texts]).reshape(-1, 2)
+    height = np.array([seen.anchors.labels[k].size_mm * mm for k in beside])
+    taken = np.array([set_[k].bounds for k in along]).reshape(-1, 2, 2)
+    page = np.array([[0.0, 0.0], [placement.page.width_mm, placement.page.height_mm]])
+    asked = [_asked(seen.anchors.labels[k]) for k in beside]
+    found = places(seen.points[beside], sizes, height, asked, begin, end, page, taken)
+    for number, k in enumerate(beside):
+        middle = found.middles[number] - 0.5 * texts[number].bounds.sum(axis=0)
+        set_[k] = _moved(texts[number], middle)
+    leaders = {beside[of]: line for of, line in zip(found.label, found.leaders, strict=True)}
+    parts = []
+    for k, label in zip(some, labels, strict=True):
+        lines = [*_lines(set_[k]), *_marked(label, seen.points[k], mm), *([leaders[k]] if k in leaders else [])]
+        made = _paths(lines, int(seen.hidden_by[k]), placement)
+        if seen.hidden_by[k] and ways[k] == "dashed":
+            dash, gap = (part * label.size_mm * mm for part in DASH)
+            made = dashed(made, dash, gap)
+        parts.append(made)
+    boxes = np.concatenate([np.zeros((0, 4, 2)), *(set_[k].boxes for k in some)])
+    return SceneLabels(concatenated(tuple(parts)), grown(boxes, HALO_MM * mm))
+
+
+def _ink(layers: tuple[Layer, ...]) -> str:
+    """The colour of letters: black, or white on a sheet that is dark, as behind wireframes."""
+    sheet = layers[0].fills if layers and layers[0].name == "background" else ()
+    dark = any(len(fills) and fills.colours[0].mean() < MIDDLE_TONE for fills in sheet)
+    return "#ffffff" if dark else PENS["label"].colour
+
+
+def _asked(label: Label) -> str:
+    return "above_right" if isinstance(label.at, OnPage) and label.place == "auto" else label.place
+
+
+def _set(label: Label, mm: float) -> Lettering:
+    try:
+        return lettered(label.text, size_mm=label.size_mm * mm, align="centre")
+    except InputError as error:
+        raise InputError(f"label {label.name}: {error.cause}") from None
+
+
+def _along(seen: SeenLabels, number: int, placement: Placement, mm: float) -> Lettering:
+    """Letters along the course of a curve on the page."""
+    label, course = seen.anchors.labels[number], seen.anchors.courses[number]
+    assert course is not None and isinstance(label.at, Along)
+    projection = placement.projection
+    points = projection.points_of(course)
+    ahead = projection.depth_of(points) > projection.near
+    path = placement.on_page(projection.image_of(points.compress(ahead, axis=1)))
+    steps = np.hypot(*np.diff(path, axis=0).T)
+    nearest = int(np.argmin(np.hypot(*(path - seen.points[number]).T)))
+    whole = float(steps.sum())
+    part = float(steps[:nearest].sum()) / whole if whole else 0.0
+    size = label.size_mm * mm
+    level, off = {"above": ("base", GAP), "below": ("top", -GAP)}.get(label.place, ("middle", 0.0))
+    try:
+        return lettered_along(label.text, path, size_mm=size, level=level, at=part, off_mm=off * size)  # type: ignore[arg-type]
+    except InputError as error:
+        raise InputError(f"label {label.name}: {error.cause}") from None
+
+
+def _moved(text: Lettering, way: Floats) -> Lettering:
+    return Lettering(replace(text.strokes, points=text.strokes.points + way), text.boxes + way)
+
+
+def _lines(text: Lettering) -> list[Floats]:
+    return [text.strokes[k] for k in range(len(text.strokes))]
+
+
+def _marked(label: Label, point: Floats, mm: float) -> list[Floats]:
+    """The strokes of the mark at the point of a label."""
+    size = MARK_MM * mm
+    if label.mark == "cross":
+        return [point + size * np.array(ends) for ends in (((-1.0, 0.0), (1.0, 0.0)), ((0.0, -1.0), (0.0, 1.0)))]
+    if label.mark == "dot":
+        angle = np.linspace(0.0, 2.0 * np.pi, 17)
+        circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        # Two rounds of a pen fill a dot.
+        return [point + 0.7 * size * circle, point + 0.3 * size * circle]
+    return []
+
+
+def _paths(lines: Sequence[Floats], hidden_by: int, placement: Placement) -> Paths:
+    """Polylines on the page as strokes of labels."""
+    points = np.concatenate([np.zeros((0, 2)), *lines])
+    count = len(lines)
+    return Paths(
+        points,
+        ragged.offsets([len(line) for line in lines]),
+        np.zeros(count, dtype=np.bool_),
+        np.full(count, int(LineKind.LABEL)),
+        np.full(count, NO_ITEM),
+        np.full(count, hidden_by),
+        _in_the_image_plane(points, placement),
+    )
+
+
+def _in_the_image_plane(points: Floats, placement: Placement) -> Floats:
+    """(p,3) the points of the world whose images points on the page are, in the plane of the image."""
+    projection = placement.projection
+    image = (points - placement.page_from_image[:2, 2]).T / placement.scale
+    foot = projection.target[:2] if projection.eye is None else projection.eye[:2]
+    depth = 0.0 if projection.eye is None else projection.eye[2] - projection.focus
+    return projection.world_of(np.vstack([image + foot[:, None], np.full(len(points), depth)]))

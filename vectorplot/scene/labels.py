@@ -1,0 +1,200 @@
+"""Names of places in a picture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.errors import InputError
+from vectorplot.words import check_word
+
+TYPE_SIZE = 0.7
+"""The height of capitals as a part of the size of type, which is given in points."""
+
+MM_PER_POINT = 25.4 / 72.0
+
+USUAL_SIZE_MM = 3.5
+"""The height of capitals where nothing is said."""
+
+PLACES = (
+    *("auto", "centre", "above_right", "right", "above", "above_left", "left", "below_right", "below"),
+    "below_left",
+)
+"""Where a label may stand beside what it names; auto: where the fewest lines are."""
+
+HIDDEN = ("none", "dashed", "solid")
+"""What may become of lines and labels that are hidden."""
+
+MARKS = ("none", "dot", "cross")
+"""What may be drawn at the point that a label names."""
+
+
+@dataclass(frozen=True)
+class AtVertex:
+    """The place of a vertex of a polyhedron.
+
+    Parameters
+    ----------
+    item : str
+        The name of the item.
+    vertex : int
+        Its number from 0, as in Mesh.vertices; in scene files they count from 1.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Label("A", vp.AtVertex("pyramid", 0)).text
+    'A'
+    """
+
+    item: str
+    vertex: int
+
+
+@dataclass(frozen=True)
+class Along:
+    """The course of a curve in space.
+
+    Parameters
+    ----------
+    item : str
+        The name of the item that is the curve.
+    part : float
+        At what part of its length in space the label is, 0 to 1.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Along("helix").part
+    0.5
+    """
+
+    item: str
+    part: float = 0.5
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.part <= 1.0:
+            raise InputError(f"along {self.item}: a part of {self.part:g}: expected 0 to 1")
+
+
+@dataclass(frozen=True)
+class OnPage:
+    """A point of the page.
+
+    Parameters
+    ----------
+    x_mm, y_mm : float
+        From its lower left corner, y upwards.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Label("Figure 1", vp.OnPage(105, 15), place="centre").at
+    OnPage(x_mm=105, y_mm=15)
+    """
+
+    x_mm: float
+    y_mm: float
+
+
+@dataclass(frozen=True)
+class Label:
+    """A name in a picture.
+
+    Parameters
+    ----------
+    text : str
+        What it says; a line feed begins a new line.
+    at : (float, float, float), AtVertex, Along or OnPage
+        What it names: a point of the world, a vertex, a curve, along which its letters run, or a point of the page.
+    name : str
+        What messages call it; its text where none is given.
+    size_mm : float
+        The height of capitals.
+    place : str
+        Where it stands beside that point: right, above_right, above, above_left, left, below_left, below, below_right,
+        or centre, on it; auto: where the fewest lines are, with a leader if that is some way off. Along a curve above,
+        below or centre, where auto means centre: on the curve, which is interrupted.
+    hidden : {"none", "dashed", "solid"}, optional
+        What becomes of it where something hides what it names: it is left out, its letters are dashed, or as they are;
+        what becomes of hidden lines where nothing is said.
+    mark : {"none", "dot", "cross"}
+        What is drawn at the point.
+
+    Raises
+    ------
+    InputError
+        For unknown words, a size that is not finite and positive, points that are not finite.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> apex = vp.Label("S", (0, 0, 4), place="above")
+    >>> apex.name, apex.size_mm
+    ('S', 3.5)
+    """
+
+    text: str
+    at: tuple[float, float, float] | AtVertex | Along | OnPage
+    name: str = ""
+    size_mm: float = USUAL_SIZE_MM
+    place: str = "auto"
+    hidden: str | None = None
+    mark: str = "none"
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.text, str):
+            raise InputError(f"a label: expected a text, got {self.text!r}")
+        if not self.name:
+            object.__setattr__(self, "name", self.text)
+        owner = f"label {self.name}: "
+        if not (isinstance(self.size_mm, (int, float)) and 0.0 < self.size_mm < math.inf):
+            raise InputError(f"{owner}a size of {self.size_mm!r} mm: expected a number that is finite and positive")
+        check_word(f"{owner}place", self.place, PLACES)
+        check_word(f"{owner}mark", self.mark, MARKS)
+        if self.hidden is not None:
+            check_word(f"{owner}hidden", self.hidden, HIDDEN)
+        if isinstance(self.at, Along) and self.place not in ("auto", "centre", "above", "below"):
+            raise InputError(f"{owner}along a curve a label is above, below or centre, not {self.place}")
+        if isinstance(self.at, (AtVertex, Along)):
+            return
+        if not isinstance(self.at, OnPage):
+            object.__setattr__(self, "at", tuple(self.at))
+        point = (self.at.x_mm, self.at.y_mm) if isinstance(self.at, OnPage) else self.at
+        if len(point) != (2 if isinstance(self.at, OnPage) else 3) or not all(map(math.isfinite, point)):
+            raise InputError(f"{owner}expected finite coordinates of a point, got {point}")
+
+    def transformed(self, matrix: ArrayLike) -> Label:
+        """The label where a matrix (4,4) takes what it names: what names a vertex, a curve or a place of the page stays
+        as it is."""
+        if not isinstance(self.at, tuple):
+            return self
+        x, y, z = (np.asarray(matrix, dtype=np.float64)[:3] @ (*self.at, 1.0)).tolist()
+        return replace(self, at=(x, y, z))
+
+    def renamed(self, names: Mapping[str, str]) -> Label:
+        """The label where items have other names."""
+        if isinstance(self.at, (AtVertex, Along)) and self.at.item in names:
+            return replace(self, at=replace(self.at, item=names[self.at.item]))
+        return self
+
+
+def capital_height(size: str) -> float:
+    """The height of capitals in mm that a size means: in mm, such as 3.5 or 3.5mm; or the size of type in points, such
+    as 10pt, of which capitals are 0.7 high.
+
+    Errors: InputError for what is no size, or not positive.
+    """
+    text = size.strip()
+    unit = TYPE_SIZE * MM_PER_POINT if text.endswith("pt") else 1.0
+    try:
+        height = unit * float(text.removesuffix("pt").removesuffix("mm"))
+    except ValueError:
+        raise InputError(f"a size of {size!r}: expected a number of mm, or of points such as 10pt") from None
+    if not 0.0 < height < math.inf:
+        raise InputError(f"a size of {size!r}: expected a positive, finite length")
+    return height

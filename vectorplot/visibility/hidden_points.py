@@ -1,0 +1,128 @@
+"""By how many items single points are hidden."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.budget import USUAL
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.extent import smooth_bounds
+from vectorplot.scene.placement import box_corners
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import View
+from vectorplot.tolerances.of_extent import TOUCHING_OF_EXTENT
+from vectorplot.visibility.polyhedra.occluders import face_occluders
+from vectorplot.visibility.projected_faces import CHUNK, ProjectedFaces
+
+
+def points_hidden_by(scene: Scene, view: View, faces: ProjectedFaces, points: Floats) -> Ints:
+    """(n,) how many items hide each of some points.
+
+    Parameters
+    ----------
+    scene : Scene
+        What may hide them.
+    view : View
+        Of the scene.
+    faces : ProjectedFaces
+        Of the view.
+    points : (3, n) array of float
+        In the view's coordinates, before the near plane.
+
+    Returns
+    -------
+    (n,) array of int
+        0 for visible points.
+
+    Notes
+    -----
+    What touches a point does not hide it; what ends exactly before it in the image does: so nothing is seen through the
+    edges between the faces of a body.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> cube = vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),))
+    >>> view = scene.look(cube, vp.Camera.view("top"))
+    >>> points = view.points_of(np.array([(1, 1, 2), (1, 1, 0)]))
+    >>> visibility.points_hidden_by(cube, view, visibility.project_faces(view), points).tolist()
+    [0, 1]
+    """
+    items = len(scene.items)
+    hides = _by_faces(view, faces, points, items) | _by_sheets(scene, view, points, items)
+    return np.asarray(hides.sum(axis=1), dtype=np.intp)
+
+
+def _by_faces(view: View, faces: ProjectedFaces, points: Floats, items: int) -> Bools:
+    """(n, items) which polyhedra hide points."""
+    hides = np.zeros((points.shape[1], items), dtype=np.bool_)
+    point, face = _near_boxes(view, faces, points)
+    if not len(point):
+        return hides
+    which, number = np.unique(face, return_inverse=True)
+    occluders = face_occluders(view, faces, which)
+    count = np.diff(occluders.first)[number]
+    pair, plane = ragged.owner(count), ragged.ranges(occluders.first[number], count)
+    normal = occluders.planes[:, plane]
+    height = (normal[:3] * points[:, point[pair]]).sum(axis=0) - normal[3]
+    # The first plane is that of the face itself: what lies in it is not hidden. The others are its borders.
+    first = ragged.place(count) < occluders.behind[number][pair]
+    outside = np.where(first, height <= TOUCHING_OF_EXTENT, height < -view.tolerance)
+    hidden = np.bincount(pair, outside, minlength=len(point)) == 0
+    hides[point[hidden], view.face_item[face[hidden]]] = True
+    return hides
+
+
+def _near_boxes(view: View, faces: ProjectedFaces, points: Floats) -> tuple[Ints, Ints]:
+    """Pairs of a point and a face that hides and whose box in the image it lies in."""
+    image, depth = view.image_of(points), view.depth_of(points)
+    able = np.flatnonzero(view.occludes[view.face_item] & (faces.facing != 0)) if len(faces) else np.zeros(0, np.intp)
+    found = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
+    step = max(1, CHUNK // max(points.shape[1], 1))
+    low, high = image.min(axis=1, initial=np.inf), image.max(axis=1, initial=-np.inf)
+    left, right, bottom, top = faces.box
+    reach = (left[able] <= high[0]) & (right[able] >= low[0]) & (bottom[able] <= high[1]) & (top[able] >= low[1])
+    able = able[reach]
+    for begin in range(0, len(able), step):
+        some = able[begin : begin + step]
+        x, y = image[0][:, None], image[1][:, None]
+        inside = (left[some] <= x) & (right[some] >= x) & (bottom[some] <= y) & (top[some] >= y)
+        point, number = np.nonzero(inside & (faces.nearest[some] <= depth[:, None]))
+        found.append((point, some[number]))
+    point, face = (np.concatenate(column) for column in zip(*found, strict=True))
+    return point, face
+
+
+def _by_sheets(scene: Scene, view: View, points: Floats, items: int) -> Bools:
+    """(n, items) which smooth surfaces hide points."""
+    near = [number for number, item in enumerate(scene.items) if _may_hide(item.shape, item.hides, view, points)]
+    if not near:
+        return np.zeros((points.shape[1], items), dtype=np.bool_)
+    from vectorplot.visibility.smooth.rays import Samples, counts_in_front
+    from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
+    from vectorplot.visibility.smooth.targets import targets_of
+    from vectorplot.visibility.smooth.tracing.traced import scene_sheets
+
+    sheets = Sheets(scene_sheets(scene, view, frozenset(range(items)) - frozenset(near)))
+    count = points.shape[1]
+    nothing, nowhere = np.full(count, -1), np.full((count, 3), np.nan)
+    samples = Samples(points.T, nothing, nowhere, nothing, nowhere, np.zeros(count, dtype=np.bool_))
+    counts, _ = counts_in_front(view, sheets, targets_of(view, sheets), samples, items, USUAL.pairs)
+    return np.asarray(counts > 0, dtype=np.bool_)
+
+
+def _may_hide(shape: object, hides: bool, view: View, points: Floats) -> bool:
+    """Whether a surface hides, and the image of the box around it has some of the points in it."""
+    from vectorplot.surfaces.surface import is_implicit, is_parametrised
+
+    if isinstance(shape, Mesh) or not hides or not (is_parametrised(shape) or is_implicit(shape)):
+        return False
+    corners = view.points_of(box_corners(smooth_bounds(shape)))
+    if (view.depth_of(corners) <= view.near).any():
+        return True
+    box, image = view.image_of(corners), view.image_of(points)
+    low, high = box.min(axis=1)[:, None], box.max(axis=1)[:, None]
+    return bool(((image >= low) & (image <= high)).all(axis=0).any())
