@@ -13,12 +13,12 @@ from .implicit.implicit_mesh import ImplicitMesh, implicit_mesh
 from .implicit.implicit_tracing import ImplicitCurves, ImplicitTracing
 from .implicit.polygonize import polygonized
 from .integral.curvature_fields import AsymptoticDirections, PrincipalDirections
-from .integral.evenly_spaced import evenly_spaced_curves
 from .integral.face_sites import FaceSites, face_sites
 from .integral.integral_curves import geodesics, integral_curves
 from .integral.integration import Accuracy
 from .integral.mesh_integral_curves import mesh_geodesics, mesh_integral_curves
 from .integral.sites import Sites, TangentPlanes
+from .integral.spacing.evenly_spaced import evenly_spaced_curves
 from .integral.tangent_fields import (
     ConstantElevation,
     ParameterDirection,

@@ -291,25 +291,3 @@ def test_fields_of_ones_own_and_what_is_wrong_with_them():
         features.ConstantElevation(np.pi / 2)
     assert len(integral_curves(Sphere(), features.PrincipalDirections(), (0.3, 0.3))) == 0
     assert len(integral_curves(Sphere(), winds, np.zeros((0, 2)))) == 0
-
-
-@pytest.mark.capability("G9.4-field")
-def test_evenly_spaced_curves_cover_a_surface_and_keep_apart():
-    from scipy.spatial import cKDTree
-
-    surface, apart = Cylinder(1.0, 0.0, 3.0), 0.25
-    found = features.evenly_spaced_curves(surface, features.loxodromes(0.6), apart, tracing=Tracing(tolerance=1e-3))
-    u, v = np.meshgrid(np.linspace(0, 6.2, 60), np.linspace(0.1, 2.9, 30))
-    places = surface.points(u.ravel(), v.ravel())
-    own = np.concatenate([_dense(found[k]) for k in range(len(found))])
-    assert cKDTree(own).query(places)[0].max() < 1.2 * apart
-    for k in range(len(found)):
-        others = np.concatenate([_dense(found[j]) for j in range(len(found)) if j != k])
-        assert cKDTree(others).query(_dense(found[k]))[0].min() > 0.4 * apart
-    with pytest.raises(InputError, match="expected"):
-        features.evenly_spaced_curves(surface, features.loxodromes(0.6), 1e-4)
-
-
-def _dense(points):
-    t = np.linspace(0.0, 1.0, 30, endpoint=False)[:, None, None]
-    return (points[:-1] + t * (points[1:] - points[:-1])).reshape(-1, 3)

@@ -11,8 +11,9 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.parameters import positive
 from vectorplot.errors import InputError
 from vectorplot.features.integral.charts import charts
+from vectorplot.features.integral.courses import Courses
 from vectorplot.features.integral.flows import FieldFlow, Flow, GeodesicFlow
-from vectorplot.features.integral.integration import USUAL, Accuracy, Courses, courses
+from vectorplot.features.integral.integration import NOTHING_NEAR, USUAL, Accuracy, Until, courses
 from vectorplot.features.integral.sites import Sites, unit
 from vectorplot.features.integral.tangent_fields import TangentField
 from vectorplot.features.parametric.curve_tracing import Tracing, extent
@@ -173,18 +174,32 @@ def curves_from(
         return no_curves()
     longest = USUAL_LENGTH * size if length is None else positive("integral curves: length", length)
     sides = 2 if both_ways else 1
+    return drawn(courses_from(flow, starts, tangents, longest, sides, (size, large), accuracy), sides, size, tracing)
+
+
+def courses_from(
+    flow: Flow,
+    starts: Floats,
+    tangents: Floats,
+    longest: float,
+    sides: int,
+    extent_: tuple[float, float],
+    accuracy: Accuracy,
+    until: Until = NOTHING_NEAR,
+) -> Courses:
+    """The courses of a flow from u and v (k,2) along tangents (k,3), and, where there are two sides, as many more the
+    other way. extent_: as of the surface; until: as of courses."""
     way = np.repeat([1.0, -1.0][:sides], len(starts))
-    found = courses(
+    return courses(
         flow,
         np.tile(starts, (sides, 1)),
         np.tile(tangents, (sides, 1)) * way[:, None],
         way,
         np.full(len(way), longest),
-        size,
-        large,
+        *extent_,
         accuracy,
+        until,
     )
-    return _drawn(found, sides, size, tracing)
 
 
 def _starts(surface: Surface, starts: ArrayLike) -> Floats:
@@ -205,7 +220,7 @@ def _starts(surface: Surface, starts: ArrayLike) -> Floats:
     return at
 
 
-def _drawn(found: Courses, sides: int, size: float, tracing: Tracing) -> SurfaceCurves:
+def drawn(found: Courses, sides: int, size: float, tracing: Tracing) -> SurfaceCurves:
     """The curves as polylines, both ways joined, with as many points as the tolerance asks for."""
     counts = np.diff(found.offsets)
     starts = len(counts) // sides

@@ -8,8 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.integral.courses import Courses, Leaps
 from vectorplot.features.integral.dormand_prince import ORDER, Steps, steps
 from vectorplot.features.integral.flows import Flow
+from vectorplot.features.zeros.zero_crossings import bracketed_zeros
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.tolerances.of_extent import (
@@ -35,8 +37,9 @@ TURN = 0.5
 AWAY = 3.0
 """Steps after which a curve may have come back to its start, at least."""
 
-HALVINGS = 52
-"""How often a step is halved until it is known where something happens: to the last bit."""
+WOUND = 8.0
+"""Times the distance from a place within which a curve may not wind that it is long there, at most: more than that on
+one sheet is nearer to itself than half the distance."""
 
 CLOSED_OF_ERROR = 10.0
 """Times the error that curves are integrated with that one may miss its start by and is closed, at least."""
@@ -76,54 +79,22 @@ USUAL = Accuracy()
 
 
 @dataclass(frozen=True, eq=False)
-class Leaps:
-    """Steps of points over a surface: row (s,): which point each leads; chart (s,); part (s,): how much of the step
-    counts; length (s,): of that; before (s,2): u and v where it begins, running on over seams."""
+class Until:
+    """Where curves end that need not go on: beside says of u and v (k,2), after a step there, whether they do (k,);
+    tight: a distance within which of some place they may not wind round and round."""
 
-    row: Ints
-    chart: Ints
-    part: Floats
-    length: Floats
-    before: Floats
+    beside: Callable[[Floats], Bools] | None = None
+    tight: float = 0.0
 
 
-@dataclass(frozen=True, eq=False)
-class Courses:
-    """The ways of points over a surface, those of each point in the order in which they follow each other.
-
-    leaps, steps (s,); offsets (m+1,): point i has the steps offsets[i] to offsets[i+1]; closed (m,): whether it came
-    back to its start; stalled, spent (m,): whether it ended where no step succeeds, or for want of steps.
-    """
-
-    flow: Flow
-    leaps: Leaps
-    steps: Steps
-    offsets: Ints
-    closed: Bools
-    stalled: Bools
-    spent: Bools
-
-    def states(self, step: Ints, part: Floats) -> Floats:
-        """(k,d) the states at parts (k,) of what counts of steps (k,)."""
-        return self.steps.some(step).at(part * self.leaps.part[step])
-
-    def places(self, step: Ints, part: Floats) -> Floats:
-        """(k,2) u and v there, running on over seams."""
-        charts = self.flow.charts
-        found = charts.parameters(self.leaps.chart[step], self.states(step, part)[:, :2])
-        return charts.near_to(found, self.leaps.before[step])
-
-    def points(self, step: Ints, part: Floats) -> Floats:
-        """(k,3) points there."""
-        charts = self.flow.charts
-        found = charts.parameters(self.leaps.chart[step], self.states(step, part)[:, :2])
-        return self.flow.surface.points(*charts.within(found).T)
+NOTHING_NEAR = Until()
 
 
 @dataclass(frozen=True, eq=False)
 class _Points:
     """Points on their way: which (k,), chart (k,), states (k,d), their derivatives (k,d), tangents (k,3), places (k,2)
-    running on, points (k,3), the next steps (k,), how long they are still to run (k,), and steps done (k,)."""
+    running on, points (k,3), the next steps (k,), how long they are still to run (k,), and steps done (k,); anchor
+    (k,3): the point near which they have wound for a length (k,)."""
 
     which: Ints
     chart: Ints
@@ -135,6 +106,8 @@ class _Points:
     step: Floats
     left: Floats
     done: Floats
+    anchor: Floats
+    wound: Floats
 
 
 def courses(
@@ -146,11 +119,12 @@ def courses(
     size: float,
     large: float,
     accuracy: Accuracy = USUAL,
+    until: Until = NOTHING_NEAR,
 ) -> Courses:
     """The courses of points from u and v (m,2) along unit tangents (m,3), as long as lengths (m,) say at most.
 
     way (m,): -1 where they run against the field; size, large: the extent of the surface and its largest coordinate.
-    They end at borders, where they close, and where no step succeeds.
+    They end at borders, where they close, where no step succeeds, and at what else is said.
     Source: Glaeser, section 9.4; errata G9-13 and G9-14: here steps have the length that their error allows, and a
     curve closes only after it has been away.
     """
@@ -171,6 +145,8 @@ def courses(
         home,
         np.full(count, FIRST * size),
         lengths.astype(np.float64),
+        np.zeros(count),
+        home,
         np.zeros(count),
     )
     leaps: list[Leaps] = []
@@ -220,6 +196,11 @@ def courses(
         # Derivatives at the new places, in charts that do better there.
         finished = out.copy()
         finished[back] = True
+        if until.beside is not None:
+            finished |= until.beside(places[at])
+        gone = norm(points[at] - now.anchor[at]) > until.tight
+        wound = np.where(gone, 0.0, now.wound[at] + length)
+        finished |= wound > WOUND * until.tight
         left = now.left[at] - length
         finished |= left <= ROUNDING_OF_POINTS * size
         slow = ~finished & (step[at] < shortest)
@@ -243,6 +224,8 @@ def courses(
             following[both],
             np.concatenate([left[~finished], now.left[waits]]),
             np.concatenate([used[~finished], now.done[waits] + 1.0]),
+            np.concatenate([np.where(gone[:, None], points[at], now.anchor[at])[~finished], now.anchor[waits]]),
+            np.concatenate([wound[~finished], now.wound[waits]]),
         )
         spent[now.which[now.done >= accuracy.steps]] = True
         now = records.some(now, now.done < accuracy.steps)
@@ -266,23 +249,29 @@ def _length_of(flow: Flow, chart: Ints, places: Floats, error: Floats, size: flo
     return np.asarray(np.sqrt(dot(away, away) + size * size * (error[:, 2:] ** 2).sum(axis=1)))
 
 
-def _first(done: Steps, what: Callable[[Floats], Floats]) -> Floats:
-    """(k,) the parts of steps up to which what (k,) of their states is not positive."""
-    low, high = np.zeros(len(done.start)), np.ones(len(done.start))
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        over = what(done.at(middle)) > 0.0
-        low, high = np.where(over, low, middle), np.where(over, middle, high)
-    return high
+def _first(done: Steps, what: Callable[[Floats, Ints], Floats], last: Floats, small: float) -> Floats:
+    """(k,) the parts of steps up to which what (k,) of their states is not positive: less than small there, and last
+    (k,) at their ends. what(states, which): of some of the steps."""
+    count = len(done.start)
+    first = np.minimum(what(done.start, np.arange(count)), -LEAST_DIVISOR)
+
+    def values(part: Floats, which: Ints) -> Floats:
+        return what(done.some(which).at(part), which)
+
+    with np.errstate(all="ignore"):
+        guess = first / (first - last)
+    found, _ = bracketed_zeros(values, first, last, guess, np.full(count, small))
+    return np.asarray(found)
 
 
 def _crossing(flow: Flow, chart: Ints, done: Steps) -> Floats:
     """(k,) the parts of steps in charts (k,) at which they leave the surface."""
 
-    def beyond(states: Floats) -> Floats:
-        return flow.charts.beyond(flow.charts.parameters(chart, states[:, :2]))
+    def beyond(states: Floats, which: Ints) -> Floats:
+        return flow.charts.beyond(flow.charts.parameters(chart[which], states[:, :2]))
 
-    return _first(done, beyond)
+    ends = beyond(done.start + done.move, np.arange(len(chart)))
+    return _first(done, beyond, ends, ROUNDING_OF_POINTS)
 
 
 def _back(
@@ -309,13 +298,16 @@ def _back(
         return rows, np.zeros(0)
     own, chart = which[rows], now.chart[at[rows]]
 
-    def way(states: Floats) -> Floats:
-        places = flow.charts.parameters(chart, states[:, :2])
-        return flow.surface.points(*flow.charts.inside(places).T) - home[own]
+    def way(states: Floats, some: Ints) -> Floats:
+        places = flow.charts.parameters(chart[some], states[:, :2])
+        return flow.surface.points(*flow.charts.inside(places).T) - home[own[some]]
+
+    def ahead(states: Floats, some: Ints) -> Floats:
+        return np.asarray(dot(way(states, some), tangents[own[some]]))
 
     some = done.some(rows)
-    there = _first(some, lambda states: dot(way(states), tangents[own]))
-    near = norm(way(some.at(there))) <= max(CLOSED_OF_EXTENT, CLOSED_OF_ERROR * error) * size
+    there = _first(some, ahead, after[rows], ROUNDING_OF_POINTS * size)
+    near = norm(way(some.at(there), np.arange(len(rows)))) <= max(CLOSED_OF_EXTENT, CLOSED_OF_ERROR * error) * size
     near &= there <= part[rows]
     return rows[near], there[near]
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
-from vectorplot.features.integral.evenly_spaced import DRAWN, evenly_spaced_curves
 from vectorplot.features.integral.integral_curves import geodesics, integral_curves
+from vectorplot.features.integral.spacing.evenly_spaced import DRAWN, evenly_spaced_curves
 from vectorplot.features.parametric.curve_tracing import Tracing, extent
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.scene.integral_lines import GeodesicLines, IntegralLines

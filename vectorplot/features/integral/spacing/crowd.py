@@ -1,0 +1,156 @@
+"""What curves have taken of a surface, and what is near it on the same sheet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.integral.charts import Charts
+from vectorplot.features.integral.sites import Sites
+from vectorplot.features.integral.spacing.places_along import PlacesAlong
+from vectorplot.geometry.vectors import norm
+from vectorplot.surfaces.surface import Surface
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
+
+PORTION = 1024
+"""So many places of one line are compared with each other at a time."""
+
+AROUND = 2.0
+"""Times the distance along a line within which it is not near itself."""
+
+NEIGHBOURS = 12
+"""So many of what is near a place are looked at until one is on its sheet."""
+
+ON_THE_WAY = (0.0, 0.23, 0.5, 0.71, 1.0)
+"""Parts of the way between two places, straight in the parameters, at which it is looked at: not even ones, as sheets
+that are whole turns from each other are met at even parts of the way."""
+
+DIRECT = 3.0
+"""Times the distance asked for that this way is long at most where the places are on one sheet; round a pole it is half
+a circle."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ground:
+    """A surface on which curves keep apart from each other: its charts, and the distance that they should have."""
+
+    surface: Surface
+    charts: Charts
+    apart: float
+
+    def where(self, places: Floats) -> Floats:
+        """(k,6) the points at u and v (k,2), and the normals there, as long as the distance: the two sides of a thin
+        shape are far from each other."""
+        sites = Sites(self.surface, *self.charts.inside(places).T)
+        return np.concatenate([sites.points, self.apart * np.nan_to_num(sites.normals)], axis=1)
+
+    def on_one_sheet(self, one: Floats, two: Floats, reach: float) -> Bools:
+        """(k,) whether places, u and v (k,2) each, that are within reach in space are near along the surface."""
+        way = self.charts.near_to(two, one) - one
+        stops = [self.surface.points(*self.charts.within(one + part * way).T) for part in ON_THE_WAY]
+        long = sum((norm(b - a) for a, b in pairwise(stops)), np.zeros(len(one)))
+        return np.asarray(long <= DIRECT * reach)
+
+
+@dataclass(frozen=True, eq=False)
+class Taken:
+    """Places u and v (n,2), the tree of where they are (n,6)."""
+
+    places: Floats
+    where: Floats
+    tree: cKDTree
+
+
+@dataclass(frozen=True, eq=False)
+class Crowd:
+    """What is taken of a surface, in groups of which each is more than twice as large as the next one: that many grow
+    by little as they are added to, and are few."""
+
+    ground: Ground
+    groups: tuple[Taken, ...] = ()
+
+    def with_places(self, places: Floats, where: Floats) -> Crowd:
+        """With more places, u and v (k,2), where (k,6)."""
+        from scipy.spatial import cKDTree
+
+        if not len(places):
+            return self
+        groups = list(self.groups)
+        while groups and len(groups[-1].places) <= 2 * len(places):
+            last = groups.pop()
+            places, where = np.concatenate([last.places, places]), np.concatenate([last.where, where])
+        return replace(self, groups=(*groups, Taken(places, where, cKDTree(where))))
+
+    def together(self, other: Crowd) -> Crowd:
+        """With what another one has."""
+        result = self
+        for group in other.groups:
+            result = result.with_places(group.places, group.where)
+        return result
+
+    def away(self, where: Floats) -> Floats:
+        """(k,) distances in space, and of normals, from what is nearest; not finite where nothing is taken."""
+        result = np.full(len(where), np.inf)
+        for group in self.groups:
+            result = np.minimum(result, group.tree.query(where)[0])
+        return result
+
+    def near(self, places: Floats, where: Floats, reach: float) -> Bools:
+        """(k,) which of the places, u and v (k,2), where (k,6), are within reach of what is taken on their sheet."""
+        result = np.zeros(len(places), dtype=np.bool_)
+        for group in self.groups:
+            at = np.flatnonzero(~result)
+            at = at[np.isfinite(group.tree.query(where[at], distance_upper_bound=reach)[0])]
+            if len(at):
+                most = min(NEIGHBOURS, len(group.places))
+                away, which = group.tree.query(where[at], most, distance_upper_bound=reach)
+                away, which = away.reshape(len(at), -1), which.reshape(len(at), -1)
+                row, column = np.nonzero(np.isfinite(away))
+                same = self.ground.on_one_sheet(places[at[row]], group.places[which[row, column]], reach)
+                result[at[row[same]]] = True
+        return result
+
+
+def crowds_itself(ground: Ground, line: PlacesAlong, where: Floats, which: Ints, reach: float) -> Bools:
+    """(k,) which of some places (k,) of one line, where (p,6) it has them, are within reach of one that is nearer to
+    where the line began, but not just a little before.
+
+    Where a line is not near itself each place has few others around it; so it is looked at from where it began, portion
+    after portion, until it is.
+    """
+    from scipy.spatial import cKDTree
+
+    order = which[np.argsort(np.abs(line.along[which]), kind="stable")]
+    result = np.zeros(len(line.along), dtype=np.bool_)
+    for count in range(PORTION, len(order) + PORTION, PORTION):
+        part = order[:count]
+        one, two = part[cKDTree(where[part]).query_pairs(reach, output_type="ndarray")].T
+        way = np.abs(line.along[one] - line.along[two])
+        far = np.minimum(way, line.around[0] - way) > AROUND * ground.apart
+        one, two = one[far], two[far]
+        same = ground.on_one_sheet(line.places[one], line.places[two], reach)
+        one, two = one[same], two[same]
+        if len(one):
+            result[np.where(np.abs(line.along[one]) >= np.abs(line.along[two]), one, two)] = True
+            break
+    return result[which]
+
+
+def thinned(ground: Ground, places: Floats, reach: float) -> Ints:
+    """Which of the places, u and v (k,2), to take, one after the other, so that none is within reach of those before on
+    its sheet."""
+    where = ground.where(places)
+    left, chosen = np.arange(len(where)), []
+    while len(left):
+        first, left = left[0], left[1:]
+        chosen.append(int(first))
+        near = np.flatnonzero(norm(where[left] - where[first]) <= reach)
+        same = ground.on_one_sheet(places[left[near]], np.broadcast_to(places[first], (len(near), 2)), reach)
+        left = np.delete(left, near[same])
+    return np.array(chosen, dtype=np.intp)
