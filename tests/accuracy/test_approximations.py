@@ -13,21 +13,21 @@ from vectorplot.accuracy.curves_of_error import Accuracy
 from vectorplot.accuracy.measuring import measured
 
 FEW = {
-    "drawn-curves": (0.1, 0.001),
-    "bezier-fit": (1.0, 0.01),
+    "drawn-curves": (0.1, 0.01),
+    "bezier-fit": (1.0, 0.1),
     "arc-fit": (0.01, 1e-3, 1e-4, 1e-5),
     "spline-fit": (32, 64, 128),
-    "zero-manifold": (12, 24, 48),
+    "zero-manifold": (12, 24),
     "field-steps": (30.0, 15.0, 7.5),
     "integral-curves": (1e-9, 1e-10, 1e-11),
-    "mesh-contour": (16, 64),
+    "mesh-contour": (16, 32),
     "polygonised": (16, 32, 64),
     "painted-outline": (1.0, 0.1),
     "painted-colours": (1.0, 0.1),
     "depth-buffer": (64, 256),
-    "sampled-visibility": (16, 64, 256),
+    "sampled-visibility": (16, 64),
     "snapping": (1e-2, 1e-6, 1e-9, 1e-12),
-    "shadow-maps": (256, 1024),
+    "shadow-maps": (256, 512),
     "refraction": (1, 2, 3, 4, 5),
 }
 """Values of each knob that take little time."""

@@ -7,7 +7,7 @@ import pytest
 from sweeps.all_sweeps import SWEEPS
 from sweeps.sweep import Sweep
 
-FEW = 4
+FEW = 3
 """Values of each sweep that are tried with the other tests; docs/stability.py tries all."""
 
 

@@ -56,6 +56,7 @@ TRIED = (
 
 @pytest.mark.slow
 @pytest.mark.hard(72)
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("name", TRIED)
 def test_lines_through_singular_points_as_rays_see_them(name: str) -> None:
     rays, number = DenseRays(SURFACES[name].surface), len(name)

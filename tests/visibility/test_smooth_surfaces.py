@@ -9,6 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 from support.analytic_sight import sheets_in_front
+from support.effort import several
 from support.smooth_scenes import few, implicit_surfaces, mixed_scenes, single_surfaces, special_views, views
 from support.smooth_seen import Chords, chords_seen
 
@@ -103,7 +104,7 @@ def test_views_along_axes_and_rulings_as_in_closed_form(name: str) -> None:
 
 @pytest.mark.slow
 def test_a_flat_graph_along_its_axis_as_rays_see_it() -> None:
-    for seed, camera in enumerate(list(special_views(SINGLE["ripple"]))[1:6:2]):
+    for seed, camera in enumerate(list(special_views(SINGLE["ripple"]))[1 : several(2, long=6) : 2]):
         drawing = draw(SINGLE["ripple"], camera, hidden="solid")
         assert_drawing_is_right(drawing, SINGLE["ripple"], camera, samples=200, seed=seed, clearance=NOT_KNOWN)
 
@@ -153,7 +154,7 @@ def test_the_order_of_items_changes_nothing(name: str) -> None:
 @pytest.mark.slow
 def test_what_stands_behind_changes_nothing_in_front() -> None:
     scene = MIXED["linked tori"]
-    for view, camera in enumerate(two_views("linked tori")):
+    for view, camera in enumerate(two_views("linked tori")[: several(1, long=2)]):
         away = np.asarray(camera.target) - 12.0 * camera.direction
         low, high = away - 2.0, away + 2.0
         behind = replace(scene, items=(*scene.items, Item("ball", Sphere(1.0, away)), Item("box", box(low, high))))
@@ -167,7 +168,7 @@ def test_what_stands_behind_changes_nothing_in_front() -> None:
 @pytest.mark.slow
 def test_what_stands_in_front_only_hides() -> None:
     scene = MIXED["spheres piercing"]
-    for view, camera in enumerate(two_views("spheres piercing")):
+    for view, camera in enumerate(two_views("spheres piercing")[: several(1, long=2)]):
         front = replace(scene, items=(*scene.items, Item("ball", Sphere(0.6, 2.8 * camera.direction))))
         before, after = chords_of("spheres piercing", view), chords_seen(front, camera)
         own = after.item < len(scene.items)
