@@ -34,7 +34,10 @@ autodoc_typehints = "none"
 
 CONTENTS = {
     "Start": ("first-drawing", "how-to", "concepts", "gallery/README"),
-    "What it does": ("drawing", "hatching", "paint", "render", "scene-language", "molecules", "landscapes", "textbook"),
+    "What it does": (
+        *("drawing", "labels", "hatching", "paint", "render", "scene-language", "molecules", "landscapes"),
+        "textbook",
+    ),
     "Reference": ("command", "python", "reference/vectorplot", *(f"reference/{room}" for room in ROOMS)),
     "How exact, how fast": ("accuracy-and-limits", "accuracy", "stability", "speed", "tolerances"),
     "About": ("errata", "bibliography", "coverage"),

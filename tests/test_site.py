@@ -18,13 +18,11 @@ DOCS = ROOT / "docs"
 def test_the_site_is_built_without_a_warning_from_all_pages(tmp_path: Path) -> None:
     source, site = tmp_path / "docs", tmp_path / "site"
     shutil.copytree(DOCS, source, ignore=shutil.ignore_patterns("reference"))
-    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-d", str(tmp_path / "read")]
-    # All pages are read and their links followed; as pages of the web these are written, which show all that is one.
-    for builder, written in (("dummy", ()), ("html", ("index.md", "reference/surfaces.rst", "gallery/README.md"))):
-        words = [*command, "-b", builder, str(source), str(site), *(str(source / page) for page in written)]
-        done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, timeout=300)
-        assert done.returncode == 0, done.stderr[-3000:]
+    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", str(source), str(site)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr[-3000:]
     pages = [page.relative_to(DOCS).with_suffix(".html") for page in (*DOCS.glob("*.md"), *DOCS.glob("gallery/*.md"))]
+    assert all((site / page).stat().st_size > 1000 for page in pages)
     front = (site / "index.html").read_text(encoding="utf-8")
     assert all(f'href="{page.as_posix()}"' in front for page in pages if page.stem != "index")
     surfaces = (site / "reference" / "surfaces.html").read_text(encoding="utf-8")
