@@ -10,7 +10,7 @@ from .read import read
 from .render import render
 from .save import save
 from .scene.hatching import Hatching
-from .scene.labels import Along, AtVertex, Label, OnPage
+from .scene.naming.labels import Along, AtVertex, Label, OnPage
 from .scene.plots import graph, surface, tube
 from .scene.scene import Item, Light, Material, Page, Pattern, Scene
 from .scene.surface_lines import Section, SurfaceLines

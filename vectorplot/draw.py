@@ -26,7 +26,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
 from vectorplot.plan import StageReport, Walk, accuracy_of_draw, plan_cuts, plan_draw, plan_hatching, with_accuracy
 from vectorplot.scene.hatching import Hatching
-from vectorplot.scene.label_anchors import LabelAnchors, label_anchors
+from vectorplot.scene.naming.label_anchors import LabelAnchors, label_anchors
 from vectorplot.scene.placement import Placement, mm_per_image
 from vectorplot.scene.point_of_view import camera_of, page_of
 from vectorplot.scene.scene import Page, Scene

@@ -24,7 +24,7 @@ from vectorplot.painting.erased import erased
 from vectorplot.painting.ordered_faces import ordered_faces, seen_on_page
 from vectorplot.painting.ruler import PEN, Ruler
 from vectorplot.plan import StageReport, Walk, accuracy_of_paint, plan_cuts, plan_paint, with_accuracy
-from vectorplot.scene.label_anchors import label_anchors
+from vectorplot.scene.naming.label_anchors import label_anchors
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.point_of_view import camera_of, page_of
 from vectorplot.scene.scene import Light, Page

@@ -30,7 +30,7 @@ from vectorplot.plan import (
     plan_render,
     with_accuracy,
 )
-from vectorplot.scene.label_anchors import LabelAnchors, label_anchors
+from vectorplot.scene.naming.label_anchors import LabelAnchors, label_anchors
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.point_of_view import camera_of
 from vectorplot.scene.scene import Light, Page, Scene

@@ -21,7 +21,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.mesh_repair import mended
 from vectorplot.io.meshes.cells import faces_of_cells
 from vectorplot.io.read_file import read
-from vectorplot.scene.labels import Label
+from vectorplot.scene.naming.labels import Label
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.terrains import terrain_scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised

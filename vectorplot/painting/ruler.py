@@ -12,7 +12,7 @@ from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.layers import layers_by_kind
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.painting.seen import Seen
-from vectorplot.scene.label_anchors import LabelAnchors
+from vectorplot.scene.naming.label_anchors import LabelAnchors
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import ProjectedFaces

@@ -16,7 +16,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.motions.movable import Movable
 from vectorplot.scene.extent import in_range, smooth_bounds
 from vectorplot.scene.hatching import Hatching
-from vectorplot.scene.labels import Label
+from vectorplot.scene.naming.labels import Label
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, linear_growth
 from vectorplot.surfaces.balls import ball_of, bounds_of_balls
 from vectorplot.surfaces.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of

@@ -19,8 +19,8 @@ from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import segments
-from vectorplot.scene.label_anchors import LabelAnchors
-from vectorplot.scene.labels import Along, Label, OnPage
+from vectorplot.scene.naming.label_anchors import LabelAnchors
+from vectorplot.scene.naming.labels import Along, Label, OnPage
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View

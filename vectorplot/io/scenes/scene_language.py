@@ -18,8 +18,8 @@ from vectorplot.io.scenes.scene_reader import ItemReader
 from vectorplot.io.scenes.scene_statements import read_camera, read_label, read_light, read_page
 from vectorplot.io.scenes.scene_words import SCENE_WORDS, Words
 from vectorplot.scene.extent import check_range
-from vectorplot.scene.label_anchors import label_anchors
-from vectorplot.scene.labels import Label
+from vectorplot.scene.naming.label_anchors import label_anchors
+from vectorplot.scene.naming.labels import Label
 from vectorplot.scene.scene import Item, Light, Scene
 
 MAX_FILE_BYTES = 64 << 20

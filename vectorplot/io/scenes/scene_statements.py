@@ -8,7 +8,7 @@ from typing import Any
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.io.scenes.scene_words import Words
-from vectorplot.scene.labels import HIDDEN, MARKS, PLACES, Along, AtVertex, Label, OnPage, capital_height
+from vectorplot.scene.naming.labels import HIDDEN, MARKS, PLACES, Along, AtVertex, Label, OnPage, capital_height
 from vectorplot.scene.paper import sheet_size
 from vectorplot.scene.scene import Light, Page
 from vectorplot.words import COLOURS, is_colour, nearest

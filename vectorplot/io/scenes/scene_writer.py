@@ -15,7 +15,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.scenes.reserved_words import RESERVED
 from vectorplot.io.scenes.scene_hatching import hatch_text
 from vectorplot.io.scenes.scene_words import bare_word
-from vectorplot.scene.labels import Along, AtVertex, Label, OnPage
+from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnPage
 from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.words import COLOURS

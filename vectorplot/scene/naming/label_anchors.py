@@ -10,7 +10,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.labels import Along, AtVertex, Label, OnPage
+from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnPage
 from vectorplot.scene.scene import Item, Scene
 
 CHORDS = 256

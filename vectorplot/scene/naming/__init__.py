@@ -1,0 +1,1 @@
+"""Names of places in a picture, and where these places are."""
