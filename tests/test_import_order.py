@@ -29,11 +29,6 @@ VERBS = {"draw", "paint", "painting", "read", "render", "save", "plan"}
 ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "verbs"), ("shading/raster/image.py", "verbs")}
 
 FOR_PROGRAMS = {
-    "features/integral/face_sites.py",
-    "features/integral/mesh_courses.py",
-    "features/integral/mesh_flows.py",
-    "features/integral/mesh_integral_curves.py",
-    "features/integral/mesh_sides.py",
     "surfaces/curvature.py",
 }
 """Files that programs of one's own call for, and no verb."""

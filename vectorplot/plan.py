@@ -117,8 +117,9 @@ def plan_draw(
         stages.append(Stage("intersections", "items, or parts of an item, may pierce each other"))
     if LineKind.PATTERN in wanted and any(item.patterns for item in scene.items):
         stages.append(Stage("patterns", "faces carry patterns"))
-    if wanted & {LineKind.ISOPHOTE, LineKind.SECTION, LineKind.INDEX} and any(map(_has_mesh_lines, scene.items)):
-        stages.append(Stage("lines on meshes", "polyhedra carry isophotes or sections"))
+    drawn_on_meshes = {LineKind.ISOPHOTE, LineKind.SECTION, LineKind.INDEX, LineKind.INTEGRAL}
+    if wanted & drawn_on_meshes and any(map(_has_mesh_lines, scene.items)):
+        stages.append(Stage("lines on meshes", "polyhedra carry isophotes, sections or integral curves"))
     smooth = [item.shape for item in scene.items if not isinstance(item.shape, Mesh)]
     balls = any(ball_of(shape) or capped_quadric_of(shape) for shape in smooth)
     if balls:
@@ -227,7 +228,8 @@ def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple
 
 def _has_mesh_lines(item: Item) -> bool:
     """Whether an item is a polyhedron with lines of a smooth one."""
-    return isinstance(item.shape, Mesh) and bool(item.curves.isophotes or item.curves.sections)
+    curves = item.curves
+    return isinstance(item.shape, Mesh) and bool(curves.isophotes or curves.sections or curves.integral)
 
 
 class Walk:

@@ -16,7 +16,8 @@ from .integral.curvature_fields import AsymptoticDirections, PrincipalDirections
 from .integral.face_sites import FaceSites, face_sites
 from .integral.integral_curves import geodesics, integral_curves
 from .integral.integration import Accuracy
-from .integral.mesh_integral_curves import mesh_geodesics, mesh_integral_curves
+from .integral.on_meshes.mesh_evenly_spaced import evenly_spaced_mesh_curves
+from .integral.on_meshes.mesh_integral_curves import mesh_geodesics, mesh_integral_curves
 from .integral.sites import Sites, TangentPlanes
 from .integral.spacing.evenly_spaced import evenly_spaced_curves
 from .integral.tangent_fields import (
@@ -47,6 +48,7 @@ from .meshes.mesh_lines import (
     mesh_point_light_isophote_edges,
     mesh_point_light_isophotes,
 )
+from .meshes.nearest_on_mesh import MeshPlaces, nearest_on_mesh
 from .parametric.conditions import CentralContour, ParallelContour
 from .parametric.contour import contour, parallel_contour
 from .parametric.curve_tracing import Tracing
@@ -76,6 +78,7 @@ __all__ = [
     "ImplicitTracing",
     "Intersections",
     "MeshCurves",
+    "MeshPlaces",
     "MeshSection",
     "ParallelContour",
     "ParameterDirection",
@@ -97,6 +100,7 @@ __all__ = [
     "contour_cusps",
     "contour_with_cusps",
     "evenly_spaced_curves",
+    "evenly_spaced_mesh_curves",
     "face_intersections",
     "face_sites",
     "geodesics",
@@ -128,6 +132,7 @@ __all__ = [
     "mesh_point_light_isophote_edges",
     "mesh_point_light_isophotes",
     "mesh_section",
+    "nearest_on_mesh",
     "parallel_contour",
     "parameter_lines",
     "plane_sections",

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive
 from vectorplot.errors import InputError
 
@@ -18,23 +19,42 @@ MOST_STARTS = 10_000
 """The largest number of points that curves of one field are asked for through."""
 
 
+USUAL_APART = 1.0 / 24.0
+"""Part of the extent of a shape that neighbours are apart where nothing is said."""
+
+
+class PointsOf(NamedTuple):
+    """What lines on one sort of shape begin with: so many numbers a point, a start and its direction, and what these
+    numbers are."""
+
+    points: int
+    starts: int
+    what: str
+
+
+ON_SURFACES = PointsOf(2, 3, "u v on a surface")
+ON_MESHES = PointsOf(3, 6, "x y z on a polyhedron")
+
+
 @dataclass(frozen=True)
 class FieldLines:
-    """Lines of a surface that follow a field of directions: through given points, or evenly all over it.
+    """Lines of a surface or a mesh that follow a field of directions: through given points, or evenly all over it.
 
     Parameters
     ----------
     field : TangentField
         Such as PrincipalDirections() of the room features.
     apart : float, optional
-        How far neighbours are from each other, in world units; a twenty-fourth of the extent of the surface where None.
-    through : tuple of (float, float)
-        Parameters u, v of points; where there are some, the lines through these are drawn and no others.
+        How far neighbours are from each other, in world units; a twenty-fourth of the extent of the shape where None.
+    through : tuple of (float, float), or of (float, float, float)
+        Parameters u, v of points on a surface, or points in the world, of which the nearest ones on a mesh count; where
+        there are some, the lines through these are drawn and no others.
 
     Raises
     ------
     InputError
-        For a distance that is not positive, points that are not pairs of finite numbers, more than 10000 of them.
+        For a distance that is not positive, points that are not two finite numbers each, or three each, more than 10000
+        of them.
 
     Examples
     --------
@@ -47,34 +67,36 @@ class FieldLines:
 
     field: TangentField
     apart: float | None = None
-    through: tuple[tuple[float, float], ...] = ()
+    through: tuple[tuple[float, ...], ...] = ()
 
     def __post_init__(self) -> None:
         if self.apart is not None:
             positive("field lines: distance", self.apart)
-        object.__setattr__(self, "through", _rows("field lines", self.through, 2))
+        object.__setattr__(self, "through", _rows("field lines", self.through, ON_SURFACES.points, ON_MESHES.points))
 
-    def scaled(self, factor: float) -> FieldLines:
-        """The lines of the surface where it is so many times larger."""
-        return self if self.apart is None else replace(self, apart=factor * self.apart)
+    def transformed(self, matrix: Floats, larger: float) -> FieldLines:
+        """The lines of the shape under a 4x4 matrix acting on columns that makes lengths so many times larger."""
+        apart = None if self.apart is None else larger * self.apart
+        return replace(self, apart=apart, through=_moved(self.through, matrix))
 
 
 @dataclass(frozen=True)
 class GeodesicLines:
-    """Geodesics of a surface, from given points in given directions.
+    """Geodesics of a surface or a mesh, from given points in given directions.
 
     Parameters
     ----------
-    starts : tuple of (float, float, float)
-        Parameters u, v, and the angle in radians from the direction in which u grows, counter-clockwise about the
-        normals.
+    starts : tuple of (float, float, float), or of six float
+        On a surface parameters u, v, and the angle in radians from the direction in which u grows, counter-clockwise
+        about the normals; for a mesh points in the world, of which the nearest ones on it count, and directions.
     length : float, optional
-        How long they are at most, in world units; ten times the extent of the surface where None.
+        How long they are at most, in world units; ten times the extent of the shape where None.
 
     Raises
     ------
     InputError
-        For a length that is not positive, starts that are not three finite numbers each, more than 10000 of them.
+        For a length that is not positive, starts that are not three finite numbers each, or six each, more than 10000
+        of them.
 
     Examples
     --------
@@ -84,30 +106,53 @@ class GeodesicLines:
     True
     """
 
-    starts: tuple[tuple[float, float, float], ...]
+    starts: tuple[tuple[float, ...], ...]
     length: float | None = None
 
     def __post_init__(self) -> None:
         if self.length is not None:
             positive("geodesics: length", self.length)
-        object.__setattr__(self, "starts", _rows("geodesics", self.starts, 3))
+        object.__setattr__(self, "starts", _rows("geodesics", self.starts, ON_SURFACES.starts, ON_MESHES.starts))
 
-    def scaled(self, factor: float) -> GeodesicLines:
-        """The lines of the surface where it is so many times larger."""
-        return self if self.length is None else replace(self, length=factor * self.length)
+    def transformed(self, matrix: Floats, larger: float) -> GeodesicLines:
+        """The lines of the shape under a 4x4 matrix acting on columns that makes lengths so many times larger."""
+        length, starts = None if self.length is None else larger * self.length, self.starts
+        if starts and len(starts[0]) == ON_MESHES.starts:
+            points = _moved(tuple(row[:3] for row in starts), matrix)
+            ways = np.array(starts)[:, 3:] @ matrix[:3, :3].T
+            starts = tuple((*point, *way) for point, way in zip(points, ways.tolist(), strict=True))
+        return replace(self, length=length, starts=starts)
 
 
 IntegralLines = FieldLines | GeodesicLines
 
 
-def _rows(name: str, rows: tuple[tuple[float, ...], ...], width: int) -> tuple[tuple[float, ...], ...]:
-    """The rows as numbers."""
+def check_points(lines: IntegralLines, on: PointsOf) -> None:
+    """Nothing, where lines begin at points of the sort of shape they are on. Errors: InputError where not."""
+    if isinstance(lines, FieldLines):
+        name, rows, width = "field lines", lines.through, on.points
+    else:
+        name, rows, width = "geodesics", lines.starts, on.starts
+    if rows and len(rows[0]) != width:
+        raise InputError(f"{name}: expected points {on.what}, {width} numbers each, got {len(rows[0])}")
+
+
+def _rows(name: str, rows: tuple[tuple[float, ...], ...], width: int, other: int) -> tuple[tuple[float, ...], ...]:
+    """The rows, of one width or the other, as numbers."""
     if len(rows) > MOST_STARTS:
         raise InputError(f"{name}: {len(rows)} points, expected at most {MOST_STARTS}")
     try:
         values = np.array(rows, dtype=np.float64).reshape(len(rows), -1 if rows else width)
     except (TypeError, ValueError):
         values = np.full((1, 0), np.nan)
-    if values.shape[1] != width or not np.isfinite(values).all():
-        raise InputError(f"{name}: expected {width} finite numbers for each point")
+    if values.shape[1] not in (width, other) or not np.isfinite(values).all():
+        widths = f"{width}" if width == other else f"{width}, or {other},"
+        raise InputError(f"{name}: expected {widths} finite numbers for each point")
     return tuple(tuple(row) for row in values.tolist())
+
+
+def _moved(points: tuple[tuple[float, ...], ...], matrix: Floats) -> tuple[tuple[float, ...], ...]:
+    """Points in space under a matrix (4,4); parameters as they are."""
+    if not points or len(points[0]) != ON_MESHES.points:
+        return points
+    return tuple(map(tuple, (np.array(points) @ matrix[:3, :3].T + matrix[:3, 3]).tolist()))

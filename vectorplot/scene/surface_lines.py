@@ -231,7 +231,7 @@ class SurfaceLines:
     paths : tuple of SurfacePath
         Curves u(t), v(t) on a parametrised surface.
     integral : tuple of FieldLines and GeodesicLines
-        Integral curves of a parametrised surface.
+        Integral curves of a parametrised surface, or a polyhedron.
 
     Raises
     ------
@@ -306,7 +306,7 @@ class SurfaceLines:
         (2.0,)
         """
         larger = linear_growth(matrix)
-        integral = tuple(one.scaled(larger) for one in self.integral)
+        integral = tuple(one.transformed(matrix, larger) for one in self.integral)
         return replace(self, sections=tuple(one.transformed(matrix) for one in self.sections), integral=integral)
 
     @property

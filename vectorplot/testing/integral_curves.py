@@ -10,10 +10,12 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.integral.sites import Sites
 from vectorplot.features.integral.tangent_fields import TangentField
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.surface import Surface, is_parametrised
 from vectorplot.testing.curve_points import Curves, polylines_of
 from vectorplot.testing.curves import assert_on_surface, places_near
+from vectorplot.testing.mesh_curves import assert_mesh_geodesic, assert_mesh_integral_curve
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 
@@ -30,14 +32,14 @@ class _Middles(NamedTuple):
     extent: float
 
 
-def assert_integral_curve(points: Curves, surface: Surface, field: TangentField, tolerance: float) -> None:
-    """Nothing, where curves follow a field of directions on a surface all along.
+def assert_integral_curve(points: Curves, surface: Surface | Mesh, field: TangentField, tolerance: float) -> None:
+    """Nothing, where curves follow a field of directions on a surface, or a mesh, all along.
 
     Parameters
     ----------
     points : array_like, list of them, Strokes, Paths or Drawing
         Polylines (n, 3); of a drawing those in the world.
-    surface : Surface
+    surface : Surface or Mesh
         On which they run.
     field : TangentField
         Such as ConstantElevation of the room features: then it is the elevation that is verified.
@@ -56,7 +58,8 @@ def assert_integral_curve(points: Curves, surface: Surface, field: TangentField,
     Notes
     -----
     The tangent at a point is that of the circle through it and its neighbours: off by the square of how far the curve
-    turns between them. Ends are not looked at.
+    turns between them. Ends are not looked at. On a mesh every segment is: it has the direction of its face, or runs
+    along an edge that the faces on both sides lead to, or both away from.
 
     Source: Glaeser, section 9.4.
 
@@ -70,6 +73,9 @@ def assert_integral_curve(points: Curves, surface: Surface, field: TangentField,
     >>> circle = np.column_stack([0.8 * np.cos(t), 0.8 * np.sin(t), 0.6 + 0.0 * t])
     >>> assert_integral_curve(circle, Sphere(), features.ConstantElevation(0.0), tolerance=1e-6)
     """
+    if isinstance(surface, Mesh):
+        assert_mesh_integral_curve(points, surface, field, tolerance)
+        return
     own = _middles(points, surface, tolerance)
     # Of the circle through three points: chords weighted by each other's length.
     a, b = norm(own.before)[:, None], norm(own.behind)[:, None]
@@ -94,18 +100,18 @@ def assert_integral_curve(points: Curves, surface: Surface, field: TangentField,
     )
 
 
-def assert_geodesic(points: Curves, surface: Surface, tolerance: float) -> None:
-    """Nothing, where curves are geodesics of a surface: seen along its normals they are straight.
+def assert_geodesic(points: Curves, surface: Surface | Mesh, tolerance: float) -> None:
+    """Nothing, where curves are geodesics of a surface: seen along its normals they are straight; or of a mesh.
 
     Parameters
     ----------
     points : array_like, list of them, Strokes, Paths or Drawing
         Polylines (n, 3); of a drawing those in the world.
-    surface : Surface
+    surface : Surface or Mesh
         On which they run.
     tolerance : float
-        The geodesic curvature that is allowed, times the extent of the surface; and, times the extent, the distance of
-        points from it.
+        The geodesic curvature that is allowed, times the extent of the surface; on a mesh the angle, in radians, by
+        which they turn anywhere. And, times the extent, the distance of points from it.
 
     Raises
     ------
@@ -117,7 +123,9 @@ def assert_geodesic(points: Curves, surface: Surface, tolerance: float) -> None:
     Notes
     -----
     The curvature is that of the circle through three points, in the tangent plane of the middle one: off by how far
-    neighbouring chords differ in length, and by the square of their length.
+    neighbouring chords differ in length, and by the square of their length. On a mesh a curve is straight where the
+    faces on both sides of an edge are unfolded; at a vertex there is as much angle on either side, or on neither less
+    than half a turn, so that it is shortest there.
 
     Examples
     --------
@@ -127,6 +135,9 @@ def assert_geodesic(points: Curves, surface: Surface, tolerance: float) -> None:
     >>> t = np.linspace(0.0, 2.0 * np.pi, 101)
     >>> assert_geodesic(np.column_stack([np.cos(t), 0.0 * t, np.sin(t)]), Sphere(), tolerance=1e-9)
     """
+    if isinstance(surface, Mesh):
+        assert_mesh_geodesic(points, surface, tolerance)
+        return
     own = _middles(points, surface, tolerance)
     a, b = own.before, own.behind
     area = dot(own.normals, cross(a, b))

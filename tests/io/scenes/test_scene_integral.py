@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot import features
+from vectorplot import features, geometry, surfaces
 from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
@@ -33,6 +33,31 @@ def test_files_say_it_and_write_it_again(words):
     assert parse_scene(write_scene(scene)).items[0].curves.integral == WORDS[words]
 
 
+MESH_WORDS = {
+    "loxodromes 30": (FieldLines(features.TurnedField(features.SteepestSlope(), np.pi / 6)),),
+    "loxodromes 30 slope apart 0.5": (FieldLines(features.TurnedField(features.SteepestSlope(), np.pi / 6), 0.5),),
+    "helices 10 right through 1 0 0 , 0 1 0.5": (
+        FieldLines(features.ConstantElevation(np.radians(10), -1), None, ((1.0, 0.0, 0.0), (0.0, 1.0, 0.5))),
+    ),
+    "slope_lines apart 0.3": (FieldLines(features.SteepestSlope(), 0.3),),
+    "geodesics 1 0 0 0 1 1 , 0 -1 0.5 1 0 0 length 3": (
+        GeodesicLines(((1.0, 0.0, 0.0, 0.0, 1.0, 1.0), (0.0, -1.0, 0.5, 1.0, 0.0, 0.0)), 3.0),
+    ),
+}
+
+
+@pytest.mark.capability("G3.0-language", "G9.4-polyhedron")
+@pytest.mark.parametrize("words", MESH_WORDS)
+@pytest.mark.parametrize(
+    "order", ["A box 2 2 2 {}", "A {} translation base_points 0 0 0 , 1 0 0 , 0 1 0 trans_vector 0 0 1"]
+)
+def test_files_say_it_of_polyhedra_in_any_order_of_words(words, order):
+    scene = parse_scene(order.format(words) + "\nB surface torus 3 1 slope_lines through 0 1")
+    assert scene.items[0].curves.integral == MESH_WORDS[words]
+    assert scene.items[1].curves.integral == (FieldLines(features.SteepestSlope(), None, ((0.0, 1.0),)),)
+    assert parse_scene(write_scene(scene)).items[0].curves.integral == MESH_WORDS[words]
+
+
 @pytest.mark.capability("G3.0-language")
 def test_field_lines_of_formulas_are_drawn_and_written():
     scene = parse_scene('BALL blue surface sphere 2 field_lines "-y" "x" 0 through 0 0.5 translation 0 0 3')
@@ -47,7 +72,10 @@ def test_field_lines_of_formulas_are_drawn_and_written():
 @pytest.mark.parametrize(
     ("words", "cause"),
     [
-        ("box 1 1 1 slope_lines", "integral curves are for surfaces only"),
+        ("box 1 1 1 curvature_lines", "'curvature_lines' is for surfaces with parameters u and v only"),
+        ("box 1 1 1 loxodromes 30 u", "polyhedra have no lines u = const"),
+        ("box 1 1 1 slope_lines through 1 2", "a point of slope_lines"),
+        ("box 1 1 1 geodesics 0 0 0", "a point of geodesics"),
         ("surface implicit_torus 3 1 slope_lines", "with parameters u and v only"),
         ("curve circle 1 slope_lines", "'slope_lines' is for surfaces only"),
         ("surface torus 3 1 helices 90", "elevation 90, expected less than 90 degrees"),
@@ -63,6 +91,54 @@ def test_field_lines_of_formulas_are_drawn_and_written():
 def test_mistakes_about_them_are_told(words, cause):
     with pytest.raises(InputError, match=cause):
         parse_scene(f"A {words}")
+
+
+@pytest.mark.capability("G9.4-polyhedron")
+def test_points_of_the_wrong_sort_of_shape_are_told_with_the_items_name():
+    box, ball = geometry.box((2, 2, 2)), surfaces.Sphere()
+    flat, deep = (FieldLines(features.SteepestSlope(), None, (row,)) for row in ((0.0, 1.0), (0.0, 1.0, 1.0)))
+    for shape, lines, cause in (
+        (box, flat, "A: field lines: expected points x y z on a polyhedron, 3 numbers each, got 2"),
+        (ball, deep, "A: field lines: expected points u v on a surface, 2 numbers each, got 3"),
+        (box, GeodesicLines(((0.0, 1.0, 0.0),)), "A: geodesics: expected points x y z on a polyhedron, 6 numbers"),
+        (ball, GeodesicLines(((0.0,) * 5 + (1.0,),)), "A: geodesics: expected points u v on a surface, 3 numbers"),
+        (box, FieldLines(features.loxodromes(1.0)), "A: parameter lines: only surfaces with parameters"),
+        (box, GeodesicLines(((1.0, 1.0, 3.0, 0.0, 0.0, 1.0),)), "A: geodesics: direction 1 has no length in its face"),
+    ):
+        with pytest.raises(InputError, match=cause):
+            vp.draw(vp.Scene((vp.Item("A", shape, curves=vp.SurfaceLines(integral=(lines,))),)))
+
+
+@pytest.mark.capability("G9.4-polyhedron")
+def test_points_and_directions_on_polyhedra_move_with_them():
+    lines = (
+        FieldLines(features.SteepestSlope(), None, ((1.0, 0.0, 0.5),)),
+        GeodesicLines(((1.0, 0.0, 0.5, 0.0, 1.0, 0.0),), 3.0),
+        FieldLines(features.SteepestSlope(), 0.5, ((1.0, 0.5),)),
+    )
+    item = vp.Item("A", geometry.box((2, 2, 2)), curves=vp.SurfaceLines(integral=lines))
+    matrix = np.array([(0.0, -2.0, 0.0, 1.0), (2.0, 0.0, 0.0, 2.0), (0.0, 0.0, 2.0, 3.0), (0.0, 0.0, 0.0, 1.0)])
+    slope, way, flat = item.transformed(matrix).curves.integral
+    assert np.allclose(slope.through, [(1.0, 4.0, 4.0)]) and slope.apart is None
+    assert np.allclose(way.starts, [(1.0, 4.0, 4.0, -2.0, 0.0, 0.0)]) and np.isclose(way.length, 6.0)
+    assert flat.through == ((1.0, 0.5),) and np.isclose(flat.apart, 1.0)
+
+
+@pytest.mark.capability("G9.4-polyhedron")
+def test_they_are_hidden_on_polyhedra_as_rays_say_and_every_verb_shows_them():
+    scene = parse_scene(
+        "camera eye 8 5 6 target 0 0 0 A gray box 2 2 2 slope_lines apart 0.6 geodesics 2 1 1 0 1 0.7 length 8\n"
+        "B gray revolution hollow meridian 0.7 0 2 , 1.5 0 1 , 1.6 0 0 , 1 0 -1 order 12 loxodromes 70 apart 0.6"
+        " translation 0 2 0"
+    )
+    drawing = vp.draw(scene, hidden="solid")
+    assert_drawing_is_right(drawing, scene, scene.camera, samples=30)
+    field = features.TurnedField(features.SteepestSlope(), np.radians(70))
+    alone = vp.draw(vp.Scene(scene.items[1:]), scene.camera, hidden="solid", lines="integral")
+    assert_integral_curve(curves_in_space(alone, kind="integral"), scene.items[1].shape, field, 1e-6)
+    assert curves_in_space(vp.paint(scene, lines="integral"), kind="integral")
+    lined, plain = (vp.render(scene, lines=lines, size=(60, 40)).pixels for lines in ("integral", "none"))
+    assert (lined != plain).any()
 
 
 @pytest.mark.slow

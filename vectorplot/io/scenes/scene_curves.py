@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_words import Words
+from vectorplot.scene.integral_lines import ON_MESHES, ON_SURFACES
 from vectorplot.scene.surface_lines import (
     MAX_LINES,
     NO_LINES,
@@ -17,6 +18,9 @@ from vectorplot.scene.surface_lines import (
 )
 
 AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+POLYHEDRON_WORDS = ("vertices", "revolution", "base_points", "box", "intersection")
+"""Words that only polyhedra have."""
 
 
 @dataclass(frozen=True)
@@ -114,12 +118,21 @@ def read_surface_curve(words: Words, at: int, owner: str, draft: CurveDraft) -> 
         words.fail(start, f"{owner}surface_curve: {error.cause}")
 
 
-def read_integral_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
-    """Integral curves: of a field of directions, or geodesics."""
+def read_integral_lines(
+    words: Words, at: int, owner: str, draft: CurveDraft, kind: str | None
+) -> tuple[CurveDraft, int]:
+    """Integral curves: of a field of directions, or geodesics; kind: of the item, where that was said already."""
     from vectorplot.io.scenes.scene_integral import read_integral
 
-    lines, after = read_integral(words, at, owner, draft.lines.integral)
+    smooth = (kind or _kind_ahead(words, at)) in ("surface", "curve")
+    lines, after = read_integral(words, at, owner, draft.lines.integral, ON_SURFACES if smooth else ON_MESHES)
     return _with_lines(draft, at, replace(draft.lines, integral=lines)), after
+
+
+def _kind_ahead(words: Words, at: int) -> str:
+    """The first word behind a place that says what kind of item this is, "" where there is none."""
+    telling = {"surface", "curve", *POLYHEDRON_WORDS}
+    return next((word for word in words.words[at:] if word in telling), "")
 
 
 def read_smooth_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:

@@ -1,11 +1,11 @@
-"""Integral curves on a surface as words of a scene file: read, and written."""
+"""Integral curves on a surface or a polyhedron as words of a scene file: read, and written."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from json import dumps
-from math import degrees, pi, radians
+from math import degrees, radians
 from typing import Literal
 
 import numpy as np
@@ -26,7 +26,14 @@ from vectorplot.features.integral.tangent_fields import (
 from vectorplot.io.scenes.scene_formulas import Formulas
 from vectorplot.io.scenes.scene_slots import read_formulas, read_number, read_numbers
 from vectorplot.io.scenes.scene_words import Words
-from vectorplot.scene.integral_lines import MOST_STARTS, FieldLines, GeodesicLines, IntegralLines
+from vectorplot.scene.integral_lines import (
+    MOST_STARTS,
+    ON_MESHES,
+    FieldLines,
+    GeodesicLines,
+    IntegralLines,
+    PointsOf,
+)
 
 MOST_FAMILIES = 100
 """The largest number of families of integral curves on one item."""
@@ -52,10 +59,19 @@ class SpaceFormulas:
 
 def _loxodromes(words: Words, at: int, owner: str) -> tuple[tuple[TangentField, ...], int]:
     angle, at = read_number(words, at, owner, "the angle of loxodromes")
+    if words.words[at] == "slope":
+        return (TurnedField(SteepestSlope(), radians(angle)),), at + 1
     constant: Literal["u", "v"] = "u"
     if words.words[at] in ("u", "v"):
         constant, at = ("v" if words.words[at] == "v" else "u"), at + 1
     return (loxodromes(radians(angle), constant),), at
+
+
+def _mesh_loxodromes(words: Words, at: int, owner: str) -> tuple[tuple[TangentField, ...], int]:
+    angle, at = read_number(words, at, owner, "the angle of loxodromes")
+    if words.words[at] in ("u", "v"):
+        words.fail(at, f"{owner}loxodromes: polyhedra have no lines {words.words[at]} = const., only 'slope'")
+    return (TurnedField(SteepestSlope(), radians(angle)),), at + (words.words[at] == "slope")
 
 
 def _slopes(words: Words, at: int, owner: str) -> tuple[tuple[TangentField, ...], int]:
@@ -92,16 +108,22 @@ FIELDS: dict[str, Fields] = {
     "asymptotic_lines": _families(AsymptoticDirections),
     "field_lines": _own,
 }
-"""The words for fields of directions, and how what follows them is read."""
+"""The words for fields of directions on surfaces, and how what follows them is read."""
+
+MESH_FIELDS = {word: FIELDS[word] for word in ("slope_lines", "helices", "field_lines")} | {
+    "loxodromes": _mesh_loxodromes
+}
+"""Those for fields on polyhedra."""
 
 
 def read_integral(
-    words: Words, at: int, owner: str, before: tuple[IntegralLines, ...]
+    words: Words, at: int, owner: str, before: tuple[IntegralLines, ...], on: PointsOf
 ) -> tuple[tuple[IntegralLines, ...], int]:
-    """The integral curves that were asked for before, and those of the word at, with the word behind them."""
+    """The integral curves that were asked for before, and those of the word at, with the word behind them; on: what
+    sort of shape they are on."""
     start = at
     try:
-        found, at = (_geodesics if words.words[at] == "geodesics" else _field_lines)(words, at, owner)
+        found, at = (_geodesics if words.words[at] == "geodesics" else _field_lines)(words, at, owner, on)
     except InputError as error:
         if error.file is not None:
             raise
@@ -111,26 +133,30 @@ def read_integral(
     return (*before, *found), at
 
 
-def _field_lines(words: Words, at: int, owner: str) -> tuple[tuple[IntegralLines, ...], int]:
+def _field_lines(words: Words, at: int, owner: str, on: PointsOf) -> tuple[tuple[IntegralLines, ...], int]:
     """A field of directions, and how far apart its lines are, or what points they go through."""
-    word = words.words[at]
-    fields, at = FIELDS[word](words, at + 1, owner)
-    apart, through = None, np.zeros((0, 2))
+    word, fields_of = words.words[at], MESH_FIELDS if on == ON_MESHES else FIELDS
+    if word not in fields_of:
+        words.fail(at, f"{owner}'{word}' is for surfaces with parameters u and v only")
+    fields, at = fields_of[word](words, at + 1, owner)
+    apart, through = None, np.zeros((0, on.points))
     if words.words[at] == "apart":
         apart, at = read_number(words, at + 1, owner, f"the distance of {word}")
     elif words.words[at] == "through":
-        through, at = _starts(words, at + 1, owner, 2, word)
-    places = tuple((u, v) for u, v in through.tolist())
+        through, at = _starts(words, at + 1, owner, on.points, word)
+    places = tuple(map(tuple, through.tolist()))
     return tuple(FieldLines(field, apart, places) for field in fields), at
 
 
-def _geodesics(words: Words, at: int, owner: str) -> tuple[tuple[IntegralLines, ...], int]:
-    """Parameters and angles, and a length."""
-    rows, at = _starts(words, at + 1, owner, 3, "geodesics")
+def _geodesics(words: Words, at: int, owner: str, on: PointsOf) -> tuple[tuple[IntegralLines, ...], int]:
+    """Parameters and angles, or points and directions, and a length."""
+    rows, at = _starts(words, at + 1, owner, on.starts, "geodesics")
+    if on != ON_MESHES:
+        rows[:, 2] = [radians(angle) for angle in rows[:, 2]]
     length = None
     if words.words[at] == "length":
         length, at = read_number(words, at + 1, owner, "the length of geodesics")
-    return (GeodesicLines(tuple((u, v, radians(angle)) for u, v, angle in rows.tolist()), length),), at
+    return (GeodesicLines(tuple(map(tuple, rows.tolist())), length),), at
 
 
 def _starts(words: Words, at: int, owner: str, width: int, what: str) -> tuple[Floats, int]:
@@ -146,25 +172,26 @@ def _starts(words: Words, at: int, owner: str, width: int, what: str) -> tuple[F
 def integral_text(lines: IntegralLines) -> str:
     """The words for integral curves. Errors: InputError for fields that the language cannot name."""
     if isinstance(lines, GeodesicLines):
-        rows = (f"{u!r} {v!r} {_degrees(angle)!r}" for u, v, angle in lines.starts)
+        angled = len(lines.starts[0]) != ON_MESHES.starts if lines.starts else False
+        rows = (_numbers((*row[:2], _degrees(row[2])) if angled else row) for row in lines.starts)
         return f"geodesics {' , '.join(rows)}" + ("" if lines.length is None else f" length {float(lines.length)!r}")
     words = _field_text(lines.field)
     if lines.through:
-        return f"{words} through {' , '.join(_pair(row) for row in lines.through)}"
+        return f"{words} through {' , '.join(_numbers(row) for row in lines.through)}"
     return words if lines.apart is None else f"{words} apart {float(lines.apart)!r}"
 
 
-def _pair(row: Iterable[float]) -> str:
+def _numbers(row: Iterable[float]) -> str:
     return " ".join(repr(float(value)) for value in row)
 
 
 def _field_text(field: TangentField) -> str:
     if isinstance(field, TurnedField) and isinstance(field.field, ParameterDirection):
         return f"loxodromes {_degrees(field.angle)!r} {field.field.constant}"
+    if isinstance(field, TurnedField) and field.field == SteepestSlope():
+        return f"loxodromes {_degrees(field.angle)!r} slope"
     if isinstance(field, SteepestSlope) and field.up == UP:
         return "slope_lines"
-    if isinstance(field, TurnedField) and field.field == SteepestSlope() and field.angle == 0.5 * pi:
-        return "helices 0.0 left"
     if isinstance(field, ConstantElevation) and field.up == UP:
         side = next(word for word, side in SIDES.items() if side == field.side)
         return f"helices {_degrees(field.elevation)!r} {side}"

@@ -151,7 +151,7 @@ def _surface(draft: Draft, surface: Surface | ImplicitSurface) -> tuple[Surface 
     if draft.curves.lines.paths and not is_parametrised(shape):
         raise InputError("'surface_curve' is for surfaces with parameters u and v only")
     if draft.curves.lines.integral and not is_parametrised(shape):
-        raise InputError("integral curves are for surfaces with parameters u and v only")
+        raise InputError("integral curves are for polyhedra and surfaces with parameters u and v only")
     return shape, curves_of(draft.curves, shape, checked_bounds(shape))
 
 
@@ -178,8 +178,6 @@ def _check_unparametrised(draft: Draft, words: Words) -> None:
         words.fail(draft.curves.index, f"{draft.owner}'parameter_lines' is for surfaces only")
     if draft.curves.lines.paths:
         words.fail(draft.curves.index, f"{draft.owner}'surface_curve' is for surfaces only")
-    if draft.curves.lines.integral:
-        words.fail(draft.curves.index, f"{draft.owner}integral curves are for surfaces only")
 
 
 def _polyhedron(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:

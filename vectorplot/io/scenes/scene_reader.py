@@ -394,6 +394,11 @@ def _curves(
     return handle
 
 
+def _integral_lines(reader: ItemReader, draft: Draft) -> None:
+    """Words about integral curves: what they begin with depends on the kind of the item."""
+    draft.curves, reader.at = read_integral_lines(reader.source, reader.at, draft.owner, draft.curves, draft.kind)
+
+
 def _modifier(
     read: Callable[[Words, int, str, Placement], tuple[Placement, int]],
 ) -> Callable[[ItemReader, Draft], None]:
@@ -445,7 +450,7 @@ HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
     "surface_curve": _curves(read_surface_curve),
     "smooth_lines": _curves(read_smooth_lines),
     "isophote_edges": _curves(read_isophote_edges),
-    **dict.fromkeys(INTEGRAL_WORDS, _curves(read_integral_lines)),
+    **dict.fromkeys(INTEGRAL_WORDS, _integral_lines),
 }
 """What reads the words of an item."""
 

@@ -155,8 +155,8 @@ def _shape(item: Item, lights: tuple[Light, ...]) -> str:
     shape = item.shape
     try:
         if isinstance(shape, Mesh):
-            if item.curves.columns or item.curves.rows or item.curves.paths or item.curves.integral:
-                raise InputError("parameter lines, curves u(t), v(t) and integral curves are for surfaces only")
+            if item.curves.columns or item.curves.rows or item.curves.paths:
+                raise InputError("parameter lines and curves u(t), v(t) are for surfaces only")
             return _mesh(shape) + lines_text(item.curves, lights)
         if is_parametrised(shape) or is_implicit(shape):
             return f"\nsurface {surface_text(shape)}{lines_text(item.curves, lights)}"

@@ -327,9 +327,9 @@ def pattern_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines
 
 
 def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines:
-    """The isophotes and plane sections that polyhedra ask for: they lie in the faces.
+    """The isophotes, plane sections and integral curves that polyhedra ask for: they lie in the faces.
 
-    Errors: InputError, with the item's name, for a light that the scene does not have.
+    Errors: InputError, with the item's name, for a light that the scene does not have, and as of item_integral_lines.
     """
     parts = []
     for number, item in enumerate(scene.items):
@@ -342,6 +342,12 @@ def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Li
                 if section.kind in wanted:
                     found = mesh_plane_sections(item.shape, section.normal, section.offsets)
                     parts.append(_lines_of_curves(view, found, section.kind, number, item.curves.smooth))
+            if LineKind.INTEGRAL in wanted and item.curves.integral:
+                from vectorplot.visibility.polyhedra.integral_lines import item_integral_lines
+
+                for lines in item.curves.integral:
+                    found = item_integral_lines(item, lines)
+                    parts.append(_lines_of_curves(view, found, LineKind.INTEGRAL, number, item.curves.smooth))
     return joined_lines(parts)
 
 

@@ -12,14 +12,11 @@ from vectorplot.features.integral.integral_curves import geodesics, integral_cur
 from vectorplot.features.integral.spacing.evenly_spaced import DRAWN, evenly_spaced_curves
 from vectorplot.features.parametric.curve_tracing import Tracing, extent
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
-from vectorplot.scene.integral_lines import GeodesicLines, IntegralLines
+from vectorplot.scene.integral_lines import ON_SURFACES, USUAL_APART, GeodesicLines, IntegralLines, check_points
 from vectorplot.scene.scene import Item
 from vectorplot.scene.view import View
 from vectorplot.surfaces.placed import placed_once
 from vectorplot.surfaces.surface import Domain, Surface
-
-USUAL_APART = 1.0 / 24.0
-"""Part of the extent of a surface that neighbours are apart where nothing is said."""
 
 
 def integral_curves_in_view(
@@ -27,7 +24,7 @@ def integral_curves_in_view(
 ) -> SurfaceCurves:
     """Integral curves of a surface in the view's coordinates, found in the world, where fields know their directions.
 
-    Errors: InputError, with the item's name, for lines that are too close together.
+    Errors: InputError, with the item's name, for lines that are too close together, or begin at points in space.
     """
     world = placed_once(surface, view.scale * view.axes, view.centre, np.zeros(3))
     picture = tracing.picture
@@ -46,8 +43,9 @@ def integral_curves_in_view(
 def integral_lines(surface: Surface, lines: IntegralLines, tracing: Tracing) -> SurfaceCurves:
     """The curves of a surface of the world that are asked for; those that begin outside its domain are left out.
 
-    Errors: InputError for lines that are too close together.
+    Errors: InputError for lines that are too close together, or begin at points in space.
     """
+    check_points(lines, ON_SURFACES)
     if isinstance(lines, GeodesicLines):
         rows = np.array(lines.starts).reshape(-1, 3)
         rows = rows[_within(surface.domain, rows)]

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.integral.mesh_flows import MeshFlow, Onward
-from vectorplot.features.integral.mesh_sides import NO_SIDE, MeshSides
+from vectorplot.features.integral.on_meshes.mesh_flows import MeshFlow, Onward
+from vectorplot.features.integral.on_meshes.mesh_sides import NO_SIDE, MeshSides
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import dot, point_on_line
 from vectorplot.tolerances.of_extent import CLOSED_OF_EXTENT

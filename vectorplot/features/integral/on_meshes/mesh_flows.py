@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.integral.face_sites import FaceSites, face_sites
-from vectorplot.features.integral.mesh_sides import NO_SIDE, MeshSides, outwards
+from vectorplot.features.integral.on_meshes.mesh_sides import NO_SIDE, MeshSides, outwards
 from vectorplot.features.integral.sites import unit
 from vectorplot.features.integral.tangent_fields import TangentField
 from vectorplot.geometry import ragged
@@ -158,14 +158,14 @@ class StraightFlow:
         sides = self.sides
         total, inner = self._angles_around(side)
         # Round the vertex counter-clockwise, from the first side of the face that is left.
-        wedge = _corner_angles(sides, side)
+        wedge = corner_angles(sides, side)
         left = wedge - np.minimum(_between(-directions, -sides.along[sides.before[side]]), wedge) + 0.5 * total
         face, first, second = (np.full(len(side), NO_SIDE) for _ in range(3))
         result = np.array(directions)
         going = np.flatnonzero(inner)
         corner = side[going]
         while len(going):
-            wedge = _corner_angles(sides, corner)
+            wedge = corner_angles(sides, corner)
             here = left[going] <= wedge
             found, at = going[here], corner[here]
             turn = left[found][:, None]
@@ -181,7 +181,7 @@ class StraightFlow:
         total, inner = np.zeros(len(side)), np.ones(len(side), dtype=np.bool_)
         going, corner = np.arange(len(side)), side
         while len(going):
-            total[going] += _corner_angles(sides, corner)
+            total[going] += corner_angles(sides, corner)
             corner = sides.across[sides.before[corner]]
             inner[going[corner == NO_SIDE]] = False
             more = (corner != NO_SIDE) & (corner != side[going])
@@ -208,7 +208,7 @@ def _slide(sides: MeshSides, side: Ints, other: Ints, own: Floats, beyond: Float
     return np.asarray(np.nan_to_num((d * a + b * c) / (b + d)))
 
 
-def _corner_angles(sides: MeshSides, corner: Ints) -> Floats:
+def corner_angles(sides: MeshSides, corner: Ints) -> Floats:
     """(k,) the angles of faces at corners (k,)."""
     return _between(sides.along[corner], -sides.along[sides.before[corner]])
 

@@ -9,9 +9,9 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.parameters import positive
 from vectorplot.errors import InputError
 from vectorplot.features.integral.integral_curves import USUAL_LENGTH
-from vectorplot.features.integral.mesh_courses import MeshCourses, mesh_courses
-from vectorplot.features.integral.mesh_flows import MeshFlow, StraightFlow, face_field_flow
-from vectorplot.features.integral.mesh_sides import MeshSides, mesh_sides
+from vectorplot.features.integral.on_meshes.mesh_courses import MeshCourses, mesh_courses
+from vectorplot.features.integral.on_meshes.mesh_flows import MeshFlow, StraightFlow, face_field_flow
+from vectorplot.features.integral.on_meshes.mesh_sides import MeshSides, mesh_sides
 from vectorplot.features.integral.sites import unit
 from vectorplot.features.integral.tangent_fields import TangentField
 from vectorplot.features.meshes.mesh_curves import NO_FACE, MeshCurves, all_mesh_curves, without_inner
@@ -87,9 +87,9 @@ def mesh_integral_curves(
     ([True], [1.0, 1.0, 1.0, 1.0, 1.0])
     """
     sides = mesh_sides(mesh)
-    face, own = _starts("integral curves", mesh, sides, faces, points)
+    face, own = starts_in_faces("integral curves", mesh, sides, faces, points)
     flow = face_field_flow(sides, mesh, field)
-    return _curves(sides, flow, face, own, flow.candidates[0, face], length, both_ways)
+    return led_curves(sides, flow, face, own, flow.candidates[0, face], length, both_ways)
 
 
 def mesh_geodesics(
@@ -144,7 +144,7 @@ def mesh_geodesics(
     ([True], [0, 1, 2, 3, 4, 5])
     """
     sides = mesh_sides(mesh)
-    face, own = _starts("geodesics", mesh, sides, faces, points)
+    face, own = starts_in_faces("geodesics", mesh, sides, faces, points)
     given = np.asarray(directions, dtype=np.float64)
     if given.shape not in ((3,), (len(face), 3)) or not np.isfinite(given).all():
         raise InputError("geodesics: directions must be three finite numbers for each start")
@@ -155,10 +155,12 @@ def mesh_geodesics(
     none = np.sqrt(dot(flat, flat)) <= ZERO_OF_EXTENT
     if none.any():
         raise InputError(f"geodesics: direction {int(none.argmax()) + 1} has no length in its face")
-    return _curves(sides, StraightFlow(sides), face, own, unit(flat), length, both_ways)
+    return led_curves(sides, StraightFlow(sides), face, own, unit(flat), length, both_ways)
 
 
-def _starts(name: str, mesh: Mesh, sides: MeshSides, faces: ArrayLike, points: ArrayLike | None) -> tuple[Ints, Floats]:
+def starts_in_faces(
+    name: str, mesh: Mesh, sides: MeshSides, faces: ArrayLike, points: ArrayLike | None
+) -> tuple[Ints, Floats]:
     """(k,) the parts of faces in which lines begin, and (k,3) where."""
     given = np.atleast_1d(np.asarray(faces))
     if given.size == 0:
@@ -190,7 +192,7 @@ def _starts(name: str, mesh: Mesh, sides: MeshSides, faces: ArrayLike, points: A
     return part[best].astype(np.intp), np.asarray(own)
 
 
-def _curves(
+def led_curves(
     sides: MeshSides,
     flow: MeshFlow,
     face: Ints,

@@ -1,0 +1,65 @@
+"""Integral curves that cover meshes evenly."""
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+
+from vectorplot import Mesh, features
+from vectorplot.errors import InputError
+from vectorplot.surfaces.families.quadric import implicit_sphere
+from vectorplot.testing import assert_integral_curve
+from vectorplot.testing.shapes import box
+
+CUBE = box((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0))
+
+
+def along(curves, step):
+    """Points along every curve, a step apart."""
+    for k in range(len(curves)):
+        line = curves[k]
+        run = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+        at = np.linspace(0.0, run[-1], max(int(run[-1] / step), 2))
+        yield np.stack([np.interp(at, run, x) for x in line.T], axis=1)
+
+
+@pytest.mark.capability("G9.4-polyhedron")
+@pytest.mark.parametrize(("scale", "offset"), [(1.0, 0.0), (1e-6, 0.0), (1.0, 1e6)])
+def test_they_follow_the_field_keep_apart_and_leave_no_wide_gaps(scale, offset):
+    ball = features.polygonized(implicit_sphere(1.0), 10)
+    ball = Mesh(ball.vertices * scale + offset, ball.corners, ball.offsets)
+    field, apart = features.TurnedField(features.SteepestSlope(), 1.2), 0.3 * scale
+    found = features.evenly_spaced_mesh_curves(ball, field, apart)
+    assert len(found) > 5
+    if offset == 0.0:
+        assert_integral_curve([found[k] for k in range(len(found))], ball, field, 1e-7)
+    lines = list(along(found, 0.1 * apart))
+    places = np.concatenate(lines)
+    owner = np.repeat(np.arange(len(lines)), [len(line) for line in lines])
+    near = cKDTree(places).query_pairs(0.25 * apart, output_type="ndarray")
+    assert (owner[near[:, 0]] == owner[near[:, 1]]).all()
+    centres = ball.vertices[np.abs(ball.vertices[:, 2] - offset) < 0.9 * scale]
+    assert cKDTree(places).query(centres)[0].max() < 2.0 * apart
+
+
+@pytest.mark.capability("G9.4-polyhedron")
+def test_large_faces_are_covered_and_lines_without_end_are_not_too_many():
+    found = features.evenly_spaced_mesh_curves(CUBE, features.SteepestSlope(), 0.2)
+    upright = [found[k].round(12) for k in range(len(found))]
+    assert all(np.array_equal(np.ptp(line, axis=0), (0.0, 0.0, 2.0)) for line in upright)
+    for axis in (0, 1):
+        for side in (-1.0, 1.0):
+            wall = np.sort([line[0, 1 - axis] for line in upright if line[0, axis] == side])
+            gaps = np.diff(np.concatenate([[-1.0], wall, [1.0]]))
+            assert len(wall) >= 7 and gaps.max() < 0.4 and np.diff(wall).min() > 0.1
+
+
+def test_mistakes_about_them_are_told():
+    slope = features.SteepestSlope()
+    for call, cause in (
+        (lambda: features.evenly_spaced_mesh_curves(CUBE, slope, 0.0), "distance"),
+        (lambda: features.evenly_spaced_mesh_curves(CUBE, slope, 1e-3), "expected 0.004 or more"),
+        (lambda: features.evenly_spaced_mesh_curves(CUBE, features.loxodromes(1.0), 0.1), "only surfaces with param"),
+    ):
+        with pytest.raises(InputError, match=cause):
+            call()
+    assert len(features.evenly_spaced_mesh_curves(Mesh.from_polygons(CUBE.vertices, []), slope, 0.1)) == 0

@@ -1,0 +1,1 @@
+"""Integral curves, straightest and shortest lines on meshes: from face to face."""

@@ -1,0 +1,218 @@
+"""How curves cover a mesh evenly: where they begin, and where they end beside each other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.errors import InputError
+from vectorplot.features.integral.on_meshes.combed_mesh import CombedMesh
+from vectorplot.features.integral.spacing.evenly_spaced import MOST_LINES, NEAREST, ROUNDS, SAMPLES, SHORTEST
+from vectorplot.features.integral.spacing.gaps import AT_ONCE, SEPARATE, WIDEST
+from vectorplot.features.meshes.mesh_curves import MeshCurves, all_mesh_curves
+from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import closed_round, joined, some
+from vectorplot.geometry.vectors import norm
+
+MOST_SAMPLES = 16
+"""And so many at most, however near each other its points are."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Placed:
+    """Curves, and the places (p,) along them at which they are compared: curve (p,); along (p,), lengths from the start
+    of the curve; node (p,); where (p,6). seed (m,): the place nearest to where each curve began; long (m,): how long it
+    is."""
+
+    curves: MeshCurves
+    curve: Ints
+    along: Floats
+    node: Floats
+    where: Floats
+    seed: Ints
+    long: Floats
+
+
+def combed(shape: CombedMesh) -> MeshCurves:
+    """Curves of its field that cover a mesh evenly.
+
+    Errors: InputError for a distance of less than a five-hundredth of the extent of the mesh.
+    Source: as of evenly_spaced_curves.
+    """
+    apart, size = shape.apart, shape.extent
+    if size > MOST_LINES * apart:
+        raise InputError(
+            f"evenly spaced curves {apart:g} apart on a surface of {size:g}: expected {size / MOST_LINES:g} or more"
+        )
+    places = shape.over()
+    where = shape.where(places)
+    taken = np.zeros((0, 6))
+    found: list[MeshCurves] = [all_mesh_curves([])]
+    for _ in range(ROUNDS):
+        gaps = _gaps(where, taken, apart)
+        if not len(gaps):
+            break
+        seeds, spots = _seeds(shape, places[gaps], taken)
+        new = _compared(shape, shape.along(seeds), spots)
+        kept, own = _without_crowds(shape, new, taken)
+        # A gap that nothing fits into is one no more.
+        taken = np.concatenate([taken, own, where[gaps]])
+        found += kept
+    return joined(found)
+
+
+def _gaps(where: Floats, taken: Floats, apart: float) -> Ints:
+    """Which of the places are away from all that is taken, and from one another, the farthest ones first."""
+    from scipy.spatial import cKDTree
+
+    if not len(where):
+        return np.zeros(0, dtype=np.intp)
+    if not len(taken):
+        middle = np.median(where, axis=0)
+        return np.array([np.argmin(norm(where[:, :3] - middle[:3]))])
+    away = cKDTree(taken).query(where)[0]
+    left = np.flatnonzero(away > WIDEST * apart)
+    left = left[np.argsort(-away[left], kind="stable")]
+    chosen: list[int] = []
+    while len(left) and len(chosen) < AT_ONCE:
+        chosen.append(int(left[0]))
+        left = left[norm(where[left] - where[left[0]]) > SEPARATE * apart]
+    return np.array(chosen, dtype=np.intp)
+
+
+def _seeds(shape: CombedMesh, gaps: Floats, taken: Floats) -> tuple[Floats, Floats]:
+    """Places (k,d) in the gaps, the distance apart across the field, and where (k,6) they are."""
+    from scipy.spatial import cKDTree
+
+    apart = shape.apart
+    lines = shape.across(gaps)
+    if not len(lines):
+        return gaps, shape.where(gaps)
+    found = _compared(shape, lines, shape.where(gaps))
+    signed = found.along - found.along[found.seed][found.curve]
+    rounds = np.abs(np.rint(signed / apart))
+    near = np.abs(np.abs(signed) - rounds * apart) <= 0.5 * apart / SAMPLES
+    if len(taken):
+        # Only in the gap itself: from its middle to the first place that is taken.
+        free = cKDTree(taken).query(found.where)[0] > WIDEST * apart
+        first, last = _reached(found, free)
+        at = np.arange(len(free))
+        near &= (at >= first[found.curve]) & (at <= last[found.curve])
+    keys = np.stack([found.curve, np.rint(signed / apart)], axis=1)[near]
+    _, first = np.unique(keys, axis=0, return_index=True)
+    at = np.flatnonzero(near)[np.sort(first)]
+    order = np.argsort(rounds[at], kind="stable")
+    at = at[order]
+    return shape.at(lines, found.node[at]), found.where[at]
+
+
+def _compared(shape: CombedMesh, curves: MeshCurves, spots: Floats) -> _Placed:
+    """The curves with places along them; spots: where (k,6) the places are that their levels number."""
+    apart = shape.apart
+    rounds = closed_round(curves)
+    points = curves.points[rounds.index]
+    if not len(points):
+        none = np.zeros(0)
+        empty = np.zeros(0, dtype=np.intp)
+        return _Placed(curves, empty, none, none, np.zeros((0, 6)), empty, none)
+    ends = rounds.offsets[1:] - 1
+    begins = np.delete(np.arange(len(points)), ends)
+    steps = norm(points[begins + 1] - points[begins])
+    rise = np.zeros(len(points))
+    rise[begins + 1] = steps
+    total = np.cumsum(rise)
+    counts = np.diff(rounds.offsets)
+    total -= np.repeat(total[rounds.offsets[:-1]], counts)
+    # Between two points of a curve as many places as its chord is long; and the ends of open curves.
+    cell = np.floor(total * MOST_SAMPLES / apart)
+    fresh = cell[begins + 1] != cell[begins]
+    fresh[np.searchsorted(begins, rounds.offsets[:-1])] = True
+    count = np.where(fresh, np.maximum(np.ceil(steps * SAMPLES / apart), 1), 0).astype(np.intp)
+    node = np.concatenate(
+        [np.repeat(begins, count) + ragged.place(count) / np.repeat(count, count), ends[~curves.closed]]
+    )
+    node.sort()
+    along = np.interp(node, np.arange(len(points)), total)
+    owner = ragged.owner(counts)[np.floor(node).astype(np.intp)]
+    where = shape.where(shape.at(curves, node))
+    away = norm(where - spots[curves.levels.astype(np.intp)][owner])
+    nearest = np.lexsort((away, owner))
+    seed = nearest[np.searchsorted(owner, np.arange(len(curves)))]
+    return _Placed(curves, owner, along, node, where, seed, total[ends])
+
+
+def _reached(found: _Placed, free: Bools) -> tuple[Ints, Ints]:
+    """The first and the last (m,) of the places of each curve that are reached from its seed over free ones only: of a
+    closed curve, which begins at its seed, up to the end, and from the end on; none where the seed is not free."""
+    count = len(found.seed)
+    bounds = np.searchsorted(found.curve, np.arange(count + 1))
+    taken = np.concatenate([[-1], np.flatnonzero(~free), [len(free)]])
+    after = np.searchsorted(taken, found.seed, side="left")
+    last = np.minimum(taken[after] - 1, bounds[1:] - 1)
+    first = np.maximum(taken[after - 1] + 1, bounds[:-1])
+    return first, np.where(free[found.seed], last, first - 1)
+
+
+def _without_crowds(shape: CombedMesh, found: _Placed, taken: Floats) -> tuple[list[MeshCurves], Floats]:
+    """The curves, one after the other, as far as they are not too near what is taken, to those before, and to
+    themselves; and where (k,6) they are."""
+    from scipy.spatial import cKDTree
+
+    apart = shape.apart
+    if not len(found.curve):
+        return [], np.zeros((0, 6))
+    free = np.ones(len(found.curve), dtype=np.bool_)
+    fresh = np.ones(len(found.seed), dtype=np.bool_)
+    if len(taken):
+        away = cKDTree(taken).query(found.where)[0]
+        free = away > NEAREST * apart
+    pairs = cKDTree(found.where).query_pairs(WIDEST * apart, output_type="ndarray")
+    one, two = np.concatenate([pairs, pairs[:, ::-1]]).T
+    near = norm(found.where[one] - found.where[two])
+    free &= ~_beside_itself(found, one, two, near, apart)
+    by_curve = np.argsort(found.curve[one], kind="stable")
+    one, two, near = one[by_curve], two[by_curve], near[by_curve]
+    begin = np.searchsorted(found.curve[one], np.arange(len(found.seed) + 1))
+    spans = []
+    for line in range(len(found.seed)):
+        first, last = (int(x[line]) for x in _reached(found, free)) if fresh[line] else (0, -1)
+        if last < first or found.along[last] - found.along[first] < SHORTEST * apart:
+            continue
+        spans.append((line, first, last))
+        own = slice(begin[line], begin[line + 1])
+        inside = (one[own] >= first) & (one[own] <= last) & (found.curve[two[own]] != line)
+        others, far = two[own][inside], near[own][inside]
+        free[others[far <= NEAREST * apart]] = False
+        seeds = np.zeros(len(free), dtype=np.bool_)
+        seeds[found.seed] = True
+        fresh[found.curve[others[seeds[others]]]] = False
+    if not spans:
+        return [], np.zeros((0, 6))
+    parts = np.array(spans)
+    return _cut(shape, found, *parts.T), found.where[ragged.ranges(parts[:, 1], parts[:, 2] - parts[:, 1] + 1)]
+
+
+def _beside_itself(found: _Placed, one: Ints, two: Ints, near: Floats, apart: float) -> Bools:
+    """(p,) the places where a curve is too near to what it has been through before."""
+    same = (found.curve[one] == found.curve[two]) & (near <= NEAREST * apart)
+    one, two = one[same], two[same]
+    way = np.abs(found.along[one] - found.along[two])
+    closed = found.curves.closed[found.curve[one]]
+    way = np.where(closed, np.minimum(way, found.long[found.curve[one]] - way), way)
+    from_seed = np.abs(found.along - found.along[found.seed][found.curve])
+    later = (way > 2.0 * apart) & (from_seed[one] >= from_seed[two])
+    result = np.zeros(len(found.curve), dtype=np.bool_)
+    result[one[later]] = True
+    return result
+
+
+def _cut(shape: CombedMesh, found: _Placed, line: Ints, first: Ints, last: Ints) -> list[MeshCurves]:
+    """Parts of curves, from one place to another; whole curves as they are."""
+    bounds = np.searchsorted(found.curve, np.arange(len(found.seed) + 1))
+    whole = (first == bounds[line]) & (last == bounds[line + 1] - 1)
+    kept = [some(found.curves, line[whole])]
+    if not whole.all():
+        kept.append(shape.parts(found.curves, line[~whole], found.node[first[~whole]], found.node[last[~whole]]))
+    return kept

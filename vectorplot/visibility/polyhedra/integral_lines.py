@@ -1,0 +1,44 @@
+"""The integral curves that polyhedra ask for."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.errors import InputError
+from vectorplot.features.integral.on_meshes.mesh_evenly_spaced import evenly_spaced_mesh_curves
+from vectorplot.features.integral.on_meshes.mesh_integral_curves import mesh_geodesics, mesh_integral_curves
+from vectorplot.features.meshes.mesh_curves import MeshCurves
+from vectorplot.features.meshes.nearest_on_mesh import nearest_on_mesh
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.integral_lines import ON_MESHES, USUAL_APART, GeodesicLines, IntegralLines, check_points
+from vectorplot.scene.scene import Item
+
+
+def item_integral_lines(item: Item, lines: IntegralLines) -> MeshCurves:
+    """The curves on a polyhedron with faces that are asked for.
+
+    Errors: as of mesh_integral_lines, with the item's name.
+    """
+    try:
+        return mesh_integral_lines(item.mesh, lines)
+    except InputError as error:
+        raise InputError(f"{item.name}: {error.cause}") from None
+
+
+def mesh_integral_lines(mesh: Mesh, lines: IntegralLines) -> MeshCurves:
+    """The curves on a mesh that are asked for, from the nearest points of the mesh.
+
+    Errors: InputError for lines that are too close together, points u, v, fields of parameters, directions at right
+    angles to their face.
+    """
+    check_points(lines, ON_MESHES)
+    if isinstance(lines, GeodesicLines):
+        points, directions = np.hsplit(np.array(lines.starts).reshape(-1, 6), 2)
+        places = nearest_on_mesh(mesh, points, directions)
+        return mesh_geodesics(mesh, places.faces, places.points, directions, length=lines.length)
+    if lines.through:
+        places = nearest_on_mesh(mesh, np.array(lines.through))
+        return mesh_integral_curves(mesh, lines.field, places.faces, places.points)
+    extent = float(np.ptp(mesh.bounds, axis=0).max())
+    apart = USUAL_APART * extent if lines.apart is None else lines.apart
+    return evenly_spaced_mesh_curves(mesh, lines.field, apart)
