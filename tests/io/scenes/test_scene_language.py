@@ -530,7 +530,7 @@ def test_the_examples_of_the_documentation_are_scenes():
     examples = [text for text in DOCUMENTED if " = " not in text and "expected" not in text]
     names = [[item.name for item in parse_scene(text).items] for text in examples]
     capped = ["CAN", "CUP", "BOWL", "BEAM"]
-    lines = [["EGG"], ["EGG", "RING", "ROAD"], ["RING"]]
+    lines = [["EGG"], ["EGG", "RING", "ROAD", "BOX"], ["RING"]]
     surfaces = [["RING"], capped, ["SPRING", "VASE", "WAVES", "HEART"], *lines]
     curves = ["GLOBE", "COURSE", "SPRING", "KNOT"]
     splines = [["WIRE", "RING", "BOW", "ARC", "SAIL", "VASE"], ["HILLS"]]
