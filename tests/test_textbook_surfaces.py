@@ -28,7 +28,7 @@ TABLE = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", list(TABLE)[: several(5, long=len(TABLE))])
+@pytest.mark.parametrize("name", list(TABLE)[: several(4, long=len(TABLE))])
 def test_textbook_surfaces_are_drawn_in_seconds(name: str, tmp_path: Path) -> None:
     file = tmp_path / "surface.scene"
     file.write_text(f"S gray surface {TABLE[name]}\n")
