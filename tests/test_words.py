@@ -210,7 +210,7 @@ def test_an_unknown_colour_is_no_misspelled_word(word):
 
 
 def test_the_command_does_not_guess_wildly(capsys):
-    assert run(["draw", "x", "-o", "y.svg", "--pen-width", "0.3"]) == 2
+    assert run(["draw", "x", "-o", "y.svg", "--penguin", "0.3"]) == 2
     assert "mean" not in capsys.readouterr().err
 
 

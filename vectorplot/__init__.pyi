@@ -1,6 +1,7 @@
 from .accuracy.verb import accuracy
 from .draw import draw
 from .drawing.drawing import Drawing, Layer, Paths, Pen
+from .drawing.pens.styles import Style
 from .errors import InputError, InputWarning
 from .geometry.cameras.camera import Camera
 from .geometry.mesh import Mesh
@@ -43,6 +44,7 @@ __all__ = [
     "Scene",
     "Section",
     "Strokes",
+    "Style",
     "SurfaceLines",
     "accuracy",
     "draw",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Literal
@@ -13,11 +13,14 @@ import numpy as np
 from vectorplot.arrays import Bools
 from vectorplot.drawing.drawing import Drawing, Layer, Paths
 from vectorplot.drawing.drawn_lines import fitted_lines, strokes_on_page
-from vectorplot.drawing.hatching.hatch_layers import NAME, hatch_layers
-from vectorplot.drawing.layers import layers_by_colour, layers_by_kind, layers_by_object
+from vectorplot.drawing.hatching.hatch_layers import hatch_layers
+from vectorplot.drawing.pens.paper import pen_scale, sheet_layer
+from vectorplot.drawing.pens.pen_rules import PenRule, Pens, pen_rules, scaled_pen
+from vectorplot.drawing.pens.sorted_layers import layer_words, line_list, sorted_layers
+from vectorplot.drawing.pens.style_file import style_of
+from vectorplot.drawing.pens.styles import Style
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.drawing.strokes.shared_kinds import with_shared_kinds
-from vectorplot.drawing.strokes.stroke_paths import concatenated
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.budget import Budget, budget_of, line_each
 from vectorplot.geometry.cameras.camera import Camera
@@ -47,7 +50,7 @@ from vectorplot.visibility.polyhedra.lines import (
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.polyhedra.pairs import Segments
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
-from vectorplot.words import DRAWN, WIRES, LineKind, check_word, line_kinds
+from vectorplot.words import DRAWN, WIRES, LineKind, check_colour, check_word, line_kinds
 
 if TYPE_CHECKING:
     from vectorplot.drawing.lettering.scene_labels import SceneLabels
@@ -70,11 +73,17 @@ def draw(
     fit: bool = True,
     lines: str | Iterable[str] | None = None,
     crease_angle_deg: float = 25.0,
-    style: Literal["plain", "wireframe", "depth-cue"] = "plain",
-    hidden: Literal["none", "dashed", "solid"] = "none",
+    style: Style | str = "plain",
+    hidden: Literal["none", "dashed", "solid"] | None = None,
+    pens: Pens | None = None,
+    dashes: str | Mapping[str, str] | Iterable[str] | None = None,
+    scale_pens: bool = False,
+    thin_ends: bool = False,
+    background: str | None = None,
     halo_mm: float = 0.0,
     hatch: Hatching | None = None,
-    layers: Literal["kind", "object", "colour"] = "kind",
+    layers: str | None = None,
+    unplotted: str | Iterable[str] = "",
     curves: Literal["bezier", "polyline"] = "bezier",
     tolerance_mm: float = 0.02,
     longest_mm: float | None = None,
@@ -100,17 +109,33 @@ def draw(
         Words of LineKind, or one text with commas between them, DRAWN or WIRES where None; an item's own come first.
     crease_angle_deg : float
         Sharper edges are creases; 0 to 180 degrees.
-    style : {"plain", "wireframe", "depth-cue"}
-        plain, or a wireframe: nothing hides anything, all lines have the middle shades of their items' palettes, or go
-        by their depth (depth-cue), on a sheet in the scene's background or the darkest gray.
-    hidden : {"none", "dashed", "solid"}
-        Hidden lines are left out, dashed, or solid on a layer of their own.
+    style : Style or str
+        plain, plotter, book, draft, blueprint, or a file that ends in .toml; or a wireframe: nothing hides anything,
+        all lines have the middle shades of their items' palettes (wireframe), or go by their depth (depth-cue), on a
+        sheet in the scene's background or the darkest gray.
+    hidden : {"none", "dashed", "solid"}, optional
+        Hidden lines are left out, dashed, or solid on a layer of their own; as the style says where None.
+    pens : str, Pen, mapping or iterable of str, optional
+        What draws lines by kind, by item and by both, before what the style says: WIDTH, COLOUR or WIDTH:COLOUR, as in
+        "contour=0.5:black,hidden=0.18:gray,house=red,house.crease=0.2"; widths in mm, or with their unit (1.4pt). What
+        no kind and no item stands before is for all lines.
+    dashes : str, mapping or iterable of str, optional
+        DASH,GAP in mm, or with their units, by kind, item and both, as in "hidden=3,1"; or none.
+    scale_pens : bool
+        Widths and dashes are those on A4, and in proportion to it on other pages.
+    thin_ends : bool
+        Lines that converge, as in the apex of a cone, stop early in turn, before their ink makes a blot.
+    background : str, optional
+        The colour of the paper, drawn on a layer that is not plotted; as the style says where None.
     halo_mm : float
         Lines end so many mm beside what is in front of them.
     hatch : Hatching, optional
         How visible faces are hatched, where their items do not say it themselves; not at all where None.
-    layers : {"kind", "object", "colour"}
-        What shares a layer.
+    layers : str, optional
+        What shares a layer: kind, object or colour, or several of these with commas between them; as the style says
+        where None.
+    unplotted : str or iterable of str
+        The names of layers that plotters skip.
     curves : {"bezier", "polyline"}
         Strokes of smooth curves are fitted with cubic Béziers and elliptic arcs, or stay polylines.
     tolerance_mm : float
@@ -164,24 +189,28 @@ def draw(
     >>> drawing = vp.draw(scene, vp.Camera((4, 3, 2)), page=vp.Page(100, 80), hidden="solid")
     >>> drawing.width_mm, drawing.height_mm
     (100, 80)
-    >>> [layer.name for layer in drawing.layers if not layer.plotted]
-    ['hidden']
+    >>> [layer.name for layer in drawing.layers if len(layer.strokes[0])]
+    ['contour', 'hidden']
     """
+    chosen = style_of(style)
+    rules = pen_rules(pens, dashes)
+    hidden = chosen.hidden if hidden is None else hidden
+    layers = chosen.layers if layers is None else layers
     _check_options(hidden, layers, curves, halo_mm, crease_angle_deg, tolerance_mm)
     _check_longest(longest_mm)
     allowed, threads = budget_of(budget), threads_of(jobs)
-    _check_style(
-        style, hidden=hidden != "none", halo_mm=halo_mm > 0.0, hatch=hatch is not None, layers=layers != "kind"
-    )
-    kinds = line_kinds((DRAWN if style == "plain" else WIRES) if lines is None else lines)
+    shown = chosen.look
+    others = {"halo_mm": halo_mm > 0.0, "hatch": hatch is not None, "layers": layers != "kind", "pens": bool(rules)}
+    _check_style(shown, hidden=hidden != "none", **others)
+    kinds = line_kinds((DRAWN if shown == "plain" else WIRES) if lines is None else lines)
     given = scene_of(scene)
     anchors, scene = label_anchors(given), without_seams(given)
     tell_what_is_cut_off(scene)
     camera = camera_of(camera, scene)
     page = page_of(page, scene)
     smooth = curves == "bezier" and any(not isinstance(item.shape, Mesh) for item in scene.items)
-    planned = plan_draw(scene, kinds, hidden, halo_mm, style)
-    if style == "plain":
+    planned = plan_draw(scene, kinds, hidden, halo_mm, shown)
+    if shown == "plain":
         planned = plan_hatching(scene, hatch, planned)
     stages = with_accuracy(planned, accuracy_of_draw(tolerance_mm, smooth))
     walk = Walk((*plan_cuts(camera), *stages), explain, progress, threads)
@@ -220,7 +249,7 @@ def draw(
     strokes = walk.run("strokes", strokes_on_page, view, framed, seen, placement)
     labels = None
     if walk.calls_for("labels"):
-        labels = walk.run("labels", labels_in_place, scene, view, faces, placement, anchors, strokes, hidden, style)
+        labels = walk.run("labels", labels_in_place, scene, view, faces, placement, anchors, strokes, hidden, shown)
         strokes = labels.interrupted(strokes, world)
     hatches = Paths.empty()
     if walk.calls_for("hatching"):
@@ -230,18 +259,27 @@ def draw(
         filled = partial(hatched, crease_angle_deg=crease_angle_deg, tolerance_mm=tolerance_mm, budget=allowed)
         hatches = walk.run("hatching", filled, scene, placement, hatch, progress=done)
         hatches = hatches if labels is None else labels.interrupted(hatches, world)
-    if style == "plain":
-        sorted_layers = walk.run("layers", _layers, scene, strokes, hatches, hatch, layers)
+    names = tuple(item.name for item in scene.items)
+    paper = chosen.background if background is None else background
+    if paper is not None:
+        check_colour(paper, "background: ")
+    if shown == "plain":
+        drawn_by, skipped = (*chosen.rules, *rules), line_list(unplotted)
+        found = walk.run("layers", _layers, scene, strokes, hatches, hatch, layers, drawn_by, skipped)
     else:
         from vectorplot.effects.wireframe import wire_layers
 
-        sorted_layers = walk.run("layers", wire_layers, scene, view, strokes, page, style)
+        scene = scene if paper is None else replace(scene, background=paper)
+        found = walk.run("layers", wire_layers, scene, view, strokes, page, shown)
+    if scale_pens:
+        found = tuple(replace(layer, pen=scaled_pen(layer.pen, pen_scale(page))) for layer in found)
     curved = tolerance_mm if curves == "bezier" else None
-    pens = walk.run("pen", inked, sorted_layers, hidden, world, curved, longest_mm)
-    names = tuple(item.name for item in scene.items)
+    inks = walk.run("pen", inked, found, hidden, world, curved, longest_mm, thin_ends)
     if labels is not None:
-        pens = labels.on_top(pens, layers == "kind" and style == "plain", longest_mm, world)
-    return Drawing(page.width_mm, page.height_mm, pens, names, scene.title, world)
+        inks = labels.on_top(inks, layers == "kind" and shown == "plain", longest_mm, world)
+    if paper is not None and shown == "plain":
+        inks = (sheet_layer(paper, page), *inks)
+    return Drawing(page.width_mm, page.height_mm, inks, names, scene.title, world)
 
 
 def seen_part(walk: Walk, scene: Scene, camera: Camera) -> Scene:
@@ -345,7 +383,7 @@ def _check_options(
     hidden: str, layers: str, curves: str, halo_mm: float, crease_angle_deg: float, tolerance_mm: float
 ) -> None:
     check_word("hidden", hidden, ("none", "dashed", "solid"))
-    check_word("layers", layers, ("kind", "object", "colour"))
+    layer_words(layers)
     check_word("curves", curves, ("bezier", "polyline"))
     if not 0.0 <= halo_mm < np.inf:
         raise InputError(f"a halo of {halo_mm:g} mm: expected a width that is finite and not negative")
@@ -487,14 +525,17 @@ def _visibility(walk: Walk, view: View, faces: ProjectedFaces, solid: Bools, lin
     return replace(seen, hidden_by=seen.hidden_by + lines.behind[seen.segment])
 
 
-def _layers(scene: Scene, strokes: Paths, hatches: Paths, hatch: Hatching | None, layers: str) -> tuple[Layer, ...]:
+def _layers(
+    scene: Scene,
+    strokes: Paths,
+    hatches: Paths,
+    hatch: Hatching | None,
+    layers: str,
+    rules: Sequence[PenRule],
+    unplotted: Sequence[str],
+) -> tuple[Layer, ...]:
     """The layers of lines, and those of strokes that hatch faces."""
     how = [hatch if item.hatch is None else item.hatch for item in scene.items]
-    colours = [item.colour for item in scene.items]
-    if layers == "object":
-        return (*layers_by_object(strokes, [item.name for item in scene.items]), *hatch_layers(hatches, how))
-    if layers == "colour":
-        return (*layers_by_colour(strokes, colours), *hatch_layers(hatches, how, colours))
-    named = layers_by_kind(concatenated((strokes, hatches)))
-    hatch_last = [layer for layer in named if layer.name != NAME]
-    return (*hatch_last, *hatch_layers(hatches, how))
+    names, colours = [item.name for item in scene.items], [item.colour for item in scene.items]
+    behind = hatch_layers(hatches, how, colours if "colour" in layer_words(layers) else None)
+    return sorted_layers(strokes, names, colours, layers, rules, unplotted, behind)

@@ -53,6 +53,7 @@ def paint(
     fills: Literal["painted", "visible", "erasing"] = "painted",
     lines: str | Iterable[str] = (),
     crease_angle_deg: float = 25.0,
+    background: str | None = None,
     tolerance_mm: float = 0.02,
     budget: float = 1.0,
     jobs: int | None = None,
@@ -91,6 +92,8 @@ def paint(
         polygons (none: all kinds).
     crease_angle_deg : float
         Sharper edges are creases, and meshes look round where faces meet at less; 0 to 180 degrees.
+    background : str, optional
+        The colour of the paper, in place of that of the scene.
     tolerance_mm : float
         How many mm the sides of polygons may be off smooth surfaces and refracted lines; shades may be off by two steps
         of 255 at 0.02 mm, and in proportion by one to eight.
@@ -139,6 +142,7 @@ def paint(
     budget_of(budget)
     threads = threads_of(jobs)
     given = scene_of(scene)
+    given = given if background is None else replace(given, background=background)
     anchors = label_anchors(given)
     scene = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
     tell_what_is_cut_off(scene)

@@ -39,6 +39,12 @@ LIGHTS = click.option(
     help="Lamp at a point, with an intensity from 0 to 1, in place of the lights of the scene; repeat it for more.",
 )
 
+BACKGROUND = click.option(
+    "--background",
+    metavar="COLOUR",
+    help="Behind the picture: a palette, a plain colour or #rrggbb.  [default: that of the scene or the style]",
+)
+
 TOLERANCE = click.option(
     "--tolerance", "tolerance_mm", type=POSITIVE, default=0.02, metavar="MM", help="For approximations."
 )

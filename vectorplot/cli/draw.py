@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vectorplot.cli.common_options import (
+    BACKGROUND,
     DRAWING_FORMATS,
     TOLERANCE,
     crease_angle_option,
@@ -14,7 +15,7 @@ from vectorplot.cli.common_options import (
     picture_verb,
 )
 from vectorplot.cli.hatching_options import HATCHING_OPTIONS, hatching_from
-from vectorplot.cli.options import at_least
+from vectorplot.cli.options import at_least, dash, layers, pen, said_or_none, style
 from vectorplot.cli.view_options import PAGE_OPTIONS
 
 if TYPE_CHECKING:
@@ -30,13 +31,37 @@ if TYPE_CHECKING:
     crease_angle_option("Sharper edges are creases."),
     click.option(
         "--style",
-        type=click.Choice(["plain", "wireframe", "depth-cue"]),
+        type=style,
         default="plain",
-        help="Hidden lines removed; or all lines shown, in one shade or by their depth.",
+        metavar="STYLE",
+        help="plain, plotter, book, draft, blueprint, wireframe, depth-cue, or a file that ends in .toml.",
     ),
     click.option(
-        "--hidden", type=click.Choice(["none", "dashed", "solid"]), default="none", help="How hidden lines look."
+        "--hidden",
+        type=click.Choice(["none", "dashed", "solid"]),
+        help="How hidden lines look.  [default: none, or what the style says]",
     ),
+    click.option(
+        "--pen",
+        "pens",
+        type=pen,
+        multiple=True,
+        callback=said_or_none,
+        metavar="[WHAT=]PEN,...",
+        help="WIDTH, COLOUR or WIDTH:COLOUR of a kind of line (or hidden), an item, or ITEM.KIND; repeat it for more.",
+    ),
+    click.option(
+        "--dash",
+        "dashes",
+        type=dash,
+        multiple=True,
+        callback=said_or_none,
+        metavar="[WHAT=]DASH,GAP",
+        help="Dashes of the same, in mm or with units (8pt,3pt), or none; repeat it for more.",
+    ),
+    click.option("--scale-pens", is_flag=True, help="Widths and dashes are those on A4, and grow with the page."),
+    click.option("--thin-ends", is_flag=True, help="Lines that converge stop early in turn, before they blot."),
+    BACKGROUND,
     click.option(
         "--halo",
         "halo_mm",
@@ -47,7 +72,16 @@ if TYPE_CHECKING:
     ),
     *HATCHING_OPTIONS,
     click.option(
-        "--layers", type=click.Choice(["kind", "object", "colour"]), default="kind", help="What shares a layer."
+        "--layers",
+        type=layers,
+        metavar="WORD,...",
+        help="What shares a layer: kind, object, colour, or several of these.  [default: kind, or what the style says]",
+    ),
+    click.option(
+        "--unplotted",
+        default="",
+        metavar="LAYER,...",
+        help="Layers that plotters skip.  [default: none]",
     ),
     click.option(
         "--curves", type=click.Choice(["bezier", "polyline"]), default="bezier", help="How smooth curves leave."

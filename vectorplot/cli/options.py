@@ -118,6 +118,50 @@ def light(text: str) -> Light:
     return Light((x, y, z), intensity=parts[3] if len(parts) == 4 else None)
 
 
+def said_or_none(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...] | None:
+    """The values of an option that may be repeated; None where it is not given."""
+    return values or None
+
+
+def pen(text: str) -> str:
+    """Pens with commas between them, such as contour=0.5:black,house=red."""
+    return _said(text, lambda pens: _rules(pens, None))
+
+
+def dash(text: str) -> str:
+    """Dash and gap of some lines, such as hidden=3,1."""
+    return _said(text, lambda dashes: _rules(None, dashes))
+
+
+def _rules(pens: str | None, dashes: str | None) -> None:
+    from vectorplot.drawing.pens.pen_rules import pen_rules
+
+    pen_rules(pens, dashes)
+
+
+def layers(text: str) -> str:
+    """What shares a layer, with commas."""
+    from vectorplot.drawing.pens.sorted_layers import layer_words
+
+    return _said(text, layer_words)
+
+
+def style(text: str) -> str:
+    """The name of a style, or a file that ends in .toml."""
+    from vectorplot.drawing.pens.style_file import TOML, check_style
+
+    return text if text.lower().endswith(TOML) else _said(text, check_style)
+
+
+def _said(text: str, check: Callable[[str], object]) -> str:
+    """The text, where the check has nothing against it."""
+    try:
+        check(text)
+    except InputError as error:
+        raise click.BadParameter(str(error)) from None
+    return text
+
+
 def exclusive(given: Iterable[tuple[str, object]]) -> None:
     """Bad usage where more than one of some options is given (None and False: not given)."""
     used = [name for name, value in given if value is not None and value is not False]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vectorplot.cli.common_options import (
+    BACKGROUND,
     DRAWING_FORMATS,
     LIGHTS,
     TOLERANCE,
@@ -47,6 +48,7 @@ if TYPE_CHECKING:
     ),
     lines_option("Lines on top, or on blank polygons"),
     crease_angle_option("Sharper edges are creases; meshes look round where faces meet at less."),
+    BACKGROUND,
     TOLERANCE,
 )
 def paint(scene: Scene, *, flat: bool, **told: Any) -> Drawing:

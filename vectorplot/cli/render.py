@@ -6,7 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.common_options import LIGHTS, crease_angle_option, lines_option, picture_verb, shadows_option
+from vectorplot.cli.common_options import (
+    BACKGROUND,
+    LIGHTS,
+    crease_angle_option,
+    lines_option,
+    picture_verb,
+    shadows_option,
+)
 from vectorplot.cli.options import between, pixels
 from vectorplot.cli.view_options import fit_option
 
@@ -46,7 +53,7 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
     ),
     crease_angle_option("Sharper edges stay sharp."),
     lines_option("Lines on top"),
-    click.option("--background", metavar="COLOUR", help="A palette, a plain colour or #rrggbb.  [default: white]"),
+    BACKGROUND,
 )
 def render(scene: Scene, *, shadow_bits: str, **told: Any) -> Image:
     """Render INPUT, a scene file, mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain (asc, xyz), as

@@ -19,7 +19,7 @@ NO_CURVE = -1
 
 @dataclass(frozen=True)
 class Pen:
-    """A pen: width of the stroke in mm, colour as #rrggbb.
+    """A pen: width of the stroke in mm, colour as #rrggbb, and dashes.
 
     Parameters
     ----------
@@ -27,16 +27,19 @@ class Pen:
         Width of the stroke in mm.
     colour : str
         #rrggbb.
+    dash_mm : (float, float), optional
+        Dash and gap in mm of the strokes that are drawn with it, which are real strokes then; none where None or 0.
 
     Examples
     --------
     >>> import vectorplot as vp
     >>> vp.Pen(width_mm=0.5)
-    Pen(width_mm=0.5, colour='#000000')
+    Pen(width_mm=0.5, colour='#000000', dash_mm=None)
     """
 
     width_mm: float = 0.3
     colour: str = "#000000"
+    dash_mm: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -64,19 +64,19 @@ COLOURS = {
 
 
 def layers_by_kind(paths: Paths) -> tuple[Layer, ...]:
-    """Layers visible, contour, intersection, hidden (not plotted), pattern, isophote, section and curve, without the
+    """Layers visible, contour, intersection, hidden, pattern, isophote, section and curve, without the
     empty ones at the end: so each kind keeps its number from drawing to drawing."""
     names = tuple(PENS)
     of_kind = np.array([names.index(KIND_LAYER[kind]) for kind in LineKind])
     which = np.where(paths.hidden_by > 0, names.index("hidden"), of_kind[paths.kind])
-    return layers_of(paths, which, [(name, PENS[name], name != "hidden") for name in names])
+    return layers_of(paths, which, [(name, PENS[name], True) for name in names])
 
 
 def layers_by_object(paths: Paths, items: Sequence[str]) -> tuple[Layer, ...]:
     """A layer for every item in the order of the scene, and one for hidden lines, without the empty ones at the end."""
     which = np.where(paths.hidden_by > 0, len(items), paths.item)
     pens = [(name, PENS["visible"], True) for name in items]
-    return layers_of(paths, which, [*pens, ("hidden", PENS["hidden"], False)])
+    return layers_of(paths, which, [*pens, ("hidden", PENS["hidden"], True)])
 
 
 def layers_by_colour(paths: Paths, colours: Sequence[str]) -> tuple[Layer, ...]:
@@ -90,7 +90,7 @@ def layers_by_colour(paths: Paths, colours: Sequence[str]) -> tuple[Layer, ...]:
     shown = paths.hidden_by == 0
     which[shown] = of_item[paths.item[shown]]
     pens = [(name, Pen(PENS["visible"].width_mm, ink(name)), True) for name in names]
-    return layers_of(paths, which, [*pens, ("hidden", PENS["hidden"], False)])
+    return layers_of(paths, which, [*pens, ("hidden", PENS["hidden"], True)])
 
 
 def ink(colour: str) -> str:

@@ -73,7 +73,7 @@ def test_read_gives_back_what_was_written_in_layers_by_kind(tmp_path):
     back = read_drawing(tmp_path / "a.json")
     assert (back.width_mm, back.height_mm) == (120.0, 80.0)
     assert np.array_equal(back.page_from_world, drawing.page_from_world)
-    assert [layer.plotted for layer in back.layers] == [True] * (len(back.layers) - 1) + [False]
+    assert all(layer.plotted for layer in back.layers)
     for layer in back.layers[:-1]:
         (marks,) = layer.marks
         assert {LineKind(kind).word for kind in marks.kind} == {layer.name} and not marks.hidden_by.any()

@@ -89,7 +89,7 @@ def read_drawing(path: str | os.PathLike[str]) -> Drawing:
     Returns
     -------
     Drawing
-        One layer for each kind of visible line, and one that is not plotted, ``hidden``, for all the others; beneath
+        One layer for each kind of visible line, and one, ``hidden``, for all the others; beneath
         them one with all fills, ``fills``. Pens are the default one: layers and pens are not in the file.
 
     Raises
@@ -147,5 +147,5 @@ def _layers(paths: Paths) -> tuple[Layer, ...]:
     kinds = [kind for kind in LineKind if (visible & (paths.kind == kind)).any()]
     layers = [Layer(kind.word, Pen(), (chosen(paths, visible & (paths.kind == kind)),)) for kind in kinds]
     if not visible.all():
-        layers.append(Layer("hidden", Pen(), (chosen(paths, ~visible),), plotted=False))
+        layers.append(Layer("hidden", Pen(), (chosen(paths, ~visible),)))
     return tuple(layers)

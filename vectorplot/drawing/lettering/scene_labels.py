@@ -67,7 +67,7 @@ class SceneLabels:
         longest_mm: longer strokes leave in parts.
         """
         missing = (*PENS,)[len(layers) : -1] if by_kind else ()
-        empty = (Layer(name, PENS[name], (Paths.empty(),), name != "hidden") for name in missing)
+        empty = (Layer(name, PENS[name], (Paths.empty(),)) for name in missing)
         strokes = self.strokes if longest_mm is None else split_long(self.strokes, longest_mm, page_from_world)
         return (*layers, *empty, Layer("label", replace(PENS["label"], colour=_ink(layers)), (strokes,)))
 

@@ -22,7 +22,7 @@ def dashed(paths: Paths, dash_mm: float, gap_mm: float, page_from_world: Floats 
     """
     if not (0.0 < dash_mm < np.inf and 0.0 <= gap_mm < np.inf):
         raise InputError(f"dash and gap must be lengths in mm, got {dash_mm:g} and {gap_mm:g}")
-    length = _lengths(paths)
+    length = stroke_lengths(paths)
     many = _number_of_dashes(paths, length, dash_mm, gap_mm)
     index = np.flatnonzero(many > 0)
     if gap_mm == 0.0 or not len(index):
@@ -31,13 +31,13 @@ def dashed(paths: Paths, dash_mm: float, gap_mm: float, page_from_world: Floats 
     laps = np.where(broken.closed, np.diff(broken.offsets), 0)
     world = np.eye(4) if page_from_world is None else page_from_world
     start, end, stroke = _dash_ends(many[index], length[index], broken.closed, dash_mm, gap_mm)
-    parts = _between(unrolled(broken, np.zeros_like(laps), laps), stroke, start, end, world)
+    parts = parts_between(unrolled(broken, np.zeros_like(laps), laps), stroke, start, end, world)
     whole = chosen(paths, many == 0)
     order = np.argsort(np.concatenate((np.flatnonzero(many == 0), index[stroke])), kind="stable")
     return chosen(concatenated((whole, parts)), order)
 
 
-def _lengths(paths: Paths) -> Floats:
+def stroke_lengths(paths: Paths) -> Floats:
     """The length of each stroke in mm, the closing segment included."""
     closing = paths.closed & (np.diff(paths.offsets) > 0)
     line = unrolled(paths, np.zeros(len(paths), dtype=np.intp), closing.astype(np.intp))
@@ -78,7 +78,7 @@ def _dash_ends(many: Ints, length: Floats, closed: Bools, dash_mm: float, gap_mm
     return start, np.where(last, length[stroke], end), stroke
 
 
-def _between(paths: Paths, stroke: Ints, start: Floats, end: Floats, page_from_world: Floats) -> Paths:
+def parts_between(paths: Paths, stroke: Ints, start: Floats, end: Floats, page_from_world: Floats) -> Paths:
     """The parts of open strokes from one length along them to another."""
     along = _arc_length(paths)
     first_point, last_point = paths.offsets[:-1][stroke], paths.offsets[1:][stroke] - 1

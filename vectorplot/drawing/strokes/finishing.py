@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.drawing.drawing import NO_CURVE, Layer, Paths
+from vectorplot.drawing.drawing import NO_CURVE, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.strokes.curved_strokes import curved_strokes
 from vectorplot.drawing.strokes.dashes import dashed
@@ -38,11 +38,15 @@ def inked(
     world: Floats,
     curve_tolerance_mm: float | None = None,
     longest_mm: float | None = None,
+    thinned: bool = False,
 ) -> tuple[Layer, ...]:
-    """Each layer's strokes joined, without collinear points, hidden ones dashed if asked for, in the order of the
-    pen, in parts where they are longer than longest_mm; smooth ones as curves within curve_tolerance_mm, or as
-    polylines where it is None. Filled polygons stay."""
-    strokes = _pen_strokes([paths for layer in layers for paths in layer.strokes], hidden, world)
+    """Each layer's strokes joined, without collinear points, dashed as its pen says, hidden ones also if asked for, in
+    the order of the pen, in parts where they are longer than longest_mm; smooth ones as curves within
+    curve_tolerance_mm, or as polylines where it is None. thinned: ends that converge stop early. Filled polygons
+    stay."""
+    parts = [paths for layer in layers for paths in layer.strokes]
+    pens = [layer.pen for layer in layers for _ in layer.strokes]
+    strokes = _pen_strokes(parts, pens, hidden, world, thinned)
     if longest_mm is not None:
         strokes = [split_long(paths, longest_mm, world) for paths in strokes]
     drawn = iter(strokes if curve_tolerance_mm is None else (curved_strokes(s, curve_tolerance_mm) for s in strokes))
@@ -71,23 +75,32 @@ def _group(paths: Paths) -> Ints:
     return (paths.item * len(LineKind) + paths.kind) * (int(paths.hidden_by.max(initial=0)) + 1) + paths.hidden_by
 
 
-def _pen_strokes(parts: Sequence[Paths], hidden: str, world: Floats) -> list[Paths]:
+def _pen_strokes(parts: Sequence[Paths], pens: Sequence[Pen], hidden: str, world: Floats, thinned: bool) -> list[Paths]:
     """The strokes of each part, joined and in the order of the pen."""
-    if len(parts) <= MANY_PARTS:
-        return [pen_ordered(_long_or_dashed(paths, hidden, world)) for paths in parts]
+    alike = len({pen.dash_mm for pen in pens}) == 1 and not thinned
+    if len(parts) <= MANY_PARTS or not alike:
+        found = zip(parts, pens, strict=True)
+        return [pen_ordered(_drawn(paths, pen, hidden, world, thinned)) for paths, pen in found]
     every = concatenated(tuple(parts))
     part = ragged.owner([len(paths) for paths in parts])
     low, high = int(every.item.min(initial=0)), int(every.item.max(initial=0)) + 1
     # Until they are in order, what is said of their items tells the parts of strokes too: no two parts are joined.
-    long = _long_or_dashed(replace(every, item=part * (high - low) + every.item - low), hidden, world)
+    long = _drawn(replace(every, item=part * (high - low) + every.item - low), pens[0], hidden, world, thinned)
     part, item = np.divmod(long.item, high - low)
     order = np.argsort(part, kind="stable")
     ordered = pen_ordered(chosen(replace(long, item=item + low), order), part[order])
     return split(ordered, np.searchsorted(part[order], np.arange(len(parts) + 1)))
 
 
-def _long_or_dashed(paths: Paths, hidden: str, world: Floats) -> Paths:
+def _drawn(paths: Paths, pen: Pen, hidden: str, world: Floats, thinned: bool) -> Paths:
+    """The long strokes of a pen, with its dashes."""
     long = long_strokes(paths)
+    if thinned:
+        from vectorplot.drawing.pens.thinned_ends import thinned_ends
+
+        long = thinned_ends(long, pen.width_mm, world)
+    if pen.dash_mm is not None:
+        return dashed(long, *pen.dash_mm, world) if any(pen.dash_mm) else long
     if hidden != "dashed" or not (long.hidden_by > 0).any():
         return long
     dashes = dashed(chosen(long, np.flatnonzero(long.hidden_by > 0)), *DASH_MM, world)

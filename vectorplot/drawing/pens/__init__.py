@@ -1,0 +1,1 @@
+"""What draws lines: pens by kind and by item, and styles."""

@@ -1,0 +1,185 @@
+"""Which pen draws what: rules by kind of line, by item and by both, as people write them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from vectorplot.drawing.drawing import Pen
+from vectorplot.drawing.layers import ink
+from vectorplot.errors import InputError
+from vectorplot.words import COLOURS, LineKind, is_colour, nearest
+
+MM_PER = {"mm": 1.0, "pt": 25.4 / 72.0, "cm": 10.0, "in": 25.4}
+"""The units that lengths on paper may have; mm where there is none."""
+
+HIDDEN = "hidden"
+"""The kind of what something is in front of, whatever else it is."""
+
+PEN_KINDS = (*(kind.word for kind in LineKind), HIDDEN)
+"""The kinds that rules are for."""
+
+_LENGTH = re.compile(r"\s*([0-9.]+(?:e[-+]?[0-9]+)?)\s*([a-z]*)\s*", re.IGNORECASE)
+
+WIDEST_MM = 1000.0
+"""Wider than any pen."""
+
+
+@dataclass(frozen=True)
+class PenRule:
+    """What some lines are drawn with, as far as it is said.
+
+    kind: a word of PEN_KINDS, or None for all; item: the name of an item, or None for all; colour: #rrggbb; dash_mm:
+    dash and gap, of length 0 for a line without.
+    """
+
+    kind: str | None = None
+    item: str | None = None
+    width_mm: float | None = None
+    colour: str | None = None
+    dash_mm: tuple[float, float] | None = None
+
+    def applied(self, pen: Pen) -> Pen:
+        """The pen with what the rule says."""
+        width = pen.width_mm if self.width_mm is None else self.width_mm
+        colour = pen.colour if self.colour is None else self.colour
+        return Pen(width, colour, pen.dash_mm if self.dash_mm is None else self.dash_mm)
+
+
+def scaled_pen(pen: Pen, factor: float) -> Pen:
+    """The pen for a page that is so many times larger."""
+    dash = None if pen.dash_mm is None else (factor * pen.dash_mm[0], factor * pen.dash_mm[1])
+    return Pen(factor * pen.width_mm, pen.colour, dash)
+
+
+Pens = str | Pen | Mapping[str, "str | float | Pen"] | Iterable[str]
+"""What pens may be said in: one text or several such as ``contour=0.5:black,house=red``, a mapping, or a single pen."""
+
+
+def pen_rules(pens: Pens | None, dashes: str | Mapping[str, str] | Iterable[str] | None = None) -> tuple[PenRule, ...]:
+    """The rules that pens and dashes say, in their order.
+
+    Errors: InputError for what is no pen, or no dash.
+    """
+    rules = [_pen_rule(target, value) for target, value in _pen_pairs(pens)]
+    return (*rules, *(_dash_rule(target, value) for target, value in _dash_pairs(dashes)))
+
+
+def _pen_pairs(pens: Pens | None) -> list[tuple[str, str | float | Pen]]:
+    if pens is None:
+        return []
+    if isinstance(pens, Pen):
+        return [("", pens)]
+    if isinstance(pens, Mapping):
+        return list(pens.items())
+    texts = [pens] if isinstance(pens, str) else list(pens)
+    return [_halves(one) for text in texts for one in text.split(",")]
+
+
+def _dash_pairs(dashes: str | Mapping[str, str] | Iterable[str] | None) -> list[tuple[str, str]]:
+    if dashes is None:
+        return []
+    if isinstance(dashes, Mapping):
+        return list(dashes.items())
+    return [_halves(text) for text in ([dashes] if isinstance(dashes, str) else dashes)]
+
+
+def _halves(text: str) -> tuple[str, str]:
+    """What a rule is for, and what it says; the former is nothing where there is no sign of equality."""
+    target, equal, value = text.rpartition("=")
+    if equal and not target.strip():
+        raise InputError(f"pen {text!r}: expected a kind of line or an item before '='")
+    return target.strip(), value.strip()
+
+
+def _target(target: str) -> tuple[str | None, str | None]:
+    """Kind and item that a rule is for."""
+    if not target:
+        return None, None
+    if target.lower() in PEN_KINDS:
+        return target.lower(), None
+    item, dot, kind = target.rpartition(".")
+    if dot and item and kind.lower() in PEN_KINDS:
+        return kind.lower(), item
+    return None, target
+
+
+def _pen_rule(target: str, value: str | float | Pen) -> PenRule:
+    kind, item = _target(target)
+    if isinstance(value, Pen):
+        return PenRule(kind, item, value.width_mm, value.colour, value.dash_mm)
+    if not isinstance(value, str):
+        value = f"{float(value):.17g}"
+    width, _, colour = value.partition(":")
+    if not colour and not _LENGTH.fullmatch(width):
+        width, colour = "", width
+    if not width.strip() and not colour.strip():
+        raise InputError(f"pen {target}={value}: expected WIDTH, COLOUR or WIDTH:COLOUR")
+    found = _length(width, f"pen {target}={value}") if width.strip() else None
+    return PenRule(kind, item, found, pen_colour(colour, f"pen {target}={value}: ") if colour.strip() else None)
+
+
+def _dash_rule(target: str, value: str) -> PenRule:
+    kind, item = _target(target)
+    if value.strip().lower() == "none":
+        return PenRule(kind, item, dash_mm=(0.0, 0.0))
+    parts = value.split(",")
+    if len(parts) != 2:
+        raise InputError(f"dash {target}={value}: expected DASH,GAP such as 3,1 or 8pt,3pt; or none")
+    dash, gap = (_length(part, f"dash {target}={value}") for part in parts)
+    return PenRule(kind, item, dash_mm=(dash, gap))
+
+
+def _length(text: str, owner: str) -> float:
+    """A length on paper in mm."""
+    found = _LENGTH.fullmatch(text)
+    unit = (found[2].lower() or "mm") if found else ""
+    try:
+        size = float(found[1]) * MM_PER[unit] if found else 0.0
+    except (KeyError, ValueError):
+        size = 0.0
+    if not 0.0 < size <= WIDEST_MM:
+        raise InputError(f"{owner}: {text.strip()!r} is no length in mm or pt")
+    return size
+
+
+def pen_colour(word: str, owner: str = "") -> str:
+    """The ink, #rrggbb, of a colour by its name; white is white. Errors: InputError for another word."""
+    word = word.strip().lower()
+    if word == "white":
+        return "#ffffff"
+    if not is_colour(word):
+        near = nearest(word, COLOURS)
+        hint = f" (did you mean {near!r}?)" if near else ""
+        raise InputError(f"{owner}unknown colour {word!r}: expected a palette, black, white, red or #rrggbb{hint}")
+    return ink(word)
+
+
+def check_targets(rules: Sequence[PenRule], items: Sequence[str]) -> None:
+    """An InputError for a rule for an item that is not there, with the word that may be meant."""
+    known = {name.lower(): name for name in items}
+    for rule in rules:
+        if rule.item is not None and rule.item not in items:
+            word = rule.item.lower()
+            near = nearest(word, PEN_KINDS) or known.get(word, known.get(nearest(word, known) or "", ""))
+            hint = f" (did you mean {near!r}?)" if near else ""
+            raise InputError(f"pen {rule.item!r}: no kind of line, and no item{hint}")
+
+
+def pen_of(rules: Sequence[PenRule], pen: Pen, kind: int, hidden: bool, item: str) -> Pen:
+    """The pen of lines of one kind and item, that of their layer with what the rules say: those for all lines first,
+    then those for the kind, for the item, and for both, the later ones before the earlier ones.
+
+    Lines that something hides are of the kind hidden only; rules for their item that name no kind leave them alone.
+    """
+    word = HIDDEN if hidden else LineKind(kind).word
+    hatching = kind == LineKind.HATCH
+    wanted = [(None, None), (word, None), *(() if hidden else ((None, item),)), (word, item)]
+    for target in wanted:
+        for rule in rules:
+            if (rule.kind, rule.item) == target:
+                # The spacing of hatchings goes by the width of their own pen.
+                said = replace(rule, width_mm=None, dash_mm=None) if hatching and rule.kind is None else rule
+                pen = said.applied(pen)
+    return pen

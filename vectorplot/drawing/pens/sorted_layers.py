@@ -1,0 +1,136 @@
+"""Strokes sorted into layers, each drawn with one pen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from vectorplot.drawing.drawing import Layer, Paths, Pen
+from vectorplot.drawing.layers import (
+    BLACK,
+    KIND_LAYER,
+    PENS,
+    ink,
+    layers_by_colour,
+    layers_by_kind,
+    layers_by_object,
+    layers_of,
+)
+from vectorplot.drawing.pens.pen_rules import PenRule, check_targets, pen_of
+from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
+from vectorplot.words import LineKind, check_word
+
+_HATCH = KIND_LAYER[LineKind.HATCH]
+
+LAYER_WORDS = ("kind", "object", "colour")
+"""What strokes that share a layer may have in common."""
+
+
+def layer_words(layers: str) -> tuple[str, ...]:
+    """What strokes of a layer have in common: one of LAYER_WORDS, or several with commas between them, each once.
+
+    Errors: InputError for other words.
+    """
+    words = tuple(dict.fromkeys(word.strip() for word in layers.split(",")))
+    for word in words:
+        check_word("layers", word, LAYER_WORDS)
+    return words
+
+
+def line_list(words: str | Iterable[str]) -> tuple[str, ...]:
+    """The words, or those of one text with commas between them."""
+    given = words.split(",") if isinstance(words, str) else words
+    return tuple(word.strip() for word in given if word.strip())
+
+
+def sorted_layers(
+    paths: Paths,
+    items: Sequence[str],
+    colours: Sequence[str],
+    layers: str = "kind",
+    rules: Sequence[PenRule] = (),
+    unplotted: Sequence[str] = (),
+    hatches: Sequence[Layer] = (),
+) -> tuple[Layer, ...]:
+    """The layers of strokes; hidden ones have one of their own.
+
+    items, colours: the name and the colour of every item; layers: as of layer_words; unplotted: the names of layers
+    that are there to be looked at only; hatches: layers of hatching, which come last. Where rules give strokes of a
+    layer different pens, it becomes one layer for each of them, the first one with its name, the others with what their
+    pens are added to it.
+    Errors: InputError for rules for items that are not there.
+    """
+    check_targets(rules, items)
+    words = layer_words(layers)
+    if words == ("kind",):
+        # Hatching has its number among the kinds.
+        hatched = [strokes for layer in hatches for strokes in layer.strokes]
+        found = tuple(one for one in layers_by_kind(concatenated((paths, *hatched))) if one.name != _HATCH)
+    elif words == ("object",):
+        found = layers_by_object(paths, items)
+    elif words == ("colour",):
+        found = layers_by_colour(paths, colours)
+    else:
+        found = _by_several(paths, items, colours, words)
+    found = (*found, *hatches)
+    if rules:
+        found = tuple(part for layer in found for part in _with_pens(layer, items, rules))
+    return tuple(replace(layer, plotted=False) if layer.name in unplotted else layer for layer in found)
+
+
+def _by_several(paths: Paths, items: Sequence[str], colours: Sequence[str], words: Sequence[str]) -> tuple[Layer, ...]:
+    """A layer for everything that strokes have in common, in the order of the words, and one for hidden strokes."""
+    hues = list(dict.fromkeys(colours))
+    kinds = list(PENS)
+    of_item = np.array([hues.index(colour) for colour in colours], dtype=np.intp)
+    of_kind = np.array([kinds.index(KIND_LAYER[kind]) for kind in LineKind])
+    named = {"kind": kinds, "object": list(items), "colour": hues}
+    numbers = {"kind": of_kind[paths.kind], "object": paths.item, "colour": of_item[paths.item]}
+    key = np.zeros(len(paths), dtype=np.intp)
+    for word in words:
+        key = key * len(named[word]) + numbers[word]
+    shown = paths.hidden_by == 0
+    used, which = np.unique(key[shown], return_inverse=True)
+    layers = []
+    for number in used.tolist():
+        parts = {}
+        for word in reversed(words):
+            number, own = divmod(number, len(named[word]))
+            parts[word] = named[word][own]
+        width = PENS[parts.get("kind", "visible")].width_mm
+        colour = ink(parts["colour"]) if "colour" in parts else BLACK
+        layers.append((" ".join(parts[word] for word in words), Pen(width, colour), True))
+    layer = np.full(len(paths), len(layers))
+    layer[shown] = which
+    return layers_of(paths, layer, [*layers, ("hidden", PENS["hidden"], True)])
+
+
+def _with_pens(layer: Layer, items: Sequence[str], rules: Sequence[PenRule]) -> list[Layer]:
+    """The layer, or several in its place, with the pens that rules give its strokes, in the order of their pens' first
+    strokes."""
+    (paths,) = layer.strokes
+    hidden = paths.hidden_by > 0
+    several = max(len(items), 1) * 2
+    key = (paths.kind * 2 + hidden) * several + paths.item
+    used, first, which = np.unique(key, return_index=True, return_inverse=True)
+    pens: dict[Pen, int] = {}
+    number = np.zeros(len(used), dtype=np.intp)
+    for k in np.argsort(first).tolist():
+        at = first[k]
+        pen = pen_of(rules, layer.pen, int(paths.kind[at]), bool(hidden[at]), items[paths.item[at]])
+        number[k] = pens.setdefault(pen, len(pens))
+    if len(pens) < 2:
+        return [replace(layer, pen=next(iter(pens), layer.pen))]
+    of_stroke = number[which.ravel()]
+    main = pens.get(layer.pen, 0)
+    return [
+        Layer(layer.name if k == main else f"{layer.name} {_told(pen)}", pen, (chosen(paths, of_stroke == k),))
+        for pen, k in pens.items()
+    ]
+
+
+def _told(pen: Pen) -> str:
+    dashed = " dashed" if pen.dash_mm else ""
+    return f"{pen.width_mm:.3g} {pen.colour}{dashed}"
