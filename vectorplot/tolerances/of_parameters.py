@@ -123,3 +123,7 @@ has lost half its digits."""
 OFF_REGULAR_GRID = 1e-3
 """Part of its step by which a point may be off a regular grid and still counts as standing on it: files of heights
 write coordinates with few digits."""
+
+ONE_BREAK_OF_DOMAIN = 1e-7
+"""Places, this part of the range of lines that sweep a surface apart, at which curves on it begin, end, turn or cross
+are one: a double zero is known to about the root of the rounding."""

@@ -123,3 +123,11 @@ spline takes the mean of the slopes beside the point: their changes are rounding
 UMBILIC = 1e-10
 """Part of the curvature by which the principal ones differ at least where a surface has principal directions: second
 derivatives and their products have lost six digits by then."""
+
+NODE_OF_RULINGS = 1e-12
+"""A discriminant, this part of its largest value away from zero where it is least, touches it: two curves in which a
+surface that lines sweep meets another one cross there."""
+
+ALONG_A_RULING = 1e-9
+"""A discriminant that is all over below this part of what it is made of is rounding: the lines that sweep a surface run
+along the other one, or meet it infinitely far."""

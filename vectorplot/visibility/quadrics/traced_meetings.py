@@ -1,4 +1,5 @@
-"""The curves in which bodies meet each other and polyhedra that are no conics: traced, and hidden like the others."""
+"""The curves in which bodies meet each other and polyhedra that are no conics: found along the lines that sweep
+mantles and caps, or traced; and hidden like the others."""
 
 from __future__ import annotations
 
@@ -6,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Bools, Floats
 from vectorplot.features.intersections.patches import SurfaceGrids
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry.mesh import Mesh
@@ -18,7 +19,17 @@ from vectorplot.visibility.polyhedra.lines import kinds_of
 from vectorplot.visibility.quadrics.bodies.seen_bodies import Bodies
 from vectorplot.visibility.quadrics.bodies.seen_capped import BOTTOM, TOP
 from vectorplot.visibility.quadrics.closed_forms import ClosedForms
+from vectorplot.visibility.quadrics.lines.part_meetings import (
+    MANTLE,
+    PartPairs,
+    forms_of_parts,
+    pairs_of_parts,
+    part_meetings,
+    parts_shown,
+)
+from vectorplot.visibility.quadrics.lines.ruled_meetings import RuledCurves
 from vectorplot.visibility.quadrics.own_bodies import BodiesMeet
+from vectorplot.visibility.quadrics.quadrics_meet import QuadricsMeet
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.tracing.meetings import curves_of_pair, curves_with_mesh
 from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised
@@ -37,6 +48,10 @@ class _Part:
     form: Floats
 
 
+_Parts = dict[tuple[int, int], _Part]
+"""The parts of bodies, by the number of the body and which part it is: BOTTOM, TOP or MANTLE."""
+
+
 def traced_meetings(
     scene: Scene, view: View, forms: ClosedForms, kinds: frozenset[LineKind], tracing: Tracing
 ) -> tuple[Curves, tuple[tuple[str, str], ...]]:
@@ -45,58 +60,80 @@ def traced_meetings(
 
     A curve belongs to the item, of those that want it, that comes first in the scene.
     """
-    bodies, found, doubts = forms.bodies, [], []
-    wants = [LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items]
-    needed = {*forms.traced.ravel().tolist(), *forms.in_faces[:, 0].tolist()}
-    parts = {body: _parts(scene, view, bodies, body) for body in needed}
+    bodies, doubts = forms.bodies, []
+    wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
 
     def owner(*items: int) -> int:
         return next(item for item in sorted(items) if wants[item])
 
-    for one, two in forms.traced.tolist():
+    pairs = pairs_of_parts(bodies, forms.traced)
+    lines, left = part_meetings(bodies, pairs, tracing)
+    needed = {*pairs.body[left].ravel().tolist(), *forms.in_faces[:, 0].tolist()}
+    parts = {key: part for body in needed for key, part in _parts(scene, view, bodies, body).items()}
+    found = [_of_lines(bodies, pairs, lines, wants)]
+    for (one, two), (of_one, of_two) in zip(pairs.body[left].tolist(), pairs.part[left].tolist(), strict=True):
         names = " and ".join(scene.items[int(bodies.item[body])].name for body in (one, two))
+        first, second = parts[one, of_one], parts[two, of_two]
         item = owner(int(bodies.item[one]), int(bodies.item[two]))
-        for first in parts[one]:
-            for second in parts[two]:
-                sheets, grids = (first.sheet, second.sheet), (first.grids, second.grids)
-                curves, unsure = curves_of_pair(sheets, grids, item, tracing)
-                found.append(_on_bodies(curves, (first, second)))
-                doubts += [(names, text) for text in unsure]
+        sheets, grids = (first.sheet, second.sheet), (first.grids, second.grids)
+        curves, unsure = curves_of_pair(sheets, grids, item, tracing)
+        found.append(_on_bodies(curves, (first, second)))
+        doubts += [(names, text) for text in unsure]
     for body, other in forms.in_faces.tolist():
         shape = scene.items[other].shape
         assert isinstance(shape, Mesh)
         mesh = Mesh(view.points_of(shape.vertices).T, shape.corners, shape.offsets, shape.present)
-        for part in parts[body]:
+        for part in (part for (of, _), part in parts.items() if of == body):
             curves, unsure = curves_with_mesh(part.sheet, mesh, owner(int(bodies.item[body]), other), tracing)
             found.append(_on_bodies(curves, (part,)))
             doubts += [(scene.items[int(bodies.item[body])].name, text) for text in unsure]
     return together(found), tuple(dict.fromkeys(doubts))
 
 
-def _parts(scene: Scene, view: View, bodies: Bodies, body: int) -> list[_Part]:
+def _parts(scene: Scene, view: View, bodies: Bodies, body: int) -> _Parts:
     """The smooth parts of a body."""
     item = int(bodies.item[body])
     shape, count = scene.items[item].shape, len(bodies.balls)
-    result = []
+    result = {}
     for sheet in sheets_of_parametrised(view, shape, item, scene.items[item].hides):  # type: ignore[arg-type]
-        if body < count:
-            (form,) = bodies.balls.polar_planes(np.array([body]))
-        elif sheet.is_cap:
-            end = BOTTOM if _part_of(sheet) == "bottom" else TOP
-            shows = bodies.capped.faces_eye[body - count, end]
-            form = np.array([0.0, 0.0, 0.0, 1.0 if shows else -1.0])
-        else:
-            (form,) = bodies.capped.polar_planes(np.array([body - count]))
-        result.append(_Part(sheet, SurfaceGrids(sheet.surface), body, form))
+        number = _part_of(sheet) if body >= count else MANTLE
+        (form,) = parts_shown(bodies, np.array([body]), np.array([number]))
+        result[body, number] = _Part(sheet, SurfaceGrids(sheet.surface), body, form)
     return result
 
 
-def _part_of(sheet: ParametricSheet) -> str:
+def _part_of(sheet: ParametricSheet) -> int:
     surface = sheet.surface
     while isinstance(surface, PlacedSurface):
         surface = surface.surface
     assert isinstance(surface, CappedPart)
-    return surface.part
+    return {"bottom": BOTTOM, "top": TOP, "mantle": MANTLE}[surface.part]
+
+
+def _of_lines(bodies: Bodies, pairs: PartPairs, lines: RuledCurves, wants: Bools) -> Curves:
+    """What was found along lines, with what is known of the bodies that it lies on."""
+    used, family = np.unique(lines.row, return_inverse=True)
+    body, part = pairs.body[used], pairs.part[used]
+    shown = np.stack([parts_shown(bodies, body[:, k], part[:, k]) for k in range(2)], axis=1)
+    meet = QuadricsMeet(np.stack([forms_of_parts(bodies, body[:, k], part[:, k]) for k in range(2)], axis=1))
+    places = np.zeros((len(lines.points), 3))
+    places[:, 0] = np.repeat(family, np.diff(lines.offsets))
+    one, two = bodies.item[pairs.body[lines.row]].T
+    none = np.full(len(lines.row), -1)
+    return Curves(
+        points=bodies.sight.points_of_view(lines.points),
+        places=places,
+        second_places=np.full_like(places, np.nan),
+        offsets=lines.offsets,
+        closed=lines.closed,
+        kind=np.full(len(none), int(LineKind.INTERSECTION)),
+        item=np.where(wants[one] & (~wants[two] | (one < two)), one, two),
+        family=np.asarray(family, dtype=np.intp),
+        level=np.zeros(len(none)),
+        families=tuple(BodiesMeet(meet, on, form) for on, form in zip(body, shown, strict=True)),
+        sheet=none,
+        second_sheet=none,
+    )
 
 
 def _on_bodies(curves: Curves, parts: tuple[_Part, ...]) -> Curves:
