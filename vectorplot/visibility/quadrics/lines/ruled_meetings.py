@@ -151,8 +151,8 @@ def _once(breaks: _Breaks, near: Floats) -> _Breaks:
     new = (np.diff(breaks.row, prepend=-1) > 0) | (np.diff(breaks.t, prepend=-np.inf) > near[breaks.row])
     first = np.flatnonzero(new)
     # What is known best about a place tells where it is.
-    weight = np.where(breaks.kind == Break.BORDER, np.finfo(np.float64).eps, 1.0)
-    t = np.add.reduceat(weight * breaks.t, first) / np.add.reduceat(weight, first)
+    best = np.maximum.reduceat(breaks.kind, first)[np.cumsum(new) - 1] == breaks.kind
+    t = np.add.reduceat(best * breaks.t, first) / np.add.reduceat(best.astype(np.float64), first)
     turns = np.add.reduceat((breaks.kind == Break.TURN).astype(np.intp), first)
     kind = np.maximum.reduceat(breaks.kind, first)
     return _Breaks(breaks.row[first], t, np.where(turns > 1, int(Break.NODE), kind))
