@@ -257,7 +257,17 @@ def draw(
 
         done = walk.fraction("hatching")
         filled = partial(hatched, crease_angle_deg=crease_angle_deg, tolerance_mm=tolerance_mm, budget=allowed)
-        hatches = walk.run("hatching", filled, scene, placement, hatch, progress=done)
+        trace = partial(
+            lines_in_place,
+            view=view,
+            faces=faces,
+            placement=placement,
+            kinds=frozenset(),
+            crease_angle_deg=crease_angle_deg,
+            tolerance_mm=tolerance_mm,
+            budget=budget,
+        )
+        hatches = walk.run("hatching", filled, scene, placement, hatch, trace, progress=done)
         hatches = hatches if labels is None else labels.interrupted(hatches, world)
     names = tuple(item.name for item in scene.items)
     paper = chosen.background if background is None else background

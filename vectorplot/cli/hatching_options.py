@@ -32,8 +32,8 @@ HATCHING_OPTIONS = (
     click.option("--cross", is_flag=True, default=None, help="Strokes cross where it is darker than a half."),
     click.option(
         "--along",
-        type=click.Choice(["page", "face"]),
-        help="Strokes are parallel on the page, or in the planes of faces.  [default: page]",
+        type=click.Choice(["page", "surface"]),
+        help="Parallel on the page; or in planes of faces, along lines of surfaces.  [default: page]",
     ),
     click.option("--hatch-width", type=at_least(0.01), metavar="MM", help="Of the pen that hatches.  [default: 0.18]"),
 )

@@ -6,10 +6,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.hatching.hatched_fills import hatched_fills
+from vectorplot.drawing.hatching.hatched_fills import hatched_regions
+from vectorplot.drawing.hatching.toned_regions import toned_regions
 from vectorplot.features.edge_splitting import Demand
 from vectorplot.geometry.budget import Budget
 from vectorplot.painting.coloured import coloured
+from vectorplot.painting.hatching_lines import followed_lines
 from vectorplot.painting.ordered_faces import ordered_faces, seen_on_page
 from vectorplot.plan import Walk, plan_paint
 from vectorplot.scene.hatching import Hatching
@@ -36,6 +38,7 @@ def hatched(
     scene: Scene,
     placement: Placement,
     given: Hatching | None,
+    trace: Callable[[Scene], Paths],
     *,
     crease_angle_deg: float,
     tolerance_mm: float,
@@ -44,7 +47,8 @@ def hatched(
 ) -> Paths:
     """The strokes that hatch the visible faces of a scene, as they come.
 
-    placement: of a picture of the scene; given: how items without a hatching of their own are hatched; crease_angle_deg
+    placement: of a picture of the scene; given: how items without a hatching of their own are hatched; trace: the
+    visible lines of a scene in their places; crease_angle_deg
     and tolerance_mm as of paint. What is near is no brighter than what is far away, and items that are hatched by tone
     are gray, and without patterns. Errors and warnings as of paint.
     """
@@ -66,7 +70,9 @@ def hatched(
     normals = painted_normals(seen.view, toned.items, (), ordered.facets.normals, plane, crease_angle_deg)
     lighting = Lighting(toned.items, lights, normals, plane, TONES, ambient=AMBIENT)
     fills = coloured(walk, seen, lighting, page, 0.0, ROUGHLY * tolerance_mm, budget)
-    return walk.run("visible fills", hatched_fills, fills, how, placement.page_from_world)
+    regions = walk.run("visible fills", toned_regions, fills)
+    lines = followed_lines(scene, how, placement, trace)
+    return hatched_regions(regions, how, placement.page_from_world, lines)
 
 
 def _toned(scene: Scene, how: Sequence[Hatching | None]) -> Scene:

@@ -13,7 +13,7 @@ from vectorplot.words import check_word
 HATCHED_BY = ("tone", "colour", "even", "none")
 """What the distance of strokes goes by."""
 
-HATCHED_ALONG = ("page", "face")
+HATCHED_ALONG = ("page", "surface")
 """What strokes are parallel to."""
 
 FINEST_MM = 0.01
@@ -36,8 +36,9 @@ class Hatching:
         Of the strokes, counter-clockwise: from the page's x axis, or in planes from what is level there.
     cross : bool
         A second family of strokes crosses the first one at right angles, in what is darker than a half.
-    along : {"page", "face"}
-        Strokes are parallel on the page, or in the planes of faces. What is round is hatched along the page.
+    along : {"page", "surface"}
+        Strokes are parallel on the page; or in the planes of faces, and along the parameter lines of surfaces that
+        have such, u = const. first. What else is round is hatched along the page.
     width_mm : float
         Of the pen; 0.01 or more, and no more than the spacing.
 
@@ -57,7 +58,7 @@ class Hatching:
     spacing_mm: float = 0.6
     angle_deg: float = 45.0
     cross: bool = False
-    along: Literal["page", "face"] = "page"
+    along: Literal["page", "surface"] = "page"
     width_mm: float = 0.18
 
     def __post_init__(self) -> None:

@@ -30,7 +30,7 @@ def seen_items(scene: vp.Scene, places: np.ndarray) -> tuple[np.ndarray, np.ndar
     return np.where(face >= 0, faces.item[face], -1), face, point
 
 
-@pytest.mark.parametrize("along", ["page", "face"])
+@pytest.mark.parametrize("along", ["page", "surface"])
 def test_strokes_are_where_rays_meet_their_items_and_end_where_these_do(along: str) -> None:
     town = vp.read(DATA / "town.scene")
     even = vp.Hatching("even", spacing_mm=2.0, angle_deg=31.0, along=along)
@@ -93,13 +93,13 @@ def test_strokes_lie_closer_in_shadows() -> None:
 
 
 def test_items_may_be_hatched_in_ways_of_their_own() -> None:
-    text = "A red box 1 1 1 hatch even spacing 1 cross angle -30 along face width 0.25\n"
+    text = "A red box 1 1 1 hatch even spacing 1 cross angle -30 along surface width 0.25\n"
     text += "B blue box 1 1 1 translation 2 0 0 hatch none\n"
     text += "C green box 1 1 1 translation 4 0 0\n"
     scene = parse_scene(text)
     assert [item.hatch for item in parse_scene(write_scene(scene)).items] == [item.hatch for item in scene.items]
     assert [item.hatch for item in scene.items] == [
-        vp.Hatching("even", 1.0, -30.0, True, "face", 0.25),
+        vp.Hatching("even", 1.0, -30.0, True, "surface", 0.25),
         vp.Hatching("none"),
         None,
     ]

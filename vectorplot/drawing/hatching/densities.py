@@ -32,25 +32,37 @@ def even_spacings(hatching: Hatching, darkness: Floats) -> tuple[Floats, Floats]
     return first, np.where(crossed, first, np.inf)
 
 
-def thresholds(hatching: Hatching, family: int, line: Ints) -> Floats:
-    """(k,) the darkness above which a line of a family, 0 or 1, is drawn where darkness varies.
+def covers(hatching: Hatching, darkness: Floats) -> tuple[Floats, Floats]:
+    """(n,) the shares of the paper that the strokes of the first and of the second family cover where it is as dark as
+    (n,) and darkness varies: the second one begins where the first one is as dense as can be."""
+    cover = darkness * hatching.darkest
+    cover = np.where(cover >= LEAST_COVER, cover, 0.0)
+    first = np.minimum(cover, hatching.width_mm / hatching.spacing_mm)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        second = np.where(cover > first, 1.0 - (1.0 - cover) / (1.0 - first), 0.0)
+    return first, second
 
-    Lines half as dense as the densest ones are every second one of these, and so on: the digits of the number of a line
-    in base 2 turned round, so that every stroke runs on into what is darker. The second family begins where the first
-    one is complete.
-    Source: van der Corput, Verteilungsfunktionen (1935).
-    """
-    rank = _turned_round(line)
+
+def thresholds(hatching: Hatching, family: int, line: Ints) -> Floats:
+    """(k,) the darkness above which a line of a family, 0 or 1, is drawn where darkness varies: covers turned round."""
+    rank = ranks(line, 1 << LEVELS)
     share = hatching.width_mm / hatching.spacing_mm
     cover = rank * share if family == 0 else 1.0 - (1.0 - share) * (1.0 - rank * share)
     return np.asarray(np.maximum(cover, LEAST_COVER) / hatching.darkest)
 
 
-def _turned_round(line: Ints) -> Floats:
-    """(k,) numbers between 0 and 1: the last LEVELS binary digits of whole numbers, in the opposite order."""
-    rest = line % (1 << LEVELS)
+def ranks(line: Ints, count: int) -> Floats:
+    """(k,) the order in which lines, by their numbers, come to be drawn where it becomes darker, from 0 to 1: the
+    binary digits of the number turned round, as many as count lines need.
+
+    So lines half as dense as the densest ones are every second one of these, and every stroke runs on into what is
+    darker.
+    Source: van der Corput, Verteilungsfunktionen (1935).
+    """
+    digits = max(count - 1, 1).bit_length()
+    rest = line % (1 << digits)
     result = np.zeros(len(line), dtype=np.intp)
-    for _ in range(LEVELS):
+    for _ in range(digits):
         result = 2 * result + (rest & 1)
         rest = rest >> 1
-    return np.asarray((result + 0.5) / (1 << LEVELS))
+    return np.asarray((result + 0.5) / (1 << digits))

@@ -10,6 +10,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.hatching.densities import even_spacings, thresholds
+from vectorplot.drawing.hatching.followed_lines import FollowedLines, dark_parts
 from vectorplot.drawing.hatching.frames import PageFrame, PlaneFrame, plane_frame
 from vectorplot.drawing.hatching.scan import Scanned, scanned
 from vectorplot.drawing.hatching.toned_regions import TonedRegions, toned_regions
@@ -60,17 +61,28 @@ def hatched_fills(fills: Fills, hatching: Sequence[Hatching | None], page_from_w
     >>> len(strokes), strokes.points[:2].tolist()
     (10, [[10.0, 10.5], [20.0, 10.5]])
     """
-    regions = toned_regions(fills)
+    return hatched_regions(toned_regions(fills), hatching, page_from_world)
+
+
+def hatched_regions(
+    regions: TonedRegions,
+    hatching: Sequence[Hatching | None],
+    page_from_world: Floats,
+    followed: Sequence[FollowedLines] = (),
+) -> Paths:
+    """Strokes, as they come, that hatch regions. followed: the lines of items that are hatched along such; the others
+    as of hatched_fills."""
     given = [Hatching("none") if one is None else one for one in hatching]
-    found = [Paths.empty()]
+    ways = {lines.item for lines in followed}
+    found = [dark_parts(lines, given[lines.item], regions) for lines in followed]
     for one in dict.fromkeys(given):
         if one.by == "none":
             continue
-        mine = np.array([other == one for other in given], dtype=np.bool_)
+        mine = np.array([other == one and k not in ways for k, other in enumerate(given)], dtype=np.bool_)
         some = regions.some(mine[regions.item] & (regions.item >= 0))
         for family in (0, 1) if one.cross else (0,):
             found += _family(some, one, family, page_from_world)
-    return concatenated(tuple(found))
+    return concatenated((Paths.empty(), *found))
 
 
 def _family(regions: TonedRegions, hatching: Hatching, family: int, page_from_world: Floats) -> list[Paths]:
