@@ -11,7 +11,8 @@ from .read import read
 from .render import render
 from .save import save
 from .scene.hatching import Hatching
-from .scene.naming.labels import Along, AtVertex, Label, OnPage
+from .scene.naming.annotations import angle, arrow, axes, dimension
+from .scene.naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from .scene.plots import graph, surface, tube
 from .scene.scene import Item, Light, Material, Page, Pattern, Scene
 from .scene.surface_lines import Section, SurfaceLines
@@ -36,6 +37,7 @@ __all__ = [
     "LineKind",
     "Material",
     "Mesh",
+    "OnCurve",
     "OnPage",
     "Page",
     "Paths",
@@ -47,6 +49,10 @@ __all__ = [
     "Style",
     "SurfaceLines",
     "accuracy",
+    "angle",
+    "arrow",
+    "axes",
+    "dimension",
     "draw",
     "graph",
     "paint",

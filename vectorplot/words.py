@@ -64,7 +64,7 @@ class LineKind(IntEnum):
         Parameters
         ----------
         word : str
-            As the command line and the JSON file spell it, in letters of any case; one of those that one can ask for.
+            As the command line and the JSON file spell it, in letters of any case; one of those that items can have.
 
         Returns
         -------
@@ -82,7 +82,7 @@ class LineKind(IntEnum):
         >>> vp.LineKind.from_word("crease").name
         'CREASE'
         """
-        if word.lower() not in LINE_WORDS:
+        if word.lower() not in OWN_LINE_WORDS:
             raise unknown("line kind", word, LINE_WORDS)
         return cls[word.upper()]
 
@@ -98,18 +98,22 @@ WIRES = tuple(word for word in LINE_WORDS if word != LineKind.INTERSECTION.word)
 """Those of a wireframe: every edge, and no line in which things pierce each other."""
 
 
-def line_words(words: str | Iterable[str]) -> tuple[str, ...]:
+OWN_LINE_WORDS = (*LINE_WORDS, LineKind.LABEL.word)
+"""The kinds of lines that an item may have of its own: a curve may be drawn as a leader is."""
+
+
+def line_words(words: str | Iterable[str], known: tuple[str, ...] = LINE_WORDS) -> tuple[str, ...]:
     """The kinds of lines that are named, each once: words, or one text with commas between them; ``none`` is no kind.
 
-    Errors: InputError for words that are no kinds of lines.
+    Errors: InputError for words that are none of those known.
     """
     given = words.split(",") if isinstance(words, str) else list(words)
     if len(given) == 1 and given[0].strip().lower() == "none":
         return ()
     asked = [word.strip().lower() for word in given]
     for word in asked:
-        if word not in LINE_WORDS:
-            raise unknown("line kind", word, LINE_WORDS)
+        if word not in known:
+            raise unknown("line kind", word, known)
     return tuple(dict.fromkeys(asked))
 
 

@@ -20,6 +20,7 @@ label A "A" at 0 0 4
 label "two\\n\\"lines\\"" vertex CUBE 8 size 10pt place above_left hidden dashed mark cross
 label k "k, αβ" along RING 0.25 place above
 label "T" page 10, 20 size 2mm mark dot
+label "e" on RING 0.5 mark tick
 CUBE red box solid 2 2 2
 RING curve circle 2
 """
@@ -47,6 +48,7 @@ def test_scene_files_say_the_same_as_python() -> None:
         ),
         vp.Label("k, αβ", vp.Along("RING", 0.25), "k", place="above"),
         vp.Label("T", vp.OnPage(10.0, 20.0), size_mm=2.0, mark="dot"),
+        vp.Label("e", vp.OnCurve("RING", 0.5), mark="tick"),
     )
     again = io.parse_scene(io.write_scene(scene))
     assert again.labels == scene.labels
@@ -57,7 +59,7 @@ def test_scene_files_say_the_same_as_python() -> None:
     [
         ("label", "expected a text in quotes, got the end of the file"),
         ("label A B", "label A: expected a text in quotes, got 'B'"),
-        ('label A "A"', "label A: expected at, vertex, along, page, got the end of the file"),
+        ('label A "A"', "label A: expected at, vertex, on, along, page, got the end of the file"),
         ('label A "A" at 1 2', "label A: expected a number for at"),
         ('label A "A" at 1 2 3 page 1 2', "label A: a second place, 'page'"),
         ('label A "A" at 1 2 3 size big', "label A: a size of 'big'"),

@@ -1,7 +1,7 @@
 from .hatching import Hatching
 from .integral_lines import FieldLines, GeodesicLines
 from .level_lines import level_sections, round_heights
-from .naming.labels import Along, AtVertex, Label, OnPage
+from .naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from .paper import sheet_size
 from .placement import Placement, field_of_vision, fitted_picture
 from .scene import Item, Light, Material, Page, Pattern, Scene
@@ -19,6 +19,7 @@ __all__ = [
     "Label",
     "Light",
     "Material",
+    "OnCurve",
     "OnPage",
     "Page",
     "Pattern",

@@ -22,7 +22,7 @@ from vectorplot.surfaces.balls import ball_of, bounds_of_balls
 from vectorplot.surfaces.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
 from vectorplot.surfaces.placed import placed_shape
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
-from vectorplot.words import MATERIALS, check_colour, line_words, unknown_material
+from vectorplot.words import MATERIALS, OWN_LINE_WORDS, check_colour, line_words, unknown_material
 
 OPACITY_OF_TRANSPARENT = 0.5
 """The opacity of what is transparent where nothing else is said."""
@@ -225,7 +225,7 @@ class Item(Movable["Item"]):
     def __post_init__(self) -> None:
         check_colour(self.colour, f"{self.name}: ")
         if self.lines is not None:
-            object.__setattr__(self, "lines", line_words(self.lines))
+            object.__setattr__(self, "lines", line_words(self.lines, OWN_LINE_WORDS))
 
     def transformed(self, matrix: ArrayLike) -> Item:
         """The item under a 4x4 matrix acting on columns, with what lies on it.

@@ -23,11 +23,9 @@ DIRECTIONS = {
 }
 """On which side of its point a label is, across and up."""
 
-GAP = 0.4
-"""From a point to the letters beside it, in heights of capitals."""
-
-RINGS = (GAP, 1.5, 3.0, 5.0, 8.0)
-"""How far from its point a label is tried, in heights of capitals; all but at the first one it has a leader."""
+RINGS = (0.0, 1.2, 2.7, 4.7, 7.7)
+"""How much farther than need be from its point a label is tried, in heights of capitals; at all but the first one it
+has a leader."""
 
 ON_A_RING = 16
 """Directions in which a label is tried on every ring but the first."""
@@ -55,6 +53,7 @@ def places(
     anchors: Floats,
     sizes: Floats,
     height: Floats,
+    gap: Floats,
     asked: Sequence[str],
     start: Floats,
     end: Floats,
@@ -63,9 +62,10 @@ def places(
 ) -> Places:
     """Where labels stand: one after the other each is put where the least counts against it.
 
-    anchors (l,2): what they name; sizes (l,2): width and height of their boxes; height (l,): of their capitals; asked:
-    the words of DIRECTIONS, or auto; start, end (s,2): the strokes of the picture; page (2,2): its corners; taken
-    (b,2,2): boxes, smallest and largest coordinates, where no label goes. All in mm.
+    anchors (l,2): what they name; sizes (l,2): width and height of their boxes; height (l,): of their capitals; gap
+    (l,): from a point to the letters beside it; asked: the words of DIRECTIONS, or auto; start, end (s,2): the strokes
+    of the picture; page (2,2): its corners; taken (b,2,2): boxes, smallest and largest coordinates, where no label goes.
+    All in mm.
     Source: Christensen, Marks and Shieber, An empirical study of algorithms for point-feature label placement, ACM
     Trans. Graphics 14 (1995): the greedy algorithm.
     """
@@ -74,7 +74,7 @@ def places(
         if len(start)
         else 0.5 * page.sum(axis=0)
     )
-    tried = [_tried(*row) for row in zip(anchors, sizes, height.tolist(), asked, strict=True)]
+    tried = [_tried(*row) for row in zip(anchors, sizes, height.tolist(), gap.tolist(), asked, strict=True)]
     counts = [len(one) for one in tried]
     every = np.concatenate([np.zeros((0, 3)), *tried])
     label = np.repeat(np.arange(len(tried)), counts)
@@ -102,18 +102,18 @@ def places(
     return Places(every[chosen, :2], np.stack([anchors[far], feet], axis=1), far.tolist())
 
 
-def _tried(anchor: Floats, size: Floats, height: float, asked: str) -> Floats:
+def _tried(anchor: Floats, size: Floats, height: float, gap: float, asked: str) -> Floats:
     """(c,3) middles of the boxes that are tried for a label, and the ring each is on."""
     if asked != "auto":
         way = np.array([DIRECTIONS[asked]])
-        return np.column_stack([anchor + _beside(way, size, GAP * height), np.zeros(1)])
+        return np.column_stack([anchor + _beside(way, size, gap), np.zeros(1)])
     order = ("above_right", "above", "right", "above_left", "left", "below_right", "below", "below_left")
     found = []
     angle = np.arange(ON_A_RING) * (2.0 * np.pi / ON_A_RING) + np.pi / 4.0
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     for ring, distance in enumerate(RINGS):
         way = circle if ring else np.array([DIRECTIONS[word] for word in order])
-        middle = anchor + _beside(way, size, distance * height)
+        middle = anchor + _beside(way, size, gap + distance * height)
         found.append(np.column_stack([middle, np.full(len(way), ring)]))
     return np.concatenate(found)
 

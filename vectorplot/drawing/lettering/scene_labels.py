@@ -11,7 +11,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Layer, Paths
 from vectorplot.drawing.layers import PENS
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
-from vectorplot.drawing.lettering.placing import GAP, places
+from vectorplot.drawing.lettering.placing import places
 from vectorplot.drawing.lettering.text import Lettering, lettered, lettered_along
 from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.drawing.strokes.long_strokes import split_long
@@ -20,7 +20,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import segments
 from vectorplot.scene.naming.label_anchors import LabelAnchors
-from vectorplot.scene.naming.labels import Along, Label, OnPage
+from vectorplot.scene.naming.labels import Along, Label, OnCurve, OnPage
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
@@ -31,6 +31,9 @@ from vectorplot.words import LineKind
 HALO_MM = 0.6
 """Lines end so far before the letters."""
 
+GAP = 0.4
+"""From a point to the letters beside it, in heights of capitals."""
+
 DASH = (0.25, 0.15)
 """Dash and gap of the letters of what is hidden, in heights of capitals."""
 
@@ -39,6 +42,12 @@ MARK_MM = 0.6
 
 MIDDLE_TONE = 128.0
 """Darker sheets have white letters."""
+
+ARROW_MM, ARROW_SLOPE = 2.8, 0.18
+"""The length of arrowheads, and half of their width as a part of it (ISO 129: between 15 and 30 degrees)."""
+
+TICK = 1.5
+"""Half of the length of ticks across curves, beside that of other marks."""
 
 NO_ITEM = -1
 """Strokes of labels belong to no item."""
@@ -69,6 +78,8 @@ class SceneLabels:
         missing = (*PENS,)[len(layers) : -1] if by_kind else ()
         empty = (Layer(name, PENS[name], (Paths.empty(),)) for name in missing)
         strokes = self.strokes if longest_mm is None else split_long(self.strokes, longest_mm, page_from_world)
+        if layers and layers[-1].name == "label":
+            return (*layers[:-1], replace(layers[-1], marks=(*layers[-1].marks, strokes)))
         return (*layers, *empty, Layer("label", replace(PENS["label"], colour=_ink(layers)), (strokes,)))
 
 
@@ -122,7 +133,7 @@ def labels_on_page(seen: SeenLabels, placement: Placement, strokes: Paths, hidde
     ways = [label.hidden or hidden for label in seen.anchors.labels]
     some = [k for k, way in enumerate(ways) if not seen.hidden_by[k] or way != "none"]
     labels = [seen.anchors.labels[k] for k in some]
-    along = [k for k in some if seen.anchors.courses[k] is not None]
+    along = [k for k in some if isinstance(seen.anchors.labels[k].at, Along)]
     set_: dict[int, Lettering] = {k: _along(seen, k, placement, mm) for k in along}
     beside = [k for k in some if k not in set_]
     texts = [_set(seen.anchors.labels[k], mm) for k in beside]
@@ -133,18 +144,19 @@ def labels_on_page(seen: SeenLabels, placement: Placement, strokes: Paths, hidde
     taken = np.array([set_[k].bounds for k in along]).reshape(-1, 2, 2)
     page = np.array([[0.0, 0.0], [placement.page.width_mm, placement.page.height_mm]])
     asked = [_asked(seen.anchors.labels[k]) for k in beside]
-    found = places(seen.points[beside], sizes, height, asked, begin, end, page, taken)
+    gap = np.array([_gap(seen.anchors.labels[k], mm) for k in beside])
+    found = places(seen.points[beside], sizes, height, gap, asked, begin, end, page, taken)
     for number, k in enumerate(beside):
         middle = found.middles[number] - 0.5 * texts[number].bounds.sum(axis=0)
         set_[k] = _moved(texts[number], middle)
     leaders = {beside[of]: line for of, line in zip(found.label, found.leaders, strict=True)}
     parts = []
     for k, label in zip(some, labels, strict=True):
-        lines = [*_lines(set_[k]), *_marked(label, seen.points[k], mm), *([leaders[k]] if k in leaders else [])]
+        way = _direction(seen, k, placement) if label.mark in ("arrow", "tick") else np.zeros(2)
+        lines = [*_lines(set_[k]), *_marked(label, seen.points[k], way, mm), *([leaders[k]] if k in leaders else [])]
         made = _paths(lines, int(seen.hidden_by[k]), placement)
         if seen.hidden_by[k] and ways[k] == "dashed":
-            dash, gap = (part * label.size_mm * mm for part in DASH)
-            made = dashed(made, dash, gap)
+            made = dashed(made, *(part * label.size_mm * mm for part in DASH))
         parts.append(made)
     boxes = np.concatenate([np.zeros((0, 4, 2)), *(set_[k].boxes for k in some)])
     return SceneLabels(concatenated(tuple(parts)), grown(boxes, HALO_MM * mm))
@@ -158,7 +170,15 @@ def _ink(layers: tuple[Layer, ...]) -> str:
 
 
 def _asked(label: Label) -> str:
+    if not label.text.strip():
+        return "centre"
     return "above_right" if isinstance(label.at, OnPage) and label.place == "auto" else label.place
+
+
+def _gap(label: Label, mm: float) -> float:
+    """From a point to the letters beside it: a mark there, and a little more than lines keep away."""
+    mark = {"none": 0.0, "tick": TICK * MARK_MM, "arrow": ARROW_SLOPE * ARROW_MM}.get(label.mark, 0.7 * MARK_MM)
+    return max(GAP * label.size_mm, 1.5 * HALO_MM) * mm + mark * mm
 
 
 def _set(label: Label, mm: float) -> Lettering:
@@ -196,9 +216,28 @@ def _lines(text: Lettering) -> list[Floats]:
     return [text.strokes[k] for k in range(len(text.strokes))]
 
 
-def _marked(label: Label, point: Floats, mm: float) -> list[Floats]:
-    """The strokes of the mark at the point of a label."""
-    size = MARK_MM * mm
+def _direction(seen: SeenLabels, number: int, placement: Placement) -> Floats:
+    """(2,) the unit direction on the page of the curve that a label is at a point of; at its beginning out of it."""
+    course, at = seen.anchors.courses[number], seen.anchors.labels[number].at
+    assert course is not None and isinstance(at, OnCurve)
+    projection, last = placement.projection, len(course) - 1
+    nearest = int(np.argmin(np.linalg.norm(course - seen.anchors.points[number], axis=1)))
+    ends = projection.points_of(course[[max(nearest - 1, 0), min(nearest + 1, last)]])
+    way = np.diff(placement.on_page(projection.image_of(ends)), axis=0)[0]
+    long = float(np.hypot(*way))
+    return np.asarray(way / long * (-1.0 if at.part == 0.0 else 1.0)) if long > 0.0 else np.zeros(2)
+
+
+def _marked(label: Label, point: Floats, way: Floats, mm: float) -> list[Floats]:
+    """The strokes of the mark at the point of a label, where a curve has the direction way."""
+    size, left = MARK_MM * mm, np.array([-way[1], way[0]])
+    if label.mark == "tick":
+        return [np.stack([point - TICK * size * left, point + TICK * size * left])]
+    if label.mark == "arrow":
+        back = point - ARROW_MM * mm * way
+        wings = ARROW_MM * mm * ARROW_SLOPE * left
+        # The stroke along the middle makes it dark.
+        return [np.stack([point, back + wings, back - wings, point, back])]
     if label.mark == "cross":
         return [point + size * np.array(ends) for ends in (((-1.0, 0.0), (1.0, 0.0)), ((0.0, -1.0), (0.0, 1.0)))]
     if label.mark == "dot":

@@ -211,8 +211,9 @@ def lettered_along(
     turn = _turn(np.degrees(np.arctan2(way[:, 1], way[:, 0])))
     down = {"base": 0.0, "middle": 0.5 * size_mm, "top": size_mm}[level] - off_mm
     foot = place - np.einsum("nij,nj->ni", turn, np.stack([0.5 * advance, np.full(len(advance), down)], axis=1))
-    corner = np.tile([0.0, -DESCENT * size_mm], (len(found), 1))
-    boxes = _rectangles(corner, advance, np.full(len(advance), (1.0 + DESCENT) * size_mm))
+    low, high = (unit * end for end in _reach(found))
+    corner = np.tile([0.0, low], (len(found), 1))
+    boxes = _rectangles(corner, advance, np.full(len(advance), high - low))
     return Lettering(_set(found, unit, foot, turn), np.einsum("nij,nkj->nki", turn, boxes) + foot[:, None])
 
 

@@ -8,7 +8,7 @@ from vectorplot.io.scenes.scene_words import FORM_WORDS, ITEM_WORDS, SCENE_WORDS
 from vectorplot.words import COLOURS, MATERIALS
 
 _WITHIN = ("position", "direction", "intensity", "fading", "none", "face", "polygon", "at", "normal", "lit_by")
-_OF_LABELS = ("vertex", "along", "size", "place", "hidden", "mark")
+_OF_LABELS = ("vertex", "on", "along", "size", "place", "hidden", "mark")
 
 RESERVED = frozenset(
     (

@@ -37,6 +37,7 @@ from vectorplot.words import (
     COLOURS,
     LINE_WORDS,
     MATERIALS,
+    OWN_LINE_WORDS,
     PALETTES,
     is_alike,
     is_colour,
@@ -310,7 +311,7 @@ class ItemReader:
             return
         while True:
             word = self.words[self.at]
-            if word not in LINE_WORDS:
+            if word not in OWN_LINE_WORDS:
                 self.fail(f"lines: expected one of {', '.join(LINE_WORDS)}, got {self.source.shown(self.at)}", draft)
             kinds.append(word)
             self.at += 1

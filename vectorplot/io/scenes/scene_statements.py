@@ -8,7 +8,17 @@ from typing import Any
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.io.scenes.scene_words import Words
-from vectorplot.scene.naming.labels import HIDDEN, MARKS, PLACES, Along, AtVertex, Label, OnPage, capital_height
+from vectorplot.scene.naming.labels import (
+    HIDDEN,
+    MARKS,
+    PLACES,
+    Along,
+    AtVertex,
+    Label,
+    OnCurve,
+    OnPage,
+    capital_height,
+)
 from vectorplot.scene.paper import sheet_size
 from vectorplot.scene.scene import Light, Page
 from vectorplot.words import COLOURS, is_colour, nearest
@@ -133,8 +143,11 @@ def read_page(words: Words, at: int) -> tuple[Page, int]:
         words.fail(start, error.cause)
 
 
+Anchor = tuple[float, float, float] | AtVertex | OnCurve | Along | OnPage
+"""What a label may name."""
+
 _LABEL_CHOICES = {"place": PLACES, "hidden": HIDDEN, "mark": MARKS}
-_LABEL_ANCHORS = ("at", "vertex", "along", "page")
+_LABEL_ANCHORS = ("at", "vertex", "on", "along", "page")
 _LABEL_WORDS = (*_LABEL_ANCHORS, "size", *_LABEL_CHOICES)
 
 
@@ -151,7 +164,7 @@ def read_label(words: Words, at: int) -> tuple[Label, int]:
     text = words.string(at)
     owner = f"label {name or text}: "
     at += 1
-    anchor: tuple[float, float, float] | AtVertex | Along | OnPage | None = None
+    anchor: Anchor | None = None
     given: dict[str, Any] = {}
     while (word := words.words[at]) in _LABEL_WORDS:
         at += 1
@@ -180,9 +193,7 @@ def read_label(words: Words, at: int) -> tuple[Label, int]:
         words.fail(start, error.cause)
 
 
-def _label_anchor(
-    words: Words, at: int, owner: str, word: str
-) -> tuple[tuple[float, float, float] | AtVertex | Along | OnPage, int]:
+def _label_anchor(words: Words, at: int, owner: str, word: str) -> tuple[Anchor, int]:
     """What a label names, and the word behind it."""
     if word == "at":
         (x, y, z), at = words.numbers(at, 3, owner, word)
@@ -198,12 +209,13 @@ def _label_anchor(
         if number < 1:
             words.fail(at + 1, f"{owner}vertices count from 1, got {number}")
         return AtVertex(item, number - 1), at + 2
+    kind = Along if word == "along" else OnCurve
     if not words.is_number(at + 1):
-        return Along(item), at + 1
+        return kind(item), at + 1
     part = words.number(at + 1, owner, word)
     if not 0.0 <= part <= 1.0:
         words.fail(at + 1, f"{owner}a part of {part:g} of a curve must lie between 0 and 1")
-    return Along(item, part), at + 2
+    return kind(item, part), at + 2
 
 
 def _check_spelling(words: Words, start: int, at: int, known: tuple[str, ...]) -> None:

@@ -15,7 +15,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.scenes.reserved_words import RESERVED
 from vectorplot.io.scenes.scene_hatching import hatch_text
 from vectorplot.io.scenes.scene_words import bare_word
-from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnPage
+from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.words import COLOURS
@@ -122,11 +122,17 @@ def _label(label: Label) -> str:
     at = label.at
     if isinstance(at, AtVertex):
         place = f"vertex {_name(at.item)} {at.vertex + 1}"
-    elif isinstance(at, Along):
-        place = f"along {_name(at.item)} {float(at.part)!r}"
+    elif isinstance(at, (Along, OnCurve)):
+        place = f"{'on' if isinstance(at, OnCurve) else 'along'} {_name(at.item)} {float(at.part)!r}"
     else:
         place = f"page {_numbers((at.x_mm, at.y_mm))}" if isinstance(at, OnPage) else f"at {_numbers(at)}"
-    words = ["label", _name(label.name), dumps(label.text), place, f"size {float(label.size_mm)!r}"]
+    words = [
+        "label",
+        _name(label.name) if label.name else '""',
+        dumps(label.text),
+        place,
+        f"size {float(label.size_mm)!r}",
+    ]
     words += [f"place {label.place}", *([f"hidden {label.hidden}"] if label.hidden else []), f"mark {label.mark}"]
     return " ".join(words)
 

@@ -10,7 +10,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnPage
+from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from vectorplot.scene.scene import Item, Scene
 
 CHORDS = 256
@@ -20,7 +20,7 @@ CHORDS = 256
 @dataclass(frozen=True, eq=False)
 class LabelAnchors:
     """Labels and what they name: points (l,3) in the world, NaN for those on the page; courses: the points (k,3) of the
-    curve, for those along one."""
+    curve, for those on or along one."""
 
     labels: tuple[Label, ...]
     points: Floats
@@ -37,7 +37,9 @@ def label_anchors(scene: Scene) -> LabelAnchors:
     no curve or no polyhedron.
     """
     items = {item.name: item for item in reversed(scene.items)}
-    courses = tuple(_course(label, label.at, items) if isinstance(label.at, Along) else None for label in scene.labels)
+    courses = tuple(
+        _course(label, label.at, items) if isinstance(label.at, (Along, OnCurve)) else None for label in scene.labels
+    )
     found = zip(scene.labels, courses, strict=True)
     points = [_point(label, items) if course is None else _part(label, course) for label, course in found]
     return LabelAnchors(scene.labels, np.array(points, dtype=np.float64).reshape(-1, 3), courses)
@@ -58,7 +60,7 @@ def _point(label: Label, items: dict[str, Item]) -> Floats:
     return np.asarray(shape.vertices[at.vertex])
 
 
-def _course(label: Label, at: Along, items: dict[str, Item]) -> Floats:
+def _course(label: Label, at: Along | OnCurve, items: dict[str, Item]) -> Floats:
     shape = _item(label, at.item, items).shape
     if not is_curve(shape):
         raise InputError(f"label {label.name}: {at.item} is no curve")
@@ -68,7 +70,7 @@ def _course(label: Label, at: Along, items: dict[str, Item]) -> Floats:
 
 def _part(label: Label, course: Floats) -> Floats:
     """The point of a course at the part of its length that a label is at."""
-    assert isinstance(label.at, Along)
+    assert isinstance(label.at, (Along, OnCurve))
     passed = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(course, axis=0), axis=1))])
     if not len(course) or not passed[-1] > 0.0:
         raise InputError(f"label {label.name}: {label.at.item} has no length")

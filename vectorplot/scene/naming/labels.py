@@ -29,8 +29,8 @@ PLACES = (
 HIDDEN = ("none", "dashed", "solid")
 """What may become of lines and labels that are hidden."""
 
-MARKS = ("none", "dot", "cross")
-"""What may be drawn at the point that a label names."""
+MARKS = ("none", "dot", "cross", "arrow", "tick")
+"""What may be drawn at the point that a label names; the last two at points of curves, whose direction they need."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +82,32 @@ class Along:
 
 
 @dataclass(frozen=True)
+class OnCurve:
+    """The place of a point of a curve in space.
+
+    Parameters
+    ----------
+    item : str
+        The name of the item that is the curve.
+    part : float
+        At what part of its length in space the point is, 0 to 1: its end where nothing is said.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Label("x", vp.OnCurve("axis"), mark="arrow").at
+    OnCurve(item='axis', part=1.0)
+    """
+
+    item: str
+    part: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.part <= 1.0:
+            raise InputError(f"on {self.item}: a part of {self.part:g}: expected 0 to 1")
+
+
+@dataclass(frozen=True)
 class OnPage:
     """A point of the page.
 
@@ -109,8 +135,9 @@ class Label:
     ----------
     text : str
         What it says; a line feed begins a new line.
-    at : (float, float, float), AtVertex, Along or OnPage
-        What it names: a point of the world, a vertex, a curve, along which its letters run, or a point of the page.
+    at : (float, float, float), AtVertex, OnCurve, Along or OnPage
+        What it names: a point of the world, a vertex, a point of a curve, a curve, along which its letters run, or a
+        point of the page.
     name : str
         What messages call it; its text where none is given.
     size_mm : float
@@ -122,8 +149,9 @@ class Label:
     hidden : {"none", "dashed", "solid"}, optional
         What becomes of it where something hides what it names: it is left out, its letters are dashed, or as they are;
         what becomes of hidden lines where nothing is said.
-    mark : {"none", "dot", "cross"}
-        What is drawn at the point.
+    mark : {"none", "dot", "cross", "arrow", "tick"}
+        What is drawn at the point: at a point of a curve also an arrowhead that points on, at its beginning out of it,
+        or a tick across it.
 
     Raises
     ------
@@ -139,7 +167,7 @@ class Label:
     """
 
     text: str
-    at: tuple[float, float, float] | AtVertex | Along | OnPage
+    at: tuple[float, float, float] | AtVertex | OnCurve | Along | OnPage
     name: str = ""
     size_mm: float = USUAL_SIZE_MM
     place: str = "auto"
@@ -160,7 +188,9 @@ class Label:
             check_word(f"{owner}hidden", self.hidden, HIDDEN)
         if isinstance(self.at, Along) and self.place not in ("auto", "centre", "above", "below"):
             raise InputError(f"{owner}along a curve a label is above, below or centre, not {self.place}")
-        if isinstance(self.at, (AtVertex, Along)):
+        if self.mark in ("arrow", "tick") and not isinstance(self.at, OnCurve):
+            raise InputError(f"{owner}a mark {self.mark} needs a point on a curve, which has a direction")
+        if isinstance(self.at, (AtVertex, OnCurve, Along)):
             return
         if not isinstance(self.at, OnPage):
             object.__setattr__(self, "at", tuple(self.at))
@@ -178,7 +208,7 @@ class Label:
 
     def renamed(self, names: Mapping[str, str]) -> Label:
         """The label where items have other names."""
-        if isinstance(self.at, (AtVertex, Along)) and self.at.item in names:
+        if isinstance(self.at, (AtVertex, OnCurve, Along)) and self.at.item in names:
             return replace(self, at=replace(self.at, item=names[self.at.item]))
         return self
 

@@ -66,8 +66,15 @@ class SpaceCurve:
         return np.asarray(start + np.clip(part, JUST_BEFORE, 1.0 - JUST_BEFORE) * (end - start))
 
 
-def space_curve(view: View, curve: Curve, item: int, sheets: tuple[SmoothSheet, ...], tracing: Tracing) -> Curves:
-    """A curve in space as one polyline; where it is not finite it is interrupted.
+def space_curve(
+    view: View,
+    curve: Curve,
+    item: int,
+    sheets: tuple[SmoothSheet, ...],
+    tracing: Tracing,
+    kind: LineKind = LineKind.CURVE,
+) -> Curves:
+    """A curve in space as one polyline of some kind; where it is not finite it is interrupted.
 
     A curve that lies on a parametrised sheet, all of it, is one of its curves: the sheet does not hide it from near.
     """
@@ -95,7 +102,7 @@ def space_curve(view: View, curve: Curve, item: int, sheets: tuple[SmoothSheet, 
         np.full((int(kept.sum()), 3), np.nan),
         ragged.offsets(counts[long]),
         np.full(many, curve.closed and bool(good.all())),
-        np.full(many, int(LineKind.CURVE)),
+        np.full(many, int(kind)),
         np.full(many, item, dtype=np.intp),
         np.zeros(many, dtype=np.intp),
         np.zeros(many),

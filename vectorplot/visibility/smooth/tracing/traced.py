@@ -107,8 +107,9 @@ def traced_scene(
     met = meetings(scene, view, sheets, wants, tracing)
     doubts += met.doubts
     for number, item in enumerate(scene.items):
-        if is_curve(item.shape) and LineKind.CURVE in kinds_of(item, kinds):
-            drawn.append(space_curve(view, item.shape, number, sheets, tracing))
+        wanted = kinds_of(item, kinds) & {LineKind.CURVE, LineKind.LABEL}
+        if is_curve(item.shape) and wanted:
+            drawn.append(space_curve(view, item.shape, number, sheets, tracing, min(wanted)))
     all_sheets = Sheets(sheets)
     curves, hiding = (
         with_merged_families(_with_images(view, together(parts)), all_sheets) for parts in ([*drawn, met.curves], edges)
