@@ -64,7 +64,7 @@ def places(
 
     anchors (l,2): what they name; sizes (l,2): width and height of their boxes; height (l,): of their capitals; gap
     (l,): from a point to the letters beside it; asked: the words of DIRECTIONS, or auto; start, end (s,2): the strokes
-    of the picture; page (2,2): its corners; taken (b,2,2): boxes, smallest and largest coordinates, where no label goes.
+    of the picture; page (2,2): its corners; taken (b,2,2): boxes, smallest and largest coordinates, where no label is.
     All in mm.
     Source: Christensen, Marks and Shieber, An empirical study of algorithms for point-feature label placement, ACM
     Trans. Graphics 14 (1995): the greedy algorithm.

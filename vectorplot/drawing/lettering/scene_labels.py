@@ -156,7 +156,7 @@ def labels_on_page(seen: SeenLabels, placement: Placement, strokes: Paths, hidde
         lines = [*_lines(set_[k]), *_marked(label, seen.points[k], way, mm), *([leaders[k]] if k in leaders else [])]
         made = _paths(lines, int(seen.hidden_by[k]), placement)
         if seen.hidden_by[k] and ways[k] == "dashed":
-            made = dashed(made, *(part * label.size_mm * mm for part in DASH))
+            made = dashed(made, DASH[0] * label.size_mm * mm, DASH[1] * label.size_mm * mm)
         parts.append(made)
     boxes = np.concatenate([np.zeros((0, 4, 2)), *(set_[k].boxes for k in some)])
     return SceneLabels(concatenated(tuple(parts)), grown(boxes, HALO_MM * mm))
