@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Collection, Sequence
+from copy import copy
 
 import numpy as np
 
@@ -44,6 +45,7 @@ NEEDED = {
     "intersection": ("parts",),
     "surface": ("surface",),
     "curve": ("curve",),
+    "mesh": ("mesh",),
 }
 """What every kind of item cannot be without."""
 
@@ -63,7 +65,6 @@ class Draft:
     kind_index = 0
     hollow = False
     shown_caps: frozenset[str] = frozenset()
-    placement: Placement = IDENTITY
     angle_deg = FULL_TURN
     lengths: tuple[float, ...] | list[float] | None = None
     order: int | None = None
@@ -79,6 +80,7 @@ class Draft:
     occludes: bool | None = None
     group: str | None = None
     hatch: Hatching | None = None
+    mesh: Mesh | None = None
     surface: Surface | ImplicitSurface | None = None
     curve: Curve | None = None
     curves = CurveDraft()
@@ -88,6 +90,21 @@ class Draft:
         self.index = index
         self.owner = name + ": "
         self.patterns: list[Pattern] = []
+        self.places: list[Placement] = [IDENTITY]
+
+    def at(self, number: int) -> Draft:
+        """The draft of one of the copies of the item, in its place."""
+        if len(self.places) == 1:
+            return self
+        one = copy(self)
+        one.places = [self.places[number]]
+        one.name = self.name if number == 0 else f"{self.name} {number + 1}"
+        return one
+
+    @property
+    def placement(self) -> Placement:
+        """Where the first one stands."""
+        return self.places[0]
 
     def missing(self) -> str | None:
         """The first word that the item still needs, or None."""
@@ -223,6 +240,11 @@ def _intersection(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
     return placed(body, draft.placement)
 
 
+def _from_file(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    assert draft.mesh is not None
+    return placed(draft.mesh, draft.placement)
+
+
 def _general(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
     """A polyhedron from its lists; turned outwards where it is convex and not called general."""
     vertices = np.array(draft.vertices, dtype=np.float64).reshape(3, -1).T
@@ -284,6 +306,7 @@ _SHAPES: dict[str, Callable[[Draft, Words, Sequence[Mesh]], Mesh]] = {
     "translation": _translation,
     "vertices": _general,
     "intersection": _intersection,
+    "mesh": _from_file,
 }
 
 CAP_WORDS = {"+bottom": BOTTOM, "+top": TOP}

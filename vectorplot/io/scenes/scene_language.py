@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import islice
 from pathlib import Path
@@ -13,6 +13,9 @@ import numpy as np
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError, printable
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.solids import IDENTITY
+from vectorplot.io.meshes.mesh_file import shown
+from vectorplot.io.named_files import DEEPEST, NamedFiles
 from vectorplot.io.scenes.scene_item import Draft, finished
 from vectorplot.io.scenes.scene_reader import ItemReader
 from vectorplot.io.scenes.scene_statements import read_camera, read_label, read_light, read_page
@@ -71,12 +74,16 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     >>> [item.name for item in scene.items]
     ['DIE']
     """
-    name = printable(str(path))
-    file = Path(path)
+    name, file = printable(str(path)), Path(path)
+    return _Reader(Words(_text(file, name), name), NamedFiles.of(file)).scene()
+
+
+def _text(file: Path, name: str) -> str:
+    """The text in a file that messages call so. Errors as of read_scene."""
     try:
         if file.stat().st_size > MAX_FILE_BYTES:
             raise InputError(f"larger than {MAX_FILE_BYTES >> 20} MiB: this is no scene file", file=name)
-        text = file.read_text(encoding="utf-8-sig")
+        return file.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
         line = error.object.count(b"\n", 0, error.start) + 1
         raise InputError("not UTF-8: this is no scene file", file=name, line=line) from None
@@ -84,7 +91,6 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
         if isinstance(error, InputError):
             raise
         raise InputError(getattr(error, "strerror", None) or "cannot be read", file=name) from None
-    return parse_scene(text, name)
 
 
 def parse_scene(text: str, name: str = "<text>") -> Scene:
@@ -131,9 +137,10 @@ def parse_scene(text: str, name: str = "<text>") -> Scene:
 class _Reader(ItemReader):
     """Reads statements and items, and gathers them; parts: the places of items that an intersection is made of."""
 
-    def __init__(self, words: Words) -> None:
-        super().__init__(words)
+    def __init__(self, words: Words, files: NamedFiles | None = None) -> None:
+        super().__init__(words, files)
         self.items: list[Item] = []
+        self.depth = 1
         self.parts: set[int] = set()
         self.lights: list[Light] = []
         self.labels: list[tuple[int, Label]] = []
@@ -178,6 +185,9 @@ class _Reader(ItemReader):
 
     def statement(self, word: str) -> None:
         """camera, light, page, background, title or label, and what follows it."""
+        if word in _MANIFOLD:
+            _MANIFOLD[word](self)
+            return
         if word in self.set and word not in ("light", "label"):
             self.fail(f"a second '{word}'")
         self.set.add(word)
@@ -220,9 +230,73 @@ class _Reader(ItemReader):
         if draft.curves.lit_index:
             self.lit.append((len(self.items), draft))
         self.places[draft.name] = len(self.items)
-        self.items.append(finished(draft, self.source, parts))
-        if len(self.items) > MAX_ITEMS:
+        for number in range(len(draft.places)):
+            if number and draft.curves.lit_index:
+                self.lit.append((len(self.items), draft))
+            self.items.append(finished(draft.at(number), self.source, parts))
+            if len(self.items) > MAX_ITEMS:
+                self.source.fail(draft.index, f"{draft.owner}more than {MAX_ITEMS} items")
+
+    def include(self) -> None:
+        """The items and lights of another file, and where they stand."""
+        start = self.at
+        if self.files is None:
+            self.fail("include: a text without a file names no files")
+        path = self.files.named(self.source, self.at + 1, "include: ")
+        files = self.files.within(self.source, start + 1, path)
+        scene = _Reader(Words(_text(path, shown(path)), shown(path)), files).scene()
+        draft = Draft(path.name, start)
+        self.at += 2
+        self.modifiers(draft)
+        self.lights += scene.lights
+        self.repeated(scene.items, draft)
+
+    def assembly(self) -> None:
+        """The items up to the word end, and where they stand together."""
+        start = self.at
+        self.at += 1
+        draft = Draft("assembly", start)
+        first, lit = len(self.items), len(self.lit)
+        while (word := self.words[self.at]) != "end":
+            if not word:
+                self.source.fail(start, "assembly: expected 'end' behind its items, got the end of the file")
+            if word in SCENE_WORDS and word not in ("include", "assembly"):
+                self.fail(f"assembly: expected an item or 'end', got {self.source.shown(self.at)}")
+            if word == "assembly" and self.depth >= DEEPEST:
+                self.fail(f"assembly: more than {DEEPEST} in one another")
+            if word in _MANIFOLD:
+                self.depth += 1
+                _MANIFOLD[word](self)
+                self.depth -= 1
+            else:
+                self.item()
+        self.at += 1
+        self.modifiers(draft)
+        if len(self.lit) > lit and draft.places != [IDENTITY]:
+            self.source.fail(start, "assembly: items with 'lit_by' cannot be moved together")
+        gone = {place for place in self.parts if place >= first}
+        items = [item for place, item in enumerate(self.items) if place >= first and place not in gone]
+        if draft.places != [IDENTITY]:
+            self.parts -= gone
+            del self.items[first:]
+            for name in [name for name, place in self.places.items() if place >= first]:
+                del self.places[name]
+            self.repeated(items, draft)
+
+    def alone(self) -> None:
+        """The word end without a beginning."""
+        self.fail("'end' without 'assembly'")
+
+    def repeated(self, items: Sequence[Item], draft: Draft) -> None:
+        """Items as often and where a draft says."""
+        if len(self.items) + len(items) * len(draft.places) > MAX_ITEMS:
             self.source.fail(draft.index, f"{draft.owner}more than {MAX_ITEMS} items")
+        for number, place in enumerate(draft.places, 1):
+            for item in items:
+                named = item if number == 1 else replace(item, name=f"{item.name} {number}")
+                matrix = np.array([*place, 0.0, 0.0, 0.0, 1.0]).reshape(4, 4)
+                self.places.setdefault(named.name, len(self.items))
+                self.items.append(named if place == IDENTITY else named.transformed(matrix))
 
     def lit_item(self, item: Item, draft: Draft, numbers: Mapping[str, int]) -> Item:
         """An item with isophotes of the light that its draft names, or counts from 1; lights may come after items.
@@ -238,3 +312,11 @@ class _Reader(ItemReader):
             known = ", ".join(filter(None, islice(numbers, 10))) or f"{count} without names"
             self.source.fail(at, f"{draft.owner}there is no light {self.source.shown(at)} (lights: {known})")
         return replace(item, curves=replace(item.curves, light=index))
+
+
+_MANIFOLD: dict[str, Callable[[_Reader], None]] = {
+    "include": _Reader.include,
+    "assembly": _Reader.assembly,
+    "end": _Reader.alone,
+}
+"""Statements about several items at once."""

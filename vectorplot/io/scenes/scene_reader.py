@@ -9,6 +9,7 @@ from typing import NoReturn
 import numpy as np
 
 from vectorplot.errors import InputWarning
+from vectorplot.io.named_files import NamedFiles
 from vectorplot.io.scenes.scene_curves import (
     CurveDraft,
     read_integral_lines,
@@ -23,7 +24,7 @@ from vectorplot.io.scenes.scene_curves import (
 )
 from vectorplot.io.scenes.scene_hatching import read_hatch
 from vectorplot.io.scenes.scene_item import CAP_WORDS, Draft
-from vectorplot.io.scenes.scene_placement import Placement, moved, read_matrix, read_rotation, read_scale
+from vectorplot.io.scenes.scene_placement import Placement, moved, read_matrix, read_rotation, read_scale, turned
 from vectorplot.io.scenes.scene_words import (
     FORM_WORDS,
     INTEGRAL_WORDS,
@@ -46,14 +47,19 @@ from vectorplot.words import (
     unknown_material,
 )
 
+MOST_COPIES = 100_000
+"""So often a single item, or a group of them, may be repeated."""
+
 _HEADER = [*KIND_WORDS, *MATERIALS, *FORM_WORDS]
 
 
 class ItemReader:
-    """Reads words from left to right; at: the next one; places: where the items before this one stand, by name."""
+    """Reads words from left to right; at: the next one; places: where the items before this one stand, by name; files:
+    those that the text may name, none where it stands in no file itself."""
 
-    def __init__(self, words: Words) -> None:
+    def __init__(self, words: Words, files: NamedFiles | None = None) -> None:
         self.source = words
+        self.files = files
         self.words = words.words
         self.at = 0
         self.places: dict[str, int] = {}
@@ -230,7 +236,7 @@ class ItemReader:
             self.at += 1
             return
         (x, y, z), self.at = self.source.numbers(self.at + 1, 3, draft.owner, "translation")
-        draft.placement = moved(draft.placement, x, y, z)
+        draft.places = [moved(place, x, y, z) for place in draft.places]
 
     def _read_base(self, draft: Draft) -> None:
         self._kind(draft, "translation")
@@ -255,6 +261,58 @@ class ItemReader:
         self._kind(draft, "curve")
         self._once(draft, "curve")
         draft.curve, self.at = read_space_curve(self.source, self.at, draft.owner)
+
+    def _read_mesh(self, draft: Draft) -> None:
+        from vectorplot.io.meshes.read_mesh import MESH_SUFFIXES, whole_mesh
+
+        self._kind(draft, "mesh")
+        self._once(draft, "mesh")
+        if self.files is None:
+            self.fail("a text without a file names no files", draft)
+        path = self.files.named(self.source, self.at, draft.owner, MESH_SUFFIXES)
+        draft.mesh = whole_mesh(path)
+        self.at += 1
+
+    def _read_ring(self, draft: Draft) -> None:
+        """How many copies stand around an axis."""
+        self.at += 1
+        axis = "z"
+        if self.words[self.at] in ("x", "y", "z"):
+            axis = self.words[self.at]
+            self.at += 1
+        count = self._count(draft, "a ring")
+        draft.places = [turned(place, axis, 360.0 * k / count) for k in range(count) for place in draft.places]
+
+    def _read_grid(self, draft: Draft) -> None:
+        """How many copies stand along x, y and perhaps z, and how far apart."""
+        self.at += 1
+        counts = [self._count(draft, "a grid")]
+        while self.words[self.at] != "apart" and len(counts) < 3:
+            counts.append(self._count(draft, "a grid"))
+        if self.words[self.at] != "apart":
+            self.fail(f"grid: expected 'apart' and distances, got {self.source.shown(self.at)}", draft)
+        steps, self.at = self.source.numbers(self.at + 1, len(counts), draft.owner, "a distance of the grid")
+        for axis, (count, step) in enumerate(zip(counts, steps, strict=True)):
+            self._check_copies(draft, count)
+            ways = [[step * k if axis == one else 0.0 for one in range(3)] for k in range(count)]
+            draft.places = [moved(place, *way) for way in ways for place in draft.places]
+
+    def _count(self, draft: Draft, what: str) -> int:
+        count = self.source.whole(self.at, draft.owner, f"the copies of {what}")
+        if count < 1:
+            self.fail(f"{what} of {count} copies: expected 1 or more", draft)
+        self._check_copies(draft, count)
+        self.at += 1
+        return count
+
+    def _check_copies(self, draft: Draft, count: int) -> None:
+        if count * len(draft.places) > MOST_COPIES:
+            self.fail(f"more than {MOST_COPIES} copies", draft)
+
+    def modifiers(self, draft: Draft) -> None:
+        """Words that move what stands before them, or repeat it, one after the other."""
+        while (word := self.words[self.at]) in MODIFIERS:
+            HANDLERS[word](self, draft)
 
     def _read_vertices(self, draft: Draft) -> None:
         self._kind(draft, "vertices")
@@ -406,7 +464,8 @@ def _modifier(
     """How to read words that move an item."""
 
     def handle(reader: ItemReader, draft: Draft) -> None:
-        draft.placement, reader.at = read(reader.source, reader.at, draft.owner, draft.placement)
+        found = [read(reader.source, reader.at, draft.owner, place) for place in draft.places]
+        draft.places, reader.at = [place for place, _ in found], found[0][1]
 
     return handle
 
@@ -443,6 +502,9 @@ HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
     "matrix": _modifier(read_matrix),
     "surface": ItemReader._read_surface,
     "curve": ItemReader._read_curve,
+    "mesh": ItemReader._read_mesh,
+    "ring": ItemReader._read_ring,
+    "grid": ItemReader._read_grid,
     "parameter_lines": _curves(read_parameter_lines),
     "isophotes": _curves(read_isophotes),
     "sections": _curves(read_sections),
@@ -454,5 +516,8 @@ HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
     **dict.fromkeys(INTEGRAL_WORDS, _integral_lines),
 }
 """What reads the words of an item."""
+
+MODIFIERS = ("translation", "rotation", "scale", "matrix", "ring", "grid")
+"""The words that move and repeat."""
 
 _BEFORE_LENGTHS = frozenset([*COLOURS, *MATERIALS, *FORM_WORDS, *CAP_WORDS])

@@ -22,7 +22,7 @@ INTEGRAL_WORDS = (
 
 SOLID_WORDS = ("solid", "voll")
 FORM_WORDS = ("convex", *SOLID_WORDS, "hollow", "general", "concave")
-KIND_WORDS = ("vertices", "revolution", "translation", "box", "intersection", "surface", "curve")
+KIND_WORDS = ("vertices", "revolution", "translation", "box", "intersection", "surface", "curve", "mesh")
 ITEM_WORDS = (
     *(
         "colour",
@@ -39,9 +39,10 @@ ITEM_WORDS = (
     *("meridian", "order", "translation", "base_points", "trans_vector", "box", "intersection", "rotation", "patterns"),
     *("lines", "occludes", "group", "scale", "matrix", "surface", "curve", "parameter_lines", "isophotes", "sections"),
     *("level_lines", "slices", "surface_curve", "smooth_lines", "isophote_edges", "hatch"),
+    *("mesh", "grid", "ring"),
     *INTEGRAL_WORDS,
 )
-SCENE_WORDS = ("camera", "light", "page", "background", "title", "label")
+SCENE_WORDS = ("camera", "light", "page", "background", "title", "label", "include", "assembly", "end")
 
 # A string that is not closed is one word too, up to the end of its line. Nothing is tried twice: what these patterns
 # have taken they keep (++ and *+), so that the time grows with the text, whatever the text.
