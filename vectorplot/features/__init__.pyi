@@ -1,14 +1,13 @@
 from .implicit.implicit_curves import (
     implicit_contour,
-    implicit_contour_cusps,
     implicit_intersection,
     implicit_isophotes,
     implicit_level_lines,
     implicit_parallel_contour,
-    implicit_parallel_contour_cusps,
     implicit_plane_sections,
     implicit_point_light_isophotes,
 )
+from .implicit.implicit_cusps import implicit_contour_cusps, implicit_parallel_contour_cusps
 from .implicit.implicit_mesh import ImplicitMesh, implicit_mesh
 from .implicit.implicit_tracing import ImplicitCurves, ImplicitTracing
 from .implicit.polygonize import polygonized

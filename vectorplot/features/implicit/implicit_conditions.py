@@ -46,6 +46,13 @@ class ImplicitCentralContour:
     def __post_init__(self) -> None:
         object.__setattr__(self, "eye", vector("contour: eye", self.eye))
 
+    @property
+    def farthest(self) -> float:
+        """The largest distance of the eye from points of the box of the surface: no value is larger."""
+        low, high = np.asarray(self.surface.box, dtype=np.float64)
+        eye = np.asarray(self.eye)
+        return float(np.linalg.norm(np.maximum(np.abs(low - eye), np.abs(high - eye))))
+
     def values(self, points: Floats) -> Floats:
         """(...,) distances of the eye from the tangent planes."""
         return dot(points - np.asarray(self.eye), implicit_unit_normals(self.surface, points))

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.features.implicit.implicit_borders import implicit_borders
 from vectorplot.features.implicit.implicit_conditions import (
     ImplicitCentralContour,
     ImplicitIsophote,
@@ -17,7 +18,6 @@ from vectorplot.features.implicit.implicit_conditions import (
     SpatialCondition,
 )
 from vectorplot.features.implicit.implicit_curves import (
-    implicit_borders,
     implicit_contour,
     implicit_isophotes,
     implicit_parallel_contour,

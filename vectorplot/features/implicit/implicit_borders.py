@@ -1,0 +1,92 @@
+"""Where implicit surfaces end: on the sides of their boxes, and at the rims of their holes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.features.implicit.implicit_conditions import (
+    MeetsPlane,
+)
+from vectorplot.features.implicit.implicit_refinement import curve_in_space, refined_chords
+from vectorplot.features.implicit.implicit_tracing import (
+    ImplicitCurves,
+    ImplicitTracing,
+    all_curves,
+    box_sides,
+    curves_of_lines,
+    mesh_of,
+    no_curves,
+)
+from vectorplot.geometry.budget import unresolved
+from vectorplot.geometry.chord_refinement import Traces
+from vectorplot.geometry.outline import concat
+from vectorplot.geometry.polylines import closed_round
+from vectorplot.geometry.repair.winding import edge_uses
+from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT
+
+
+def implicit_borders(surface: ImplicitSurface, *, tracing: ImplicitTracing) -> ImplicitCurves:
+    """Where an implicit surface ends: its curves on the sides of its box, cut at the edges of the box, and the rims of
+    its holes. The surface is on the left, seen from where F > 0.
+
+    Rims of holes, where F is not finite, are known to a cell of the lattice only, and a doubt says so.
+    """
+    own, _ = mesh_of(surface, tracing)
+    mesh = own.mesh
+    if not mesh.face_count:
+        return no_curves()
+    uses = edge_uses(mesh)
+    corner = uses.corner[uses.first[uses.count == 1]]
+    a, b = mesh.corners[corner], mesh.corners[mesh.next_corner[corner]]
+    sides = box_sides(surface, mesh.vertices)
+    # On singular lines sheets go on in each other, with vertices of their own.
+    ends = ~(own.on_line[a] & own.on_line[b])
+    a, b = a[ends], b[ends]
+    common = sides[a] & sides[b]
+    families = [
+        _border(surface, mesh.vertices, a, b, axis, np.flatnonzero(common[:, axis]), tracing) for axis in range(3)
+    ]
+    rims = np.flatnonzero(~common.any(axis=1))
+    if len(rims):
+        families.append(_rims(mesh.vertices, a[rims], b[rims]))
+    return all_curves(families)
+
+
+def _border(
+    surface: ImplicitSurface, vertices: Floats, a: Ints, b: Ints, axis: int, chosen: Ints, tracing: ImplicitTracing
+) -> ImplicitCurves:
+    """The borders on the two sides of the box across an axis, from the edges a, b (e,) that are chosen."""
+    box = np.asarray(surface.box, dtype=np.float64)
+    extent = float(np.ptp(box, axis=0).max())
+    families = []
+    for side in (0, 1):
+        here = chosen[vertices[a[chosen], axis] == box[side, axis]]
+        branches = concat(np.stack([a[here], b[here]], axis=1))
+        if not len(branches):
+            continue
+        lines = Traces.of(vertices[branches.points], closed_round(branches))
+        plane = MeetsPlane(np.eye(3)[axis], float(box[side, axis]))
+        curve = curve_in_space(surface, plane, extent)
+        tolerance = CHORD_OF_EXTENT * extent if tracing.tolerance is None else tracing.tolerance
+        most = tracing.budget.points
+        finer = refined_chords(curve, lines, tolerance, tracing.picture, most)
+        points = finer.lines.points.copy()
+        points[:, axis] = box[side, axis]
+        texts = [
+            (finer.unsure.any(), f"{finer.unsure.sum()} chords of a border could not be refined"),
+            (not finer.enough.all(), unresolved("borders are off by more than the tolerance")),
+        ]
+        doubts = tuple(text for said, text in texts if said)
+        families.append(curves_of_lines(Traces(points, finer.lines.last), branches.closed, doubts=doubts))
+    return all_curves(families)
+
+
+def _rims(vertices: Floats, a: Ints, b: Ints) -> ImplicitCurves:
+    """The rims of holes, as they are in the mesh."""
+    branches = concat(np.stack([a, b], axis=1))
+    none, doubt = np.zeros((0, 3)), "the rim of a hole of an implicit surface is known to a cell only"
+    return ImplicitCurves(
+        vertices[branches.points], branches.offsets, branches.closed, np.zeros(len(branches)), none, none, (doubt,)
+    )
