@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from vectorplot.arrays import Bools
-from vectorplot.drawing.drawing import Drawing, Layer, Paths
+from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.drawn_lines import fitted_lines, strokes_on_page
 from vectorplot.drawing.hatching.hatch_layers import hatch_layers
+from vectorplot.drawing.layers import PENS, letter_pen
 from vectorplot.drawing.pens.paper import pen_scale, sheet_layer
-from vectorplot.drawing.pens.pen_rules import PenRule, Pens, pen_rules, scaled_pen
+from vectorplot.drawing.pens.pen_rules import PenRule, Pens, pen_of, pen_rules, scaled_pen
 from vectorplot.drawing.pens.sorted_layers import layer_words, line_list, sorted_layers
 from vectorplot.drawing.pens.style_file import style_of
 from vectorplot.drawing.pens.styles import Style
@@ -86,6 +87,8 @@ def draw(
     unplotted: str | Iterable[str] = "",
     curves: Literal["bezier", "polyline"] = "bezier",
     tolerance_mm: float = 0.02,
+    title: str = "",
+    frame: bool = False,
     longest_mm: float | None = None,
     budget: float = 1.0,
     jobs: int | None = None,
@@ -141,6 +144,10 @@ def draw(
     tolerance_mm : float
         How many mm strokes of smooth curves may be off the true curves; their points are exact but for the ends of
         dashes, straight lines are so whatever it is.
+    title : str
+        Letters in the middle of the lower margin.
+    frame : bool
+        A rectangle in the middle of the margin, which ends before the title.
     longest_mm : float, optional
         Longer strokes leave in equal parts that are no longer, for plotters that stutter on them; 1 mm or more.
     budget : float
@@ -228,10 +235,10 @@ def draw(
         # Chords take one half of the tolerance, Béziers through their ends the other.
         tolerance = 0.5 * tolerance_mm / scale
         every = _lines_and_chords(walk, scene, view, sheets, forms, kinds, straight, tolerance, allowed)
-        frame = frame_of(view, every, page, fit)
-        framed = _behind_balls(walk, view, forms, walk.run("frame", in_frame, view, every, frame))
+        bounded = frame_of(view, every, page, fit)
+        framed = _behind_balls(walk, view, forms, walk.run("frame", in_frame, view, every, bounded))
         seen = _visibility(walk, view, faces, solid, framed)
-        placement = frame or fitted_lines(view, framed, seen, page)
+        placement = bounded or fitted_lines(view, framed, seen, page)
         if (
             every is straight
             or not len(seen)
@@ -285,8 +292,11 @@ def draw(
         found = tuple(replace(layer, pen=scaled_pen(layer.pen, pen_scale(page))) for layer in found)
     curved = tolerance_mm if curves == "bezier" else None
     inks = walk.run("pen", inked, found, hidden, world, curved, longest_mm, thin_ends)
+    drawn_by = (*chosen.rules, *rules) if shown == "plain" else ()
+    letters = pen_of(drawn_by, letter_pen(found), int(LineKind.LABEL), False, "")
     if labels is not None:
-        inks = labels.on_top(inks, layers == "kind" and shown == "plain", longest_mm, world)
+        inks = labels.on_top(inks, layers == "kind" and shown == "plain", longest_mm, world, letters)
+    inks = titled(inks, placement, title, frame, letters, longest_mm)
     if paper is not None and shown == "plain":
         inks = (sheet_layer(paper, page), *inks)
     return Drawing(page.width_mm, page.height_mm, inks, names, scene.title, world)
@@ -364,6 +374,22 @@ def _straight_lines(
     if walk.calls_for("lines on meshes"):
         found.append(walk.run("lines on meshes", mesh_curve_lines, scene, view, kinds))
     return with_shared_kinds(view, joined_lines(found))
+
+
+def titled(
+    layers: tuple[Layer, ...],
+    placement: Placement,
+    title: str,
+    frame: bool,
+    pen: Pen = PENS["label"],
+    longest_mm: float | None = None,
+) -> tuple[Layer, ...]:
+    """The layers of a drawing, and one with a title and a frame where these are wanted; pen: of its letters."""
+    if not title and not frame:
+        return layers
+    from vectorplot.drawing.lettering.titles import with_title
+
+    return with_title(layers, placement, title, frame, pen.colour, longest_mm)
 
 
 def labels_in_place(

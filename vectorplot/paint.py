@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from vectorplot.draw import seen_part
+from vectorplot.draw import seen_part, titled
 from vectorplot.drawing.drawing import Drawing, Layer
 from vectorplot.drawing.painted_fills import placement_of_faces
 from vectorplot.errors import InputError
@@ -55,6 +55,8 @@ def paint(
     crease_angle_deg: float = 25.0,
     background: str | None = None,
     tolerance_mm: float = 0.02,
+    title: str = "",
+    frame: bool = False,
     budget: float = 1.0,
     jobs: int | None = None,
     progress: Callable[[str, float], None] | None = None,
@@ -97,6 +99,10 @@ def paint(
     tolerance_mm : float
         How many mm the sides of polygons may be off smooth surfaces and refracted lines; shades may be off by two steps
         of 255 at 0.02 mm, and in proportion by one to eight.
+    title : str
+        Letters in the middle of the lower margin.
+    frame : bool
+        A rectangle in the middle of the margin, which ends before the title.
     budget : float
         As of draw, for lines and triangles.
     jobs : int, optional
@@ -200,6 +206,7 @@ def paint(
         layers += ruler.layers(found)
     if labels is not None:
         layers = labels.on_top(layers, False, None, world)
+    layers = titled(layers, placement, title, frame)
     return Drawing(page.width_mm, page.height_mm, layers, tuple(i.name for i in scene.items), scene.title, world)
 
 

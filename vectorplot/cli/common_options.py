@@ -49,6 +49,10 @@ TOLERANCE = click.option(
     "--tolerance", "tolerance_mm", type=POSITIVE, default=0.02, metavar="MM", help="For approximations."
 )
 
+TITLE = click.option("--title", default="", metavar="TEXT", show_default=False, help="Letters in the lower margin.")
+
+FRAME = click.option("--frame", is_flag=True, help="A rectangle in the margin.")
+
 BUDGET = click.option(
     "--budget", type=POSITIVE, default=1.0, metavar="FACTOR", help="Times the usual work on a surface."
 )

@@ -9,6 +9,8 @@ import click
 from vectorplot.cli.common_options import (
     BACKGROUND,
     DRAWING_FORMATS,
+    FRAME,
+    TITLE,
     TOLERANCE,
     crease_angle_option,
     lines_option,
@@ -87,6 +89,8 @@ if TYPE_CHECKING:
         "--curves", type=click.Choice(["bezier", "polyline"]), default="bezier", help="How smooth curves leave."
     ),
     TOLERANCE,
+    TITLE,
+    FRAME,
     click.option(
         "--longest",
         "longest_mm",

@@ -9,7 +9,9 @@ import click
 from vectorplot.cli.common_options import (
     BACKGROUND,
     DRAWING_FORMATS,
+    FRAME,
     LIGHTS,
+    TITLE,
     TOLERANCE,
     crease_angle_option,
     lines_option,
@@ -50,6 +52,8 @@ if TYPE_CHECKING:
     crease_angle_option("Sharper edges are creases; meshes look round where faces meet at less."),
     BACKGROUND,
     TOLERANCE,
+    TITLE,
+    FRAME,
 )
 def paint(scene: Scene, *, flat: bool, **told: Any) -> Drawing:
     """Paint INPUT, a scene file, mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain (asc, xyz), and

@@ -63,6 +63,17 @@ COLOURS = {
 """Inks for the palettes' names: dark enough for a line on white paper."""
 
 
+MIDDLE_TONE = 128.0
+"""Darker sheets have white letters."""
+
+
+def letter_pen(layers: Sequence[Layer]) -> Pen:
+    """The pen of letters on some layers: black, or white on a sheet that is dark, as behind wireframes."""
+    sheet = layers[0].fills if layers and layers[0].name == "background" else ()
+    dark = any(len(fills) and fills.colours[0].mean() < MIDDLE_TONE for fills in sheet)
+    return Pen(PENS["label"].width_mm, "#ffffff") if dark else PENS["label"]
+
+
 def layers_by_kind(paths: Paths) -> tuple[Layer, ...]:
     """Layers visible, contour, intersection, hidden, pattern, isophote, section and curve, without the
     empty ones at the end: so each kind keeps its number from drawing to drawing."""

@@ -21,7 +21,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.mesh_repair import mended
 from vectorplot.io.meshes.cells import faces_of_cells
 from vectorplot.io.read_file import read
-from vectorplot.scene.naming.labels import Label
+from vectorplot.scene.naming.labels import Label, renamed
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.terrains import terrain_scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
@@ -173,7 +173,7 @@ def _named(name: str, scene: Scene) -> Scene:
 def _labels(scene: Scene, items: Sequence[Item]) -> tuple[Label, ...]:
     """The labels of a scene whose items have other names now."""
     names = {old.name: new.name for old, new in zip(reversed(scene.items), reversed(items), strict=True)}
-    return tuple(label.renamed(names) for label in scene.labels)
+    return tuple(renamed(label, names) for label in scene.labels)
 
 
 def _together(scenes: Sequence[Scene]) -> Scene:

@@ -43,6 +43,7 @@ def points_hidden_by(scene: Scene, view: View, faces: ProjectedFaces, points: Fl
 
     Examples
     --------
+    >>> import numpy as np
     >>> import vectorplot as vp
     >>> from vectorplot import geometry, scene, visibility
     >>> cube = vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),))

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.drawing.drawing import Layer, Paths
+from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.layers import PENS
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
 from vectorplot.drawing.lettering.placing import places
@@ -40,9 +40,6 @@ DASH = (0.25, 0.15)
 MARK_MM = 0.6
 """Half of the size of marks at points."""
 
-MIDDLE_TONE = 128.0
-"""Darker sheets have white letters."""
-
 ARROW_MM, ARROW_SLOPE = 2.8, 0.18
 """The length of arrowheads, and half of their width as a part of it (ISO 129: between 15 and 30 degrees)."""
 
@@ -69,18 +66,23 @@ class SceneLabels:
         return outside_boxes(strokes, self.boxes, page_from_world)
 
     def on_top(
-        self, layers: tuple[Layer, ...], by_kind: bool, longest_mm: float | None, page_from_world: Floats
+        self,
+        layers: tuple[Layer, ...],
+        by_kind: bool,
+        longest_mm: float | None,
+        page_from_world: Floats,
+        pen: Pen = PENS["label"],
     ) -> tuple[Layer, ...]:
         """The layers of a drawing, and one of the labels; by_kind: it has its number among the layers by kind.
 
-        longest_mm: longer strokes leave in parts.
+        longest_mm: longer strokes leave in parts; pen: of the letters.
         """
         missing = (*PENS,)[len(layers) : -1] if by_kind else ()
         empty = (Layer(name, PENS[name], (Paths.empty(),)) for name in missing)
         strokes = self.strokes if longest_mm is None else split_long(self.strokes, longest_mm, page_from_world)
         if layers and layers[-1].name == "label":
             return (*layers[:-1], replace(layers[-1], marks=(*layers[-1].marks, strokes)))
-        return (*layers, *empty, Layer("label", replace(PENS["label"], colour=_ink(layers)), (strokes,)))
+        return (*layers, *empty, Layer("label", pen, (strokes,)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,19 +156,12 @@ def labels_on_page(seen: SeenLabels, placement: Placement, strokes: Paths, hidde
     for k, label in zip(some, labels, strict=True):
         way = _direction(seen, k, placement) if label.mark in ("arrow", "tick") else np.zeros(2)
         lines = [*_lines(set_[k]), *_marked(label, seen.points[k], way, mm), *([leaders[k]] if k in leaders else [])]
-        made = _paths(lines, int(seen.hidden_by[k]), placement)
+        made = label_paths(lines, int(seen.hidden_by[k]), placement)
         if seen.hidden_by[k] and ways[k] == "dashed":
             made = dashed(made, DASH[0] * label.size_mm * mm, DASH[1] * label.size_mm * mm)
         parts.append(made)
     boxes = np.concatenate([np.zeros((0, 4, 2)), *(set_[k].boxes for k in some)])
     return SceneLabels(concatenated(tuple(parts)), grown(boxes, HALO_MM * mm))
-
-
-def _ink(layers: tuple[Layer, ...]) -> str:
-    """The colour of letters: black, or white on a sheet that is dark, as behind wireframes."""
-    sheet = layers[0].fills if layers and layers[0].name == "background" else ()
-    dark = any(len(fills) and fills.colours[0].mean() < MIDDLE_TONE for fills in sheet)
-    return "#ffffff" if dark else PENS["label"].colour
 
 
 def _asked(label: Label) -> str:
@@ -248,7 +243,7 @@ def _marked(label: Label, point: Floats, way: Floats, mm: float) -> list[Floats]
     return []
 
 
-def _paths(lines: Sequence[Floats], hidden_by: int, placement: Placement) -> Paths:
+def label_paths(lines: Sequence[Floats], hidden_by: int, placement: Placement) -> Paths:
     """Polylines on the page as strokes of labels."""
     points = np.concatenate([np.zeros((0, 2)), *lines])
     count = len(lines)

@@ -66,6 +66,11 @@ class Along:
     part : float
         At what part of its length in space the label is, 0 to 1.
 
+    Raises
+    ------
+    InputError
+        For other parts.
+
     Examples
     --------
     >>> import vectorplot as vp
@@ -91,6 +96,11 @@ class OnCurve:
         The name of the item that is the curve.
     part : float
         At what part of its length in space the point is, 0 to 1: its end where nothing is said.
+
+    Raises
+    ------
+    InputError
+        For other parts.
 
     Examples
     --------
@@ -199,18 +209,40 @@ class Label:
             raise InputError(f"{owner}expected finite coordinates of a point, got {point}")
 
     def transformed(self, matrix: ArrayLike) -> Label:
-        """The label where a matrix (4,4) takes what it names: what names a vertex, a curve or a place of the page stays
-        as it is."""
+        """The label where a matrix takes the point that it names.
+
+        Parameters
+        ----------
+        matrix : (4, 4) array_like of float
+            Acts on columns (x, y, z, 1).
+
+        Returns
+        -------
+        Label
+            What names a vertex, a curve or a place of the page stays as it is.
+
+        Raises
+        ------
+        InputError
+            Where the point is finite no more.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> vp.Label("P", (1, 0, 0)).transformed([(2, 0, 0, 0), (0, 2, 0, 0), (0, 0, 2, 5), (0, 0, 0, 1)]).at
+        (2.0, 0.0, 5.0)
+        """
         if not isinstance(self.at, tuple):
             return self
         x, y, z = (np.asarray(matrix, dtype=np.float64)[:3] @ (*self.at, 1.0)).tolist()
         return replace(self, at=(x, y, z))
 
-    def renamed(self, names: Mapping[str, str]) -> Label:
-        """The label where items have other names."""
-        if isinstance(self.at, (AtVertex, OnCurve, Along)) and self.at.item in names:
-            return replace(self, at=replace(self.at, item=names[self.at.item]))
-        return self
+
+def renamed(label: Label, names: Mapping[str, str]) -> Label:
+    """The label where items have other names."""
+    if isinstance(label.at, (AtVertex, OnCurve, Along)) and label.at.item in names:
+        return replace(label, at=replace(label.at, item=names[label.at.item]))
+    return label
 
 
 def capital_height(size: str) -> float:

@@ -1,0 +1,66 @@
+"""The title of a page, and the frame around it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.drawing.drawing import Layer, Pen
+from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
+from vectorplot.drawing.lettering.scene_labels import label_paths
+from vectorplot.drawing.lettering.text import Lettering, lettered
+from vectorplot.drawing.strokes.long_strokes import split_long
+from vectorplot.drawing.strokes.stroke_paths import concatenated
+from vectorplot.errors import InputError
+from vectorplot.scene.placement import Placement
+
+FRAME = Pen(0.5)
+"""What draws frame and title."""
+
+SIZES_MM = (5.0, 2.5)
+"""The height of the capitals of titles: as large as fits the margin of the page, between these."""
+
+BESIDE = 1.5
+"""From the letters of a title to the frame beside them, in heights of capitals."""
+
+
+def with_title(
+    layers: tuple[Layer, ...], placement: Placement, title: str, frame: bool, colour: str, longest_mm: float | None
+) -> tuple[Layer, ...]:
+    """The layers of a drawing, and one with its title and a frame, if these are wanted.
+
+    The frame runs in the middle of the margin; the title stands in the middle of the lower margin, and the frame ends
+    before it. longest_mm: longer strokes leave in parts.
+    Errors: InputError for a character without strokes, a title wider than the page, and a frame on a page without a
+    margin.
+    """
+    page = placement.page
+    if frame and not page.margin_mm > 0.0:
+        raise InputError("a frame needs a margin to run in")
+    text = _title(title, page.width_mm, page.margin_mm)
+    world = placement.page_from_world
+    border = label_paths([_ring(page.width_mm, page.height_mm, 0.5 * page.margin_mm)] if frame else [], 0, placement)
+    letters = label_paths([text.strokes[k] for k in range(len(text.strokes))], 0, placement)
+    if len(text.boxes):
+        border = outside_boxes(border, grown(text.boxes, BESIDE * float(np.ptp(text.bounds, axis=0)[1])), world)
+    border = border if longest_mm is None else split_long(border, longest_mm, world)
+    return (*layers, Layer("frame", replace(FRAME, colour=colour), (concatenated((border, letters)),)))
+
+
+def _title(title: str, width: float, margin: float) -> Lettering:
+    size = float(np.clip(0.6 * margin, SIZES_MM[1], SIZES_MM[0]))
+    try:
+        text = lettered(title, (0.5 * width, 0.5 * margin), size_mm=size, align="centre", level="middle")
+    except InputError as error:
+        raise InputError(f"title: {error.cause}") from None
+    if float(np.ptp(text.bounds, axis=0)[0]) > width:
+        raise InputError("the title is wider than the page")
+    return text
+
+
+def _ring(width: float, height: float, inset: float) -> Floats:
+    """(6,2) the corners of the page, drawn in, between the middle of the lower side twice: where a title cuts it."""
+    right, top, middle = width - inset, height - inset, 0.5 * width
+    return np.array([(middle, inset), (right, inset), (right, top), (inset, top), (inset, inset), (middle, inset)])
