@@ -28,7 +28,11 @@ VERBS = {"draw", "paint", "painting", "read", "render", "save", "plan"}
 # Pictures show themselves in a notebook and save themselves; the import happens when they are asked to.
 ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "verbs"), ("shading/raster/image.py", "verbs")}
 
-FOR_PROGRAMS = {"features/implicit/implicit_cusps.py", "surfaces/curvature.py"}
+FOR_PROGRAMS = {
+    "features/implicit/implicit_cusps.py",
+    "features/terrains/label_places.py",
+    "surfaces/curvature.py",
+}
 """Files that programs of one's own call for, and no verb."""
 
 MOST_FILES = 18

@@ -119,7 +119,9 @@ def plan_draw(
         stages.append(Stage("patterns", "faces carry patterns"))
     drawn_on_meshes = {LineKind.ISOPHOTE, LineKind.SECTION, LineKind.INDEX, LineKind.INTEGRAL}
     if wanted & drawn_on_meshes and any(map(_has_mesh_lines, scene.items)):
-        stages.append(Stage("lines on meshes", "polyhedra carry isophotes, sections or integral curves"))
+        stages.append(
+            Stage("lines on meshes", "polyhedra carry isophotes, sections, integral curves or lines of terrains")
+        )
     smooth = [item.shape for item in scene.items if not isinstance(item.shape, Mesh)]
     balls = any(ball_of(shape) or capped_quadric_of(shape) for shape in smooth)
     if balls:
@@ -229,7 +231,9 @@ def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple
 def _has_mesh_lines(item: Item) -> bool:
     """Whether an item is a polyhedron with lines of a smooth one."""
     curves = item.curves
-    return isinstance(item.shape, Mesh) and bool(curves.isophotes or curves.sections or curves.integral)
+    return isinstance(item.shape, Mesh) and bool(
+        curves.isophotes or curves.sections or curves.integral or curves.terrain
+    )
 
 
 class Walk:

@@ -57,6 +57,10 @@ from .parametric.isophotes import isophotes, point_light_isophotes
 from .parametric.parameter_lines import borders, parameter_lines, u_lines, v_lines
 from .parametric.sections import level_lines, plane_sections, section_by_implicit
 from .parametric.surface_curves import SurfaceCurves
+from .terrains.label_places import LabelPlaces, label_places
+from .terrains.places import places_on_terrain
+from .terrains.roads import roads
+from .terrains.water import basins, valley_lines, water_courses, watersheds
 from .tessellation import Tessellation, surface_tessellation
 from .zeros.grid_triangulation import average_normals, mesh_of_grid, triangulate_surface
 from .zeros.zero_manifold import ZeroManifold, zero_manifold_of_f_uv
@@ -76,6 +80,7 @@ __all__ = [
     "ImplicitMeshSection",
     "ImplicitTracing",
     "Intersections",
+    "LabelPlaces",
     "MeshCurves",
     "MeshPlaces",
     "MeshSection",
@@ -94,6 +99,7 @@ __all__ = [
     "VectorField",
     "ZeroManifold",
     "average_normals",
+    "basins",
     "borders",
     "contour",
     "contour_cusps",
@@ -116,6 +122,7 @@ __all__ = [
     "implicit_point_light_isophotes",
     "integral_curves",
     "isophotes",
+    "label_places",
     "level_lines",
     "loxodromes",
     "mesh_contour_across_faces",
@@ -134,9 +141,11 @@ __all__ = [
     "nearest_on_mesh",
     "parallel_contour",
     "parameter_lines",
+    "places_on_terrain",
     "plane_sections",
     "point_light_isophotes",
     "polygonized",
+    "roads",
     "section_by_implicit",
     "self_intersections",
     "singular_lines",
@@ -145,5 +154,8 @@ __all__ = [
     "triangulate_surface",
     "u_lines",
     "v_lines",
+    "valley_lines",
+    "water_courses",
+    "watersheds",
     "zero_manifold_of_f_uv",
 ]

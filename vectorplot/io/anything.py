@@ -23,7 +23,7 @@ from vectorplot.io.meshes.cells import faces_of_cells
 from vectorplot.io.read_file import read
 from vectorplot.scene.naming.labels import Label, renamed
 from vectorplot.scene.scene import Item, Scene
-from vectorplot.scene.terrains import terrain_scene
+from vectorplot.scene.terrains.terrain import terrain_scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.surfaces.terrains.terrain import Terrain
 from vectorplot.tolerances.of_numbers import SINGLE_ULP, ULP

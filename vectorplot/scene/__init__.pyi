@@ -1,12 +1,13 @@
 from .hatching import Hatching
 from .integral_lines import FieldLines, GeodesicLines
-from .level_lines import level_sections, round_heights
 from .naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from .paper import sheet_size
 from .placement import Placement, field_of_vision, fitted_picture
 from .scene import Item, Light, Material, Page, Pattern, Scene
 from .surface_lines import Section, SurfaceLines, SurfacePath, even_cosines, path_on_surface
-from .terrains import terrain_mesh, terrain_scene
+from .terrains.level_lines import level_sections, round_heights
+from .terrains.terrain import terrain_mesh, terrain_scene
+from .terrains.terrain_lines import Roads, WaterCourses, Watersheds
 from .view import View, look
 
 __all__ = [
@@ -24,11 +25,14 @@ __all__ = [
     "Page",
     "Pattern",
     "Placement",
+    "Roads",
     "Scene",
     "Section",
     "SurfaceLines",
     "SurfacePath",
     "View",
+    "WaterCourses",
+    "Watersheds",
     "even_cosines",
     "field_of_vision",
     "fitted_picture",

@@ -13,6 +13,7 @@ from vectorplot.curves.derivatives import NumericFunction, Range, numeric_functi
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.errors import InputError
 from vectorplot.scene.integral_lines import IntegralLines
+from vectorplot.scene.terrains.terrain_lines import TerrainLines
 from vectorplot.tolerances.of_numbers import ROUNDING
 from vectorplot.words import LineKind
 
@@ -232,6 +233,8 @@ class SurfaceLines:
         Curves u(t), v(t) on a parametrised surface.
     integral : tuple of FieldLines and GeodesicLines
         Integral curves of a parametrised surface, or a polyhedron.
+    terrain : tuple of WaterCourses, Watersheds and Roads
+        Lines of a terrain, a mesh of triangles of which none is above another.
 
     Raises
     ------
@@ -262,6 +265,7 @@ class SurfaceLines:
     along_edges: bool = False
     paths: tuple[SurfacePath, ...] = ()
     integral: tuple[IntegralLines, ...] = ()
+    terrain: tuple[TerrainLines, ...] = ()
 
     def __post_init__(self) -> None:
         for word, count in (("columns", self.columns), ("rows", self.rows)):
@@ -307,7 +311,9 @@ class SurfaceLines:
         """
         larger = linear_growth(matrix)
         integral = tuple(one.transformed(matrix, larger) for one in self.integral)
-        return replace(self, sections=tuple(one.transformed(matrix) for one in self.sections), integral=integral)
+        terrain = tuple(one.transformed(matrix) for one in self.terrain)
+        sections = tuple(one.transformed(matrix) for one in self.sections)
+        return replace(self, sections=sections, integral=integral, terrain=terrain)
 
     @property
     def slices(self) -> Section | None:
@@ -315,7 +321,8 @@ class SurfaceLines:
         return next((section for section in self.sections if section.slices and section.offsets), None)
 
     def __bool__(self) -> bool:
-        return bool(self.columns or self.rows or self.isophotes or self.sections or self.paths or self.integral)
+        asked = (self.columns, self.rows, self.isophotes, self.sections, self.paths, self.integral, self.terrain)
+        return any(map(bool, asked))
 
 
 def linear_growth(matrix: Floats) -> float:

@@ -222,3 +222,7 @@ jumps or is no longer real."""
 CLOSED_OF_EXTENT = 1e-7
 """A curve that comes back to its start, nearer than this, is closed: a hundred times the error it is integrated with,
 and nothing that a drawing can show."""
+
+ROAD_ARRIVES = 1e-8
+"""A road of constant slope that comes so near to its end, as a part of the terrain, arrives there: errors of thousands
+of edges add up."""

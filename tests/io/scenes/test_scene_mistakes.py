@@ -28,7 +28,7 @@ CONE = "CONE green revolution solid meridian 4 0 0 , 0 0 7 order 30"
         ("CONE revolution meridian 4 0 0, 0 0 7 order 1000000000", "CONE: order 1000000000: expected"),
         (
             "CONE",
-            "CONE: expected one of vertices, revolution, translation, box, intersection, surface, curve, mesh, got",
+            "CONE: expected one of vertices, revolution, translation, box, intersection, surface, curve, mesh, terrain",
         ),
         ("CONE 3 4", "CONE: expected one of .*, got '3'"),
         ("CONE green yellow box 1 1 1", "CONE: a second colour, 'yellow'"),

@@ -16,6 +16,7 @@ from vectorplot.scene.surface_lines import (
     even_cosines,
     path_on_surface,
 )
+from vectorplot.scene.terrains.terrain_lines import Roads, TerrainLines, WaterCourses, Watersheds
 
 AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
@@ -133,6 +134,29 @@ def _kind_ahead(words: Words, at: int) -> str:
     """The first word behind a place that says what kind of item this is, "" where there is none."""
     telling = {"surface", "curve", *POLYHEDRON_WORDS}
     return next((word for word in words.words[at:] if word in telling), "")
+
+
+def read_terrain_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
+    """Lines of a terrain: water from places, watersheds, valley lines, roads between two places."""
+    start, word = at, words.words[at]
+    at += 1
+    if word not in ("water", "road"):
+        return _with_terrain(draft, start, Watersheds(valleys=word == "valley_lines")), at
+    places: list[tuple[float, float]] = []
+    while not places or words.words[at] == "," or (word == "road" and len(places) == 1):
+        at += words.words[at] == ","
+        (x, y), at = words.numbers(at, 2, owner, f"a place of {word}")
+        places.append((x, y))
+    if word == "road" and len(places) != 2:
+        words.fail(start, f"{owner}road: {len(places)} places, expected 2")
+    try:
+        return _with_terrain(draft, start, Roads(*places) if word == "road" else WaterCourses(tuple(places))), at
+    except InputError as error:
+        words.fail(start, owner + error.cause)
+
+
+def _with_terrain(draft: CurveDraft, at: int, lines: TerrainLines) -> CurveDraft:
+    return _with_lines(draft, at, replace(draft.lines, terrain=(*draft.lines.terrain, lines)))
 
 
 def read_smooth_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:

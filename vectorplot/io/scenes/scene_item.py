@@ -46,6 +46,7 @@ NEEDED = {
     "surface": ("surface",),
     "curve": ("curve",),
     "mesh": ("mesh",),
+    "terrain": ("terrain",),
 }
 """What every kind of item cannot be without."""
 
@@ -83,6 +84,7 @@ class Draft:
     mesh: Mesh | None = None
     surface: Surface | ImplicitSurface | None = None
     curve: Curve | None = None
+    terrain: Mesh | None = None
     curves = CurveDraft()
 
     def __init__(self, name: str, index: int) -> None:
@@ -167,6 +169,8 @@ def _surface(draft: Draft, surface: Surface | ImplicitSurface) -> tuple[Surface 
     shape = placed_surface(surface, draft.placement)
     if draft.curves.lines.paths and not is_parametrised(shape):
         raise InputError("'surface_curve' is for surfaces with parameters u and v only")
+    if draft.curves.lines.terrain:
+        raise InputError("'water', 'watersheds', 'valley_lines' and 'road' are for terrains only")
     if draft.curves.lines.integral and not is_parametrised(shape):
         raise InputError("integral curves are for polyhedra and surfaces with parameters u and v only")
     return shape, curves_of(draft.curves, shape, checked_bounds(shape))
@@ -300,6 +304,11 @@ def _check_patterns(patterns: Sequence[Pattern], mesh: Mesh) -> None:
             raise InputError(f"patterns, polygon {pattern.name}: {cause}")
 
 
+def _terrain(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    assert draft.terrain is not None
+    return placed(draft.terrain, draft.placement)
+
+
 _SHAPES: dict[str, Callable[[Draft, Words, Sequence[Mesh]], Mesh]] = {
     "box": _box,
     "revolution": _revolution,
@@ -307,6 +316,7 @@ _SHAPES: dict[str, Callable[[Draft, Words, Sequence[Mesh]], Mesh]] = {
     "vertices": _general,
     "intersection": _intersection,
     "mesh": _from_file,
+    "terrain": _terrain,
 }
 
 CAP_WORDS = {"+bottom": BOTTOM, "+top": TOP}

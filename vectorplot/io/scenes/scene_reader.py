@@ -21,6 +21,7 @@ from vectorplot.io.scenes.scene_curves import (
     read_slices,
     read_smooth_lines,
     read_surface_curve,
+    read_terrain_lines,
 )
 from vectorplot.io.scenes.scene_hatching import read_hatch
 from vectorplot.io.scenes.scene_item import CAP_WORDS, Draft
@@ -31,6 +32,7 @@ from vectorplot.io.scenes.scene_words import (
     KIND_WORDS,
     SCENE_WORDS,
     SOLID_WORDS,
+    TERRAIN_WORDS,
     Words,
 )
 from vectorplot.scene.scene import Pattern
@@ -254,6 +256,13 @@ class ItemReader:
         self._kind(draft, "surface")
         self._once(draft, "surface")
         draft.surface, self.at = read_surface(self.source, self.at, draft.owner)
+
+    def _read_terrain(self, draft: Draft) -> None:
+        from vectorplot.io.terrains.terrain_words import read_terrain_mesh
+
+        self._kind(draft, "terrain")
+        self._once(draft, "terrain")
+        draft.terrain, self.at = read_terrain_mesh(self.source, self.at, draft.owner)
 
     def _read_curve(self, draft: Draft) -> None:
         from vectorplot.io.scenes.scene_space_curve import read_space_curve
@@ -511,6 +520,8 @@ HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
     "level_lines": _curves(read_level_lines),
     "slices": _curves(read_slices),
     "surface_curve": _curves(read_surface_curve),
+    "terrain": ItemReader._read_terrain,
+    **dict.fromkeys(TERRAIN_WORDS, _curves(read_terrain_lines)),
     "smooth_lines": _curves(read_smooth_lines),
     "isophote_edges": _curves(read_isophote_edges),
     **dict.fromkeys(INTEGRAL_WORDS, _integral_lines),

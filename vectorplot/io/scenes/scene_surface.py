@@ -17,8 +17,8 @@ from vectorplot.io.scenes.scene_families import SURFACES
 from vectorplot.io.scenes.scene_slots import read_family
 from vectorplot.io.scenes.scene_words import Words
 from vectorplot.scene.extent import smooth_bounds
-from vectorplot.scene.level_lines import with_index_lines
 from vectorplot.scene.surface_lines import Section, SurfaceLines, Vector
+from vectorplot.scene.terrains.level_lines import with_index_lines
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT

@@ -24,6 +24,7 @@ from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_formulas import Formulas
 from vectorplot.scene.scene import Light
 from vectorplot.scene.surface_lines import SurfaceLines
+from vectorplot.scene.terrains.terrain_lines import Roads, TerrainLines, WaterCourses
 from vectorplot.surfaces.families.capped import Capped, Frustum
 from vectorplot.surfaces.families.cyclide import ImplicitCyclide
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
@@ -86,8 +87,17 @@ def lines_text(curves: SurfaceLines, lights: Sequence[Light]) -> str:
         from vectorplot.io.scenes.scene_integral import integral_text
 
         words += [integral_text(lines) for lines in curves.integral]
+    words += [_terrain_text(asked) for asked in curves.terrain]
     words += ["smooth_lines"] * curves.smooth + ["isophote_edges"] * curves.along_edges
     return "".join(f"\n  {word}" for word in words)
+
+
+def _terrain_text(asked: TerrainLines) -> str:
+    if isinstance(asked, WaterCourses):
+        return "water " + " , ".join(_numbers(place) for place in asked.places)
+    if isinstance(asked, Roads):
+        return f"road {_numbers(asked.start)} , {_numbers(asked.end)}"
+    return "valley_lines" if asked.valleys else "watersheds"
 
 
 def _numbers(values: Iterable[float]) -> str:

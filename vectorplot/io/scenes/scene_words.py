@@ -14,6 +14,9 @@ from vectorplot.errors import InputError
 from vectorplot.tolerances.of_numbers import LARGEST
 from vectorplot.words import is_alike, nearest
 
+TERRAIN_WORDS = ("water", "watersheds", "valley_lines", "road")
+"""The words for lines of a terrain."""
+
 INTEGRAL_WORDS = (
     *("loxodromes", "slope_lines", "helices", "curvature_lines", "asymptotic_lines", "field_lines"),
     "geodesics",
@@ -22,7 +25,7 @@ INTEGRAL_WORDS = (
 
 SOLID_WORDS = ("solid", "voll")
 FORM_WORDS = ("convex", *SOLID_WORDS, "hollow", "general", "concave")
-KIND_WORDS = ("vertices", "revolution", "translation", "box", "intersection", "surface", "curve", "mesh")
+KIND_WORDS = ("vertices", "revolution", "translation", "box", "intersection", "surface", "curve", "mesh", "terrain")
 ITEM_WORDS = (
     *(
         "colour",
@@ -41,6 +44,8 @@ ITEM_WORDS = (
     *("level_lines", "slices", "surface_curve", "smooth_lines", "isophote_edges", "hatch"),
     *("mesh", "grid", "ring"),
     *INTEGRAL_WORDS,
+    "terrain",
+    *TERRAIN_WORDS,
 )
 SCENE_WORDS = ("camera", "light", "page", "background", "title", "label", "include", "assembly", "end")
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.errors import InputError
 from vectorplot.features.meshes.edges import Faces, mesh_edges
 from vectorplot.features.meshes.mesh_curves import MeshCurves
 from vectorplot.features.meshes.mesh_intersections import face_intersections
@@ -28,6 +29,7 @@ from vectorplot.geometry.repair.pieces import pieces_of_faces
 from vectorplot.geometry.repair.seams import MANY_FACES
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.terrains.terrain_lines import Roads, TerrainLines, WaterCourses
 from vectorplot.scene.twins import first_twins
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import ProjectedFaces
@@ -327,7 +329,7 @@ def pattern_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines
 
 
 def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines:
-    """The isophotes, plane sections and integral curves that polyhedra ask for: they lie in the faces.
+    """The isophotes, sections, integral curves and lines of terrains that polyhedra ask for: they lie in the faces.
 
     Errors: InputError, with the item's name, for a light that the scene does not have, and as of item_integral_lines.
     """
@@ -348,7 +350,27 @@ def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Li
                 for lines in item.curves.integral:
                     found = item_integral_lines(item, lines)
                     parts.append(_lines_of_curves(view, found, LineKind.INTEGRAL, number, item.curves.smooth))
+            if LineKind.INTEGRAL in wanted:
+                for asked in item.curves.terrain:
+                    found = _terrain_lines(item, item.shape, asked)
+                    parts.append(_lines_of_curves(view, found, LineKind.INTEGRAL, number, item.curves.smooth))
     return joined_lines(parts)
+
+
+def _terrain_lines(item: Item, mesh: Mesh, asked: TerrainLines) -> MeshCurves:
+    """What a terrain asks for. Errors: InputError with the item's name."""
+    # Terrains are rare: what finds their lines is loaded for them.
+    from vectorplot.features.terrains.roads import roads
+    from vectorplot.features.terrains.water import valley_lines, water_courses, watersheds
+
+    try:
+        if isinstance(asked, WaterCourses):
+            return water_courses(mesh, asked.places)
+        if isinstance(asked, Roads):
+            return roads(mesh, asked.start, asked.end)
+        return valley_lines(mesh) if asked.valleys else watersheds(mesh)
+    except InputError as error:
+        raise InputError(f"{item.name}: {error.cause}") from None
 
 
 def _mesh_isophotes(scene: Scene, view: View, item: Item) -> MeshCurves:

@@ -41,9 +41,16 @@ class _Exits(NamedTuple):
 
 
 def mesh_courses(
-    sides: MeshSides, flow: MeshFlow, face: Ints, points: Floats, directions: Floats, way: Floats, length: float
+    sides: MeshSides,
+    flow: MeshFlow,
+    face: Ints,
+    points: Floats,
+    directions: Floats,
+    way: Floats,
+    length: Floats | float,
 ) -> MeshCourses:
-    """Lines from points (k,3) in faces (k,) along directions (k,3), with a flow or (way: -1) against it.
+    """Lines from points (k,3) in faces (k,) along directions (k,3), with a flow or (way: -1) against it; length: of
+    all, or (k,) of each.
 
     A line ends where the flow does not lead on, where it is as long as it may be, and where it comes back to where it
     left its first face, into the same face in the same direction: it is closed then.
@@ -51,7 +58,7 @@ def mesh_courses(
     count = len(face)
     nowhere = np.full(count, NO_SIDE)
     now = Onward(face, directions, nowhere, nowhere, np.zeros(count, dtype=np.bool_))
-    line, here, left = np.arange(count), points, np.full(count, length)
+    line, here, left = np.arange(count), points, np.array(np.broadcast_to(length, count), dtype=np.float64)
     closed, last = np.zeros(count, dtype=np.bool_), np.array(points)
     first_point, first_way = np.full((count, 3), np.nan), np.zeros((count, 3))
     first_face = np.full(count, -1)

@@ -38,7 +38,8 @@ class MeshFlow(Protocol):
     """What leads lines over a mesh."""
 
     def over_edge(self, side: Ints, directions: Floats, way: Floats) -> Onward:
-        """From within faces over sides (k,), with directions (k,3); way (k,): -1 against the flow, else 1."""
+        """From within faces over sides (k,), with directions (k,3); way (k,): what each line was begun with, for most
+        flows -1 against the flow, else 1."""
         ...
 
     def over_vertex(self, side: Ints, directions: Floats, way: Floats) -> Onward:

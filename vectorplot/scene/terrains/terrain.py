@@ -9,9 +9,9 @@ from vectorplot.errors import InputError
 from vectorplot.features.zeros.grid_triangulation import mesh_of_grid
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.extent import check_range
-from vectorplot.scene.level_lines import USUAL_EVERY, level_sections, round_heights
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.surface_lines import SurfaceLines
+from vectorplot.scene.terrains.level_lines import USUAL_EVERY, level_sections, round_heights
 from vectorplot.surfaces.terrains.terrain import Terrain, terrain
 
 TERRAIN_LINES = ("contour", "boundary", "section", "index")

@@ -1,0 +1,1 @@
+"""Lines on terrains: water, watersheds, roads, and where labels of level lines fit."""
