@@ -65,7 +65,7 @@ EXPLAIN = click.option("--explain", is_flag=True, help="Print stages, times, cou
 
 QUIET = click.option("-q", "--quiet", is_flag=True, help="No warnings, no progress bar.")
 
-INPUT = click.argument("scene_file", type=click.Path(), metavar="INPUT")
+INPUT = click.argument("scene_file", type=click.Path(), nargs=-1, required=True, metavar="INPUT...")
 
 EXAGGERATION = click.option(
     "--exaggeration",
@@ -158,7 +158,7 @@ def picture_verb(
         )
         @wraps(verb)
         def command(
-            scene_file: str,
+            scene_file: tuple[str, ...],
             out: str,
             format_: str | None,
             exaggeration: float | None,
@@ -172,7 +172,7 @@ def picture_verb(
                 return verb(scene, **told.keywords(scene), progress=report.progress, explain=report.explain)
 
             written, jobs = format_of(out, format_, formats), told.rest["jobs"]
-            source = Source(scene_file, exaggeration)
+            source = Source(scene_file, exaggeration, upright=told.camera.says_where())
             make_picture(source, out, written, picture, quiet=quiet, explain=explain, jobs=jobs)
 
         return command

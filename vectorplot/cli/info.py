@@ -9,13 +9,14 @@ from vectorplot.errors import printable
 
 
 @click.command(short_help="Say what a scene or mesh file holds.")
-@click.argument("file", type=click.Path(), metavar="FILE")
+@click.argument("files", type=click.Path(), nargs=-1, required=True, metavar="FILE...")
 @click.option("--quiet", "-q", is_flag=True, help="No warnings.")
-def info(file: str, quiet: bool) -> None:
-    """Say what FILE holds: counts, whether it is closed and convex, its size, and what is wrong with it."""
+def info(files: tuple[str, ...], quiet: bool) -> None:
+    """Say what the files hold: counts, whether it is closed and convex, its size, and what is wrong with it."""
+    from vectorplot.io.anything import together
     from vectorplot.io.description import describe
     from vectorplot.io.read_file import read
 
     with told_warnings(quiet=quiet):
-        lines = describe(read(file))
+        lines = describe(together([read(file) for file in files]))
     click.echo("\n".join(map(printable, lines)))

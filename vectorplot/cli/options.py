@@ -64,6 +64,19 @@ def point(text: str) -> tuple[float, float, float]:
     return (x, y, z)
 
 
+AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+"""The axes of the world by name."""
+
+
+def direction(text: str) -> tuple[float, float, float]:
+    """A vector, or the name of an axis, perhaps with a sign before it."""
+    axis = AXES.get(text.strip().lower().lstrip("+-"))
+    if axis is None:
+        return point(text)
+    x, y, z = (-one if text.strip().startswith("-") and one else one for one in axis)
+    return (x, y, z)
+
+
 def numbers(text: str) -> tuple[float, ...]:
     """Positive finite numbers with commas between them, such as 16,32,64."""
     positive = between(0.0, math.inf)

@@ -8,7 +8,6 @@ import sys
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -34,10 +33,30 @@ class Report:
 
 @dataclass(frozen=True)
 class Source:
-    """The file that a picture is made of; exaggeration: of the heights of a terrain, None for the usual one."""
+    """The files that a picture is made of; exaggeration: of the heights of a terrain, None for the usual one; upright:
+    the user has said where one looks from, or what is up."""
 
-    path: str
+    paths: tuple[str, ...]
     exaggeration: float | None = None
+    upright: bool = False
+
+    @property
+    def name(self) -> str:
+        """What messages call them."""
+        return ", ".join(self.paths)
+
+    def read(self) -> Scene:
+        """All that is in them; an InputWarning hints at files with y upwards."""
+        from vectorplot.io.anything import together
+        from vectorplot.io.read_file import read
+        from vectorplot.io.upwards import upwards_hint
+
+        scenes = [read(path, exaggeration=self.exaggeration) for path in self.paths]
+        for path, scene in zip(self.paths, scenes, strict=True):
+            told = None if self.upright else upwards_hint(path, scene)
+            if told is not None:
+                warnings.warn(told, InputWarning, stacklevel=2)
+        return together(scenes)
 
 
 def make_picture(
@@ -56,20 +75,19 @@ def make_picture(
     processors where it is None.
     """
     from vectorplot.geometry.chunks import threads_of
-    from vectorplot.io.read_file import read
     from vectorplot.plan import Stage, Walk
     from vectorplot.save import write
 
     reports: list[StageReport] = []
-    stages = (Stage("read", source.path), Stage("write", f"as {format_}"))
+    stages = (Stage("read", source.name), Stage("write", f"as {format_}"))
     walk = Walk(stages, reports.append, None, threads_of(jobs))
     with told_warnings(quiet=quiet):
         check_place(out)
         with progress_bar(quiet=quiet) as progress:
-            scene = walk.run("read", partial(read, exaggeration=source.exaggeration), source.path)
+            scene = walk.run("read", source.read)
             made = picture(scene, Report(progress, reports.append))
             if is_empty(made):
-                warnings.warn(f"{source.path}: nothing to draw: the picture is empty", InputWarning, stacklevel=2)
+                warnings.warn(f"{source.name}: nothing to draw: the picture is empty", InputWarning, stacklevel=2)
             write_out(out, walk.run("write", write, made, format_))
     if explain:
         click.echo(table(reports), err=True)

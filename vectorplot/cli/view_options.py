@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.options import at_least, between, chosen, exclusive, number, page_size, point
+from vectorplot.cli.options import at_least, between, chosen, direction, exclusive, number, page_size, point
 
 if TYPE_CHECKING:
     from vectorplot.geometry.cameras.camera import Camera, Point
@@ -23,7 +23,7 @@ VIEW_WORDS = ("front", "back", "left", "right", "top", "bottom", "iso")
 CAMERA_OPTIONS = (
     click.option("--eye", type=point, metavar="X,Y,Z", help="Where one looks from."),
     click.option("--target", type=point, metavar="X,Y,Z", help="What one looks at."),
-    click.option("--up", type=point, metavar="X,Y,Z", help="Direction that is up in the picture (default: z)."),
+    click.option("--up", type=direction, metavar="X,Y,Z", help="Up in the picture, or x, y, z (default: z)."),
     click.option("--twist", type=number, metavar="DEG", help="Turn of the camera about its principal ray."),
     click.option("--fov", type=between(0.0, 180.0), metavar="DEG", help="Full angle over the picture height."),
     click.option("--parallel", is_flag=True, help="Parallel projection along eye - target."),
@@ -77,6 +77,10 @@ class CameraOptions:
         found = cls(**{field.name: options[field.name] for field in fields(cls)})
         found.check()
         return found
+
+    def says_where(self) -> bool:
+        """Whether the user said where one looks from, or what is up."""
+        return any(one is not None for one in (self.eye, self.up, self.twist, self.view))
 
     def check(self) -> None:
         """Bad usage for options that contradict each other."""

@@ -84,12 +84,12 @@ def scene_of(shown: object) -> Scene:
     if item is not None:
         return Scene((item,))
     if isinstance(shown, Mapping):
-        return _together([_named(str(name), scene_of(one)) for name, one in shown.items()])
+        return together([_named(str(name), scene_of(one)) for name, one in shown.items()])
     dump = getattr(shown, "dump", None)
     if callable(dump) and hasattr(shown, "geometry"):
-        return _together([scene_of(one) for one in dump()])
+        return together([scene_of(one) for one in dump()])
     if isinstance(shown, Iterable) and not isinstance(shown, np.ndarray | bytes):
-        return _together([scene_of(one) for one in shown])
+        return together([scene_of(one) for one in shown])
     _refuse(shown)
 
 
@@ -176,7 +176,7 @@ def _labels(scene: Scene, items: Sequence[Item]) -> tuple[Label, ...]:
     return tuple(renamed(label, names) for label in scene.labels)
 
 
-def _together(scenes: Sequence[Scene]) -> Scene:
+def together(scenes: Sequence[Scene]) -> Scene:
     """All items and lights; what there can be only one of is that of the first scene that has it."""
     if len(scenes) == 1:
         return scenes[0]

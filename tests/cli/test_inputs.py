@@ -1,0 +1,72 @@
+"""Several inputs, and which way is up in them."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+import vectorplot as vp
+from vectorplot.cli.main import run
+from vectorplot.cli.options import direction
+from vectorplot.geometry import box
+from vectorplot.io.upwards import upwards_hint
+
+
+@pytest.fixture
+def die(tmp_path):
+    path = tmp_path / "die.scene"
+    path.write_text("cube red box 1 1 1 translation 3 0 0 camera eye 5 -9 4")
+    return path
+
+
+@pytest.mark.parametrize(("verb", "out"), [("draw", "x.json"), ("paint", "x.svg"), ("render", "x.png")])
+def test_several_inputs_are_one_picture(cube, die, tmp_path, verb, out, capsys):
+    assert run([verb, str(cube), str(die), "-o", str(tmp_path / out)]) == 0
+    assert (tmp_path / out).stat().st_size > 100
+    if verb == "draw":
+        assert vp.read(tmp_path / out).items == ("cube", "cube 2")
+
+
+def test_info_tells_of_several_files(cube, die, capsys):
+    assert run(["info", str(cube), str(die)]) == 0
+    told = capsys.readouterr().out.splitlines()
+    assert [line.split(":")[0] for line in told[:2]] == ["cube", "cube 2"] and told[2].startswith("2 items")
+
+
+def test_a_verb_needs_an_input(capsys):
+    assert run(["draw", "-o", "x.svg"]) == 2
+    assert "Missing argument 'INPUT...'" in capsys.readouterr().err
+
+
+def test_directions_have_names():
+    assert [direction(text) for text in ("y", "-z", "+X", "1,2,3")] == [(0, 1, 0), (0, 0, -1), (1, 0, 0), (1, 2, 3)]
+
+
+@pytest.mark.parametrize(
+    ("name", "sides", "camera", "hinted"),
+    [
+        ("a.glb", (1, 1, 1), None, True),
+        ("a.GLB", (1, 1, 1), vp.Camera((1, 1, 1)), False),
+        ("a.obj", (1, 2, 1), None, True),
+        ("a.obj", (2, 2, 1), None, False),
+        ("a.obj", (1, 1, 3), None, False),
+        ("a.stl", (1, 3, 1), None, False),
+    ],
+)
+def test_files_with_y_upwards_are_hinted_at(name, sides, camera, hinted):
+    told = upwards_hint(name, vp.Scene((vp.Item("a", box(sides)),), camera=camera))
+    assert (told is not None) == hinted and (told is None or "--up y stands it up" in told)
+
+
+def test_the_hint_is_one_line_and_goes_where_up_is_said(cube, tmp_path, capsys):
+    tall = tmp_path / "tall.obj"
+    lines = cube.read_text().splitlines()
+    tall.write_text("\n".join(re.sub(r"^v (.) 1", r"v \1 5", line) for line in lines))
+    out = str(tmp_path / "x.svg")
+    assert run(["draw", str(tall), "-o", out]) == 0
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1 and "longest along y" in told
+    for said in (["--up", "y"], ["--view", "front"], ["-q"]):
+        assert run(["draw", str(tall), "-o", out, *said]) == 0
+        assert capsys.readouterr().err == ""
