@@ -10,7 +10,7 @@ from .paint import paint
 from .read import read
 from .render import render
 from .save import save
-from .scene.hatching import Hatching
+from .scene.hatching import Hatching, Stippling
 from .scene.naming.annotations import angle, arrow, axes, dimension
 from .scene.naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from .scene.plots import graph, surface, tube
@@ -45,6 +45,7 @@ __all__ = [
     "Pen",
     "Scene",
     "Section",
+    "Stippling",
     "Strokes",
     "Style",
     "SurfaceLines",

@@ -29,7 +29,7 @@ from vectorplot.geometry.chunks import threads_of
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
 from vectorplot.plan import StageReport, Walk, accuracy_of_draw, plan_cuts, plan_draw, plan_hatching, with_accuracy
-from vectorplot.scene.hatching import Hatching
+from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.naming.label_anchors import LabelAnchors, label_anchors
 from vectorplot.scene.placement import Placement, mm_per_image
 from vectorplot.scene.point_of_view import camera_of, page_of
@@ -82,7 +82,7 @@ def draw(
     thin_ends: bool = False,
     background: str | None = None,
     halo_mm: float = 0.0,
-    hatch: Hatching | None = None,
+    hatch: Hatching | Stippling | None = None,
     layers: str | None = None,
     unplotted: str | Iterable[str] = "",
     curves: Literal["bezier", "polyline"] = "bezier",
@@ -132,8 +132,8 @@ def draw(
         The colour of the paper, drawn on a layer that is not plotted; as the style says where None.
     halo_mm : float
         Lines end so many mm beside what is in front of them.
-    hatch : Hatching, optional
-        How visible faces are hatched, where their items do not say it themselves; not at all where None.
+    hatch : Hatching or Stippling, optional
+        How visible faces are hatched, or stippled, where their items do not say it themselves; not at all where None.
     layers : str, optional
         What shares a layer: kind, object or colour, or several of these with commas between them; as the style says
         where None.
@@ -565,7 +565,7 @@ def _layers(
     scene: Scene,
     strokes: Paths,
     hatches: Paths,
-    hatch: Hatching | None,
+    hatch: Hatching | Stippling | None,
     layers: str,
     rules: Sequence[PenRule],
     unplotted: Sequence[str],

@@ -14,7 +14,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.chunks import threads
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.hatching import Hatching
+from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.placement import box_corners, field_of_vision
 from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.surfaces.balls import ball_of
@@ -153,7 +153,7 @@ def _label_stages(scene: Scene) -> list[Stage]:
     return [Stage("labels", "places have names; lines end before the letters")] if scene.labels else []
 
 
-def plan_hatching(scene: Scene, given: Hatching | None, stages: Sequence[Stage]) -> tuple[Stage, ...]:
+def plan_hatching(scene: Scene, given: Hatching | Stippling | None, stages: Sequence[Stage]) -> tuple[Stage, ...]:
     """The stages of draw, with the one that hatches faces before layers where anything is hatched. given: how items are
     hatched that do not say it themselves."""
     how = dict.fromkeys(given if item.hatch is None else item.hatch for item in scene.items)

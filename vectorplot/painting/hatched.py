@@ -14,7 +14,7 @@ from vectorplot.painting.coloured import coloured
 from vectorplot.painting.hatching_lines import followed_lines
 from vectorplot.painting.ordered_faces import ordered_faces, seen_on_page
 from vectorplot.plan import Walk, plan_paint
-from vectorplot.scene.hatching import Hatching
+from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.twins import without_twins
@@ -37,7 +37,7 @@ ROUGHLY = 8.0
 def hatched(
     scene: Scene,
     placement: Placement,
-    given: Hatching | None,
+    given: Hatching | Stippling | None,
     trace: Callable[[Scene], Paths],
     *,
     crease_angle_deg: float,
@@ -75,7 +75,7 @@ def hatched(
     return hatched_regions(regions, how, placement.page_from_world, lines)
 
 
-def _toned(scene: Scene, how: Sequence[Hatching | None]) -> Scene:
+def _toned(scene: Scene, how: Sequence[Hatching | Stippling | None]) -> Scene:
     """The scene, in gray where only the light counts."""
     items = (
         item if one is not None and one.by == "colour" else replace(item, colour=GRAY, patterns=())

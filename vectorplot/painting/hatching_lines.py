@@ -11,7 +11,7 @@ from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.hatching.followed_lines import FollowedLines
 from vectorplot.geometry.vectors import cross
-from vectorplot.scene.hatching import Hatching
+from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.surface_lines import SurfaceLines
@@ -30,14 +30,14 @@ NEARLY_ALL = 0.98
 """Of the surface; parameter lines may be wider apart on the rest of it, near poles of the parametrisation."""
 
 
-def followed(item: Item, hatching: Hatching | None) -> bool:
+def followed(item: Item, hatching: Hatching | Stippling | None) -> bool:
     """Whether an item is hatched along parameter lines of its own."""
-    on = hatching is not None and hatching.by != "none" and hatching.along == "surface"
+    on = isinstance(hatching, Hatching) and hatching.by != "none" and hatching.along == "surface"
     return on and is_parametrised(item.shape)
 
 
 def followed_lines(
-    scene: Scene, how: Sequence[Hatching | None], placement: Placement, trace: Callable[[Scene], Paths]
+    scene: Scene, how: Sequence[Hatching | Stippling | None], placement: Placement, trace: Callable[[Scene], Paths]
 ) -> list[FollowedLines]:
     """The visible parameter lines to hatch along of each surface, and of each family where they cross.
 
@@ -49,7 +49,7 @@ def followed_lines(
         items = []
         for number, (item, one) in enumerate(zip(scene.items, how, strict=True)):
             lines: tuple[str, ...] = ()
-            if one is not None and followed(item, one) and (family == 0 or one.cross):
+            if isinstance(one, Hatching) and followed(item, one) and (family == 0 or one.cross):
                 assert is_parametrised(item.shape)
                 count = _count(item.shape, family, one.spacing_mm, placement)
                 spaced[number] = (count, *_samples(item.shape, family, count, placement))

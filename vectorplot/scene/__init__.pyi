@@ -1,4 +1,4 @@
-from .hatching import Hatching
+from .hatching import Hatching, Stippling
 from .integral_lines import FieldLines, GeodesicLines
 from .naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from .paper import sheet_size
@@ -28,6 +28,7 @@ __all__ = [
     "Roads",
     "Scene",
     "Section",
+    "Stippling",
     "SurfaceLines",
     "SurfacePath",
     "View",

@@ -16,6 +16,9 @@ HATCHED_BY = ("tone", "colour", "even", "none")
 HATCHED_ALONG = ("page", "surface")
 """What strokes are parallel to."""
 
+MOST_DOTS = 1_000_000
+"""A pen that makes ten a second draws them for a day."""
+
 FINEST_MM = 0.01
 """No pen draws finer lines, or closer ones."""
 
@@ -78,3 +81,40 @@ class Hatching:
         """The share of the paper that is covered with ink where it is darkest."""
         share = self.width_mm / self.spacing_mm
         return round(share * (2.0 - share), 12) if self.cross else share
+
+
+@dataclass(frozen=True)
+class Stippling:
+    """How faces are stippled: dots, closer where it is darker, in place of the strokes of a hatching.
+
+    Parameters
+    ----------
+    dots : int
+        How many of them the whole drawing has; 1 to 1,000,000.
+    by : {"tone", "colour", "even"}
+        What makes it dark, as of Hatching.
+    width_mm : float
+        Of the pen; 0.01 or more.
+
+    Raises
+    ------
+    InputError
+        For another word, and numbers out of range.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Stippling(5000)
+    Stippling(dots=5000, by='tone', width_mm=0.25)
+    """
+
+    dots: int
+    by: Literal["tone", "colour", "even"] = "tone"
+    width_mm: float = 0.25
+
+    def __post_init__(self) -> None:
+        check_word("stippling", self.by, [word for word in HATCHED_BY if word != "none"])
+        if not 1 <= self.dots <= MOST_DOTS or self.dots != int(self.dots):
+            raise InputError(f"stippling: {self.dots:g} dots: expected a whole number from 1 to {MOST_DOTS}")
+        if not FINEST_MM <= self.width_mm < np.inf:
+            raise InputError(f"stippling: a width of {self.width_mm:g} mm: expected {FINEST_MM:g} mm or more")

@@ -8,14 +8,14 @@ import numpy as np
 
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.layers import BLACK, ink, layers_of
-from vectorplot.scene.hatching import Hatching
+from vectorplot.scene.hatching import Hatching, Stippling
 
 NAME = "hatch"
 """What layers of hatching are called, together with what tells them apart."""
 
 
 def hatch_layers(
-    strokes: Paths, hatching: Sequence[Hatching | None], colours: Sequence[str] | None = None
+    strokes: Paths, hatching: Sequence[Hatching | Stippling | None], colours: Sequence[str] | None = None
 ) -> tuple[Layer, ...]:
     """A layer for every width of pen that hatches items, and every colour; the first one may be empty.
 

@@ -13,14 +13,15 @@ from vectorplot.drawing.hatching.densities import even_spacings, thresholds
 from vectorplot.drawing.hatching.followed_lines import FollowedLines, dark_parts
 from vectorplot.drawing.hatching.frames import PageFrame, PlaneFrame, plane_frame
 from vectorplot.drawing.hatching.scan import Scanned, scanned
+from vectorplot.drawing.hatching.stippling import stippled
 from vectorplot.drawing.hatching.toned_regions import TonedRegions, toned_regions
 from vectorplot.drawing.strokes.stroke_paths import concatenated
-from vectorplot.scene.hatching import Hatching
+from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.tolerances.of_the_page import HATCH_GAP_MM
 from vectorplot.words import LineKind
 
 
-def hatched_fills(fills: Fills, hatching: Sequence[Hatching | None], page_from_world: Floats) -> Paths:
+def hatched_fills(fills: Fills, hatching: Sequence[Hatching | Stippling | None], page_from_world: Floats) -> Paths:
     """Strokes, as they come, that hatch the visible regions of polygons as dark as their colours.
 
     Parameters
@@ -66,7 +67,7 @@ def hatched_fills(fills: Fills, hatching: Sequence[Hatching | None], page_from_w
 
 def hatched_regions(
     regions: TonedRegions,
-    hatching: Sequence[Hatching | None],
+    hatching: Sequence[Hatching | Stippling | None],
     page_from_world: Floats,
     followed: Sequence[FollowedLines] = (),
 ) -> Paths:
@@ -74,12 +75,19 @@ def hatched_regions(
     as of hatched_fills."""
     given = [Hatching("none") if one is None else one for one in hatching]
     ways = {lines.item for lines in followed}
-    found = [dark_parts(lines, given[lines.item], regions) for lines in followed]
+    found = []
+    for lines in followed:
+        along = given[lines.item]
+        assert isinstance(along, Hatching)
+        found.append(dark_parts(lines, along, regions))
     for one in dict.fromkeys(given):
         if one.by == "none":
             continue
         mine = np.array([other == one and k not in ways for k, other in enumerate(given)], dtype=np.bool_)
         some = regions.some(mine[regions.item] & (regions.item >= 0))
+        if isinstance(one, Stippling):
+            found.append(stippled(some, one, page_from_world))
+            continue
         for family in (0, 1) if one.cross else (0,):
             found += _family(some, one, family, page_from_world)
     return concatenated((Paths.empty(), *found))
