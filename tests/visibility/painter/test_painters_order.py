@@ -224,3 +224,16 @@ def test_neighbours_follow_each_other_where_nothing_is_between() -> None:
     steps = np.hypot(*np.diff(middle, axis=1))
     # Half of the steps lead to what is next to the last one, not somewhere else on the spring.
     assert np.median(steps) < 0.05 * np.ptp(middle)
+
+
+def test_faces_that_pierce_each_other_too_often_are_cut_as_often_as_the_budget_allows_and_named():
+    count, most = 24, 100
+    places = [(k / count, (k + 0.2) / count) for k in range(count)]
+    plates = [box((low, 0.0, 0.0), (high, 1.0, 0.1)) for low, high in places]
+    bars = [box((0.0, low, 0.08), (1.0, high, 0.13)) for low, high in places]
+    scene = numbered([*plates, *bars])
+    view = look(scene, Camera((2.0, 3.0, 4.0)))
+    whole, some = (painters_order(view, most=number) for number in (1 << 15, most))
+    assert not len(whole.guessed) and len(whole) > whole.uncut + 2 * most
+    assert len(some.guessed) and len(some) <= 2 * (some.uncut + most)
+    assert set(some.faces.source) == set(whole.faces.source)

@@ -54,15 +54,15 @@ class Pairs:
 def cut_into_order(
     faces: ImageFaces, group: Ints, pairs: Pairs, tolerance: float, most: int = USUAL.pieces
 ) -> tuple[ImageFaces, Ints, Bools]:
-    """Faces cut as far as needed, for each one its place in the order of drawing, and whether that is right: after most
-    pieces it is a guess.
+    """Faces cut as far as needed, for each one its place in the order of drawing, and whether that is right: what is in
+    circles after most cuts is in order by its heights.
 
     group (n,): faces of a lower group are known to go first; only within groups is anything compared. Faces that
     pierce each other are cut first, the larger one along the other's plane; then circles, at faces that lie on many
     and under many. Places may be equal: of such faces any order will do.
     Source: Newell, Newell and Sancha (1972); Fuchs, Kedem and Naylor (1980) for the large circles.
     """
-    place = group
+    place, full = group, len(faces) + most
     circled = np.zeros(len(faces), dtype=np.bool_)
     for number in range(MOST_ROUNDS):
         pairs = pairs.some((place[pairs.first] == place[pairs.second]) & (pairs.codes != APART))
@@ -77,22 +77,25 @@ def cut_into_order(
         given_up = np.isin(place, place[pairs.first]) & ~np.isin(place, place[victim])
         circled |= given_up
         pairs = pairs.some(~given_up[pairs.first])
+        if len(faces) + len(victim) > full:
+            circled |= np.isin(place, place[victim])
+            return _with_trees(faces, place, circled, tolerance, int(circled.sum()))
         faces, parent, children = _cut(faces, victim, faces.planes[:, knife], faces.steepness[knife], tolerance)
         place, circled = place[parent], circled[parent]
         pairs = _inherited(faces, pairs, children, tolerance)
     else:
         circled |= np.isin(place, place[pairs.first[place[pairs.first] == place[pairs.second]]])
-    return _with_trees(faces, place, circled, tolerance, most)
+    return _with_trees(faces, place, circled, tolerance, max(most, PIECES_OF_EACH * int(circled.sum())))
 
 
 def _with_trees(
     faces: ImageFaces, place: Ints, circled: Bools, tolerance: float, most: int
 ) -> tuple[ImageFaces, Ints, Bools]:
-    """The faces in circles that were given up, ordered by trees of planes among the others."""
+    """The faces in circles that were given up, ordered among the others by trees of planes that make most pieces."""
     if not circled.any():
         return faces, place, np.ones(len(faces), dtype=np.bool_)
     done, left = np.flatnonzero(~circled), np.flatnonzero(circled)
-    found = partitioned(faces.some(left), place[left], tolerance, max(most, PIECES_OF_EACH * len(left)))
+    found = partitioned(faces.some(left), place[left], tolerance, most)
     places = np.concatenate([place[done], place[left][found.parent]])
     ranks = np.concatenate([np.zeros(len(done), dtype=np.intp), found.rank])
     right = np.concatenate([np.ones(len(done), dtype=np.bool_), found.complete])

@@ -111,8 +111,8 @@ def painters_order(
         The group of each item, -1 for none: first the groups are put in order, then what is in each, but for those that
         lie on other things in a circle.
     most : int
-        So many pieces a tree of planes cuts faces into, and four of each; what is not in order then is painted by its
-        heights, and named.
+        So many cuts of faces along planes of others, and as many pieces in a tree of planes, or four of each; what is
+        not in order then is painted by its heights, and named.
 
     Returns
     -------
