@@ -106,3 +106,24 @@ def test_normals_turn_little_from_vertex_to_vertex_on_ruled_surfaces_too() -> No
         corners = found.mesh.corners.reshape(-1, 3)
         cosine = (found.normals[corners] * found.normals[np.roll(corners, 1, axis=1)]).sum(axis=2)
         assert np.degrees(np.arccos(cosine.min())) < 10.0
+
+
+@pytest.mark.hard(69)
+@pytest.mark.parametrize(
+    ("height", "covered", "most"),
+    [
+        (lambda x, y: np.sqrt(1.0 - x * x - y * y), np.pi, 4000),
+        (lambda x, y: np.sqrt(x * x + y * y - 1.0), 16.0 - np.pi, 4000),
+        (lambda x, y: np.sqrt(x), 8.0, 1000),
+        (lambda x, y: np.sqrt(np.sin(3.0 * x)), 8.0, 4000),
+        (lambda x, y: np.sqrt((x - 0.1) * (y + 0.3)), 1.9 * 2.3 + 2.1 * 1.7, 20000),
+    ],
+    ids=["dome", "around a hole", "root", "strips", "crossing rims"],
+)
+def test_no_triangle_of_a_graph_with_holes_is_turned_over_and_they_end_at_the_rims(height, covered, most) -> None:
+    found = facets(graph(height, Domain(-2.0, 2.0, -2.0, 2.0)), within(1e-2))
+    assert found.complete and found.mesh.face_count < most
+    a, b, c = found.mesh.vertices[found.mesh.corners.reshape(-1, 3), :2].swapaxes(0, 1)
+    area = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+    assert area.min() > -1e-7
+    assert abs(area.sum() - covered) < 5e-3 * covered

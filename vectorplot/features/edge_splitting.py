@@ -13,6 +13,7 @@ from typing import Protocol
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.divided_triangles import divided
 from vectorplot.features.tessellation import edges_of
 from vectorplot.geometry import records
 from vectorplot.geometry.vectors import cross
@@ -83,6 +84,18 @@ class Between(Protocol):
 
     def ends(self, start: Vertices, end: Vertices) -> tuple[Vertices, Vertices]:
         """The ends (n,) of sides; where they are on sharp edges, with the normals that they have on the way."""
+        ...
+
+    def nearer(self, edges: Edges) -> Vertices:
+        """(k,n) vertices of the surface instead of those over sides, nearer to these where there are such close by."""
+        ...
+
+    def turned(self, corners: Vertices) -> Bools:
+        """(t,) which triangles with corners (t,3) were turned over by corners that were moved to the rim of a hole."""
+        ...
+
+    def inside(self, corners: Vertices) -> Bools:
+        """(t,) which triangles with corners (t,3) are on the surface, and not in a hole with corners on its rim."""
         ...
 
 
@@ -178,7 +191,14 @@ def refined(net: Net, between: Between, demand: Demand, most: int) -> Net:
             return replace(net, complete=False)
         ends = net.vertices.some(edges[which, 0]), net.vertices.some(edges[which, 1])
         vertices = net.vertices.joined(between(*ends, part[which], uses[which] == 1))
-        net = Net(vertices, _divided(net.triangles, middle[sides], vertices))
+        triangles, of = divided(net.triangles, middle[sides], vertices.points)
+        while (turned := between.turned(vertices.some(triangles)) & (middle[sides[of]] >= 0).any(axis=1)).any():
+            # The rim beside these sides has left their triangles.
+            whole = np.unique(sides[of[turned]])
+            middle[whole] = -1
+            found.rows[:2, np.searchsorted(found.key, key[whole])] = 0.0
+            triangles, of = divided(net.triangles, middle[sides], vertices.points)
+        net = Net(vertices, triangles[between.inside(vertices.some(triangles))])
     return net
 
 
@@ -255,6 +275,12 @@ def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, d
     if len(hole):
         part[hole] = t[np.argmin(at.known[:, hole], axis=0), hole]
         worst[hole] = np.nan_to_num(demand.excess(_bulging(edges, hole)), nan=0.0).max(axis=0)
+    # Where a surface is steep above its domain what is over a side is far from it, and yet the side near the surface.
+    steep = np.flatnonzero((worst > 1.0) & (number == NONE) & ~border & at.known.all(axis=0))
+    if len(steep):
+        some = edges.some(steep)
+        some = replace(some, at=between.nearer(some))
+        worst[steep] = np.minimum(worst[steep], np.nan_to_num(demand.excess(some), nan=0.0).max(axis=0))
     return np.stack((worst, as_border, part))
 
 
@@ -310,28 +336,3 @@ def _rim(start: Vertices, end: Vertices, border: Bools, between: Between) -> Flo
         good = between(start, end, t, border).known
         low, high = np.where(good, t, low), np.where(good, high, t)
     return np.where(np.abs(low - np.where(known, 0.0, 1.0)) > NEAR, low, 0.0)
-
-
-def _divided(triangles: Ints, middle: Ints, vertices: Vertices) -> Ints:
-    """Triangles divided by new vertices middle (t,3) on their sides, -1 for none on the side from a corner on."""
-    count = (middle >= 0).sum(axis=1)
-    parts = [triangles[count == 0]]
-    # Turned round so that the first side is split and, of two, the last one is not.
-    first = np.select(
-        [(count == 1) | (count == 3), (count == 2)],
-        [np.argmax(middle >= 0, axis=1), (np.argmin(middle >= 0, axis=1) + 1) % 3],
-    )
-    turn = (first[:, None] + np.arange(3)) % 3
-    corner, middle = np.take_along_axis(triangles, turn, axis=1), np.take_along_axis(middle, turn, axis=1)
-    (a, b, c), (d, _, _) = corner[count == 1].T, middle[count == 1].T
-    parts += [np.stack((a, d, c), axis=1), np.stack((d, b, c), axis=1)]
-    (a, b, c), (d, e, _) = corner[count == 2].T, middle[count == 2].T
-    parts.append(np.stack((d, b, e), axis=1))
-    quad = np.stack((a, d, e, c))
-    with np.errstate(invalid="ignore"):
-        p = vertices.points[quad]
-        other = np.linalg.norm(p[1] - p[3], axis=-1) < np.linalg.norm(p[0] - p[2], axis=-1)
-    parts += [np.where(other, (a, d, c), (a, d, e)).T, np.where(other, (d, e, c), (e, c, a)).T]
-    (a, b, c), (d, e, f) = corner[count == 3].T, middle[count == 3].T
-    parts += [np.stack(some, axis=1) for some in ((a, d, f), (d, b, e), (f, e, c), (d, e, f))]
-    return np.concatenate(parts)

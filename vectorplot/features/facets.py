@@ -14,17 +14,19 @@ from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, 
 from vectorplot.features.implicit.implicit_singular_lines import SingularLines, singular_lines, usual_gradient
 from vectorplot.features.implicit.polygonize import onto_surface, polygonized, settled_mesh
 from vectorplot.features.implicit.singular_set import led_into_singular_set
-from vectorplot.features.parametric.holes import beside_rim_chords, cut_at_holes
+from vectorplot.features.parametric.holed_triangles import cut_at_holes
+from vectorplot.features.parametric.holes import beside_rim_chords, is_known, ways_between
 from vectorplot.features.parametric.poles import Pole, poles
-from vectorplot.features.tessellation import grid_numbers
+from vectorplot.features.tessellation import UNEVEN, grid_numbers
 from vectorplot.features.zeros.grid_triangulation import triangulate_surface
 from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import cross, dot
 from vectorplot.surfaces.jumps import jumps
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.parts import creases
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, is_implicit, is_parametrised
-from vectorplot.tolerances.of_parameters import ASIDE_OF_CREASE, ON_BORDER_OF_DOMAIN
+from vectorplot.tolerances.of_parameters import ASIDE_OF_CREASE, ON_BORDER_OF_DOMAIN, TURNED_OVER
 from vectorplot.tolerances.of_values import VANISHED_GRADIENT
 
 FEWEST, USUAL, FINEST = (2, 4), 16, 1024
@@ -54,6 +56,12 @@ JUMP = np.radians(45.0)
 
 ON_RIM = 1.0
 """The third number of a place on the rim of a hole."""
+
+CLOSE_BY = 1.0 / 16.0
+"""Part of the length of a side, both in parts of the domain, by which the places over it may be moved to be nearer."""
+
+STEPS = 5
+"""Steps to places that are nearer."""
 
 INSIDE = 0.75
 """In the middle of a triangle the surface may be farther off than over its sides, by a third."""
@@ -144,11 +152,7 @@ def _without_jumps(surface: Surface, net: Net) -> Net:
     """
     places, points = net.vertices.places, net.vertices.points
     a, b = (x.ravel() for x in (net.triangles, np.roll(net.triangles, -1, axis=1)))
-    domain = surface.domain
-    way = (places[b] - places[a])[:, :2]
-    for axis, (closed, size) in enumerate(zip((domain.closed_u, domain.closed_v), domain.size, strict=True)):
-        if closed:
-            way[:, axis] -= size * np.round(way[:, axis] / size)
+    way = ways_between(surface.domain, places[a, :2], places[b, :2])
     with np.errstate(all="ignore"):
         along_u, along_v = surface.partials(*places[:, :2].T)
         expected = [np.linalg.norm(along_u[k] * way[:, :1] + along_v[k] * way[:, 1:], axis=1) for k in (a, b)]
@@ -183,19 +187,15 @@ class _Patch:
     def __call__(self, start: Vertices, end: Vertices, t: Floats, border: Bools) -> Vertices:
         domain = self.surface.domain
         first, last = self._without_poles(start.places, end.places)
-        way = last - first
-        for axis, (closed, size) in enumerate(zip((domain.closed_u, domain.closed_v), domain.size, strict=True)):
-            if closed:
-                way[:, axis] -= size * np.round(way[:, axis] / size)
-        places = first + t[:, None] * way
-        places[:, 2] = 0.0
+        way = ways_between(domain, first[:, :2], last[:, :2])
+        places = np.column_stack([first[:, :2] + t[:, None] * way, np.zeros(len(t))])
         found = self.at(_wrapped(domain, places.copy()))
         # A border between two places on a rim lies along it; what leads over a hole goes round it.
         rim = border & (first[:, 2] == ON_RIM) & (last[:, 2] == ON_RIM)
         rim = np.flatnonzero(rim | (~found.known & start.known & end.known))
         if not len(rim):
             return found
-        places[rim, :2], on = beside_rim_chords(self.surface, first[rim, :2], first[rim, :2] + way[rim, :2], t[rim])
+        places[rim, :2], on = beside_rim_chords(self.surface, first[rim, :2], first[rim, :2] + way[rim], t[rim])
         places[rim, 2] = np.where(on, ON_RIM, 0.0)
         moved = self.at(_wrapped(domain, places[rim]))
         for own, new in ((found.places, moved.places), (found.points, moved.points), (found.normals, moved.normals)):
@@ -206,6 +206,73 @@ class _Patch:
         """The ends of sides; on the rim of a cap normals are those of the cap for sides that lead into it."""
         sharp = [np.isin(some.places[:, 1], self.creases) for some in (start, end)]
         return self._sided(start, end, sharp[0] & ~sharp[1]), self._sided(end, start, sharp[1] & ~sharp[0])
+
+    def nearer(self, edges: Edges) -> Vertices:
+        """(k,n) as Between, found by the method of Gauss and Newton with steps halved where they lead astray."""
+        shape = edges.t.shape
+        chord = edges.start.points + edges.t[..., None] * (edges.end.points - edges.start.points)
+        points = chord.reshape(-1, 3)
+        found = Vertices(*(some.reshape(-1, 3) for some in (edges.at.places, edges.at.points, edges.at.normals)))
+        size = np.array(self.surface.domain.size)
+        first, last = self._without_poles(edges.start.places, edges.end.places)
+        way = ways_between(self.surface.domain, first[:, :2], last[:, :2]) / size
+        reach = CLOSE_BY * np.tile(np.hypot(*way.T), shape[0])
+        from_start, scale = np.zeros((len(points), 2)), np.ones(len(points))
+        for _ in range(STEPS):
+            step = scale[:, None] * _toward(self.surface, found, points)
+            # Along the axes, so that the place stays close by.
+            moved = from_start + step
+            close = np.hypot(*(moved / size).T) <= reach
+            tried = self.at(
+                _wrapped(self.surface.domain, np.column_stack([found.places[:, :2] + step, found.places[:, 2]]))
+            )
+            better = np.linalg.norm(tried.points - points, axis=1) < np.linalg.norm(found.points - points, axis=1)
+            better &= close & is_known(self.surface, found.places[:, :2] + step)
+            scale = np.where(better, 1.0, 0.5 * scale)
+            from_start = np.where(better[:, None], moved, from_start)
+            found = Vertices(
+                *(
+                    np.where(better[:, None], new, old)
+                    for new, old in (
+                        (tried.places, found.places),
+                        (tried.points, found.points),
+                        (tried.normals, found.normals),
+                    )
+                )
+            )
+        return Vertices(*(some.reshape(*shape, 3) for some in (found.places, found.points, found.normals)))
+
+    def turned(self, corners: Vertices) -> Bools:
+        """(t,) as Between."""
+        places = corners.places
+        found = np.zeros(len(places), dtype=np.bool_)
+        if not (places[:, :, 2] == ON_RIM).any():
+            return found
+        # All of the line that is a pole is one point.
+        whole = np.ones(len(places), dtype=np.bool_)
+        for pole in self.poles:
+            whole &= (places[:, :, pole.axis] != pole.place).all(axis=1)
+        _, *ways = self._ways(places[whole])
+        one, two = (way / self.surface.domain.size for way in ways)
+        longest = np.maximum(np.maximum(dot(one, one), dot(two, two)), dot(two - one, two - one))
+        area: Floats = np.asarray(cross(one, two))
+        found[whole] = area < TURNED_OVER * longest
+        return found
+
+    def inside(self, corners: Vertices) -> Bools:
+        """(t,) as Between: of triangles between three places on a rim those with the surface in their middle."""
+        found = np.ones(len(corners.places), dtype=np.bool_)
+        on_rim = np.flatnonzero((corners.places[:, :, 2] == ON_RIM).all(axis=1))
+        if len(on_rim):
+            first, one, two = self._ways(corners.places[on_rim])
+            found[on_rim] = is_known(self.surface, first + (one + two) / 3.0)
+        return found
+
+    def _ways(self, places: Floats) -> tuple[Floats, Floats, Floats]:
+        """The first ones of the places (t,3,3) of corners, and the ways (t,2) from there to the two others."""
+        first, *others = np.moveaxis(places[:, :, :2], 1, 0)
+        one, two = (ways_between(self.surface.domain, first, other) for other in others)
+        return first, one, two
 
     def _sided(self, own: Vertices, other: Vertices, which: Bools) -> Vertices:
         """Vertices, some of them with the normals that they have on the way to others."""
@@ -234,6 +301,18 @@ class _Patch:
         return first, last
 
 
+def _toward(surface: Surface, vertices: Vertices, points: Floats) -> Floats:
+    """(n,2) steps in the domain from vertices (n,) of a surface that lead nearest to points (n,3), were it flat."""
+    with np.errstate(all="ignore"):
+        along_u, along_v = surface.partials(*vertices.places[:, :2].T)
+        off = points - vertices.points
+        uu, uv, vv = dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)
+        u, v = dot(along_u, off), dot(along_v, off)
+        steps = np.stack([vv * u - uv * v, uu * v - uv * u], axis=1) / (uu * vv - uv * uv)[:, None]
+    finite: Bools = np.asarray(np.isfinite(steps).all(axis=1))
+    return np.where(finite[:, None], steps, 0.0)
+
+
 def _wrapped(domain: Domain, places: Floats) -> Floats:
     """Places moved by whole periods into the domain."""
     starts = (domain.u_start, domain.v_start)
@@ -249,6 +328,9 @@ def _first_net(surface: Surface, demand: Demand) -> Net:
     columns = _enough(lambda count: _lines(patch, count, across=True), domain.closed_u, demand)
     rows = _enough(lambda count: _lines(patch, count, across=False), domain.closed_v, demand)
     u, v = domain.grid(columns, rows)
+    if not patch.at(_on_grid(u, v).reshape(-1, 3)).known.all():
+        # Beside a line of the grid along a rim nobody knew on which side the surface is.
+        u, v = (_uneven(lines, seed) for seed, lines in enumerate((u, v)))
     # No side of a triangle may lead over a sharp edge.
     sharp = creases(surface)
     near = np.abs(v[:, None] - sharp) <= ON_BORDER_OF_DOMAIN * domain.size[1]
@@ -265,6 +347,14 @@ def _first_net(surface: Surface, demand: Demand) -> Net:
     new = np.column_stack([holed.places[len(places) :], np.full(len(holed.places) - len(places), ON_RIM)])
     vertices.places[holed.on_rim[: len(places)], 2] = ON_RIM
     return Net(vertices.joined(patch.at(_wrapped(domain, new))), holed.triangles)
+
+
+def _uneven(lines: Floats, seed: int) -> Floats:
+    """Lines of a grid, all but the first and the last one moved by up to UNEVEN of the way to the next."""
+    # The same numbers every time: a picture made twice is the same.
+    moves = np.random.default_rng(seed).uniform(-UNEVEN, UNEVEN, len(lines))
+    moves[[0, -1]] = 0.0
+    return np.asarray(lines + moves * (lines[1] - lines[0]))
 
 
 def _on_grid(u: Floats, v: Floats) -> Floats:
@@ -350,6 +440,18 @@ class _Level:
     def ends(self, start: Vertices, end: Vertices) -> tuple[Vertices, Vertices]:
         """The ends of sides as they are."""
         return start, end
+
+    def turned(self, corners: Vertices) -> Bools:
+        """None: there are no rims."""
+        return np.zeros(len(corners.places), dtype=np.bool_)
+
+    def nearer(self, edges: Edges) -> Vertices:
+        """Those over the sides: they were looked for near these."""
+        return edges.at
+
+    def inside(self, corners: Vertices) -> Bools:
+        """All of them."""
+        return np.ones(len(corners.places), dtype=np.bool_)
 
     def at(self, points: Floats) -> Vertices:
         """The vertices at some points (n,3) of the surface."""

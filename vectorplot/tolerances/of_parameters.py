@@ -63,6 +63,10 @@ RIM_FOUND_TO = 1e-12
 AROUND_RIM = 1e-6
 """Part of the domain by which it is tried out on which side of the rim of a hole a surface lies."""
 
+TURNED_OVER = 1e-7
+"""Twice the area of a triangle in a domain, as a part of its longest side squared, that counts as none: places on a
+rim are inside of it by some 1e-9 of the domain, more of the sides of small triangles."""
+
 OFF_RIM = 1e-3
 """Part of the domain by which curvatures are looked at from inside of the rim of a hole: differences reach as far."""
 

@@ -8,7 +8,8 @@ from vectorplot import features, surfaces
 from vectorplot.features.facets import Within, facets
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.hole_rims import hole_rims
-from vectorplot.features.parametric.holes import beside_rim_chords, cut_at_holes, into_surface, is_known
+from vectorplot.features.parametric.holed_triangles import cut_at_holes
+from vectorplot.features.parametric.holes import beside_rim_chords, into_surface, is_known
 from vectorplot.testing.curve_points import curves_in_space
 
 

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_parameters import (
     AROUND_RIM,
     OUTSIDE_DOMAIN,
-    REPEATED_OF_DOMAIN,
     RIM_FOUND_TO,
     RIM_SEEN_FROM,
 )
@@ -34,41 +31,21 @@ STEPS = 16
 """Parts of a way that is looked along for a hole."""
 
 
-@dataclass(frozen=True, eq=False)
-class CutTriangles:
-    """Triangles (t,3) of places (n,2) in a domain, none of them with a corner in a hole; rims (r,2): the sides that lie
-    along a rim, with the hole to their right; of (t,): the triangle that each is, or is a part of; on_rim (n,): the
-    places at the ends of sides along rims."""
-
-    places: Floats
-    triangles: Ints
-    rims: Ints
-    of: Ints
-
-    @property
-    def on_rim(self) -> Bools:
-        """(n,) the ends of sides along rims."""
-        result = np.zeros(len(self.places), dtype=np.bool_)
-        result[self.rims] = True
-        return result
-
-
 def is_known(surface: Surface, places: Floats) -> Bools:
     """(...,k) whether places (...,k,2) are in the domain of a surface and in none of its holes; of stacked surfaces,
     each of the k on its own one."""
     u, v = wrapped(surface.domain, places[..., 0], places[..., 1])
     with np.errstate(all="ignore"):
         known = np.isfinite(surface.points(u, v)).all(axis=-1)
+    closed = (surface.domain.closed_u, surface.domain.closed_v)
     starts = (surface.domain.u_start, surface.domain.v_start)
-    for axis, (closed, start, size) in enumerate(
-        zip(_closed(surface.domain), starts, surface.domain.size, strict=True)
-    ):
+    for axis, (round_, start, size) in enumerate(zip(closed, starts, surface.domain.size, strict=True)):
         part = (places[..., axis] - start) / size
-        known &= closed | ((part >= -OUTSIDE_DOMAIN) & (part <= 1.0 + OUTSIDE_DOMAIN))
+        known &= round_ | ((part >= -OUTSIDE_DOMAIN) & (part <= 1.0 + OUTSIDE_DOMAIN))
     return np.asarray(known, dtype=np.bool_)
 
 
-def _last_alike(surface: Surface, base: Floats, ways: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
+def last_alike(surface: Surface, base: Floats, ways: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
     """Parts of ways (k,2) from places base (k,2) between parts low and high (k,), the places at which are in a hole at
     one of both: the last parts that are as at low, and the first ones that are not, no farther apart in the domain than
     RIM_FOUND_TO."""
@@ -89,64 +66,6 @@ def _last_alike(surface: Surface, base: Floats, ways: Floats, low: Floats, high:
     return low, high
 
 
-def cut_at_holes(surface: Surface, places: Floats, triangles: Ints, known: Bools) -> CutTriangles:
-    """Triangles (t,3) of places (n,2), those with some corners in holes cut along the rims; known (n,): places that are
-    in none. They turn as before.
-
-    A corner that lies on a rim to within 1e-9 of a side is taken for a place on it.
-    Degenerate: lines without a surface on either side have no rim.
-    """
-    inside = known[triangles].sum(axis=1)
-    whole, cut_up = np.flatnonzero(inside == 3), np.flatnonzero((inside == 1) | (inside == 2))
-    if not len(cut_up):
-        return CutTriangles(places, triangles[whole], np.zeros((0, 2), dtype=np.intp), whole)
-    mixed = triangles[cut_up]
-    # Turned so that the last corner is the one that differs from the two others.
-    count = known[mixed].sum(axis=1)
-    odd = np.argmax(known[mixed] == (count == 1)[:, None], axis=1)
-    a, b, c = np.take_along_axis(mixed, (odd[:, None] + 1 + np.arange(3)) % 3, axis=1).T
-    new, end = _crossings(surface, places, known, np.concatenate([a, b]), np.concatenate([c, c]))
-    on_a, on_b = np.split(end, 2)
-    alone = count == 1
-    parts = [
-        np.stack([c, on_a, on_b], axis=1)[alone],
-        *(np.stack(some, axis=1)[~alone] for some in ((a, b, on_b), (a, on_b, on_a))),
-    ]
-    every = np.concatenate([triangles[whole], *parts])
-    of = np.concatenate([whole, cut_up[alone], cut_up[~alone], cut_up[~alone]])
-    kept = (every != np.roll(every, 1, axis=1)).all(axis=1)
-    rims = np.where(alone[:, None], np.stack([on_a, on_b], axis=1), np.stack([on_b, on_a], axis=1))
-    return CutTriangles(np.concatenate([places, new]), every[kept], _once(rims), of[kept])
-
-
-def _crossings(surface: Surface, places: Floats, known: Bools, one: Ints, two: Ints) -> tuple[Floats, Ints]:
-    """The places (m,2) that are new, and the numbers (k,) of those at which sides between places one and two (k,), one
-    of which is in a hole, leave the surface: of a place that there was, or of a new one."""
-    pair, side = np.unique(np.stack([one, two], axis=1).min(axis=1) << 32 | np.maximum(one, two), return_inverse=True)
-    low, high = pair >> 32, pair & 0xFFFFFFFF
-    start, end = np.where(known[low], low, high), np.where(known[low], high, low)
-    way = places[end] - places[start]
-    for axis, (closed, size) in enumerate(zip(_closed(surface.domain), surface.domain.size, strict=True)):
-        way[:, axis] -= closed * size * np.round(way[:, axis] / size)
-    part, _ = _last_alike(surface, places[start], way, np.zeros(len(pair)), np.ones(len(pair)))
-    # Sides that end in one place have one crossing where the rim runs through it.
-    number = len(places) + np.arange(len(pair))
-    through = part >= 1.0 - REPEATED_OF_DOMAIN
-    first = np.full(len(places), -1)
-    first[end[through][::-1]] = number[through][::-1]
-    number = np.where(part <= REPEATED_OF_DOMAIN, start, np.where(through, first[end], number))
-    found = places[start] + part[:, None] * way
-    return _just_inside(surface, found, into_surface(surface, found)), number[side]
-
-
-def _once(rims: Ints) -> Ints:
-    """The sides (r,2) that are more than a point, and not there the other way round too."""
-    rims = rims[rims[:, 0] != rims[:, 1]]
-    key = rims.min(axis=1) << 32 | rims.max(axis=1)
-    _, where, uses = np.unique(key, return_inverse=True, return_counts=True)
-    return np.asarray(rims[uses[where] == 1])
-
-
 def beside_rim_chords(surface: Surface, start: Floats, end: Floats, part: Floats) -> tuple[Floats, Bools]:
     """The places (k,2) of rims at parts (k,) of chords from places to places (k,2) on them, straight across the chord,
     the nearest ones; and which were found. Others are on the chord, or at the end of it that is nearer.
@@ -165,14 +84,14 @@ def beside_rim_chords(surface: Surface, start: Floats, end: Floats, part: Floats
     low, high = np.concatenate([[0.0, 0.0], aside])[first], aside[first]
     row = np.flatnonzero(found)
     low, high = low[row], high[row]
-    low, high = _last_alike(surface, base[row], across[row], low, high)
+    low, high = last_alike(surface, base[row], across[row], low, high)
     result = np.where(there[:, None], base, np.where((part < 0.5)[:, None], start, end))
     inwards = np.where(there[row], -np.sign(high), np.sign(high))[:, None] * across[row]
-    result[row] = _just_inside(surface, base[row] + np.where(there[row], low, high)[:, None] * across[row], inwards)
+    result[row] = just_inside(surface, base[row] + np.where(there[row], low, high)[:, None] * across[row], inwards)
     return result, found
 
 
-def _just_inside(surface: Surface, places: Floats, inwards: Floats) -> Floats:
+def just_inside(surface: Surface, places: Floats, inwards: Floats) -> Floats:
     """The places (k,2) on rims, moved along ways (k,2) into the surface by RIM_SEEN_FROM."""
     size = np.stack(np.broadcast_arrays(*surface.domain.size), axis=-1)
     long = np.linalg.norm(inwards / size, axis=1, keepdims=True)
@@ -188,8 +107,8 @@ def up_to_rims(surface: Surface, start: Floats, ways: Floats) -> tuple[Floats, B
     found: Bools = np.asarray(gone.any(axis=0))
     high = parts[np.argmax(gone, axis=0)]
     low = high - 1.0 / STEPS
-    low, _ = _last_alike(surface, start, ways, low, high)
-    return _just_inside(surface, start + low[:, None] * ways, -ways), found
+    low, _ = last_alike(surface, start, ways, low, high)
+    return just_inside(surface, start + low[:, None] * ways, -ways), found
 
 
 def into_surface(surface: Surface, places: Floats) -> Floats:
@@ -204,6 +123,10 @@ def into_surface(surface: Surface, places: Floats) -> Floats:
     return np.where(np.asarray(known.all(axis=0))[:, None], 0.0, way)
 
 
-def _closed(domain: Domain) -> tuple[bool, bool]:
-    """Whether the domain is closed along u and along v."""
-    return domain.closed_u, domain.closed_v
+def ways_between(domain: Domain, start: Floats, end: Floats) -> Floats:
+    """(k,2) the ways from places (k,2) of a domain to others, the shorter ones round where it is closed."""
+    way = end - start
+    for axis, (closed, size) in enumerate(zip((domain.closed_u, domain.closed_v), domain.size, strict=True)):
+        if closed:
+            way[:, axis] -= size * np.round(way[:, axis] / size)
+    return way
