@@ -31,6 +31,7 @@ ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "verbs"), 
 FOR_PROGRAMS = {
     "features/implicit/implicit_cusps.py",
     "features/terrains/label_places.py",
+    "scene/terrains/tints.py",
     "surfaces/curvature.py",
 }
 """Files that programs of one's own call for, and no verb."""

@@ -8,9 +8,11 @@ from .surface_lines import Section, SurfaceLines, SurfacePath, even_cosines, pat
 from .terrains.level_lines import level_sections, round_heights
 from .terrains.terrain import terrain_mesh, terrain_scene
 from .terrains.terrain_lines import Roads, WaterCourses, Watersheds
+from .terrains.tints import TINTS, hill_light, tinted
 from .view import View, look
 
 __all__ = [
+    "TINTS",
     "Along",
     "AtVertex",
     "FieldLines",
@@ -37,6 +39,7 @@ __all__ = [
     "even_cosines",
     "field_of_vision",
     "fitted_picture",
+    "hill_light",
     "level_sections",
     "look",
     "path_on_surface",
@@ -44,4 +47,5 @@ __all__ = [
     "sheet_size",
     "terrain_mesh",
     "terrain_scene",
+    "tinted",
 ]

@@ -1,0 +1,166 @@
+"""Terrains coloured by their heights, and the light of maps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import cos, radians, sin
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.curves.parameters import number
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.scene import Item, Light
+from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
+
+TRIANGLE = 3
+
+MOST_TINTS = 100
+"""Bands of heights, at most."""
+
+TINTS = ("#6f9f6a", "#a5c183", "#e2dda6", "#d8b67c", "#b88a5a", "#99745a", "#c8c1ba", "#ffffff")
+"""Colours of maps from the lowest ground to the highest."""
+
+
+def hill_light(azimuth_deg: float = 315.0, altitude_deg: float = 45.0) -> Light:
+    """The parallel light of shaded maps.
+
+    Parameters
+    ----------
+    azimuth_deg : float
+        Where it comes from, clockwise from north, the direction of y: north-west where nothing is said.
+    altitude_deg : float
+        How high it stands above the horizon, more than 0 and at most 90.
+
+    Returns
+    -------
+    Light
+        Named SUN.
+
+    Raises
+    ------
+    InputError
+        For other altitudes, and angles that are not finite.
+
+    Examples
+    --------
+    >>> from vectorplot import scene
+    >>> [round(part, 6) for part in scene.hill_light().position]
+    [-0.5, 0.5, 0.707107]
+    """
+    azimuth, altitude = number("hill light: azimuth", azimuth_deg), number("hill light: altitude", altitude_deg)
+    if not 0.0 < altitude <= 90.0:
+        raise InputError(f"hill light: an altitude of {altitude:g} degrees: expected more than 0, and at most 90")
+    flat, turn = cos(radians(altitude)), radians(azimuth)
+    return Light((flat * sin(turn), flat * cos(turn), sin(radians(altitude))), parallel=True, name="SUN")
+
+
+def tinted(
+    name: str,
+    mesh: Mesh,
+    heights: Sequence[float],
+    colours: Sequence[str] = TINTS,
+    *,
+    curves: SurfaceLines = NO_LINES,
+) -> tuple[Item, ...]:
+    """The bands of a terrain between given heights, each an item with a colour of its own.
+
+    Parameters
+    ----------
+    name : str
+        The items are called after it and counted from 1, from the lowest band.
+    mesh : Mesh
+        Of triangles; cut along its level lines.
+    heights : (n,) sequence of float
+        Between the bands.
+    colours : sequence of str
+        As #rrggbb, from the lowest band to the highest; what is between them is mixed.
+    curves : SurfaceLines
+        Lines of each of the bands.
+
+    Returns
+    -------
+    tuple of Item
+        Without those that nothing belongs to. Their borders are level lines, of the kind boundary.
+
+    Raises
+    ------
+    InputError
+        For a mesh of other faces, heights that are not finite or more than 99, and colours that are not #rrggbb.
+
+    Notes
+    -----
+    Bands are bodies of their own: in pictures they are shaded as any other, and hide each other.
+
+    Examples
+    --------
+    >>> from vectorplot import scene, surfaces
+    >>> hill = scene.terrain_mesh(surfaces.terrain([[0, 1, 0], [1, 3, 1], [0, 1, 0]]))
+    >>> [(item.name, item.colour) for item in scene.tinted("HILL", hill, [1.0, 2.0], ["#000000", "#ffffff"])]
+    [('HILL1', '#000000'), ('HILL2', '#808080'), ('HILL3', '#ffffff')]
+    """
+    levels = np.unique(np.asarray(heights, dtype=np.float64).ravel())
+    if not np.isfinite(levels).all() or len(levels) >= MOST_TINTS:
+        raise InputError(f"tints: expected fewer than {MOST_TINTS} finite heights")
+    if (np.diff(mesh.offsets) != TRIANGLE).any():
+        raise InputError("tints: expected a terrain, a mesh of triangles")
+    mixed = _mixed(colours, len(levels) + 1)
+    vertices, left = mesh.vertices, mesh.corners.reshape(-1, TRIANGLE)
+    items = []
+    for k, colour in enumerate(mixed):
+        low = left
+        if k < len(levels):
+            vertices, low, left = _cut(vertices, left, float(levels[k]))
+        if len(low):
+            used, corners = np.unique(low, return_inverse=True)
+            band = Mesh.from_triangles(vertices[used], corners.reshape(-1, TRIANGLE))
+            items.append(Item(f"{name}{k + 1}", band, colour, lines=("contour", "boundary", "section"), curves=curves))
+    return tuple(items)
+
+
+def _mixed(colours: Sequence[str], count: int) -> list[str]:
+    """So many colours, evenly from the first to the last one."""
+    try:
+        given = np.array([[int(colour[k : k + 2], 16) for k in (1, 3, 5)] for colour in colours], dtype=np.float64)
+    except (ValueError, TypeError, IndexError):
+        given = np.zeros((0, 3))
+    if not len(given) or any(len(colour) != len("#rrggbb") or colour[0] != "#" for colour in colours):
+        raise InputError("tints: expected colours as #rrggbb")
+    place = np.linspace(0.0, len(given) - 1.0, count)
+    parts = np.stack([np.interp(place, np.arange(len(given)), given[:, k]) for k in range(3)], axis=1)
+    # Halves are rounded up: the mean of black and white is 80.
+    return [f"#{r:02x}{g:02x}{b:02x}" for r, g, b in np.floor(parts + 0.5).astype(int).tolist()]
+
+
+def _cut(vertices: Floats, triangles: Ints, height: float) -> tuple[Floats, Ints, Ints]:
+    """The vertices, those on the level line added, and the triangles below it and above; what is on it counts as
+    above."""
+    values = vertices[:, 2] - height
+    below = (values < 0.0)[triangles]
+    count = below.sum(axis=1)
+    row = np.flatnonzero(count % TRIANGLE != 0)
+    alone = count[row] == 1
+    lone = np.where(alone, below[row].argmax(axis=1), (~below[row]).argmax(axis=1))
+    corner, after, before = (triangles[row, (lone + k) % TRIANGLE] for k in range(TRIANGLE))
+    one, two = np.concatenate([corner, corner]), np.concatenate([after, before])
+    low, high = np.minimum(one, two), np.maximum(one, two)
+    _, first, side = np.unique(low * len(vertices) + high, return_index=True, return_inverse=True)
+    a, b = vertices[low[first]], vertices[high[first]]
+    share = (height - a[:, 2]) / (b[:, 2] - a[:, 2])
+    points = a + share[:, None] * (b - a)
+    points[:, 2] = height
+    out, back = len(vertices) + side[: len(row)], len(vertices) + side[len(row) :]
+    tip = np.stack([corner, out, back], axis=1)
+    rest = np.concatenate([np.stack([out, after, before], axis=1), np.stack([out, before, back], axis=1)])
+    twice = np.concatenate([alone, alone])
+    lower = [triangles[count == TRIANGLE], tip[alone], rest[~twice]]
+    upper = [triangles[count == 0], tip[~alone], rest[twice]]
+    every = np.concatenate([vertices, points])
+    return every, _with_area(every, np.concatenate(lower)), _with_area(every, np.concatenate(upper))
+
+
+def _with_area(vertices: Floats, triangles: Ints) -> Ints:
+    """The triangles whose corners are three points."""
+    a, b, c = (vertices[triangles[:, k]] for k in range(TRIANGLE))
+    return np.asarray(triangles[(a != b).any(axis=1) & (b != c).any(axis=1) & (c != a).any(axis=1)])
