@@ -24,8 +24,8 @@ if hasattr(signal, "SIGHUP"):
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Of tables a few rows, as the profile says; a row that is named runs."""
-    if not any("[" in argument for argument in config.args):
+    """Of tables a few rows, as the profile says; a row that is named runs, here or with -k."""
+    if not (config.option.keyword or any("[" in argument for argument in config.args)):
         kept = rows_to_try(items)
         config.hook.pytest_deselected(items=list(set(items).difference(kept)))
         items[:] = kept

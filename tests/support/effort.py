@@ -54,7 +54,7 @@ def _left_out(rows: list[pytest.Item]) -> list[pytest.Item]:
     """The rows of a table that are left to the whole of it."""
     mark = rows[0].get_closest_marker("spread")
     if mark is not None and "parts" in mark.kwargs:
-        parts = mark.kwargs["parts"]
+        parts = min(mark.kwargs["parts"], len(rows))
         first = crc32(rows[0].name.partition("[")[0].encode()) % parts
         return [row for number, row in enumerate(rows) if number % parts != first]
     columns = [_numbered(column) for column in zip(*map(_values, rows), strict=True)]
