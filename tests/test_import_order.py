@@ -39,7 +39,19 @@ FOR_PROGRAMS = {
 MOST_FILES = 18
 """What a folder holds before one cannot find a file in it any more."""
 
-HEAVY = {"cairo", "scipy", "shapely", "svgwrite", "trimesh", "click", "tqdm", "HersheyFonts", "embreex", "skimage"}
+HEAVY = {
+    "cairo",
+    "ezdxf",
+    "scipy",
+    "shapely",
+    "svgwrite",
+    "trimesh",
+    "click",
+    "tqdm",
+    "HersheyFonts",
+    "embreex",
+    "skimage",
+}
 
 FILES = sorted(path.relative_to(PACKAGE).as_posix() for path in PACKAGE.rglob("*.py"))
 

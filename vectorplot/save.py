@@ -20,6 +20,8 @@ _BACKENDS = {
     "eps": ("cairo.surfaces", "eps_bytes"),
     "pdf": ("cairo.surfaces", "pdf_bytes"),
     "png": ("cairo.surfaces", "png_bytes"),
+    "tex": ("tikz.picture", "tikz_bytes"),
+    "dxf": ("dxf.document", "dxf_bytes"),
     "json": ("json.document", "json_bytes"),
 }
 
@@ -38,8 +40,8 @@ def save(drawing: Drawing | Image | Scene, path: str | os.PathLike[str]) -> None
     Parameters
     ----------
     drawing : Drawing, Image or Scene
-        What is written: a drawing as svg, ps, eps, pdf, png or json; a picture of pixels as png; a scene as scene, a
-        text in the scene language.
+        What is written: a drawing as svg, ps, eps, pdf, png, tex (PGF/TikZ, for LaTeX), dxf or json; a picture of
+        pixels as png; a scene as scene, a text in the scene language.
     path : str or path
         The file, whose suffix says the format.
 
@@ -74,8 +76,8 @@ def save(drawing: Drawing | Image | Scene, path: str | os.PathLike[str]) -> None
 
 
 def write(drawing: Drawing | Image | Scene, format: str) -> bytes:
-    """The drawing as the content of a file: svg, ps, eps, pdf, png (at 150 dpi) or json; a picture of pixels as png; a
-    scene as scene.
+    """The drawing as the content of a file: svg, ps, eps, pdf, png (at 150 dpi), tex, dxf or json; a picture of pixels
+    as png; a scene as scene.
 
     Same drawing, same bytes. Errors: InputError for an unknown format and for what page_marks.sheet refuses.
     """

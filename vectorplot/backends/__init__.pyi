@@ -1,8 +1,11 @@
 from .cairo.surfaces import eps_bytes, pdf_bytes, png_bytes, ps_bytes
+from .dxf.document import dxf_bytes
 from .json.document import json_bytes, read_drawing
 from .svg.document import svg_bytes, svg_text
+from .tikz.picture import tikz_bytes
 
 __all__ = [
+    "dxf_bytes",
     "eps_bytes",
     "json_bytes",
     "pdf_bytes",
@@ -11,4 +14,5 @@ __all__ = [
     "read_drawing",
     "svg_bytes",
     "svg_text",
+    "tikz_bytes",
 ]

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 Command = Callable[..., None]
 Option = Callable[[Command], Command]
 
-DRAWING_FORMATS = ("svg", "ps", "eps", "pdf", "png", "json")
+DRAWING_FORMATS = ("svg", "ps", "eps", "pdf", "png", "tex", "dxf", "json")
 """What a drawing on a page is written as."""
 
 ANGLE = at_least(0.0, at_most=180.0)

@@ -101,7 +101,7 @@ if TYPE_CHECKING:
 )
 def draw(scene: Scene, **told: Any) -> Drawing:
     """Draw INPUT, a scene file, mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain (asc, xyz), and
-    write OUT (svg, ps, eps, pdf, png, json).
+    write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
 
     Camera options replace the fields of the camera in the scene file one by one.
     """

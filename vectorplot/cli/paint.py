@@ -57,7 +57,7 @@ if TYPE_CHECKING:
 )
 def paint(scene: Scene, *, flat: bool, **told: Any) -> Drawing:
     """Paint INPUT, a scene file, mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain (asc, xyz), and
-    write OUT (svg, ps, eps, pdf, png, json).
+    write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
 
     Camera options replace the fields of the camera in the scene file one by one.
     """

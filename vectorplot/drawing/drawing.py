@@ -236,7 +236,7 @@ class Drawing:
         Parameters
         ----------
         path : str or path
-            The file: svg, ps, eps, pdf, png, json.
+            The file: svg, ps, eps, pdf, png, tex, dxf, json.
 
         Raises
         ------

@@ -1,0 +1,75 @@
+"""DXF as the library reads it that others read it by."""
+
+from __future__ import annotations
+
+import io
+
+import ezdxf
+import numpy as np
+import pytest
+from ezdxf.path import make_path
+from shapely import LineString, MultiLineString, hausdorff_distance, unary_union
+
+import vectorplot as vp
+from vectorplot.backends import dxf_bytes
+from vectorplot.surfaces import Sphere
+
+
+def read_back(drawing):
+    document = ezdxf.read(io.StringIO(dxf_bytes(drawing).decode("utf-8")))
+    audit = document.audit()
+    assert not audit.errors and not audit.fixes
+    return document
+
+
+def lines_of(document, layer):
+    """What one layer draws, as chords that are off by less than a thousandth of a mm."""
+    found = document.modelspace().query(f'*[layer=="{layer}"]')
+    return unary_union([LineString([p[:2] for p in make_path(e).flattening(0.001)]) for e in found])
+
+
+@pytest.mark.parametrize("name", ["pencil", "curves", "torus"])
+def test_every_stroke_is_where_it_was_drawn(name):
+    drawing = vp.draw(vp.read(f"data/{name}.scene"), hidden="solid")
+    document = read_back(drawing)
+    assert document.units == ezdxf.units.MM and document.modelspace().dxf.extmax.isclose((drawing.width_mm, drawing.height_mm, 0.0))
+    for number, layer in enumerate(drawing.layers, start=1):
+        strokes = [
+            LineString(paths.points[[*range(a, b), *[a] * bool(closed)]])
+            for paths in layer.strokes
+            for a, b, closed in zip(paths.offsets[:-1], paths.offsets[1:], paths.closed, strict=True)
+        ]
+        known = document.layers.get(f"{number} {layer.name}")
+        assert known.rgb == tuple(bytes.fromhex(layer.pen.colour[1:])) and known.dxf.lineweight > 0
+        if strokes:
+            ours = unary_union(MultiLineString(strokes))
+            assert hausdorff_distance(ours, lines_of(document, known.dxf.name), densify=0.5) < 0.03
+
+
+def test_circles_and_arcs_are_exact_and_other_curves_are_splines():
+    ball = vp.Scene((vp.Item("ball", Sphere(2.0)),))
+    space = read_back(vp.draw(ball, vp.Camera.view("front"))).modelspace()
+    (circle,) = space.query("CIRCLE")
+    assert len(space) == 1 and circle.dxf.radius > 10.0
+    curves = read_back(vp.draw(vp.read("data/torus.scene"))).modelspace()
+    assert len(curves.query("SPLINE")) > 0 and len(curves.query("ELLIPSE")) > 0
+
+
+def test_polygons_are_hatches_with_their_colours_and_transparency():
+    box = vp.Mesh.from_triangles(
+        [(0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    )
+    glass = vp.Material("transparent", opacity=0.4)
+    drawing = vp.paint(vp.Scene((vp.Item("B", box, "blue", material=glass),)), vp.Camera((6, -9, 5), (1, 0, 1)))
+    hatches = read_back(drawing).modelspace().query("HATCH")
+    assert len(hatches) >= 1 and all(hatch.transparency == pytest.approx(0.6, abs=0.01) for hatch in hatches)
+    assert all(hatch.rgb[2] > hatch.rgb[0] for hatch in hatches)
+
+
+def test_same_drawing_same_bytes_and_names_that_the_format_forbids():
+    layer = vp.Layer('a<b>/"|', vp.Pen(0.3, "#12ab34"), (vp.Paths.empty(),), plotted=False)
+    drawing = vp.Drawing(100.0, 80.0, (layer,), title="x")
+    assert dxf_bytes(drawing) == dxf_bytes(drawing)
+    (known,) = [some for some in read_back(drawing).layers if some.dxf.name.startswith("1 ")]
+    assert known.dxf.plot == 0 and np.isin(list('<>/"|'), list(known.dxf.name)).sum() == 0
+    assert ezdxf.options.write_fixed_meta_data_for_testing is False

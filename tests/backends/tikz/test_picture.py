@@ -1,0 +1,79 @@
+"""Pictures for LaTeX, as LaTeX sets them."""
+
+from __future__ import annotations
+
+import io
+import subprocess
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import vectorplot as vp
+from vectorplot.backends import png_bytes, tikz_bytes
+from vectorplot.errors import InputError
+
+DOCUMENT = (
+    "\\documentclass{article}\\usepackage[paperwidth=%gmm,paperheight=%gmm,margin=0mm]{geometry}\\usepackage{tikz}"
+    "\\parindent0pt\\topskip0pt\\pagestyle{empty}"
+    "\\begin{document}\\hbox{\\vbox to 0pt{\\input{picture.tex}\\vss}}\\end{document}"
+)
+
+
+def set_by_latex(drawing, folder):
+    """The page at 150 dpi as LaTeX sets it, and what it complains about."""
+    (folder / "picture.tex").write_bytes(tikz_bytes(drawing))
+    (folder / "document.tex").write_text(DOCUMENT % (drawing.width_mm, drawing.height_mm), encoding="ascii")
+    latex = ["pdflatex", "-interaction=batchmode", "-halt-on-error", "document.tex"]
+    subprocess.run(latex, cwd=folder, check=True, capture_output=True, timeout=120)
+    poppler = ["pdftoppm", "-r", "150", "-png", "-singlefile", "document.pdf", "page"]
+    subprocess.run(poppler, cwd=folder, check=True, timeout=60)
+    log = (folder / "document.log").read_text(encoding="latin-1")
+    return np.asarray(Image.open(folder / "page.png").convert("RGB")).astype(int), log
+
+
+def like_ours(drawing, seen):
+    """The part of pixels that differ much from our own."""
+    ours = np.asarray(Image.open(io.BytesIO(png_bytes(drawing))).convert("RGB")).astype(int)
+    height, width = min(ours.shape[0], seen.shape[0]), min(ours.shape[1], seen.shape[1])
+    assert max(abs(ours.shape[k] - seen.shape[k]) for k in range(2)) <= 1
+    return float((np.abs(ours[:height, :width] - seen[:height, :width]).max(axis=2) > 128).mean())
+
+
+@pytest.mark.parametrize("name", ["pencil", "curves"])
+def test_latex_sets_lines_in_their_size_and_place(name, tmp_path):
+    drawing = vp.draw(vp.read(f"data/{name}.scene"), hidden="dashed")
+    seen, log = set_by_latex(drawing, tmp_path)
+    assert like_ours(drawing, seen) < 2e-4 and "Overfull" not in log
+    assert (seen.min(axis=2) < 128).mean() > 1e-3
+
+
+def test_latex_sets_filled_polygons_and_what_is_seen_through_them(tmp_path):
+    box = vp.Mesh.from_triangles(
+        [(0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    )
+    glass = vp.Material("transparent", opacity=0.4)
+    scene = vp.Scene((vp.Item("A", box, "red"), vp.Item("B", box.moved(0.5, -0.5, 0.2), "blue", material=glass)))
+    drawing = vp.paint(scene, vp.Camera((6, -9, 5), (1, 0, 1)))
+    seen, _ = set_by_latex(drawing, tmp_path)
+    assert like_ours(drawing, seen) < 2e-4
+    assert len(np.unique(seen.reshape(-1, 3), axis=0)) > 8
+
+
+def test_long_lines_are_several_paths_that_go_on_in_each_other(tmp_path):
+    t = np.linspace(0.0, 40.0 * np.pi, 4000)
+    points = np.stack([100.0 + t * np.cos(t) / 2.0, 100.0 + t * np.sin(t) / 2.0], axis=1)
+    none, one = np.zeros(1, dtype=np.intp), np.array([0, len(points)])
+    spiral = vp.Paths(points, one, none > 0, none, none, none, np.zeros((len(points), 3)))
+    drawing = vp.Drawing(200.0, 200.0, (vp.Layer("% \\end{x} ü", vp.Pen(0.3, "#0000ff"), (spiral,)),), title="a%\\b\nc")
+    text = tikz_bytes(drawing).decode("ascii")
+    assert text.count("\\draw") == 4 and max(map(len, text.split("\n"))) < 400
+    seen, _ = set_by_latex(drawing, tmp_path)
+    assert like_ours(drawing, seen) < 2e-4
+
+
+def test_an_empty_picture_has_its_size_and_a_page_that_is_too_large_is_refused(tmp_path):
+    seen, _ = set_by_latex(vp.Drawing(80.0, 60.0, ()), tmp_path)
+    assert seen.min() == 255 and abs(seen.shape[1] - 80 / 25.4 * 150) <= 1
+    with pytest.raises(InputError, match="TeX takes at most 5000 mm"):
+        tikz_bytes(vp.Drawing(6000.0, 60.0, ()))

@@ -1,0 +1,1 @@
+"""Pictures for LaTeX, in PGF/TikZ."""
