@@ -64,7 +64,7 @@ def test_save_writes_what_write_returns(drawing, tmp_path, format):
 
 @pytest.mark.parametrize("name", ["a.gif", "a", ".svg", "a.svg.bak"])
 def test_an_unknown_suffix_is_refused(drawing, tmp_path, name):
-    with pytest.raises(InputError, match=r"unknown suffix .*\.svg, \.ps, \.eps, \.pdf, \.png, \.json"):
+    with pytest.raises(InputError, match=r"unknown suffix .*\.svg, \.ps, \.eps, \.pdf, \.png, \.tex, \.dxf, \.json"):
         save(drawing, tmp_path / name)
     with pytest.raises(InputError, match="unknown format"):
         write(drawing, "gif")
