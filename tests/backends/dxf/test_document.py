@@ -32,7 +32,8 @@ def lines_of(document, layer):
 def test_every_stroke_is_where_it_was_drawn(name):
     drawing = vp.draw(vp.read(f"data/{name}.scene"), hidden="solid")
     document = read_back(drawing)
-    assert document.units == ezdxf.units.MM and document.modelspace().dxf.extmax.isclose((drawing.width_mm, drawing.height_mm, 0.0))
+    corner = document.modelspace().dxf.extmax
+    assert document.units == ezdxf.units.MM and corner.isclose((drawing.width_mm, drawing.height_mm, 0.0))
     for number, layer in enumerate(drawing.layers, start=1):
         strokes = [
             LineString(paths.points[[*range(a, b), *[a] * bool(closed)]])
