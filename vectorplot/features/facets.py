@@ -57,7 +57,7 @@ JUMP = np.radians(45.0)
 ON_RIM = 1.0
 """The third number of a place on the rim of a hole."""
 
-CLOSE_BY = 1.0 / 16.0
+CLOSE_BY = 1.0 / 128.0
 """Part of the length of a side, both in parts of the domain, by which the places over it may be moved to be nearer."""
 
 STEPS = 5
