@@ -14,7 +14,7 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_extent import TOUCHING_OF_EXTENT
 from vectorplot.visibility.polyhedra.occluders import face_occluders
-from vectorplot.visibility.projected_faces import CHUNK, ProjectedFaces
+from vectorplot.visibility.projected_faces import ProjectedFaces
 
 
 def points_hidden_by(scene: Scene, view: View, faces: ProjectedFaces, points: Floats) -> Ints:
@@ -79,22 +79,18 @@ def _by_faces(view: View, faces: ProjectedFaces, points: Floats, items: int) -> 
 
 def _near_boxes(view: View, faces: ProjectedFaces, points: Floats) -> tuple[Ints, Ints]:
     """Pairs of a point and a face that hides and whose box in the image it lies in."""
+    import shapely
+
     image, depth = view.image_of(points), view.depth_of(points)
     able = np.flatnonzero(view.occludes[view.face_item] & (faces.facing != 0)) if len(faces) else np.zeros(0, np.intp)
-    found = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
-    step = max(1, CHUNK // max(points.shape[1], 1))
     low, high = image.min(axis=1, initial=np.inf), image.max(axis=1, initial=-np.inf)
     left, right, bottom, top = faces.box
     reach = (left[able] <= high[0]) & (right[able] >= low[0]) & (bottom[able] <= high[1]) & (top[able] >= low[1])
     able = able[reach]
-    for begin in range(0, len(able), step):
-        some = able[begin : begin + step]
-        x, y = image[0][:, None], image[1][:, None]
-        inside = (left[some] <= x) & (right[some] >= x) & (bottom[some] <= y) & (top[some] >= y)
-        point, number = np.nonzero(inside & (faces.nearest[some] <= depth[:, None]))
-        found.append((point, some[number]))
-    point, face = (np.concatenate(column) for column in zip(*found, strict=True))
-    return point, face
+    tree = shapely.STRtree(shapely.points(image.T))
+    number, point = tree.query(shapely.box(left[able], bottom[able], right[able], top[able]))
+    before = faces.nearest[able[number]] <= depth[point]
+    return point[before], able[number[before]]
 
 
 def _by_sheets(scene: Scene, view: View, points: Floats, items: int) -> Bools:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.lettering.interrupted import inside_box, near_boxes
 
 DIRECTIONS = {
@@ -82,10 +82,8 @@ def places(
     against = CROSSED * _crossed(boxes, start, end) / height[label] + FAR * every[:, 2]
     against += OFF_PAGE * ((boxes[:, 0] < page[0]) | (boxes[:, 1] > page[1])).any(axis=1)
     against += INWARD * _inward(every[:, :2], anchors[label], middle)
-    near = anchors[label][:, None]
     # The points of other labels are not covered.
-    covered = _inside(anchors[None], boxes) & (np.abs(near - anchors[None]).max(axis=2) > 0.0)
-    against += TAKEN * covered.sum(axis=1)
+    against += TAKEN * _covered(boxes, anchors, label)
     first = np.concatenate([[0], np.cumsum(counts)])
     chosen = np.zeros(len(tried), dtype=np.intp)
     occupied = taken
@@ -142,9 +140,15 @@ def _inward(middles: Floats, anchors: Floats, middle: Floats) -> Floats:
     return np.asarray(0.5 + 0.5 * (one * other).sum(axis=1) / np.where(long > 0.0, long, 1.0))
 
 
-def _inside(points: Floats, boxes: Floats) -> Bools:
-    """(c,n) which of points (1,n,2) lie in boxes (c,2,2)."""
-    return np.asarray(((points > boxes[:, None, 0]) & (points < boxes[:, None, 1])).all(axis=2))
+def _covered(boxes: Floats, anchors: Floats, label: Ints) -> Floats:
+    """(c,) how many points of other labels lie in the boxes (c,2,2) that are tried for labels (c,)."""
+    import shapely
+
+    tree = shapely.STRtree(shapely.points(anchors))
+    box, point = tree.query(shapely.box(*boxes[:, 0].T, *boxes[:, 1].T))
+    inside = ((anchors[point] > boxes[box, 0]) & (anchors[point] < boxes[box, 1])).all(axis=1)
+    other = (anchors[point] != anchors[label[box]]).any(axis=1)
+    return np.asarray(np.bincount(box[inside & other], minlength=len(boxes)), dtype=np.float64)
 
 
 def _overlapping(boxes: Floats, others: Floats) -> Bools:
