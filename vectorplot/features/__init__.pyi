@@ -17,6 +17,7 @@ from .integral.integral_curves import geodesics, integral_curves
 from .integral.integration import Accuracy
 from .integral.on_meshes.mesh_evenly_spaced import evenly_spaced_mesh_curves
 from .integral.on_meshes.mesh_integral_curves import mesh_geodesics, mesh_integral_curves
+from .integral.on_meshes.shortest_paths import mesh_distances, mesh_shortest_paths
 from .integral.sites import Sites, TangentPlanes
 from .integral.spacing.evenly_spaced import evenly_spaced_curves
 from .integral.tangent_fields import (
@@ -126,6 +127,7 @@ __all__ = [
     "level_lines",
     "loxodromes",
     "mesh_contour_across_faces",
+    "mesh_distances",
     "mesh_edges",
     "mesh_geodesics",
     "mesh_integral_curves",
@@ -138,6 +140,7 @@ __all__ = [
     "mesh_point_light_isophote_edges",
     "mesh_point_light_isophotes",
     "mesh_section",
+    "mesh_shortest_paths",
     "nearest_on_mesh",
     "parallel_contour",
     "parameter_lines",

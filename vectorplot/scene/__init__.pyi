@@ -1,5 +1,5 @@
 from .hatching import Hatching, Stippling
-from .integral_lines import FieldLines, GeodesicLines
+from .integral_lines import FieldLines, GeodesicLines, ShortestPaths
 from .naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from .paper import sheet_size
 from .placement import Placement, field_of_vision, fitted_picture
@@ -30,6 +30,7 @@ __all__ = [
     "Roads",
     "Scene",
     "Section",
+    "ShortestPaths",
     "Stippling",
     "SurfaceLines",
     "SurfacePath",

@@ -1,4 +1,4 @@
-"""Integral curves that an item asks for: of fields of directions, and geodesics."""
+"""Integral curves that an item asks for: of fields of directions, geodesics and shortest ways."""
 
 from __future__ import annotations
 
@@ -124,13 +124,48 @@ class GeodesicLines:
         return replace(self, length=length, starts=starts)
 
 
-IntegralLines = FieldLines | GeodesicLines
+@dataclass(frozen=True)
+class ShortestPaths:
+    """The shortest ways on a mesh from one point to another.
+
+    Parameters
+    ----------
+    ends : tuple of six float
+        Two points in the world, of which the nearest ones on the mesh count, for each way.
+
+    Raises
+    ------
+    InputError
+        For ends that are not six finite numbers each, more than 10000 of them.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import scene
+    >>> bool(vp.SurfaceLines(integral=(scene.ShortestPaths(((0, 0, 0, 1, 1, 1),)),)))
+    True
+    """
+
+    ends: tuple[tuple[float, ...], ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "ends", _rows("shortest paths", self.ends, ON_MESHES.starts, ON_MESHES.starts))
+
+    def transformed(self, matrix: Floats, larger: float) -> ShortestPaths:
+        """The ways on the mesh under a 4x4 matrix acting on columns."""
+        ends = [_moved(tuple(row[k : k + 3] for row in self.ends), matrix) for k in (0, 3)]
+        return ShortestPaths(tuple((*one, *two) for one, two in zip(*ends, strict=True)))
+
+
+IntegralLines = FieldLines | GeodesicLines | ShortestPaths
 
 
 def check_points(lines: IntegralLines, on: PointsOf) -> None:
     """Nothing, where lines begin at points of the sort of shape they are on. Errors: InputError where not."""
     if isinstance(lines, FieldLines):
         name, rows, width = "field lines", lines.through, on.points
+    elif isinstance(lines, ShortestPaths):
+        name, rows, width = "shortest paths", lines.ends, ON_MESHES.starts
     else:
         name, rows, width = "geodesics", lines.starts, on.starts
     if rows and len(rows[0]) != width:

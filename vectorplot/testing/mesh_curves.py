@@ -171,9 +171,13 @@ def _turns_at_vertices(own: _Segments, corner: Ints, back: Floats, beyond: Ints,
     beyond (k,)."""
     left, total = _counter_clockwise(own, corner, back, beyond, ahead)
     right, _ = _counter_clockwise(own, beyond, ahead, corner, back)
-    left, right = np.minimum(left, total - right), np.minimum(right, total - left)
+    whole = np.isfinite(total)
+    round_ = np.where(whole, total, 0.0)
+    both = ((left, right), (right, left))
+    left, right = (np.where(whole, np.minimum(one, round_ - other), one) for one, other in both)
+    turned = np.abs(np.where(whole, left, 0.0) - np.where(whole, right, 0.0))
     short = np.maximum(np.pi - np.minimum(left, right), 0.0)
-    return np.minimum(short, np.where(np.isfinite(total), np.abs(left - right), np.inf))
+    return np.minimum(short, np.where(whole, turned, np.inf))
 
 
 def _counter_clockwise(own: _Segments, corner: Ints, way: Floats, beyond: Ints, ahead: Floats) -> tuple[Floats, Floats]:

@@ -8,7 +8,7 @@ from vectorplot import features, geometry, surfaces
 from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
-from vectorplot.scene import FieldLines, GeodesicLines
+from vectorplot.scene import FieldLines, GeodesicLines, ShortestPaths
 from vectorplot.testing import assert_drawing_is_right, assert_integral_curve, curves_in_space
 
 WORDS = {
@@ -43,6 +43,7 @@ MESH_WORDS = {
     "geodesics 1 0 0 0 1 1 , 0 -1 0.5 1 0 0 length 3": (
         GeodesicLines(((1.0, 0.0, 0.0, 0.0, 1.0, 1.0), (0.0, -1.0, 0.5, 1.0, 0.0, 0.0)), 3.0),
     ),
+    "shortest_paths 0 0 0 to 2 2 2.0 , 1 0 0 to 1 2 2": (ShortestPaths(((0, 0, 0, 2, 2, 2), (1, 0, 0, 1, 2, 2))),),
 }
 
 
@@ -76,6 +77,8 @@ def test_field_lines_of_formulas_are_drawn_and_written():
         ("box 1 1 1 loxodromes 30 u", "polyhedra have no lines u = const"),
         ("box 1 1 1 slope_lines through 1 2", "a point of slope_lines"),
         ("box 1 1 1 geodesics 0 0 0", "a point of geodesics"),
+        ("box 1 1 1 shortest_paths 0 0 0 1 1 1", "shortest_paths: expected 'to' and a point"),
+        ("surface torus 3 1 shortest_paths 0 0 0 to 1 1 1", "'shortest_paths' is for polyhedra only"),
         ("surface implicit_torus 3 1 slope_lines", "with parameters u and v only"),
         ("curve circle 1 slope_lines", "'slope_lines' is for surfaces only"),
         ("surface torus 3 1 helices 90", "elevation 90, expected less than 90 degrees"),
@@ -102,6 +105,7 @@ def test_points_of_the_wrong_sort_of_shape_are_told_with_the_items_name():
         (ball, deep, "A: field lines: expected points u v on a surface, 2 numbers each, got 3"),
         (box, GeodesicLines(((0.0, 1.0, 0.0),)), "A: geodesics: expected points x y z on a polyhedron, 6 numbers"),
         (ball, GeodesicLines(((0.0,) * 5 + (1.0,),)), "A: geodesics: expected points u v on a surface, 3 numbers"),
+        (ball, ShortestPaths(((0.0,) * 5 + (1.0,),)), "A: shortest paths are for polyhedra only"),
         (box, FieldLines(features.loxodromes(1.0)), "A: parameter lines: only surfaces with parameters"),
         (box, GeodesicLines(((1.0, 1.0, 3.0, 0.0, 0.0, 1.0),)), "A: geodesics: direction 1 has no length in its face"),
     ):
@@ -115,10 +119,12 @@ def test_points_and_directions_on_polyhedra_move_with_them():
         FieldLines(features.SteepestSlope(), None, ((1.0, 0.0, 0.5),)),
         GeodesicLines(((1.0, 0.0, 0.5, 0.0, 1.0, 0.0),), 3.0),
         FieldLines(features.SteepestSlope(), 0.5, ((1.0, 0.5),)),
+        ShortestPaths(((0.0, 0.0, 0.0, 1.0, 2.0, 2.0),)),
     )
     item = vp.Item("A", geometry.box((2, 2, 2)), curves=vp.SurfaceLines(integral=lines))
     matrix = np.array([(0.0, -2.0, 0.0, 1.0), (2.0, 0.0, 0.0, 2.0), (0.0, 0.0, 2.0, 3.0), (0.0, 0.0, 0.0, 1.0)])
-    slope, way, flat = item.transformed(matrix).curves.integral
+    slope, way, flat, short = item.transformed(matrix).curves.integral
+    assert np.allclose(short.ends, [(1.0, 2.0, 3.0, -3.0, 4.0, 7.0)])
     assert np.allclose(slope.through, [(1.0, 4.0, 4.0)]) and slope.apart is None
     assert np.allclose(way.starts, [(1.0, 4.0, 4.0, -2.0, 0.0, 0.0)]) and np.isclose(way.length, 6.0)
     assert flat.through == ((1.0, 0.5),) and np.isclose(flat.apart, 1.0)
@@ -127,7 +133,8 @@ def test_points_and_directions_on_polyhedra_move_with_them():
 @pytest.mark.capability("G9.4-polyhedron")
 def test_they_are_hidden_on_polyhedra_as_rays_say_and_every_verb_shows_them():
     scene = parse_scene(
-        "camera eye 8 5 6 target 0 0 0 A gray box 2 2 2 slope_lines apart 0.6 geodesics 2 1 1 0 1 0.7 length 8\n"
+        "camera eye 8 5 6 target 0 0 0 A gray box 2 2 2 slope_lines apart 0.6 geodesics 2 1 1 0 1 0.7 length 8"
+        " shortest_paths 0 0 1 to 2 2 1.5\n"
         "B gray revolution hollow meridian 0.7 0 2 , 1.5 0 1 , 1.6 0 0 , 1 0 -1 order 12 loxodromes 70 apart 0.6"
         " translation 0 2 0"
     )

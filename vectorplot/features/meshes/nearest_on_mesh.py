@@ -83,25 +83,46 @@ def nearest_on_mesh(mesh: Mesh, points: ArrayLike, directions: ArrayLike | None 
     at = _rows("points", points)
     ways = None if directions is None else np.broadcast_to(_rows("directions", directions), at.shape)
     faces = face_triangles(mesh)
+    near = nearest_triangles(faces, at)
+    corners = mesh.vertices[faces.triangles[near.triangle]]
+    slack = _slack(faces)
+    lead = np.zeros(len(near.point)) if ways is None else _lead(corners, near.feet, ways[near.point], slack)
+    best = np.lexsort((faces.face[near.triangle], -lead, near.point))
+    best = best[ragged.starts(np.bincount(near.point, minlength=len(at)))]
+    return MeshPlaces(faces.face[near.triangle[best]], near.feet[best], near.distances[best])
+
+
+class NearTriangles(NamedTuple):
+    """The triangles that are nearest to points: point (n,), ascending, triangle (n,), feet (n,3) in these, distances
+    (n,); several of a point where they are equally near."""
+
+    point: Ints
+    triangle: Ints
+    feet: Floats
+    distances: Floats
+
+
+def nearest_triangles(faces: FaceTriangles, at: Floats) -> NearTriangles:
+    """The nearest of some triangles to points (k,3). Errors: InputError for no triangles."""
     if not len(faces.triangles):
         raise InputError("the mesh has no faces on which a point could lie")
-    corners = mesh.vertices[faces.triangles]
-    slack = max(ZERO_OF_EXTENT * faces.extent, faces.rounding)
-    centres = corners.mean(axis=1)
-    radii = norm(corners - centres[:, None]).max(axis=1)
-    chosen, feet, away = np.zeros(len(at), dtype=np.intp), np.array(at), np.zeros(len(at))
-    for which, point, triangle in _candidates(at, corners, centres, radii, slack):
+    corners = faces.mesh.vertices[faces.triangles]
+    slack = _slack(faces)
+    found = [NearTriangles(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp), np.zeros((0, 3)), np.zeros(0))]
+    for which, point, triangle in _candidates(at, corners, slack):
         foot = feet_on_triangles(at[point], corners[triangle])
         distance = norm(foot - at[point])
         least = np.full(len(which), np.inf)
         np.minimum.at(least, point - which[0], distance)
         kept = np.flatnonzero(distance <= least[point - which[0]] + slack)
-        point, triangle, foot, distance = point[kept], triangle[kept], foot[kept], distance[kept]
-        lead = np.zeros(len(point)) if ways is None else _lead(faces, corners[triangle], foot, ways[point], slack)
-        best = np.lexsort((faces.face[triangle], -lead, point))
-        best = best[ragged.starts(np.bincount(point - which[0], minlength=len(which)))]
-        chosen[which], feet[which], away[which] = faces.face[triangle[best]], foot[best], distance[best]
-    return MeshPlaces(chosen, feet, away)
+        kept = kept[np.argsort(point[kept], kind="stable")]
+        found.append(NearTriangles(point[kept], triangle[kept], foot[kept], distance[kept]))
+    return NearTriangles(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
+
+
+def _slack(faces: FaceTriangles) -> float:
+    """What tells places on triangles apart."""
+    return max(ZERO_OF_EXTENT * faces.extent, faces.rounding)
 
 
 def _rows(name: str, values: ArrayLike) -> Floats:
@@ -111,12 +132,12 @@ def _rows(name: str, values: ArrayLike) -> Floats:
     return rows
 
 
-def _candidates(
-    at: Floats, corners: Floats, centres: Floats, radii: Floats, slack: float
-) -> list[tuple[Ints, Ints, Ints]]:
+def _candidates(at: Floats, corners: Floats, slack: float) -> list[tuple[Ints, Ints, Ints]]:
     """Points and the triangles that may be nearest to them, in parts: points (p,), and point and triangle (n,)."""
     from scipy.spatial import cKDTree
 
+    centres = corners.mean(axis=1)
+    radii = norm(corners - centres[:, None]).max(axis=1)
     # Triangles of about one size have a tree of their own: a huge one does not make every point try all small ones.
     size = np.frexp(radii)[1]
     groups = [np.flatnonzero(size == one) for one in np.unique(size)]
@@ -158,7 +179,7 @@ def feet_on_triangles(points: Floats, corners: Floats) -> Floats:
     return np.where(inside[:, None], points - height[:, None] * normal, feet)
 
 
-def _lead(faces: FaceTriangles, corners: Floats, feet: Floats, ways: Floats, slack: float) -> Floats:
+def _lead(corners: Floats, feet: Floats, ways: Floats, slack: float) -> Floats:
     """(n,) how well directions (n,3) from feet (n,3) stay in triangles (n,3,3): 1 along them, less where they leave
     their plane, and much less where they lead away over a side on which the foot is."""
     step = np.roll(corners, -1, axis=1) - corners

@@ -33,6 +33,7 @@ from vectorplot.scene.integral_lines import (
     GeodesicLines,
     IntegralLines,
     PointsOf,
+    ShortestPaths,
 )
 
 MOST_FAMILIES = 100
@@ -123,7 +124,8 @@ def read_integral(
     sort of shape they are on."""
     start = at
     try:
-        found, at = (_geodesics if words.words[at] == "geodesics" else _field_lines)(words, at, owner, on)
+        read = {"geodesics": _geodesics, "shortest_paths": _shortest_paths}.get(words.words[at], _field_lines)
+        found, at = read(words, at, owner, on)
     except InputError as error:
         if error.file is not None:
             raise
@@ -159,6 +161,22 @@ def _geodesics(words: Words, at: int, owner: str, on: PointsOf) -> tuple[tuple[I
     return (GeodesicLines(tuple(map(tuple, rows.tolist())), length),), at
 
 
+def _shortest_paths(words: Words, at: int, owner: str, on: PointsOf) -> tuple[tuple[IntegralLines, ...], int]:
+    """Pairs of points with the word 'to' between."""
+    if on != ON_MESHES:
+        words.fail(at, f"{owner}'shortest_paths' is for polyhedra only")
+    rows: list[tuple[float, ...]] = []
+    while not rows or words.words[at] == ",":
+        start, at = read_numbers(3)(words, at + 1, owner, "a start of shortest_paths")
+        if words.words[at] != "to":
+            words.fail(at, f"{owner}shortest_paths: expected 'to' and a point, got {words.shown(at)}")
+        end, at = read_numbers(3)(words, at + 1, owner, "an end of shortest_paths")
+        rows.append((*start, *end))
+        if len(rows) > MOST_STARTS:
+            words.fail(at - 1, f"{owner}shortest_paths: expected at most {MOST_STARTS} of them")
+    return (ShortestPaths(tuple(rows)),), at
+
+
 def _starts(words: Words, at: int, owner: str, width: int, what: str) -> tuple[Floats, int]:
     rows: list[tuple[float, ...]] = []
     while not rows or words.words[at] == ",":
@@ -175,6 +193,8 @@ def integral_text(lines: IntegralLines) -> str:
         angled = len(lines.starts[0]) != ON_MESHES.starts if lines.starts else False
         rows = (_numbers((*row[:2], _degrees(row[2])) if angled else row) for row in lines.starts)
         return f"geodesics {' , '.join(rows)}" + ("" if lines.length is None else f" length {float(lines.length)!r}")
+    if isinstance(lines, ShortestPaths):
+        return "shortest_paths " + " , ".join(f"{_numbers(row[:3])} to {_numbers(row[3:])}" for row in lines.ends)
     words = _field_text(lines.field)
     if lines.through:
         return f"{words} through {' , '.join(_numbers(row) for row in lines.through)}"

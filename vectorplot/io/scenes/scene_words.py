@@ -19,9 +19,9 @@ TERRAIN_WORDS = ("water", "watersheds", "valley_lines", "road")
 
 INTEGRAL_WORDS = (
     *("loxodromes", "slope_lines", "helices", "curvature_lines", "asymptotic_lines", "field_lines"),
-    "geodesics",
+    *("geodesics", "shortest_paths"),
 )
-"""The words for integral curves of a surface."""
+"""The words for integral curves of a surface or a polyhedron."""
 
 SOLID_WORDS = ("solid", "voll")
 FORM_WORDS = ("convex", *SOLID_WORDS, "hollow", "general", "concave")

@@ -7,10 +7,18 @@ import numpy as np
 from vectorplot.errors import InputError
 from vectorplot.features.integral.on_meshes.mesh_evenly_spaced import evenly_spaced_mesh_curves
 from vectorplot.features.integral.on_meshes.mesh_integral_curves import mesh_geodesics, mesh_integral_curves
+from vectorplot.features.integral.on_meshes.shortest_paths import mesh_shortest_paths
 from vectorplot.features.meshes.mesh_curves import MeshCurves
 from vectorplot.features.meshes.nearest_on_mesh import nearest_on_mesh
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.integral_lines import ON_MESHES, USUAL_APART, GeodesicLines, IntegralLines, check_points
+from vectorplot.scene.integral_lines import (
+    ON_MESHES,
+    USUAL_APART,
+    GeodesicLines,
+    IntegralLines,
+    ShortestPaths,
+    check_points,
+)
 from vectorplot.scene.scene import Item
 
 
@@ -29,9 +37,11 @@ def mesh_integral_lines(mesh: Mesh, lines: IntegralLines) -> MeshCurves:
     """The curves on a mesh that are asked for, from the nearest points of the mesh.
 
     Errors: InputError for lines that are too close together, points u, v, fields of parameters, directions at right
-    angles to their face.
+    angles to their face, places that the mesh does not join.
     """
     check_points(lines, ON_MESHES)
+    if isinstance(lines, ShortestPaths):
+        return mesh_shortest_paths(mesh, *np.hsplit(np.array(lines.ends).reshape(-1, 6), 2))
     if isinstance(lines, GeodesicLines):
         points, directions = np.hsplit(np.array(lines.starts).reshape(-1, 6), 2)
         places = nearest_on_mesh(mesh, points, directions)

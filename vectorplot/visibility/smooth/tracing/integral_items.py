@@ -12,7 +12,14 @@ from vectorplot.features.integral.integral_curves import geodesics, integral_cur
 from vectorplot.features.integral.spacing.evenly_spaced import DRAWN, evenly_spaced_curves
 from vectorplot.features.parametric.curve_tracing import Tracing, extent
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
-from vectorplot.scene.integral_lines import ON_SURFACES, USUAL_APART, GeodesicLines, IntegralLines, check_points
+from vectorplot.scene.integral_lines import (
+    ON_SURFACES,
+    USUAL_APART,
+    GeodesicLines,
+    IntegralLines,
+    ShortestPaths,
+    check_points,
+)
 from vectorplot.scene.scene import Item
 from vectorplot.scene.view import View
 from vectorplot.surfaces.placed import placed_once
@@ -43,8 +50,10 @@ def integral_curves_in_view(
 def integral_lines(surface: Surface, lines: IntegralLines, tracing: Tracing) -> SurfaceCurves:
     """The curves of a surface of the world that are asked for; those that begin outside its domain are left out.
 
-    Errors: InputError for lines that are too close together, or begin at points in space.
+    Errors: InputError for lines that are too close together, or begin at points in space, shortest paths.
     """
+    if isinstance(lines, ShortestPaths):
+        raise InputError("shortest paths are for polyhedra only")
     check_points(lines, ON_SURFACES)
     if isinstance(lines, GeodesicLines):
         rows = np.array(lines.starts).reshape(-1, 3)
