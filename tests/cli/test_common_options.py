@@ -18,6 +18,7 @@ from vectorplot.cli.common_options import (
     picture_verb,
 )
 from vectorplot.cli.draw import draw
+from vectorplot.cli.hatching_options import hatching_from
 from vectorplot.cli.options import at_least
 from vectorplot.cli.paint import paint
 from vectorplot.cli.render import render
@@ -97,7 +98,11 @@ def test_options_are_the_keywords_of_python_with_the_same_defaults(verb, functio
     keywords = inspect.signature(function).parameters
     assert (told.page is None) == ("page" not in keywords)
     assert told.camera == CameraOptions()
-    rest = {turned.get(name, name): value for name, value in told.rest.items()}
+    given = told.rest
+    if verb is draw:
+        hatch, others = hatching_from(told.rest)
+        given = {"hatch": hatch, **others}
+    rest = {turned.get(name, name): value for name, value in given.items()}
     assert set(rest) == set(keywords) - {"scene", "camera", "page", "progress", "explain"}
     for name in set(rest) - set(turned.values()):
         value = int(rest[name]) if name == "shadow_bits" else rest[name]
