@@ -99,6 +99,8 @@ def mesh_courses(
 
 def _onward(flow: MeshFlow, side: Ints, at_vertex: Bools, directions: Floats, way: Floats) -> Onward:
     """How lines go on that leave over sides, or where these begin."""
+    if not at_vertex.any():
+        return flow.over_edge(side, directions, way)
     edge, vertex = np.flatnonzero(~at_vertex), np.flatnonzero(at_vertex)
     over = flow.over_edge(side[edge], directions[edge], way[edge])
     beyond = flow.over_vertex(side[vertex], directions[vertex], way[vertex])

@@ -31,6 +31,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import some
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 
 def mesh_shortest_paths(mesh: Mesh, starts: ArrayLike, ends: ArrayLike) -> MeshCurves:
@@ -170,7 +171,7 @@ def _begun(sides: TriangleSides, source: Placed, count: int) -> tuple[Reached, W
     order = np.lexsort((np.concatenate([sides.lengths, away]), columns, rows))
     pair = np.stack([rows, columns])[:, order]
     single = np.append(True, (np.diff(pair, axis=1) != 0).any(axis=0))
-    weights = np.maximum(np.concatenate([sides.lengths, away])[order][single], np.finfo(np.float64).tiny)
+    weights = np.maximum(np.concatenate([sides.lengths, away])[order][single], LEAST_DIVISOR)
     graph = csr_array((weights, pair[:, single]), shape=(vertices + 1, vertices + 1))
     far, before = dijkstra(graph, directed=False, indices=vertices, return_predecessors=True)
     far, before = far[:vertices], before[:vertices].astype(np.intp)
