@@ -10,11 +10,12 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.hatching.followed_lines import FollowedLines
-from vectorplot.geometry.vectors import cross
+from vectorplot.geometry.vectors import cross, normalize
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.surface_lines import SurfaceLines
+from vectorplot.surfaces.capped_quadrics import capped_quadric_of
 from vectorplot.surfaces.surface import Surface, is_parametrised
 
 ROUGH = 96
@@ -59,10 +60,16 @@ def followed_lines(
         if spaced:
             paths = trace(replace(scene, items=tuple(items)))
             found += [
-                FollowedLines(family, number, paths, points, apart, count)
+                FollowedLines(family, number, paths, points, apart, count, _ends(scene.items[number].shape))
                 for number, (count, points, apart) in spaced.items()
             ]
     return found
+
+
+def _ends(shape: object) -> Floats:
+    """(3,) the unit normal of the flat ends of a capped body, zero of what is none."""
+    body = capped_quadric_of(shape)
+    return np.zeros(3) if body is None else normalize(cross(body.frame[0], body.frame[1]))
 
 
 def _count(surface: Surface, family: int, spacing_mm: float, placement: Placement) -> int:

@@ -9,6 +9,7 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.backends.cairo.surfaces import png_bytes
+from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.surfaces import Sphere
 
 SUN = vp.Light((2.0, -3.0, 4.0), parallel=True, intensity=1.0)
@@ -84,3 +85,13 @@ def test_strokes_lie_on_the_sides_that_one_sees_and_behind_nothing() -> None:
 def test_nothing_to_see_is_nothing_to_hatch() -> None:
     none = vp.Scene((vp.Item("ball", Sphere(1.0), hatch=vp.Hatching("none")),), (SUN,))
     assert not any(len(paths) for layer in drawn(none).layers for paths in layer.strokes)
+
+
+def test_flat_ends_of_round_bodies_are_hatched_as_planes() -> None:
+    text = "light L direction 0 0 1\nA gray surface cylinder radius 1 top 2 capped\ncamera eye 4 -6 -5 target 0 0 1\n"
+    scene = parse_scene(text)
+    hatching = vp.Hatching("tone", spacing_mm=0.6, along="surface")
+    drawing = vp.draw(scene, page=PAGE, lines="none", hatch=hatching)
+    (paths,) = [paths for layer in drawing.layers for paths in layer.strokes if len(paths)]
+    height = paths.points3d[:, 2]
+    assert (height < 1e-3).sum() > 20 and (height[height > 1e-3] > 1.0).sum() > 20

@@ -25,7 +25,7 @@ class FollowedLines:
 
     paths: straight parts of two points, of this item and others; samples (s,3): points on all lines of the family, one
     line after the other, and apart (s,): how far in mm the neighbouring lines are from there; count: into how many
-    parts they divide the surface.
+    parts they divide the surface; ends (3,): the unit normal of the flat ends of a capped body, or zero.
     """
 
     family: int
@@ -34,6 +34,7 @@ class FollowedLines:
     samples: Floats
     apart: Floats
     count: int
+    ends: Floats
 
 
 def dark_parts(lines: FollowedLines, hatching: Hatching, regions: TonedRegions) -> Paths:

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.fills_without_overlaps import planes_of_fills
 from vectorplot.drawing.hatching.densities import even_spacings, thresholds
 from vectorplot.drawing.hatching.followed_lines import FollowedLines, dark_parts
 from vectorplot.drawing.hatching.frames import PageFrame, PlaneFrame, plane_frame
@@ -16,7 +17,9 @@ from vectorplot.drawing.hatching.scan import Scanned, scanned
 from vectorplot.drawing.hatching.stippling import stippled
 from vectorplot.drawing.hatching.toned_regions import TonedRegions, toned_regions
 from vectorplot.drawing.strokes.stroke_paths import concatenated
+from vectorplot.geometry.vectors import cross
 from vectorplot.scene.hatching import Hatching, Stippling
+from vectorplot.tolerances.of_angles import SAME_PLANE_SINE
 from vectorplot.tolerances.of_the_page import HATCH_GAP_MM
 from vectorplot.words import LineKind
 
@@ -74,7 +77,7 @@ def hatched_regions(
     """Strokes, as they come, that hatch regions. followed: the lines of items that are hatched along such; the others
     as of hatched_fills."""
     given = [Hatching("none") if one is None else one for one in hatching]
-    ways = {lines.item for lines in followed}
+    scan = _without_lines(regions, followed)
     found = []
     for lines in followed:
         along = given[lines.item]
@@ -83,14 +86,26 @@ def hatched_regions(
     for one in dict.fromkeys(given):
         if one.by == "none":
             continue
-        mine = np.array([other == one and k not in ways for k, other in enumerate(given)], dtype=np.bool_)
-        some = regions.some(mine[regions.item] & (regions.item >= 0))
+        mine = np.array([other == one for other in given], dtype=np.bool_)
+        some = regions.some(mine[regions.item] & (regions.item >= 0) & scan)
         if isinstance(one, Stippling):
             found.append(stippled(some, one, page_from_world))
             continue
         for family in (0, 1) if one.cross else (0,):
             found += _family(some, one, family, page_from_world)
     return concatenated((Paths.empty(), *found))
+
+
+def _without_lines(regions: TonedRegions, followed: Sequence[FollowedLines]) -> Bools:
+    """(n,) the regions that no followed lines lie on: of items that have such the flat ends."""
+    found = np.ones(len(regions), dtype=np.bool_)
+    if not followed or not len(regions):
+        return found
+    normal = planes_of_fills(regions.fills)[0][regions.source]
+    for lines in followed:
+        tilted = np.linalg.norm(cross(normal, lines.ends), axis=1) > SAME_PLANE_SINE
+        found &= (regions.item != lines.item) | (lines.ends.any() & ~tilted)
+    return found
 
 
 def _family(regions: TonedRegions, hatching: Hatching, family: int, page_from_world: Floats) -> list[Paths]:
