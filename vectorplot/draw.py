@@ -31,7 +31,7 @@ from vectorplot.io.anything import scene_of
 from vectorplot.plan import StageReport, Walk, accuracy_of_draw, plan_cuts, plan_draw, plan_hatching, with_accuracy
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.naming.label_anchors import LabelAnchors, label_anchors
-from vectorplot.scene.placement import Placement, mm_per_image
+from vectorplot.scene.placement import Placement, fitted_picture, mm_per_image
 from vectorplot.scene.point_of_view import camera_of, page_of
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.seamless_scene import without_seams
@@ -239,6 +239,9 @@ def draw(
         framed = _behind_balls(walk, view, forms, walk.run("frame", in_frame, view, every, bounded))
         seen = _visibility(walk, view, faces, solid, framed)
         placement = bounded or fitted_lines(view, framed, seen, page)
+        if bounded is None and not len(seen) and walk.calls_for("hatching"):
+            # Without lines the picture is that of the faces.
+            placement = fitted_picture(view, page, view.image_of(reached))
         if (
             every is straight
             or not len(seen)
