@@ -13,6 +13,7 @@ from .implicit.implicit_tracing import ImplicitCurves, ImplicitTracing
 from .implicit.polygonize import polygonized
 from .integral.curvature_fields import AsymptoticDirections, PrincipalDirections
 from .integral.face_sites import FaceSites, face_sites
+from .integral.geodesics_between import geodesics_between
 from .integral.integral_curves import geodesics, integral_curves
 from .integral.integration import Accuracy
 from .integral.on_meshes.mesh_evenly_spaced import evenly_spaced_mesh_curves
@@ -110,6 +111,7 @@ __all__ = [
     "face_intersections",
     "face_sites",
     "geodesics",
+    "geodesics_between",
     "implicit_contour",
     "implicit_contour_cusps",
     "implicit_intersection",

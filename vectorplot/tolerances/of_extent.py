@@ -219,6 +219,17 @@ STALLED_OF_EXTENT = 1e-7
 """An integral curve ends where no step of this part of the extent succeeds: at critical points, where its direction
 jumps or is no longer real."""
 
+INTEGRATED_TO_MEET = 1e-7
+"""The same for geodesics between two places: estimates are of steps of one order less, so that eight digits are
+right."""
+
+MET_OF_EXTENT = 1e-11
+"""A geodesic that is led to a place meets it where it is as near as this: a thousand roundings of points."""
+
+ONE_GEODESIC_OF_EXTENT = 1e-6
+"""Geodesics between the same places that differ by less than this in length and angle are one; places nearer than this
+are one, and conjugate where neighbours are no farther aside for each unit of angle."""
+
 CLOSED_OF_EXTENT = 1e-7
 """A curve that comes back to its start, nearer than this, is closed: a hundred times the error it is integrated with,
 and nothing that a drawing can show."""

@@ -14,6 +14,9 @@ from vectorplot.features.integral.tangent_fields import TangentField
 from vectorplot.geometry.vectors import dot
 from vectorplot.surfaces.surface import Surface
 
+WEIGHT = 1e-3
+"""What errors of the distance of neighbours count for: it says where to go, not where one is."""
+
 
 class Flow(Protocol):
     """What leads points over a surface. The first two numbers of a state are coordinates in a chart."""
@@ -35,10 +38,6 @@ class Flow(Protocol):
     def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> tuple[Floats, Floats]:
         """Derivatives (k,d) of states by the length of the curve, and the unit tangents (k,3) there; last (k,3): the
         tangents a little before; way (k,): -1 where it leads against the field, else 1."""
-        ...
-
-    def settled(self, chart: Ints, states: Floats) -> Floats:
-        """(k,d) states with what they must keep put right again."""
         ...
 
 
@@ -69,10 +68,6 @@ class FieldFlow:
         steps = np.stack(sites.steps(tangents), axis=1)
         return self.charts.rates(chart, places, steps), tangents
 
-    def settled(self, chart: Ints, states: Floats) -> Floats:
-        """The states: every one is right."""
-        return states
-
 
 @dataclass(frozen=True, eq=False)
 class GeodesicFlow:
@@ -94,11 +89,35 @@ class GeodesicFlow:
         bent = sites.bends(tangents)[:, None] * sites.normals
         return np.concatenate([self.charts.rates(chart, places, steps), bent], axis=1), tangents
 
-    def settled(self, chart: Ints, states: Floats) -> Floats:
-        """The states, their tangents of length 1 and in the tangent plane."""
+
+@dataclass(frozen=True, eq=False)
+class JacobiFlow:
+    """Straight on, and how far neighbours that begin at the same place, an angle apart, are aside: states are those of
+    geodesics, the distance aside for each unit of angle as part of the size, and its derivative, both times WEIGHT.
+
+    Source: do Carmo, Differential geometry of curves and surfaces, section 5-5: J'' = -K J.
+    """
+
+    surface: Surface
+    charts: Charts
+    size: float
+
+    def states(self, at: Floats, tangents: Floats) -> Floats:
+        """(k,7) coordinates, tangents, no distance aside and its derivative."""
+        aside = np.broadcast_to((0.0, WEIGHT), (len(at), 2))
+        return np.concatenate([at, tangents, aside], axis=1)
+
+    def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> tuple[Floats, Floats]:
+        """Derivatives and tangents."""
+        straight = GeodesicFlow(self.surface, self.charts)
+        rates, tangents = straight.rates(chart, states[:, :5], last, way)
         places = self.charts.inside(self.charts.parameters(chart, states[:, :2]))
         sites = Sites(self.surface, *places.T)
-        return np.concatenate([states[:, :2], unit(sites.tangential(states[:, 2:]))], axis=1)
+        (e, f, g), (p, m, q) = sites.first_form, sites.second_form
+        with np.errstate(all="ignore"):
+            curvature = (p * q - m * m) / (e * g - f * f)
+        aside = np.stack([states[:, 6] / self.size, -curvature * self.size * states[:, 5]], axis=1)
+        return np.concatenate([rates, aside], axis=1), tangents
 
 
 def aligned(candidates: Floats, last: Floats) -> Floats:

@@ -91,7 +91,7 @@ def integral_curves(
     >>> parallels.closed.tolist(), bool(np.allclose(parallels[1][:, 2], np.sin(1.0)))
     ([True, True], True)
     """
-    at = _starts(surface, starts)
+    at = starts_of(surface, starts)
     flow = FieldFlow(surface, charts(surface), field)
     found = field.tangents(Sites(surface, *flow.charts.inside(at).T))[0]
     return curves_from(flow, at, found, length, both_ways, accuracy, tracing)
@@ -148,7 +148,7 @@ def geodesics(
     >>> curves.closed.tolist(), round(float(np.linalg.norm(np.diff(curves[0], axis=0), axis=1).sum()), 1)
     ([True], 6.3)
     """
-    at = _starts(surface, starts)
+    at = starts_of(surface, starts)
     turn = np.broadcast_to(np.asarray(angles, dtype=np.float64), len(at))
     if not np.isfinite(turn).all():
         raise InputError("geodesics: angles must be finite numbers")
@@ -181,7 +181,7 @@ def courses_from(
     flow: Flow,
     starts: Floats,
     tangents: Floats,
-    longest: float,
+    longest: float | Floats,
     sides: int,
     extent_: tuple[float, float],
     accuracy: Accuracy,
@@ -195,14 +195,15 @@ def courses_from(
         np.tile(starts, (sides, 1)),
         np.tile(tangents, (sides, 1)) * way[:, None],
         way,
-        np.full(len(way), longest),
+        np.tile(np.broadcast_to(longest, len(starts)), sides),
         *extent_,
         accuracy,
         until,
     )
 
 
-def _starts(surface: Surface, starts: ArrayLike) -> Floats:
+def starts_of(surface: Surface, starts: ArrayLike) -> Floats:
+    """(k,2) the parameters that curves are to begin with. Errors: InputError as of `integral_curves`."""
     at = np.atleast_2d(np.asarray(starts, dtype=np.float64))
     d = surface.domain
     if at.size == 0:
