@@ -223,7 +223,7 @@ INTEGRATED_TO_MEET = 1e-7
 """The same for geodesics between two places: estimates are of steps of one order less, so that eight digits are
 right."""
 
-MET_OF_EXTENT = 1e-11
+GEODESIC_MET = 1e-11
 """A geodesic that is led to a place meets it where it is as near as this: a thousand roundings of points."""
 
 ONE_GEODESIC_OF_EXTENT = 1e-6

@@ -131,3 +131,12 @@ surface that lines sweep meets another one cross there."""
 ALONG_A_RULING = 1e-9
 """A discriminant that is all over below this part of what it is made of is rounding: the lines that sweep a surface run
 along the other one, or meet it infinitely far."""
+
+NEIGHBOURS_COUNT = 1e-3
+"""What errors of the distance of neighbouring geodesics count for: it says where to go, not where one is."""
+
+LENGTH_ROUGHLY = 1e-3
+"""Part of their length that is not known of geodesics which are integrated to say where to begin."""
+
+MET_OF_INTEGRATED = 1e-3
+"""Part of the error they are integrated with that geodesics to a place may miss it by."""

@@ -13,9 +13,7 @@ from vectorplot.features.integral.sites import Sites, unit
 from vectorplot.features.integral.tangent_fields import TangentField
 from vectorplot.geometry.vectors import dot
 from vectorplot.surfaces.surface import Surface
-
-WEIGHT = 1e-3
-"""What errors of the distance of neighbours count for: it says where to go, not where one is."""
+from vectorplot.tolerances.of_values import NEIGHBOURS_COUNT
 
 
 class Flow(Protocol):
@@ -93,7 +91,7 @@ class GeodesicFlow:
 @dataclass(frozen=True, eq=False)
 class JacobiFlow:
     """Straight on, and how far neighbours that begin at the same place, an angle apart, are aside: states are those of
-    geodesics, the distance aside for each unit of angle as part of the size, and its derivative, both times WEIGHT.
+    geodesics, the distance aside for each unit of angle as part of the size, and its derivative, both times NEIGHBOURS_COUNT.
 
     Source: do Carmo, Differential geometry of curves and surfaces, section 5-5: J'' = -K J.
     """
@@ -104,7 +102,7 @@ class JacobiFlow:
 
     def states(self, at: Floats, tangents: Floats) -> Floats:
         """(k,7) coordinates, tangents, no distance aside and its derivative."""
-        aside = np.broadcast_to((0.0, WEIGHT), (len(at), 2))
+        aside = np.broadcast_to((0.0, NEIGHBOURS_COUNT), (len(at), 2))
         return np.concatenate([at, tangents, aside], axis=1)
 
     def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> tuple[Floats, Floats]:

@@ -12,7 +12,7 @@ from vectorplot.curves.parameters import positive
 from vectorplot.errors import InputError
 from vectorplot.features.integral.charts import charts
 from vectorplot.features.integral.courses import Courses
-from vectorplot.features.integral.flows import WEIGHT, JacobiFlow
+from vectorplot.features.integral.flows import JacobiFlow
 from vectorplot.features.integral.integral_curves import DEFAULT, courses_from, drawn, starts_of
 from vectorplot.features.integral.integration import Accuracy
 from vectorplot.features.integral.sites import Sites, unit
@@ -23,11 +23,12 @@ from vectorplot.geometry import ragged, records
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_extent import (
+    GEODESIC_MET,
     INTEGRATED_AS_DRAWN,
     INTEGRATED_TO_MEET,
-    MET_OF_EXTENT,
     ONE_GEODESIC_OF_EXTENT,
 )
+from vectorplot.tolerances.of_values import LENGTH_ROUGHLY, MET_OF_INTEGRATED, NEIGHBOURS_COUNT
 
 LONGEST = 3.0
 """Times the extent of its surface that a geodesic is long at most where nothing else is said."""
@@ -52,12 +53,6 @@ FARTHEST = 0.1
 
 NEARER = (1 / 6, 1 / 2, 1.0)
 """Parts of the length within which geodesics are looked for, one after the other."""
-
-SLACK = 1e-3
-"""Part of their length that is not known of geodesics which are integrated roughly."""
-
-MET_OF_ERROR = 1e-3
-"""Part of the error they are integrated with that geodesics may miss the end by."""
 
 EIGHT_DIGITS = Accuracy(INTEGRATED_TO_MEET)
 """How well they are integrated where nothing else is said."""
@@ -150,13 +145,15 @@ def geodesics_between(
         raise InputError("geodesics between two places: the surface has no tangent plane where they start")
     # Those that are short are shorter than all others: where these are enough the others are not looked for.
     for reach in (1.0,) if most is None else NEARER:
-        roughly, _ = shooting.met(shooting.passing(reach * limit), (1.0 + SLACK) * reach * limit, ROUGH, ROUGH.error)
+        roughly, _ = shooting.met(
+            shooting.passing(reach * limit), (1.0 + LENGTH_ROUGHLY) * reach * limit, ROUGH, ROUGH.error
+        )
         if most is not None and len(roughly.length) >= most:
             break
     # Which are the shortest is known but for the error of these.
     last = np.inf if most is None else roughly.length[:most].max(initial=0.0)
-    wanted = np.flatnonzero(roughly.length <= (1.0 + SLACK) * last)
-    near = max(MET_OF_EXTENT, MET_OF_ERROR * accuracy.error)
+    wanted = np.flatnonzero(roughly.length <= (1.0 + LENGTH_ROUGHLY) * last)
+    near = max(GEODESIC_MET, MET_OF_INTEGRATED * accuracy.error)
     found, aside = shooting.met(records.some(roughly, wanted), limit, accuracy, near)
     if not len(found.length):
         return no_curves()
@@ -223,7 +220,7 @@ class _Shooting:
         way = goal - surface.points(*chart.within(places).T)
         tangents = states[:, 2:5]
         left = np.nan_to_num(dot(way, cross(sites.normals, tangents)))
-        return norm(way), dot(way, tangents), left, states[:, 5] * self.extent[0] / WEIGHT
+        return norm(way), dot(way, tangents), left, states[:, 5] * self.extent[0] / NEIGHBOURS_COUNT
 
     def met(self, shots: _Shots, longest: float, accuracy: Accuracy, near: float) -> tuple[_Shots, Floats]:
         """Those of the shots that meet the end, as near as a part of the extent, each once, the shortest first; and how
