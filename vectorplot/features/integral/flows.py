@@ -91,7 +91,8 @@ class GeodesicFlow:
 @dataclass(frozen=True, eq=False)
 class JacobiFlow:
     """Straight on, and how far neighbours that begin at the same place, an angle apart, are aside: states are those of
-    geodesics, the distance aside for each unit of angle as part of the size, and its derivative, both times NEIGHBOURS_COUNT.
+    geodesics, the distance aside for each unit of angle as part of the size, and its derivative, both times
+    NEIGHBOURS_COUNT.
 
     Source: do Carmo, Differential geometry of curves and surfaces, section 5-5: J'' = -K J.
     """
