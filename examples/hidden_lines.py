@@ -1,4 +1,4 @@
-"""Hidden lines dashed, on a layer of their own that a plotter skips.
+"""Hidden lines dashed, on a layer of their own, for another pen.
 
 Look at the dashes: they are real strokes, and every one knows behind how many bars it lies. None is lost: what is
 visible and what is hidden make up all edges of the three bars.
@@ -32,7 +32,6 @@ def main(folder: Path) -> None:
 
     whole = vp.draw(bars, hidden="solid")
     behind = next(layer for layer in whole.layers if layer.name == "hidden")
-    assert not behind.plotted
     assert np.concatenate([paths.hidden_by for paths in behind.strokes]).min() >= 1
     assert np.isclose(edge_length(whole), 3 * 4 * (8.4 + 1.0 + 0.5))
 

@@ -149,7 +149,7 @@ def test_an_object_that_is_wholly_hidden_is_in_the_hidden_layer() -> None:
     camera = vp.Camera((0.5, -8, 0.25), (0, 0, 0))
     drawing = vp.draw(scene, camera, hidden="solid")
     layers = [layer for layer in drawing.layers if any((marks.item == 1).any() for marks in layer.strokes)]
-    assert [(layer.name, layer.plotted) for layer in layers] == [("hidden", False)]
+    assert [(layer.name, layer.plotted) for layer in layers] == [("hidden", True)]
     assert drawn(drawing).of(1).hidden.length == pytest.approx(24.0), "all its edges"
     plain = vp.draw(scene, camera)
     assert len(drawn(plain).of(1)) == 0 and plain.items == ("WALL", "CUBE")

@@ -77,7 +77,7 @@ def tinted(
 
 def shown(drawing: vp.Drawing, points) -> np.ndarray:
     """(n,) which points (n,3) of the world are ends of visible strokes."""
-    lines = [paths for layer in drawing.layers if layer.plotted for paths in layer.strokes if len(paths)]
+    lines = [paths for layer in drawing.layers if layer.name != "hidden" for paths in layer.strokes if len(paths)]
     ends = np.concatenate([p.points3d[np.concatenate([p.offsets[:-1], p.offsets[1:] - 1])] for p in lines])
     gap = np.linalg.norm(np.asarray(points)[:, None] - ends, axis=2).min(axis=1)
     return gap < 1e-9 * np.ptp(ends, axis=0).max()

@@ -7,6 +7,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.curves import Circle, CubicSpline, Helix, Line, Loxodrome, curve_of_function, spline_curve
+from vectorplot.errors import InputError
 from vectorplot.geometry import box, rotation_about
 from vectorplot.scene import FieldLines, GeodesicLines
 from vectorplot.surfaces import (
@@ -142,3 +143,11 @@ def test_quarter_turns_are_exact_and_mirrors_keep_the_outside_outside():
 def test_what_is_no_motion_is_refused(way):
     with pytest.raises(vp.InputError):
         way(box((1, 1, 1)))
+
+
+def test_a_vector_in_place_of_three_numbers_and_ways_without_end_are_told():
+    cube = box((1, 1, 1))
+    with pytest.raises(TypeError, match=r"moved\(\*vector\)"):
+        cube.moved((1, 2, 3))
+    with pytest.raises(InputError, match="moved: expected finite numbers"):
+        cube.moved(np.inf)

@@ -238,6 +238,7 @@ def _content_hash(page: PageMarks, bodies: list[bytes]) -> str:
     """A prefix for ids, which must begin with a letter."""
     digest = hashlib.sha256(f"{page.width} {page.height} {page.title}".encode())
     for ink, body in zip(page.inks, bodies, strict=True):
-        digest.update(f"\n{ink.label}\n{ink.pen}\n".encode())
+        pen = f"Pen(width_mm={ink.pen.width_mm!r}, colour={ink.pen.colour!r})"
+        digest.update(f"\n{ink.label}\n{pen}\n".encode())
         digest.update(body)
     return "d" + base64.b32encode(digest.digest())[:HASH_LENGTH].decode().lower()

@@ -26,7 +26,8 @@ class Movable(ABC, Generic[Moved]):
         """The same thing under a matrix (4,4) that acts on columns."""
 
     def moved(self, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Moved:
-        """The same thing, so far away from where it stood."""
+        """The same thing, so far away from where it stood: moved(1, 2, 3). Errors: TypeError for a vector in place of
+        three numbers, InputError for what is not finite."""
         return self.transformed(shift_matrix(x, y, z))
 
     def turned(self, axis: str | ArrayLike, angle_deg: float) -> Moved:
@@ -43,8 +44,12 @@ class Movable(ABC, Generic[Moved]):
 
 def shift_matrix(x: float, y: float, z: float) -> Floats:
     """(4,4) what moves by x, y, z."""
+    if any(np.ndim(way) for way in (x, y, z)):
+        raise TypeError("moved takes three numbers, as in moved(1, 2, 3); of a vector, moved(*vector)")
     matrix = np.eye(4)
     matrix[:3, 3] = x, y, z
+    if not np.isfinite(matrix).all():
+        raise InputError("moved: expected finite numbers")
     return matrix
 
 
