@@ -32,7 +32,6 @@ FOR_PROGRAMS = {
     "features/implicit/implicit_cusps.py",
     "features/terrains/label_places.py",
     "scene/terrains/tints.py",
-    "features/integral/geodesics_between.py",
     "surfaces/curvature.py",
 }
 """Files that programs of one's own call for, and no verb."""

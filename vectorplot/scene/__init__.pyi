@@ -1,5 +1,5 @@
 from .hatching import Hatching, Stippling
-from .integral_lines import FieldLines, GeodesicLines, ShortestPaths
+from .integral_lines import FieldLines, GeodesicLines, GeodesicsBetween, ShortestPaths
 from .naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from .paper import sheet_size
 from .placement import Placement, field_of_vision, fitted_picture
@@ -17,6 +17,7 @@ __all__ = [
     "AtVertex",
     "FieldLines",
     "GeodesicLines",
+    "GeodesicsBetween",
     "Hatching",
     "Item",
     "Label",

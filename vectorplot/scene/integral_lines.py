@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 MOST_STARTS = 10_000
 """The largest number of points that curves of one field are asked for through."""
 
+MOST_PAIRS = 100
+"""The largest number of pairs of places that geodesics are asked for between."""
 
 USUAL_APART = 1.0 / 24.0
 """Part of the extent of a shape that neighbours are apart where nothing is said."""
@@ -157,11 +159,58 @@ class ShortestPaths:
         return ShortestPaths(tuple((*one, *two) for one, two in zip(*ends, strict=True)))
 
 
-IntegralLines = FieldLines | GeodesicLines | ShortestPaths
+@dataclass(frozen=True)
+class GeodesicsBetween:
+    """Geodesics of a surface from one place to another, the shortest ones.
+
+    Parameters
+    ----------
+    pairs : tuple of (float, float, float, float)
+        Parameters u, v of where each begins, and those of where it ends.
+    most : int
+        How many from each place to the other.
+    length : float, optional
+        How long they are at most, in world units; three times the extent of the surface where None.
+
+    Raises
+    ------
+    InputError
+        For a length or a number that is not positive, pairs that are not four finite numbers each, more than 100 of
+        them.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import scene
+    >>> bool(vp.SurfaceLines(integral=(scene.GeodesicsBetween(((0.0, 0.0, 1.0, 0.5),)),)))
+    True
+    """
+
+    pairs: tuple[tuple[float, ...], ...]
+    most: int = 1
+    length: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.length is not None:
+            positive("geodesics: length", self.length)
+        if not 1 <= self.most <= MOST_PAIRS:
+            raise InputError(f"geodesics between places: {self.most} of them, expected 1 to {MOST_PAIRS}")
+        if len(self.pairs) > MOST_PAIRS:
+            raise InputError(f"geodesics between places: {len(self.pairs)} pairs, expected at most {MOST_PAIRS}")
+        object.__setattr__(self, "pairs", _rows("geodesics between places", self.pairs, 4, 4))
+
+    def transformed(self, matrix: Floats, larger: float) -> GeodesicsBetween:
+        """The lines of the surface under a 4x4 matrix acting on columns that makes lengths so many times larger."""
+        return self if self.length is None else replace(self, length=larger * self.length)
+
+
+IntegralLines = FieldLines | GeodesicLines | GeodesicsBetween | ShortestPaths
 
 
 def check_points(lines: IntegralLines, on: PointsOf) -> None:
     """Nothing, where lines begin at points of the sort of shape they are on. Errors: InputError where not."""
+    if isinstance(lines, GeodesicsBetween):
+        return
     if isinstance(lines, FieldLines):
         name, rows, width = "field lines", lines.through, on.points
     elif isinstance(lines, ShortestPaths):

@@ -231,7 +231,7 @@ class SurfaceLines:
         Isophotes of a polyhedron are its edges between lighter and darker faces.
     paths : tuple of SurfacePath
         Curves u(t), v(t) on a parametrised surface.
-    integral : tuple of FieldLines, GeodesicLines and ShortestPaths
+    integral : tuple of FieldLines, GeodesicLines, GeodesicsBetween and ShortestPaths
         Integral curves of a parametrised surface, or a polyhedron.
     terrain : tuple of WaterCourses, Watersheds and Roads
         Lines of a terrain, a mesh of triangles of which none is above another.

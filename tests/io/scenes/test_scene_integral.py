@@ -8,7 +8,7 @@ from vectorplot import features, geometry, surfaces
 from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
-from vectorplot.scene import FieldLines, GeodesicLines, ShortestPaths
+from vectorplot.scene import FieldLines, GeodesicLines, GeodesicsBetween, ShortestPaths
 from vectorplot.testing import assert_drawing_is_right, assert_integral_curve, curves_in_space
 
 WORDS = {
@@ -22,6 +22,10 @@ WORDS = {
         FieldLines(features.AsymptoticDirections(2), None, ((0.0, np.pi), (1.0, 2.0))),
     ),
     "geodesics 0 1 90 , 2 1 0 length 3": (GeodesicLines(((0.0, 1.0, np.pi / 2), (2.0, 1.0, 0.0)), 3.0),),
+    "geodesics between 0 0 1 0.5": (GeodesicsBetween(((0.0, 0.0, 1.0, 0.5),)),),
+    "geodesics between 0 0 1 0.5 , 2 0 3 1 count 3 length 9": (
+        GeodesicsBetween(((0.0, 0.0, 1.0, 0.5), (2.0, 0.0, 3.0, 1.0)), 3, 9.0),
+    ),
 }
 
 
@@ -88,6 +92,10 @@ def test_field_lines_of_formulas_are_drawn_and_written():
         ("surface torus 3 1 slope_lines through 1", "a point of slope_lines"),
         ("surface torus 3 1 geodesics 0 0", "a point of geodesics"),
         ("surface torus 3 1 geodesics 0 0 0 length -1", "length"),
+        ("box 1 1 1 geodesics between 0 0 1 1", "for surfaces with parameters u and v only"),
+        ("surface torus 3 1 geodesics between 0 0 1", "a point of geodesics between places"),
+        ("surface torus 3 1 geodesics between 0 0 1 1 count 0", "expected 1 to 100"),
+        ("surface torus 3 1 geodesics between 0 0 1 1 length 0", "length"),
         ('surface torus 3 1 field_lines "x" "y"', "formula"),
     ],
 )

@@ -31,6 +31,7 @@ from vectorplot.scene.integral_lines import (
     ON_MESHES,
     FieldLines,
     GeodesicLines,
+    GeodesicsBetween,
     IntegralLines,
     PointsOf,
     ShortestPaths,
@@ -151,7 +152,11 @@ def _field_lines(words: Words, at: int, owner: str, on: PointsOf) -> tuple[tuple
 
 
 def _geodesics(words: Words, at: int, owner: str, on: PointsOf) -> tuple[tuple[IntegralLines, ...], int]:
-    """Parameters and angles, or points and directions, and a length."""
+    """Parameters and angles, points and directions, or two places and how many; and a length."""
+    if words.words[at + 1] == "between":
+        if on == ON_MESHES:
+            words.fail(at + 1, f"{owner}geodesics between places are for surfaces with parameters u and v only")
+        return _between(words, at + 2, owner)
     rows, at = _starts(words, at + 1, owner, on.starts, "geodesics")
     if on != ON_MESHES:
         rows[:, 2] = [radians(angle) for angle in rows[:, 2]]
@@ -177,6 +182,17 @@ def _shortest_paths(words: Words, at: int, owner: str, on: PointsOf) -> tuple[tu
     return (ShortestPaths(tuple(rows)),), at
 
 
+def _between(words: Words, at: int, owner: str) -> tuple[tuple[IntegralLines, ...], int]:
+    """Parameters of two places, how many, and a length."""
+    rows, at = _starts(words, at, owner, 4, "geodesics between places")
+    most, length = 1, None
+    if words.words[at] == "count":
+        most, at = words.whole(at + 1, owner, "a number of geodesics"), at + 2
+    if words.words[at] == "length":
+        length, at = read_number(words, at + 1, owner, "the length of geodesics")
+    return (GeodesicsBetween(tuple((a, b, c, d) for a, b, c, d in rows.tolist()), most, length),), at
+
+
 def _starts(words: Words, at: int, owner: str, width: int, what: str) -> tuple[Floats, int]:
     rows: list[tuple[float, ...]] = []
     while not rows or words.words[at] == ",":
@@ -195,6 +211,10 @@ def integral_text(lines: IntegralLines) -> str:
         return f"geodesics {' , '.join(rows)}" + ("" if lines.length is None else f" length {float(lines.length)!r}")
     if isinstance(lines, ShortestPaths):
         return "shortest_paths " + " , ".join(f"{_numbers(row[:3])} to {_numbers(row[3:])}" for row in lines.ends)
+    if isinstance(lines, GeodesicsBetween):
+        text = f"geodesics between {' , '.join(_numbers(row) for row in lines.pairs)}"
+        text += f" count {lines.most}" * (lines.most != 1)
+        return text + ("" if lines.length is None else f" length {float(lines.length)!r}")
     words = _field_text(lines.field)
     if lines.through:
         return f"{words} through {' , '.join(_numbers(row) for row in lines.through)}"

@@ -15,6 +15,7 @@ from vectorplot.scene.integral_lines import (
     ON_MESHES,
     USUAL_APART,
     GeodesicLines,
+    GeodesicsBetween,
     IntegralLines,
     ShortestPaths,
     check_points,
@@ -39,6 +40,8 @@ def mesh_integral_lines(mesh: Mesh, lines: IntegralLines) -> MeshCurves:
     Errors: InputError for lines that are too close together, points u, v, fields of parameters, directions at right
     angles to their face, places that the mesh does not join.
     """
+    if isinstance(lines, GeodesicsBetween):
+        raise InputError("geodesics between places: for surfaces with parameters u and v only")
     check_points(lines, ON_MESHES)
     if isinstance(lines, ShortestPaths):
         return mesh_shortest_paths(mesh, *np.hsplit(np.array(lines.ends).reshape(-1, 6), 2))

@@ -8,14 +8,16 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
+from vectorplot.features.integral.geodesics_between import geodesics_between
 from vectorplot.features.integral.integral_curves import geodesics, integral_curves
 from vectorplot.features.integral.spacing.evenly_spaced import DRAWN, evenly_spaced_curves
 from vectorplot.features.parametric.curve_tracing import Tracing, extent
-from vectorplot.features.parametric.surface_curves import SurfaceCurves
+from vectorplot.features.parametric.surface_curves import SurfaceCurves, together
 from vectorplot.scene.integral_lines import (
     ON_SURFACES,
     USUAL_APART,
     GeodesicLines,
+    GeodesicsBetween,
     IntegralLines,
     ShortestPaths,
     check_points,
@@ -59,6 +61,15 @@ def integral_lines(surface: Surface, lines: IntegralLines, tracing: Tracing) -> 
         rows = np.array(lines.starts).reshape(-1, 3)
         rows = rows[_within(surface.domain, rows)]
         return geodesics(surface, rows[:, :2], rows[:, 2], length=lines.length, accuracy=DRAWN, tracing=tracing)
+    if isinstance(lines, GeodesicsBetween):
+        rows = np.array(lines.pairs).reshape(-1, 4)
+        rows = rows[_within(surface.domain, rows) & _within(surface.domain, rows[:, 2:])]
+        return together(
+            [
+                geodesics_between(surface, row[:2], row[2:], most=lines.most, longest=lines.length, tracing=tracing)
+                for row in rows
+            ]
+        )
     if lines.through:
         rows = np.array(lines.through)
         rows = rows[_within(surface.domain, rows)]
