@@ -125,7 +125,7 @@ def geodesics_between(
     >>> from vectorplot import features, surfaces
     >>> found = features.geodesics_between(surfaces.Cylinder(1.0, 0.0, 3.0), (0.0, 0.5), (np.pi / 2, 2.0), most=2)
     >>> [round(float(length), 6) for length in found.levels]  # unrolled: straight, to the left and to the right
-    [2.17345, 4.944943]
+    [2.171958, 4.945362]
     """
     if most is not None and most < 1:
         raise InputError(f"geodesics between two places: {most} of them, expected 1 or more")
