@@ -80,6 +80,7 @@ def test_the_second_time_nothing_is_installed(tmp_path):
         gs="",
         pdftoppm="",
         rsvg_convert="",
+        pdflatex="",
         pkg_config="exit 0",
         python3="case $* in *-m\\ venv*) mkdir -p .venv/bin; for name in python vectorplot; do "
         'printf "#!/bin/sh\\necho pip \\"\\$@\\" >>calls\\n" >.venv/bin/$name; chmod +x .venv/bin/$name; done ;;'
@@ -111,7 +112,7 @@ def test_what_is_missing_is_installed_by_apt_with_the_right_names(tmp_path):
         id="echo 0",
         python3="case $* in *-m\\ venv*) exit 7 ;; *ensurepip*) [ -f venv ] ;; *sysconfig*) echo . ;; esac",
         apt_get=f'echo "$@" >>"{tmp_path}/calls"; case $1 in install) touch venv Python.h; '
-        f'for name in cc gs pdftoppm rsvg-convert pkg-config; do printf "#!/bin/sh\n" >"{tmp_path}/programs/$name"; '
+        f'for name in cc gs pdftoppm rsvg-convert pdflatex pkg-config; do printf "#!/bin/sh\n" >"{tmp_path}/programs/$name"; '
         f'chmod +x "{tmp_path}/programs/$name"; done ;; esac',
     )
     result = set_up(tmp_path, "test", path=path)
@@ -120,5 +121,5 @@ def test_what_is_missing_is_installed_by_apt_with_the_right_names(tmp_path):
     assert update == "update"
     assert install == (
         "install -y --no-install-recommends python3-venv python3-dev gcc pkg-config libcairo2-dev "
-        "ghostscript poppler-utils librsvg2-bin"
+        "ghostscript poppler-utils librsvg2-bin texlive-latex-base texlive-pictures"
     )

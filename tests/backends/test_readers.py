@@ -135,6 +135,8 @@ def test_one_drawing_goes_to_every_device(sample, format):
         "eps": b"%!PS-Adobe-3.0 EPSF-3.0\n",
         "pdf": b"%PDF-1.",
         "png": b"\x89PNG",
+        "tex": b"% A sample (of lines)\n\\begin{tikzpicture}",
+        "dxf": b"  0\nSECTION\n",
         "json": b'{"format": "vectorplot-drawing"',
     }
     assert write(sample, format).startswith(starts[format])

@@ -78,6 +78,9 @@ def _bytes(page: PageMarks) -> bytes:
     space.reset_limits((0.0, 0.0), (width, height))
     for ink in page.inks:
         _layer(document, space, ink)
+    # ezdxf names the classes of objects in the order of a set, which changes from process to process.
+    document.classes.add_required_classes(document.dxfversion)
+    document.classes.classes = dict(sorted(document.classes.classes.items()))
     text = io.StringIO()
     document.write(text)
     return document.encode(text.getvalue())
