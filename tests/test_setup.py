@@ -112,7 +112,8 @@ def test_what_is_missing_is_installed_by_apt_with_the_right_names(tmp_path):
         id="echo 0",
         python3="case $* in *-m\\ venv*) exit 7 ;; *ensurepip*) [ -f venv ] ;; *sysconfig*) echo . ;; esac",
         apt_get=f'echo "$@" >>"{tmp_path}/calls"; case $1 in install) touch venv Python.h; '
-        f'for name in cc gs pdftoppm rsvg-convert pdflatex pkg-config; do printf "#!/bin/sh\n" >"{tmp_path}/programs/$name"; '
+        "for name in cc gs pdftoppm rsvg-convert pdflatex pkg-config; do "
+        f'printf "#!/bin/sh\n" >"{tmp_path}/programs/$name"; '
         f'chmod +x "{tmp_path}/programs/$name"; done ;; esac',
     )
     result = set_up(tmp_path, "test", path=path)
