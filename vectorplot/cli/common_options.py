@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from vectorplot.cli.line_options import LINE_OPTIONS, LineOptions
 from vectorplot.cli.options import KINDS, at_least, between, format_of, kinds, light
 from vectorplot.cli.picture import Source, make_picture
 from vectorplot.cli.view_options import CAMERA_OPTIONS, CameraOptions, PageOptions, camera_from, page_from
@@ -101,22 +102,25 @@ def shadows_option(ways: Sequence[str], meaning: str) -> Option:
 
 @dataclass(frozen=True)
 class Told:
-    """What the user told a verb: camera, page (None: pictures of pixels have none), and all else.
+    """What the user told a verb: camera, page (None: pictures of pixels have none), lines on all that is shown, and all
+    else.
 
     rest: values by the keywords of the function of the package that has the verb's name.
     """
 
     camera: CameraOptions
     page: PageOptions | None
+    added: LineOptions
     rest: Mapping[str, Any]
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> Told:
         """What the options of a command say. Bad usage for options that contradict each other."""
-        taken = {field.name for group in (CameraOptions, PageOptions) for field in fields(group)}
+        taken = {field.name for group in (CameraOptions, PageOptions, LineOptions) for field in fields(group)}
         return cls(
             CameraOptions.of(options),
             PageOptions.of(options) if "page" in options else None,
+            LineOptions.of(options),
             {name: value for name, value in options.items() if name not in taken},
         )
 
@@ -125,6 +129,16 @@ class Told:
         camera = camera_from(self.camera, scene)
         page = {} if self.page is None else {"page": page_from(self.page, scene)}
         return {"camera": camera, **page, **self.rest}
+
+    def with_lines(self, scene: Scene) -> tuple[Scene, dict[str, Any]]:
+        """A scene with the lines that the user asked for, and the keywords of the verb's function, which draws them."""
+        from vectorplot.scene.added_lines import line_kinds, with_lines
+
+        keywords = self.keywords(scene)
+        added = self.added.of_scene(scene)
+        if keywords.get("lines") is not None:
+            keywords["lines"] = tuple(dict.fromkeys((*keywords["lines"], *line_kinds(added))))
+        return with_lines(scene, sections=added.sections, isophotes=added.isophotes), keywords
 
 
 def with_options(*options: Option) -> Callable[[Command], Command]:
@@ -151,6 +165,7 @@ def picture_verb(
             EXAGGERATION,
             *CAMERA_OPTIONS,
             *options,
+            *LINE_OPTIONS,
             BUDGET,
             JOBS,
             EXPLAIN,
@@ -169,7 +184,8 @@ def picture_verb(
             told = Told.of(options)
 
             def picture(scene: Scene, report: Report) -> Drawing | Image:
-                return verb(scene, **told.keywords(scene), progress=report.progress, explain=report.explain)
+                lined, keywords = told.with_lines(scene)
+                return verb(lined, **keywords, progress=report.progress, explain=report.explain)
 
             written, jobs = format_of(out, format_, formats), told.rest["jobs"]
             source = Source(scene_file, exaggeration, upright=told.camera.says_where())

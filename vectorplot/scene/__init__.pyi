@@ -1,3 +1,4 @@
+from .added_lines import even_sections, round_sections, with_lines
 from .hatching import Hatching, Stippling
 from .integral_lines import FieldLines, GeodesicLines, GeodesicsBetween, ShortestPaths
 from .naming.labels import Along, AtVertex, Label, OnCurve, OnPage
@@ -39,6 +40,7 @@ __all__ = [
     "WaterCourses",
     "Watersheds",
     "even_cosines",
+    "even_sections",
     "field_of_vision",
     "fitted_picture",
     "hill_light",
@@ -46,8 +48,10 @@ __all__ = [
     "look",
     "path_on_surface",
     "round_heights",
+    "round_sections",
     "sheet_size",
     "terrain_mesh",
     "terrain_scene",
     "tinted",
+    "with_lines",
 ]

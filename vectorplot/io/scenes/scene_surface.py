@@ -16,13 +16,12 @@ from vectorplot.io.scenes.scene_curves import AXES, CurveDraft
 from vectorplot.io.scenes.scene_families import SURFACES
 from vectorplot.io.scenes.scene_slots import read_family
 from vectorplot.io.scenes.scene_words import Words
+from vectorplot.scene.added_lines import evenly_between, least_extent
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.surface_lines import Section, SurfaceLines, Vector
 from vectorplot.scene.terrains.level_lines import with_index_lines
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
-from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
-from vectorplot.tolerances.of_numbers import ROUNDING
 from vectorplot.words import nearest
 
 HOLE_GRID = 16
@@ -91,7 +90,6 @@ def even_offsets(
     else:
         heights = np.stack(np.meshgrid(*bounds.T, indexing="ij"), axis=-1) @ normal
     low, high = float(heights.min()), float(heights.max())
-    zero = max(ZERO_OF_EXTENT * float(np.ptp(bounds, axis=0).max()), ROUNDING * max(abs(low), abs(high)))
-    if not high - low > zero:
+    if not high - low > least_extent(bounds, low, high):
         raise InputError("sections: the surface has no extent along their normal")
-    return tuple(low + (high - low) * k / (count + 1) for k in range(1, count + 1))
+    return evenly_between(low, high, count)

@@ -1,0 +1,134 @@
+"""Options that add lines to all that is shown: plane sections, level lines, isophotes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vectorplot.cli.options import AXES, direction, number
+from vectorplot.errors import InputError
+
+if TYPE_CHECKING:
+    from vectorplot.geometry.cameras.camera import Point
+    from vectorplot.scene.scene import Scene
+    from vectorplot.scene.surface_lines import Section, SurfaceLines
+
+
+@dataclass(frozen=True)
+class Planes:
+    """Parallel planes: so many of them, or (count: 0) at these distances from the origin."""
+
+    normal: Point
+    count: int
+    offsets: tuple[float, ...] = ()
+
+    @classmethod
+    def read(cls, text: str) -> Planes:
+        """AXIS,N or AXIS=D,...; an axis is x, y, z, or a normal X,Y,Z."""
+        if "=" in text:
+            axis, _, distances = text.partition("=")
+            found = cls(_axis(axis), 0, tuple(number(part.strip()) for part in distances.split(",")))
+        else:
+            axis, comma, last = text.rpartition(",")
+            if not comma:
+                raise click.BadParameter(f"{text!r} is not AXIS,N or AXIS=D,...")
+            found = cls(_axis(axis), count(last))
+        _check(found)
+        return found
+
+    @classmethod
+    def read_levels(cls, text: str) -> Planes:
+        """The same, or N alone, of heights along z."""
+        return cls.read(text) if set(text) & set(",=") else cls(AXES["z"], count(text))
+
+
+def _axis(text: str) -> Point:
+    """The direction that a text spells, for words that say what planes are."""
+    if "," not in text and text.strip().lower().lstrip("+-") not in AXES:
+        raise click.BadParameter(f"{text!r} is no axis, expected x, y, z or a normal X,Y,Z")
+    return direction(text)
+
+
+def _check(planes: Planes) -> None:
+    """Bad usage for planes that make no sense."""
+    from vectorplot.scene.surface_lines import Section
+
+    try:
+        Section(planes.normal, planes.offsets)
+    except InputError as error:
+        raise click.BadParameter(str(error)) from None
+
+
+def count(text: str) -> int:
+    """How many lines: a whole number from 1 to the largest one of scene files."""
+    from vectorplot.scene.surface_lines import MAX_LINES
+
+    try:
+        value = int(text)
+    except ValueError:
+        raise click.BadParameter(f"{text!r} is not a whole number") from None
+    if not 1 <= value <= MAX_LINES:
+        raise click.BadParameter(f"{value} of them, expected 1 to {MAX_LINES}")
+    return value
+
+
+LINE_OPTIONS = (
+    click.option(
+        "--sections",
+        type=Planes.read,
+        multiple=True,
+        metavar="AXIS,N",
+        help="N plane sections of the whole at right angles to x, y, z or X,Y,Z; or at AXIS=D,...; repeat it for more.",
+        show_default=False,
+    ),
+    click.option(
+        "--levels",
+        type=Planes.read_levels,
+        metavar="[AXIS,]N",
+        help="About N level lines at round heights, every fifth of the kind index; or at AXIS=D,...",
+    ),
+    click.option("--isophotes", type=count, metavar="N", help="N lines of the same light on all that is shown."),
+)
+
+
+@dataclass(frozen=True)
+class LineOptions:
+    """The lines that the user asked for on all that is shown, beside what a scene file asks for."""
+
+    sections: tuple[Planes, ...] = ()
+    levels: Planes | None = None
+    isophotes: int | None = None
+
+    @classmethod
+    def of(cls, options: Mapping[str, Any]) -> LineOptions:
+        """What a command with LINE_OPTIONS was told."""
+        return cls(**{field.name: options[field.name] for field in fields(cls)})
+
+    def of_scene(self, scene: Scene) -> SurfaceLines:
+        """The lines that these are in a scene. Errors: InputError as of even_sections and round_sections."""
+        from vectorplot.scene.surface_lines import SurfaceLines, even_cosines
+
+        planes = tuple(_sections(one, scene) for one in self.sections) + _levels(self.levels, scene)
+        return SurfaceLines(sections=planes, isophotes=even_cosines(self.isophotes) if self.isophotes else ())
+
+
+def _sections(planes: Planes, scene: Scene) -> Section:
+    from vectorplot.scene.added_lines import even_sections
+    from vectorplot.scene.surface_lines import Section
+
+    return even_sections(scene, planes.normal, planes.count) if planes.count else Section(planes.normal, planes.offsets)
+
+
+def _levels(planes: Planes | None, scene: Scene) -> tuple[Section, ...]:
+    from vectorplot.scene.added_lines import round_sections
+    from vectorplot.scene.surface_lines import Section
+    from vectorplot.scene.terrains.level_lines import USUAL_EVERY, with_index_lines
+
+    if planes is None:
+        return ()
+    if planes.count:
+        return round_sections(scene, planes.normal, planes.count)
+    return with_index_lines(Section(planes.normal, planes.offsets), USUAL_EVERY)
