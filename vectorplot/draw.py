@@ -71,6 +71,7 @@ def draw(
     camera: Camera | str | None = None,
     *,
     page: Page | str | None = None,
+    width: float | str | None = None,
     fit: bool = True,
     lines: str | Iterable[str] | None = None,
     crease_angle_deg: float = 25.0,
@@ -104,7 +105,11 @@ def draw(
     camera : Camera or str, optional
         Or the name of a main view, such as "front" or "iso"; where None that of the scene, else default_camera.
     page : Page or str, optional
-        Or its name or size, such as "A4", "A5 landscape" or "200x150"; where None that of the scene, else A4.
+        Or its name or size, such as "A4", "A5 landscape" or "200x150"; where None that of the scene, else A4. Of "fit"
+        the latter, cut to the picture and its margin.
+    width : float or str, optional
+        In mm, or with its unit, such as "8cm" (mm, cm, in, pt): the page is as wide, and as high as its picture is
+        then; of page it has the margin.
     fit : bool
         The picture fills the page but for its margin; otherwise the page centre is the target and the page height the
         camera's picture height.
@@ -183,7 +188,7 @@ def draw(
     Notes
     -----
     Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off
-    the principal ray, a fitted picture shows the camera's field of vision.
+    the principal ray, a fitted picture shows the camera's field of vision, on a whole page.
 
     Source: Glaeser, sections 2.1, 4.4 and 7.2.
 
@@ -214,7 +219,7 @@ def draw(
     anchors, scene = label_anchors(given), without_seams(given)
     tell_what_is_cut_off(scene)
     camera = camera_of(camera, scene)
-    page = page_of(page, scene)
+    sheet = page_of(page, scene, width, fit)
     smooth = curves == "bezier" and any(not isinstance(item.shape, Mesh) for item in scene.items)
     planned = plan_draw(scene, kinds, hidden, halo_mm, shown)
     if shown == "plain":
@@ -230,18 +235,18 @@ def draw(
     sheets = _sheets(walk, scene, view, forms)
     balls = () if forms is None else (forms.reached,)
     reached = np.concatenate([view.points, *balls, *(sheet.vertices.T for sheet in sheets)], axis=1)
-    scale = mm_per_image(view, reached, page, fit)
+    scale = mm_per_image(view, reached, sheet, fit)
     while True:
         # Chords take one half of the tolerance, Béziers through their ends the other.
         tolerance = 0.5 * tolerance_mm / scale
         every = _lines_and_chords(walk, scene, view, sheets, forms, kinds, straight, tolerance, allowed)
-        bounded = frame_of(view, every, page, fit)
+        bounded = frame_of(view, every, sheet, fit)
         framed = _behind_balls(walk, view, forms, walk.run("frame", in_frame, view, every, bounded))
         seen = _visibility(walk, view, faces, solid, framed)
-        placement = bounded or fitted_lines(view, framed, seen, page)
+        placement = bounded or fitted_lines(view, framed, seen, sheet)
         if bounded is None and not len(seen) and walk.calls_for("hatching"):
             # Without lines the picture is that of the faces.
-            placement = fitted_picture(view, page, view.image_of(reached))
+            placement = fitted_picture(view, sheet, view.image_of(reached))
         if (
             every is straight
             or not len(seen)
@@ -255,7 +260,7 @@ def draw(
         from vectorplot.effects.halos import halo
 
         seen = walk.run("halo", halo, view, framed, seen, halo_mm / placement.scale)
-    world = placement.page_from_world
+    page, world = placement.page, placement.page_from_world
     strokes = walk.run("strokes", strokes_on_page, view, framed, seen, placement)
     labels = None
     if walk.calls_for("labels"):

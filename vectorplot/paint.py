@@ -44,6 +44,7 @@ def paint(
     camera: Camera | str | None = None,
     *,
     page: Page | str | None = None,
+    width: float | str | None = None,
     fit: bool = True,
     lights: Sequence[Light] | None = None,
     shadows: Literal["auto", "none"] = "auto",
@@ -71,6 +72,8 @@ def paint(
     camera : Camera or str, optional
         As of draw.
     page : Page or str, optional
+        As of draw.
+    width : float or str, optional
         As of draw.
     fit : bool
         The picture fills the page but for its margin; otherwise the page centre is the target and the page height the
@@ -153,7 +156,7 @@ def paint(
     scene = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
     tell_what_is_cut_off(scene)
     camera = camera_of(camera, scene)
-    page = page_of(page, scene)
+    sheet = page_of(page, scene, width, fit)
     kinds = line_kinds(lines)
     stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
     walk = Walk((*plan_cuts(camera), *stages), explain, progress, threads)
@@ -163,7 +166,7 @@ def paint(
     shown = scene if kinds or fills == "erasing" else without_twins(scene)
 
     def demand() -> Callable[[int], Demand]:
-        allowed = allowed_in_space(scene, projection, page, fit, tolerance_mm)
+        allowed = allowed_in_space(scene, projection, sheet, fit, tolerance_mm)
         # Where each triangle has one shade they have to be so small that nobody sees it.
         if not (smooth and fills == "painted"):
             return lambda _: Within(allowed)
@@ -171,10 +174,10 @@ def paint(
         return picture_fineness(shown, projection, casts, allowed, tolerance_mm)
 
     ordered = ordered_faces(walk, scene, shown, projection, demand, budget_of(budget))
-    placement = placement_of_faces(ordered.view, ordered.faces, page, fit)
+    placement = placement_of_faces(ordered.view, ordered.faces, sheet, fit)
     seen, plane = seen_on_page(walk, ordered, placement)
     view, true = seen.view, ordered.facets.normals
-    world = placement.page_from_world
+    page, world = placement.page, placement.page_from_world
     here = view_lights(view, scene.lights)
     normals = np.full((3, len(view.corners)), np.nan)
     if smooth and fills == "painted":

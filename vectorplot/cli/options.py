@@ -83,10 +83,22 @@ def numbers(text: str) -> tuple[float, ...]:
     return tuple(positive(part.strip()) for part in text.split(","))
 
 
-def page_size(text: str) -> tuple[float, float]:
-    """Width and height in mm of a named page or of WIDTHxHEIGHT."""
-    from vectorplot.scene.paper import sheet_size
+def length(text: str) -> float:
+    """The mm of a length on paper, such as 8cm."""
+    from vectorplot.scene.paper import length_mm
 
+    try:
+        return length_mm(text)
+    except InputError as error:
+        raise click.BadParameter(str(error)) from None
+
+
+def page_size(text: str) -> tuple[float, float] | str:
+    """Width and height in mm of a named page or of WIDTHxHEIGHT, or the word FIT."""
+    from vectorplot.scene.paper import FIT, sheet_size
+
+    if text.strip().lower() == FIT:
+        return FIT
     try:
         return sheet_size(text)
     except InputError as error:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.options import at_least, between, chosen, direction, exclusive, number, page_size, point
+from vectorplot.cli.options import at_least, between, chosen, direction, exclusive, length, number, page_size, point
 
 if TYPE_CHECKING:
     from vectorplot.geometry.cameras.camera import Camera, Point
@@ -48,7 +48,10 @@ PAGE_OPTIONS = (
         "--page",
         type=page_size,
         metavar="SIZE",
-        help="A0 to A6, letter, legal, ... or WIDTHxHEIGHT in mm.  [default: A4]",
+        help="A0 to A6, letter, legal, ... or WIDTHxHEIGHT in mm; fit: as large as the picture.  [default: A4]",
+    ),
+    click.option(
+        "--width", type=length, metavar="LENGTH", help="Of a page as high as its picture: 80mm, 8cm, 3in or 120pt."
     ),
     click.option("--landscape", is_flag=True, help="Lay the page on its longer side."),
     click.option("--margin", type=at_least(0.0), metavar="MM", help="Empty border of the page.  [default: 10]"),
@@ -92,15 +95,17 @@ class CameraOptions:
 
 @dataclass(frozen=True)
 class PageOptions:
-    """What the user said about the page; None and False: nothing. page: width and height in mm."""
+    """What the user said about the page; None and False: nothing. page: width and height in mm, or a word."""
 
-    page: tuple[float, float] | None = None
+    page: tuple[float, float] | str | None = None
     landscape: bool = False
     margin: float | None = None
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> PageOptions:
-        """What a command with PAGE_OPTIONS was told."""
+        """What a command with PAGE_OPTIONS was told. Bad usage for a page of a size and a width."""
+        size = None if isinstance(options["page"], str) else options["page"]
+        exclusive([("--page SIZE", size), ("--width", options.get("width"))])
         return cls(**{field.name: options[field.name] for field in fields(cls)})
 
 
@@ -144,12 +149,15 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
 def page_from(options: PageOptions, scene: Scene) -> Page:
     """The page of the scene (or A4) with the user's size, margin and orientation; bad usage if nothing is left."""
     from vectorplot.errors import InputError
+    from vectorplot.scene.fitted_pages import fitted_page
     from vectorplot.scene.scene import Page
 
     base = chosen(scene.page, Page())
-    width, height = chosen(options.page, (base.width_mm, base.height_mm))
+    own = (base.width_mm, base.height_mm)
+    width, height = own if options.page is None or isinstance(options.page, str) else options.page
     try:
         page = Page(width, height, chosen(options.margin, base.margin_mm))
     except InputError as error:
         raise click.UsageError(str(error)) from None
-    return page.landscape if options.landscape else page
+    page = page.landscape if options.landscape else page
+    return fitted_page(page) if isinstance(options.page, str) else page

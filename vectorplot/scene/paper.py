@@ -1,4 +1,4 @@
-"""Named sheets of paper."""
+"""Named sheets of paper, and lengths on them."""
 
 from __future__ import annotations
 
@@ -22,6 +22,28 @@ SHEETS = {
     "executive": (184.15, 266.7),
 }
 """Width and height in mm of the sheets that have a name."""
+
+FIT = "fit"
+"""The word for a page as large as its picture."""
+
+MM_PER = {"mm": 1.0, "pt": 25.4 / 72.0, "cm": 10.0, "in": 25.4}
+"""The units that lengths on paper may have; mm where there is none."""
+
+LENGTH = re.compile(r"\s*([0-9.]+(?:e[-+]?[0-9]+)?)\s*([a-z]*)\s*", re.IGNORECASE)
+"""A number, and perhaps a unit."""
+
+
+def length_mm(text: str) -> float:
+    """The length on paper, in mm, of a number and its unit, such as 8cm; InputError for what is none, for zero, and for
+    what is not finite."""
+    found = LENGTH.fullmatch(text)
+    try:
+        size = float(found[1]) * MM_PER[found[2].lower() or "mm"] if found else math.nan
+    except (KeyError, ValueError):
+        size = math.nan
+    if not 0.0 < size < math.inf:
+        raise InputError(f"{text.strip()!r} is no length: expected a positive number, and perhaps {', '.join(MM_PER)}")
+    return size
 
 
 def sheet_size(text: str) -> tuple[float, float]:

@@ -132,7 +132,7 @@ def fitted_picture(projection: Projection, page: Page, image: Floats, border: fl
     Returns
     -------
     Placement
-        Of a picture with all of the scene, in the middle of the page.
+        Of a picture with all of the scene, in the middle of the page; its page is cut to it where it is to be.
 
     Notes
     -----
@@ -153,23 +153,37 @@ def fitted_picture(projection: Projection, page: Page, image: Floats, border: fl
         return Placement(projection, page, fitted(page, np.zeros(2), np.zeros(2), border), whole=True)
     low, high = image.min(axis=1), image.max(axis=1)
     # Where all sight rays are one the image is a point, and rounding must not fill the page.
-    extended = (high - low).max() > projection.tolerance
-    return Placement(projection, page, fitted(page, low, high if extended else low, border), whole=True)
+    high = high if (high - low).max() > projection.tolerance else low
+    inside = fitting_scale(page, high - low, border) * (high - low) / (1.0 - 2.0 * border)
+    sheet = page.around(float(inside[0]), float(inside[1]))
+    return Placement(projection, sheet, fitted(sheet, low, high, border), whole=True)
 
 
 def fitted(page: Page, low: Floats, high: Floats, border: float = 0.0) -> Floats:
     """(3,3) matrix from image to page: the box from low to high (2,) fills the page but for its margin, in the middle.
     border: what part of what is inside the margin stays free on each side.
 
-    Degenerate: a box without extent goes to the middle at the scale 1; one without width or height fills the other.
+    Degenerate: as of fitting_scale; the box goes to the middle.
     """
-    room = (np.array([page.width_mm, page.height_mm]) - 2.0 * page.margin_mm) * (1.0 - 2.0 * border)
-    size = high - low
-    scales = [r / s for r, s in zip(room.tolist(), size.tolist(), strict=True) if s > FLAT_PICTURE * size.max()]
-    scale = min(scales, default=1.0)
+    scale = fitting_scale(page, high - low, border)
     middle = np.array([page.width_mm, page.height_mm]) / 2.0
     offset = middle - scale * (low + high) / 2.0
     return np.array([[scale, 0.0, offset[0]], [0.0, scale, offset[1]], [0.0, 0.0, 1.0]])
+
+
+def fitting_scale(page: Page, size: Floats, border: float = 0.0) -> float:
+    """How many mm a unit of the image is where a box of that size (2,) fills the page but for its margin. border: what
+    part of what is inside the margin stays free on each side.
+
+    Degenerate: a box without extent has the scale 1; one without width or height fills the other.
+    """
+    room = [(1.0 - 2.0 * border) * side for side in page.room]
+    scales = [r / s for r, s in zip(room, size.tolist(), strict=True) if s > FLAT_PICTURE * size.max()]
+    scale = min(scales, default=1.0)
+    if np.isfinite(scale):
+        return scale
+    # Only a width is asked for, and there is none to be had.
+    return float((1.0 - 2.0 * border) * (page.height_mm - 2.0 * page.margin_mm) / size[1])
 
 
 def centred(page: Page, picture_height: float, height_mm: float) -> Floats:
@@ -191,9 +205,9 @@ def mm_per_image(projection: Projection, points: Floats, page: Page, fit: bool) 
     if not points.shape[1]:
         return float(page.height_mm / projection.picture_height)
     image = projection.image_of(points)
-    fitting = fitted(page, image.min(axis=1), image.max(axis=1))[0, 0]
+    fitting = fitting_scale(page, np.ptp(image, axis=1))
     if points.shape[1] == every and not projection.reaches_too_far(points):
-        return float(fitting)
+        return fitting
     return float(max(fitting, field_of_vision(projection, page, fit).scale))
 
 

@@ -7,7 +7,8 @@ import math
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera, Point
 from vectorplot.geometry.vectors import cross, normalize
-from vectorplot.scene.paper import sheet_size
+from vectorplot.scene.fitted_pages import FittedPage, PageOfWidth, fitted_page, page_of_width
+from vectorplot.scene.paper import FIT, length_mm, sheet_size
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.words import unknown
 
@@ -45,20 +46,34 @@ def camera_of(camera: Camera | str | None, scene: Scene) -> Camera:
     return Camera.view(camera, target=whole.target, distance=whole.distance)
 
 
-def page_of(page: Page | str | None, scene: Scene) -> Page:
+def page_of(page: Page | str | None, scene: Scene, width: float | str | None = None, fit: bool = True) -> Page:
     """The page of a picture: the one given, the sheet of that name or size, landscape where that word follows, or that
-    of the scene, else A4.
+    of the scene, else A4; of "fit" one of the two latter, cut to the picture. With a width, in mm or as a text with its
+    unit, a page as wide, as high as the picture, and with that one's margin.
 
-    Errors: InputError for another word, TypeError for what is no page.
+    fit: the picture is to fill the page.
+    Errors: InputError for another word, for what is no width, and for a page cut to a picture that is not to fill it;
+    TypeError for what is no page.
     """
+    sheet = _sheet_of(page, scene)
+    if width is not None:
+        sheet = page_of_width(sheet, length_mm(width) if isinstance(width, str) else float(width))
+    if not fit and isinstance(sheet, FittedPage | PageOfWidth):
+        raise InputError("a page as large as its picture, or of a width, does not go with no-fit")
+    return sheet
+
+
+def _sheet_of(page: Page | str | None, scene: Scene) -> Page:
     if page is None:
         return scene.page or Page()
     if isinstance(page, Page):
         return page
     if not isinstance(page, str):
-        raise TypeError(f"a page is a Page or a text such as 'A4' or '200x150', not {type(page).__name__}")
+        raise TypeError(f"a page is a Page or a text such as 'A4', '200x150' or 'fit', not {type(page).__name__}")
     sheet, _, way = page.strip().partition(" ")
     if way.strip() not in ("", "landscape"):
         raise InputError(f"page {page!r}: expected a sheet, and perhaps 'landscape'")
-    found = Page(*sheet_size(sheet))
-    return found.landscape if way else found
+    fitted = sheet.lower() == FIT
+    found = (scene.page or Page()) if fitted else Page(*sheet_size(sheet))
+    found = found.landscape if way else found
+    return fitted_page(found) if fitted else found

@@ -311,6 +311,15 @@ class Page:
             raise InputError(f"a margin of {self.margin_mm:g} mm leaves nothing of the page")
 
     @property
+    def room(self) -> tuple[float, float]:
+        """Width and height in mm of what is inside the margin."""
+        return self.width_mm - 2.0 * self.margin_mm, self.height_mm - 2.0 * self.margin_mm
+
+    def around(self, width_mm: float, height_mm: float) -> Page:
+        """The sheet with a picture of that size inside its margin: this one, however small the picture."""
+        return self
+
+    @property
     def landscape(self) -> Page:
         """The same sheet lying on its longer side."""
         long, short = max(self.width_mm, self.height_mm), min(self.width_mm, self.height_mm)

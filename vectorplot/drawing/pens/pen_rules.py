@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from vectorplot.drawing.drawing import Pen
 from vectorplot.drawing.layers import ink
 from vectorplot.errors import InputError
+from vectorplot.scene.paper import LENGTH, length_mm
 from vectorplot.words import COLOURS, LineKind, is_colour, nearest
-
-MM_PER = {"mm": 1.0, "pt": 25.4 / 72.0, "cm": 10.0, "in": 25.4}
-"""The units that lengths on paper may have; mm where there is none."""
 
 HIDDEN = "hidden"
 """The kind of what something is in front of, whatever else it is."""
 
 PEN_KINDS = (*(kind.word for kind in LineKind), HIDDEN)
 """The kinds that rules are for."""
-
-_LENGTH = re.compile(r"\s*([0-9.]+(?:e[-+]?[0-9]+)?)\s*([a-z]*)\s*", re.IGNORECASE)
 
 WIDEST_MM = 1000.0
 """Wider than any pen."""
@@ -112,7 +107,7 @@ def _pen_rule(target: str, value: str | float | Pen) -> PenRule:
     if not isinstance(value, str):
         value = f"{float(value):.17g}"
     width, _, colour = value.partition(":")
-    if not colour and not _LENGTH.fullmatch(width):
+    if not colour and not LENGTH.fullmatch(width):
         width, colour = "", width
     if not width.strip() and not colour.strip():
         raise InputError(f"pen {target}={value}: expected WIDTH, COLOUR or WIDTH:COLOUR")
@@ -133,11 +128,9 @@ def _dash_rule(target: str, value: str) -> PenRule:
 
 def _length(text: str, owner: str) -> float:
     """A length on paper in mm."""
-    found = _LENGTH.fullmatch(text)
-    unit = (found[2].lower() or "mm") if found else ""
     try:
-        size = float(found[1]) * MM_PER[unit] if found else 0.0
-    except (KeyError, ValueError):
+        size = length_mm(text)
+    except InputError:
         size = 0.0
     if not 0.0 < size <= WIDEST_MM:
         raise InputError(f"{owner}: {text.strip()!r} is no length in mm or pt")
