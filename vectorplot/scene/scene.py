@@ -316,7 +316,29 @@ class Page:
         return self.width_mm - 2.0 * self.margin_mm, self.height_mm - 2.0 * self.margin_mm
 
     def around(self, width_mm: float, height_mm: float) -> Page:
-        """The sheet with a picture of that size inside its margin: this one, however small the picture."""
+        """The sheet that a picture of some size comes on: this one, however small the picture.
+
+        Parameters
+        ----------
+        width_mm, height_mm : float
+            The sides of the picture, without the margin around it.
+
+        Returns
+        -------
+        Page
+            The sheet; pages that fit their pictures are cut to them.
+
+        Raises
+        ------
+        InputError
+            Where the sheet is to be cut, for sides that are not finite.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> vp.Page(100, 80).around(20, 30)
+        Page(width_mm=100, height_mm=80, margin_mm=10.0)
+        """
         return self
 
     @property
