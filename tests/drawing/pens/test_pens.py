@@ -123,6 +123,8 @@ def test_pens_grow_with_the_page_on_request():
         ({"pens": "contour=nan:red"}, "no length|unknown colour"),
         ({"dashes": "hidden=3"}, "expected DASH,GAP"),
         ({"dashes": "hidden=3,0"}, "no length"),
+        ({"dashes": "hidden=1e-9,1e-9"}, "0.01 mm or more"),
+        ({"dashes": "3,1e-4pt"}, "0.01 mm or more"),
         ({"layers": "kind,colr"}, "did you mean 'colour'"),
         ({"style": "bok"}, "did you mean 'book'"),
         ({"style": "wireframe", "pens": "0.3"}, "does not go with the style wireframe"),

@@ -149,5 +149,9 @@ def test_a_vector_in_place_of_three_numbers_and_ways_without_end_are_told():
     cube = box((1, 1, 1))
     with pytest.raises(TypeError, match=r"moved\(\*vector\)"):
         cube.moved((1, 2, 3))
+    with pytest.raises(TypeError, match=r"scaled\(\*vector\)"):
+        cube.scaled((1, 2, 3))
     with pytest.raises(InputError, match="moved: expected finite numbers"):
         cube.moved(np.inf)
+    with pytest.raises(InputError, match="turned: an angle of nan"):
+        cube.turned("z", np.nan)

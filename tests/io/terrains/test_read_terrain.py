@@ -31,6 +31,14 @@ def test_rows_run_from_north_to_south_and_corners_are_those_of_cells(tmp_path):
     assert np.array_equal(found.heights, [[4, 1], [5, 2], [np.nan, 3]], equal_nan=True)
 
 
+def test_files_with_a_byte_order_mark_are_read(tmp_path):
+    mark = "\ufeff".encode()
+    for name, text in (("hill.asc", HEAD + "1 2 3\n4 5 6\n"), ("four.xyz", "0 0 1\n1 0 2\n0 1 2\n1 1 5\n")):
+        path = tmp_path / name
+        path.write_bytes(mark + text.replace("\n", "\r\n").encode())
+        assert np.isfinite(read_terrain(path).heights).all()
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [

@@ -20,6 +20,9 @@ PEN_KINDS = (*(kind.word for kind in LineKind), HIDDEN)
 WIDEST_MM = 1000.0
 """Wider than any pen."""
 
+FINEST_MM = 0.01
+"""No pen draws a shorter dash."""
+
 
 @dataclass(frozen=True)
 class PenRule:
@@ -123,6 +126,8 @@ def _dash_rule(target: str, value: str) -> PenRule:
     if len(parts) != 2:
         raise InputError(f"dash {target}={value}: expected DASH,GAP such as 3,1 or 8pt,3pt; or none")
     dash, gap = (_length(part, f"dash {target}={value}") for part in parts)
+    if min(dash, gap) < FINEST_MM:
+        raise InputError(f"dash {target}={value}: expected {FINEST_MM:g} mm or more")
     return PenRule(kind, item, dash_mm=(dash, gap))
 
 

@@ -32,13 +32,15 @@ class Movable(ABC, Generic[Moved]):
 
     def turned(self, axis: str | ArrayLike, angle_deg: float) -> Moved:
         """The same thing, turned about an axis through the origin, counter-clockwise seen from the axis' tip; axis: x,
-        y, z or a vector (3,). Errors: InputError for another word, and for an axis without length."""
+        y, z or a vector (3,). Errors: InputError for another word, an axis without length, and an angle that is not
+        finite."""
         return self.transformed(turn_matrix(axis, angle_deg))
 
     def scaled(self, factor: float, y: float | None = None, z: float | None = None) -> Moved:
         """The same thing, stretched from the origin by one factor, or by three along the axes; a negative one mirrors.
 
-        Errors: InputError for a factor of 0, one that is not finite, and two factors."""
+        Errors: TypeError for a vector in place of three numbers, InputError for a factor of 0, one that is not finite,
+        and two factors."""
         return self.transformed(scale_matrix(factor, y, z))
 
 
@@ -59,6 +61,8 @@ def turn_matrix(axis: str | ArrayLike, angle_deg: float) -> Floats:
         if axis not in AXES:
             raise InputError(f"an axis {axis!r}: expected x, y, z or a vector")
         axis = AXES[axis]
+    if not np.isfinite(angle_deg):
+        raise InputError(f"turned: an angle of {angle_deg:g}: expected a finite number")
     matrix = np.eye(4)
     matrix[:3, :3] = rotation_about(axis, np.radians(angle_deg)).T
     if angle_deg % 90.0 == 0.0 and np.count_nonzero(axis) == 1:
@@ -68,6 +72,8 @@ def turn_matrix(axis: str | ArrayLike, angle_deg: float) -> Floats:
 
 def scale_matrix(factor: float, y: float | None, z: float | None) -> Floats:
     """(4,4) what stretches from the origin."""
+    if any(np.ndim(one) for one in (factor, y, z) if one is not None):
+        raise TypeError("scaled takes one number or three, as in scaled(1, 2, 3); of a vector, scaled(*vector)")
     if (y is None) != (z is None):
         raise InputError("scaled: expected one factor, or three")
     factors = (factor, factor, factor) if y is None or z is None else (factor, y, z)

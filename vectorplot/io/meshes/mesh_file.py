@@ -200,8 +200,8 @@ def _blank_comments(text: Bytes, breaks: Ints, mark: int) -> None:
 
 
 def text_file(path: Path) -> TextFile:
-    """The file as text, its line ends as newlines. Errors: InputError as file_bytes."""
-    data = file_bytes(path)
+    """The file as text, its line ends as newlines, without a byte order mark. Errors: InputError as file_bytes."""
+    data = file_bytes(path).removeprefix(b"\xef\xbb\xbf")
     if b"\r" in data and b"\n" not in data:
         data = data.replace(b"\r", b"\n")
     return TextFile(shown(path), data)
