@@ -9,7 +9,7 @@ from .geometry.strokes import Strokes
 from .paint import paint
 from .read import read
 from .render import render
-from .save import save
+from .save import save, save_for_latex
 from .scene.hatching import Hatching, Stippling
 from .scene.naming.annotations import angle, arrow, axes, dimension
 from .scene.naming.labels import Along, AtVertex, Label, OnCurve, OnPage
@@ -60,6 +60,7 @@ __all__ = [
     "read",
     "render",
     "save",
+    "save_for_latex",
     "surface",
     "tube",
 ]

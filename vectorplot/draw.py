@@ -51,7 +51,7 @@ from vectorplot.visibility.polyhedra.lines import (
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.polyhedra.pairs import Segments
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
-from vectorplot.words import DRAWN, WIRES, LineKind, check_colour, check_word, line_kinds
+from vectorplot.words import DRAWN, TEXT_WORDS, WIRES, LineKind, check_colour, check_word, line_kinds
 
 if TYPE_CHECKING:
     from vectorplot.drawing.lettering.scene_labels import SceneLabels
@@ -90,6 +90,7 @@ def draw(
     tolerance_mm: float = 0.02,
     title: str = "",
     frame: bool = False,
+    text: Literal["strokes", "real"] = "strokes",
     longest_mm: float | None = None,
     budget: float = 1.0,
     jobs: int | None = None,
@@ -153,6 +154,8 @@ def draw(
         Letters in the middle of the lower margin.
     frame : bool
         A rectangle in the middle of the margin, which ends before the title.
+    text : {"strokes", "real"}
+        Letters of labels and titles are strokes of the pen; or texts, set in fonts by what reads the file.
     longest_mm : float, optional
         Longer strokes leave in equal parts that are no longer, for plotters that stutter on them; 1 mm or more.
     budget : float
@@ -210,6 +213,7 @@ def draw(
     layers = chosen.layers if layers is None else layers
     _check_options(hidden, layers, curves, halo_mm, crease_angle_deg, tolerance_mm)
     _check_longest(longest_mm)
+    check_word("text", text, TEXT_WORDS)
     allowed, threads = budget_of(budget), threads_of(jobs)
     shown = chosen.look
     others = {"halo_mm": halo_mm > 0.0, "hatch": hatch is not None, "layers": layers != "kind", "pens": bool(rules)}
@@ -264,7 +268,9 @@ def draw(
     strokes = walk.run("strokes", strokes_on_page, view, framed, seen, placement)
     labels = None
     if walk.calls_for("labels"):
-        labels = walk.run("labels", labels_in_place, scene, view, faces, placement, anchors, strokes, hidden, shown)
+        labels = walk.run(
+            "labels", labels_in_place, scene, view, faces, placement, anchors, strokes, hidden, shown, text
+        )
         strokes = labels.interrupted(strokes, world)
     hatches = Paths.empty()
     if walk.calls_for("hatching"):
@@ -304,7 +310,7 @@ def draw(
     letters = pen_of(drawn_by, letter_pen(found), int(LineKind.LABEL), False, "")
     if labels is not None:
         inks = labels.on_top(inks, layers == "kind" and shown == "plain", longest_mm, world, letters)
-    inks = titled(inks, placement, title, frame, letters, longest_mm)
+    inks = titled(inks, placement, title, frame, letters, longest_mm, text)
     if paper is not None and shown == "plain":
         inks = (sheet_layer(paper, page), *inks)
     return Drawing(page.width_mm, page.height_mm, inks, names, scene.title, world)
@@ -391,13 +397,14 @@ def titled(
     frame: bool,
     pen: Pen = PENS["label"],
     longest_mm: float | None = None,
+    text: str = "strokes",
 ) -> tuple[Layer, ...]:
-    """The layers of a drawing, and one with a title and a frame where these are wanted; pen: of its letters."""
+    """The layers of a drawing, and one with a title and a frame where these are wanted; pen, text: of its letters."""
     if not title and not frame:
         return layers
     from vectorplot.drawing.lettering.titles import with_title
 
-    return with_title(layers, placement, title, frame, pen.colour, longest_mm)
+    return with_title(layers, placement, title, frame, pen.colour, longest_mm, text)
 
 
 def labels_in_place(
@@ -409,18 +416,19 @@ def labels_in_place(
     strokes: Paths,
     hidden: str = "none",
     style: str = "plain",
+    text: str = "strokes",
     *,
     mm: float = 1.0,
 ) -> SceneLabels:
     """The labels of a scene where a picture of it has its place on the page.
 
-    anchors: what they name in the scene as it was given; strokes: of the picture; hidden, style: as of draw; mm: how
-    long a millimetre is in units of the page.
+    anchors: what they name in the scene as it was given; strokes: of the picture; hidden, style, text: as of draw; mm:
+    how long a millimetre is in units of the page.
     """
     from vectorplot.drawing.lettering.scene_labels import labels_on_page, seen_labels
 
     seen = seen_labels(scene, view, faces, placement, anchors, style != "plain", mm)
-    return labels_on_page(seen, placement, strokes, hidden, mm)
+    return labels_on_page(seen, placement, strokes, hidden, text, mm)
 
 
 def _check_options(

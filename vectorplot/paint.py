@@ -36,7 +36,7 @@ from vectorplot.shading.light.fineness import picture_fineness
 from vectorplot.shading.light.painted_colours import Lighting
 from vectorplot.shading.light.painted_normals import painted_normals
 from vectorplot.shading.light.palettes import PALETTE_SIZE
-from vectorplot.words import LINE_WORDS, check_word, line_kinds
+from vectorplot.words import LINE_WORDS, TEXT_WORDS, check_word, line_kinds
 
 
 def paint(
@@ -58,6 +58,7 @@ def paint(
     tolerance_mm: float = 0.02,
     title: str = "",
     frame: bool = False,
+    text: Literal["strokes", "real"] = "strokes",
     budget: float = 1.0,
     jobs: int | None = None,
     progress: Callable[[str, float], None] | None = None,
@@ -106,6 +107,8 @@ def paint(
         Letters in the middle of the lower margin.
     frame : bool
         A rectangle in the middle of the margin, which ends before the title.
+    text : {"strokes", "real"}
+        As of draw.
     budget : float
         As of draw, for lines and triangles.
     jobs : int, optional
@@ -148,6 +151,7 @@ def paint(
     ['fills', 'visible', 'contour']
     """
     _check_options(shadows, aura_mm, palette, fills, crease_angle_deg, tolerance_mm)
+    check_word("text", text, TEXT_WORDS)
     budget_of(budget)
     threads = threads_of(jobs)
     given = scene_of(scene)
@@ -203,13 +207,13 @@ def paint(
     found = walk.run("lines", ruler.found, kinds, walk.fraction("lines")) if walk.calls_for("lines") else None
     labels = None
     if walk.calls_for("labels"):
-        labels = walk.run("labels", ruler.labels, anchors, found)
+        labels = walk.run("labels", ruler.labels, anchors, found, text)
         found = found and labels.interrupted(found, world)
     if found is not None:
         layers += ruler.layers(found)
     if labels is not None:
         layers = labels.on_top(layers, False, None, world)
-    layers = titled(layers, placement, title, frame)
+    layers = titled(layers, placement, title, frame, text=text)
     return Drawing(page.width_mm, page.height_mm, layers, tuple(i.name for i in scene.items), scene.title, world)
 
 

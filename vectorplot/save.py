@@ -75,6 +75,63 @@ def save(drawing: Drawing | Image | Scene, path: str | os.PathLike[str]) -> None
     write_whole(path, write(drawing, suffix[1:]))
 
 
+OVERLAID = ("pdf", "eps")
+"""The formats that LaTeX takes in as pictures, to set letters over them."""
+
+
+def save_for_latex(drawing: Drawing, path: str | os.PathLike[str]) -> None:
+    """Write a drawing as PDF or EPS without its texts, and these, to be set over it by LaTeX, in a file beside it.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        What is written: drawn with text="real", otherwise it has no texts.
+    path : str or path
+        The picture, in a name that ends in .pdf or .eps. The other file has its name, but ends in .tex; a document with
+        the package tikz takes it in by \\input, and finds the picture where \\graphicspath says.
+
+    Raises
+    ------
+    InputError
+        For another suffix, and for what `save` refuses.
+    OSError
+        Where a file cannot be written; it names the path.
+
+    Notes
+    -----
+    The letters have the document's font and the drawing's sizes; formulas between dollars are set as such.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> import vectorplot as vp
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> corner = vp.Label("$\\\\alpha_1$", (0, 0, 0))
+    >>> drawing = vp.draw(vp.Scene((vp.Item("triangle", triangle),), labels=(corner,)), text="real")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     vp.save_for_latex(drawing, pathlib.Path(folder, "triangle.pdf"))
+    ...     "$\\\\alpha_1$" in pathlib.Path(folder, "triangle.tex").read_text()
+    True
+    """
+    name = Path(path)
+    if name.suffix[1:].lower() not in OVERLAID:
+        raise InputError("texts are set by LaTeX over a .pdf or .eps", file=os.fspath(path))
+    picture, letters = write_for_latex(drawing, name.suffix[1:], name.name)
+    write_whole(path, picture)
+    write_whole(name.with_suffix(".tex"), letters)
+
+
+def write_for_latex(drawing: Drawing, format: str, name: str) -> tuple[bytes, bytes]:
+    """The contents of a picture, pdf or eps, without texts, and of the file that sets them over the picture of this
+    name. Errors: as of write."""
+    from vectorplot.backends.cairo.surfaces import pdf_bytes, whole_eps_bytes
+    from vectorplot.backends.tikz.overlay import overlay_bytes, without_texts
+
+    bare = without_texts(drawing)
+    picture = pdf_bytes(bare) if format.lower() == "pdf" else whole_eps_bytes(bare)
+    return picture, overlay_bytes(drawing, name)
+
+
 def write(drawing: Drawing | Image | Scene, format: str) -> bytes:
     """The drawing as the content of a file: svg, ps, eps, pdf, png (at 150 dpi), tex, dxf or json; a picture of pixels
     as png; a scene as scene.

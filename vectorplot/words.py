@@ -279,6 +279,10 @@ def _unknown(what: str, word: object, words: Iterable[str], near: str | None, mo
     return InputError(f"{what} {shown}: expected one of {', '.join(words)}{', ' + more if more else ''}{hint}")
 
 
+TEXT_WORDS = ("strokes", "real")
+"""What letters may be: strokes of a pen, or those of the fonts of whatever reads the file."""
+
+
 def check_word(what: str, word: object, known: Iterable[str]) -> None:
     """An InputError for a word that is none of those known."""
     words = tuple(known)

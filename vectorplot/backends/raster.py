@@ -14,6 +14,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.backends.page.page_marks import LARGEST_PAGE_MM
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Paths
 from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons
@@ -65,6 +66,9 @@ def painted(picture: Bytes, drawing: Drawing) -> Bytes:
         for mark in layer.marks:
             if isinstance(mark, Fills):
                 _fill(flat, mark, _pixels(mark.points, scale, origin), columns, rows)
+                continue
+            if isinstance(mark, Texts):
+                # There is no font here.
                 continue
             paths = mark.paths if isinstance(mark, CurvedStrokes) else mark
             for pixel in _stroke_pixels(paths, _pixels(paths.points, scale, origin), width, columns, rows):

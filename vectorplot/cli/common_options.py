@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import reduce, wraps
 from typing import TYPE_CHECKING, Any
 
@@ -53,6 +53,13 @@ TOLERANCE = click.option(
 TITLE = click.option("--title", default="", metavar="TEXT", show_default=False, help="Letters in the lower margin.")
 
 FRAME = click.option("--frame", is_flag=True, help="A rectangle in the margin.")
+
+TEXT = click.option(
+    "--text",
+    type=click.Choice(["strokes", "real", "latex"]),
+    default="strokes",
+    help="Letters: strokes of the pen; in fonts of the reader; or, with a .pdf or .eps, in a .tex beside it.",
+)
 
 BUDGET = click.option(
     "--budget", type=POSITIVE, default=1.0, metavar="FACTOR", help="Times the usual work on a surface."
@@ -141,6 +148,14 @@ class Told:
         return with_lines(scene, sections=added.sections, isophotes=added.isophotes), keywords
 
 
+def check_overlaid(out: str, format_: str) -> None:
+    """Bad usage for letters over what LaTeX takes for no picture."""
+    from vectorplot.save import OVERLAID
+
+    if out == "-" or format_ not in OVERLAID or not out.lower().endswith(f".{format_}"):
+        raise click.UsageError("--text latex needs a name that ends in .pdf or .eps")
+
+
 def with_options(*options: Option) -> Callable[[Command], Command]:
     """A decorator that gives a command these options, in this order."""
     return lambda command: reduce(lambda inner, option: option(inner), reversed(options), command)
@@ -188,8 +203,12 @@ def picture_verb(
                 return verb(lined, **keywords, progress=report.progress, explain=report.explain)
 
             written, jobs = format_of(out, format_, formats), told.rest["jobs"]
+            overlaid = told.rest.get("text") == "latex"
+            if overlaid:
+                told = replace(told, rest={**told.rest, "text": "real"})
+                check_overlaid(out, written)
             source = Source(scene_file, exaggeration, upright=told.camera.says_where())
-            make_picture(source, out, written, picture, quiet=quiet, explain=explain, jobs=jobs)
+            make_picture(source, out, written, picture, quiet=quiet, explain=explain, jobs=jobs, overlaid=overlaid)
 
         return command
 

@@ -10,6 +10,7 @@ from vectorplot.cli.common_options import (
     BACKGROUND,
     DRAWING_FORMATS,
     FRAME,
+    TEXT,
     TITLE,
     TOLERANCE,
     crease_angle_option,
@@ -91,6 +92,7 @@ if TYPE_CHECKING:
     TOLERANCE,
     TITLE,
     FRAME,
+    TEXT,
     click.option(
         "--longest",
         "longest_mm",

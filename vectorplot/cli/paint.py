@@ -11,6 +11,7 @@ from vectorplot.cli.common_options import (
     DRAWING_FORMATS,
     FRAME,
     LIGHTS,
+    TEXT,
     TITLE,
     TOLERANCE,
     crease_angle_option,
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
     TOLERANCE,
     TITLE,
     FRAME,
+    TEXT,
 )
 def paint(scene: Scene, *, flat: bool, **told: Any) -> Drawing:
     """Paint INPUT, a scene file, mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain (asc, xyz), and

@@ -68,15 +68,17 @@ def make_picture(
     quiet: bool,
     explain: bool,
     jobs: int | None = None,
+    overlaid: bool = False,
 ) -> None:
     """Read a scene, make a picture of it and write that; nothing is written unless all of it succeeds.
 
     quiet: no warnings, no progress bar; explain: print what each stage cost; jobs: threads to read on, as many as
-    processors where it is None.
+    processors where it is None; overlaid: texts are left to LaTeX, in a file beside OUT.
     """
+    from vectorplot.drawing.drawing import Drawing
     from vectorplot.geometry.chunks import threads_of
     from vectorplot.plan import Stage, Walk
-    from vectorplot.save import write
+    from vectorplot.save import write, write_for_latex
 
     reports: list[StageReport] = []
     stages = (Stage("read", source.name), Stage("write", f"as {format_}"))
@@ -88,7 +90,12 @@ def make_picture(
             made = picture(scene, Report(progress, reports.append))
             if is_empty(made):
                 warnings.warn(f"{source.name}: nothing to draw: the picture is empty", InputWarning, stacklevel=2)
-            write_out(out, walk.run("write", write, made, format_))
+            if overlaid and isinstance(made, Drawing):
+                picture_, letters = walk.run("write", write_for_latex, made, format_, Path(out).name)
+                write_out(out, picture_)
+                write_out(os.fspath(Path(out).with_suffix(".tex")), letters)
+            else:
+                write_out(out, walk.run("write", write, made, format_))
     if explain:
         click.echo(table(reports), err=True)
 

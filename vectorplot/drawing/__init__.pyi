@@ -2,11 +2,12 @@ from .drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
 from .fills import FillKind, Fills
 from .fills_without_overlaps import visible_fills
 from .hatching.hatched_fills import hatched_fills
-from .lettering.text import Lettering, lettered, lettered_along
+from .lettering.text import Lettering, lettered, lettered_along, typeset, typeset_along
 from .painted_fills import placement_of_faces
 from .strokes.curved_strokes import curved_strokes
 from .strokes.long_strokes import split_long
 from .strokes.pen_order.order import pen_ordered, travel_mm
+from .texts import Texts
 
 __all__ = [
     "CurvedStrokes",
@@ -17,6 +18,7 @@ __all__ = [
     "Lettering",
     "Paths",
     "Pen",
+    "Texts",
     "curved_strokes",
     "hatched_fills",
     "lettered",
@@ -25,5 +27,7 @@ __all__ = [
     "placement_of_faces",
     "split_long",
     "travel_mm",
+    "typeset",
+    "typeset_along",
     "visible_fills",
 ]

@@ -11,6 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier.elliptic_arcs import EllipseArcs
 from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.texts import Texts
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT
 
 NO_CURVE = -1
@@ -155,9 +156,13 @@ class CurvedStrokes:
         return len(self.paths)
 
 
+STROKES = (Paths, CurvedStrokes)
+"""The marks that a pen draws."""
+
+
 @dataclass(frozen=True, eq=False)
 class Layer:
-    """Marks in drawing order: strokes drawn with one pen, and filled polygons.
+    """Marks in drawing order: strokes drawn with one pen, filled polygons, and texts in the pen's colour.
 
     Parameters
     ----------
@@ -165,7 +170,7 @@ class Layer:
         What the layer holds, such as ``visible``.
     pen : Pen
         What draws its strokes.
-    marks : tuple of Paths, CurvedStrokes and Fills
+    marks : tuple of Paths, CurvedStrokes, Fills and Texts
         In drawing order.
     plotted : bool
         False for a layer that is there to be looked at only (its label gets the prefix % that plotter drivers skip).
@@ -180,19 +185,24 @@ class Layer:
 
     name: str
     pen: Pen
-    marks: tuple[Paths | CurvedStrokes | Fills, ...]
+    marks: tuple[Paths | CurvedStrokes | Fills | Texts, ...]
     plotted: bool = True
 
     @property
     def strokes(self) -> tuple[Paths, ...]:
         """The polylines of all marks that are strokes."""
-        strokes = (mark for mark in self.marks if not isinstance(mark, Fills))
+        strokes = (mark for mark in self.marks if isinstance(mark, STROKES))
         return tuple(mark.paths if isinstance(mark, CurvedStrokes) else mark for mark in strokes)
 
     @property
     def fills(self) -> tuple[Fills, ...]:
         """All marks that are filled polygons."""
         return tuple(mark for mark in self.marks if isinstance(mark, Fills))
+
+    @property
+    def texts(self) -> tuple[Texts, ...]:
+        """All marks that are texts."""
+        return tuple(mark for mark in self.marks if isinstance(mark, Texts))
 
 
 @dataclass(frozen=True, eq=False)

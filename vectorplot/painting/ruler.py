@@ -39,11 +39,12 @@ class Ruler:
         """The visible lines, as they come."""
         return self._found(self.scene, kinds, progress)
 
-    def labels(self, anchors: LabelAnchors, strokes: Paths | None) -> SceneLabels:
-        """The labels of the scene, apart from strokes, or where there are none from its contours."""
+    def labels(self, anchors: LabelAnchors, strokes: Paths | None, text: str) -> SceneLabels:
+        """The labels of the scene, apart from strokes, or where there are none from its contours; text: a word of
+        LETTERS."""
         if strokes is None:
             strokes = self._found(self.scene, frozenset({LineKind.CONTOUR, LineKind.BOUNDARY}), None)
-        return labels_in_place(self.scene, *self._view, self.seen.placement, anchors, strokes)
+        return labels_in_place(self.scene, *self._view, self.seen.placement, anchors, strokes, text=text)
 
     def layers(self, found: Paths) -> tuple[Layer, ...]:
         """The visible lines in layers by kind."""

@@ -19,8 +19,10 @@ import numpy as np
 
 from vectorplot.backends.cairo.areas_in_cairo import paint
 from vectorplot.backends.cairo.gouraud import with_triangles_in_pdf, with_triangles_in_postscript
+from vectorplot.backends.cairo.texts_in_cairo import show
 from vectorplot.backends.page.areas import Areas
 from vectorplot.backends.page.page_marks import PageMarks, PageStrokes, page_marks
+from vectorplot.backends.page.page_texts import PageTexts
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import SEAM_MM
 from vectorplot.errors import InputError
@@ -42,7 +44,8 @@ _TITLE_LENGTH = 200  # cairo refuses comments of more than 255 characters
 
 
 def ps_bytes(drawing: Drawing) -> bytes:
-    """The drawing as a PostScript file of one page, without fonts; language level 2, or 3 if it has shaded triangles.
+    """The drawing as a PostScript file of one page, without fonts unless it has texts; language level 2, or 3 if it has
+    shaded triangles.
 
     Parameters
     ----------
@@ -110,6 +113,15 @@ def eps_bytes(drawing: Drawing) -> bytes:
     b'%!PS-Adobe-3.0 EPSF-3.0'
     """
     return _postscript(page_marks(drawing), eps=True)
+
+
+def whole_eps_bytes(drawing: Drawing) -> bytes:
+    """The same, but the bounding box is the page, so that other things have their places on it.
+
+    Errors: as eps_bytes.
+    """
+    page = page_marks(drawing)
+    return _with_page_box(_postscript(page, eps=True), page)
 
 
 def pdf_bytes(drawing: Drawing) -> bytes:
@@ -241,8 +253,10 @@ def postscript_string(text: str) -> str:
 
 
 def _with_page_box(text: bytes, page: PageMarks) -> bytes:
-    """The file of an empty drawing with the page as bounding box, where cairo writes a box turned inside out."""
+    """The file with the page as bounding box. (Around an empty drawing cairo writes a box turned inside out.)"""
     width, height = _whole_points(page)
+    # What is closer than whole points is left out.
+    text = re.sub(rb"(?m)^%%HiResBoundingBox:.*\n", b"", text)
     return re.sub(rb"(?m)^%%(Page)?BoundingBox:.*$", rb"%%\1BoundingBox: 0 0 " + b"%d %d" % (width, height), text)
 
 
@@ -271,6 +285,8 @@ def _ink(context: cairo.Context[Any], page: PageMarks, scale: float, height: flo
         for part in ink.parts:
             if isinstance(part, Areas):
                 paint(context, part, scale, height, width, seam)
+            elif isinstance(part, PageTexts):
+                show(context, part, scale, height)
             else:
                 context.set_source_rgb(*(int(ink.pen.colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5)))
                 context.set_line_width(width)

@@ -13,7 +13,9 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.backends.page.areas import Areas
 from vectorplot.backends.page.page_marks import Ink, PageMarks, PageStrokes, page_marks
+from vectorplot.backends.page.page_texts import PageTexts
 from vectorplot.drawing.drawing import Drawing
+from vectorplot.scene.naming.labels import TYPE_SIZE
 from vectorplot.tolerances.of_angles import WHOLE_TURN
 from vectorplot.tolerances.of_values import HOMOTHETIC
 
@@ -50,7 +52,8 @@ def dxf_bytes(drawing: Drawing) -> bytes:
     A layer for each of the drawing, with its colour and the nearest width that the format has; what is not plotted is
     switched off for the plotter. Polylines are LWPOLYLINE, arcs of circles and ellipses ARC, CIRCLE and ELLIPSE, other
     curves SPLINE, with the control points of their Bézier segments; polygons are solid HATCH, a shaded one in the mean
-    of its colours, with its transparency. Same drawing, same bytes. Degenerate: an empty drawing has layers only.
+    of its colours, with its transparency; texts are TEXT, their height that of capitals. Same drawing, same bytes.
+    Degenerate: an empty drawing has layers only.
 
     Source: Autodesk, DXF reference.
 
@@ -111,6 +114,8 @@ def _layer(document: Document, space: Modelspace, ink: Ink) -> None:
     for part in ink.parts:
         if isinstance(part, Areas):
             _areas(space, part, name)
+        elif isinstance(part, PageTexts):
+            _texts(space, part, name)
         else:
             _strokes(space, part, name)
 
@@ -130,6 +135,29 @@ def _strokes(space: Modelspace, lines: PageStrokes, layer: str) -> None:
             _spline(space, points[begin:end], own)
         else:
             space.add_lwpolyline(points[begin:end].tolist(), close=closed, dxfattribs=own)
+
+
+def _texts(space: Modelspace, texts: PageTexts, layer: str) -> None:
+    from ezdxf.enums import TextEntityAlignment
+
+    anchors = {0.0: TextEntityAlignment.LEFT, 0.5: TextEntityAlignment.CENTER, 1.0: TextEntityAlignment.RIGHT}
+    for point, size, turn, anchor, colour, string in zip(
+        (texts.microns / 1000.0).tolist(),
+        (texts.type_mm * TYPE_SIZE).tolist(),
+        texts.turn_deg.tolist(),
+        texts.anchor.tolist(),
+        texts.colours,
+        texts.strings,
+        strict=True,
+    ):
+        own = {"layer": layer, "true_color": int(colour[1:], 16)}
+        text = space.add_text(_as_it_stands(string), height=size, rotation=turn, dxfattribs=own)
+        text.set_placement(point, align=anchors[anchor])
+
+
+def _as_it_stands(string: str) -> str:
+    """The text with what the format takes for codes spelled out."""
+    return string.replace("%%", "%%%%%%").replace("^", "^ ")
 
 
 def _arc(space: Modelspace, lines: PageStrokes, arc: int, own: dict[str, Any]) -> None:

@@ -12,10 +12,12 @@ import numpy as np
 from vectorplot.backends.json.fills_in_json import fills_of, fills_text
 from vectorplot.backends.json.number_arrays import numbers_of, plain
 from vectorplot.backends.json.strokes_in_json import strokes_of, strokes_text
+from vectorplot.backends.json.texts_in_json import texts_of, texts_text
 from vectorplot.backends.page.page_marks import check
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
+from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.words import LineKind
 
@@ -48,7 +50,8 @@ def json_bytes(drawing: Drawing) -> bytes:
     "points", "points3d"}]}``; item is the item's name, points are in mm, y upwards; fills are painted one over the
     other, colour is #rrggbb or a list with one for each corner. Strokes of smooth curves have moreover "smooth": true;
     "curve", the number of the curve if it is known; and "directions", for each point the two angles in radians at which
-    the curve arrives and leaves, null where they are not known. Numbers have the digits that give back the same double.
+    the curve arrives and leaves, null where they are not known. A drawing with texts has "texts": [{"text", "at",
+    "size_mm", "turn_deg", "anchor", "room_mm", "hidden_by"}]. Numbers have the digits that give back the same double.
     Nothing is clipped or rounded.
 
     Examples
@@ -75,7 +78,9 @@ def json_bytes(drawing: Drawing) -> bytes:
         "page_from_world": plain(drawing.page_from_world),
     }
     strokes, areas = strokes_text(paths, drawing.items), fills_text(fills, drawing.items)
-    return f'{json.dumps(head)[:-1]},\n"strokes": [{strokes}],\n"fills": [{areas}]}}\n'.encode("ascii")
+    texts = Texts.joined([texts for layer in drawing.layers for texts in layer.texts])
+    written = f',\n"texts": [{texts_text(texts)}]' if len(texts) else ""
+    return f'{json.dumps(head)[:-1]},\n"strokes": [{strokes}],\n"fills": [{areas}]{written}}}\n'.encode("ascii")
 
 
 def read_drawing(path: str | os.PathLike[str]) -> Drawing:
@@ -90,7 +95,8 @@ def read_drawing(path: str | os.PathLike[str]) -> Drawing:
     -------
     Drawing
         One layer for each kind of visible line, and one, ``hidden``, for all the others; beneath
-        them one with all fills, ``fills``. Pens are the default one: layers and pens are not in the file.
+        them one with all fills, ``fills``, above them one with all texts, ``texts``. Pens are the default one: layers
+        and pens are not in the file.
 
     Raises
     ------
@@ -135,6 +141,9 @@ def _drawing(data: Any) -> Drawing:
     paths, items = strokes_of(data.get("strokes"))
     fills, items = fills_of(data.get("fills", []), items)
     layers = _layers(paths)
+    texts = texts_of(data.get("texts", []))
+    if len(texts):
+        layers = (*layers, Layer("texts", Pen(), (texts,)))
     if len(fills):
         layers = (Layer("fills", Pen(), (fills,)), *layers)
     drawing = Drawing(float(width), float(height), layers, items, page_from_world=world)

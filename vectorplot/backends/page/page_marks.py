@@ -7,7 +7,6 @@ polygon, a shaded triangle. Because all of them draw the same integers, their pi
 from __future__ import annotations
 
 import re
-import unicodedata
 from dataclasses import dataclass, replace
 from itertools import groupby
 
@@ -15,14 +14,16 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.backends.page.areas import Areas, areas
+from vectorplot.backends.page.page_texts import PageTexts, page_texts, plain_text
 from vectorplot.curves.bezier.clip_to_page import clipped_paths
 from vectorplot.curves.bezier.elliptic_arcs import EllipseArcs
 from vectorplot.curves.bezier.paths import BezierPaths
-from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
+from vectorplot.drawing.drawing import STROKES, CurvedStrokes, Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.strokes.curved_strokes import one_mark
 from vectorplot.drawing.strokes.page_clip import Rectangle, clipped_parts
 from vectorplot.drawing.strokes.stroke_paths import chosen
+from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 
@@ -54,11 +55,11 @@ class PageStrokes:
 
 @dataclass(frozen=True, eq=False)
 class Ink:
-    """What one layer puts on the page: strokes and areas in drawing order."""
+    """What one layer puts on the page: strokes, areas and texts in drawing order."""
 
     label: str
     pen: Pen
-    parts: tuple[PageStrokes | Areas, ...]
+    parts: tuple[PageStrokes | Areas | PageTexts, ...]
 
     @property
     def areas(self) -> tuple[Areas, ...]:
@@ -107,29 +108,31 @@ def check(drawing: Drawing) -> None:
         points = [paths.points for paths in layer.strokes]
         points += [mark.beziers.control for mark in layer.marks if isinstance(mark, CurvedStrokes)]
         points += [fills.points for fills in layer.fills]
+        points += [array for some in layer.texts for array in (some.points, some.size_mm, some.turn_deg, some.anchor)]
         if not all(np.isfinite(some).all() for some in points):
             raise InputError(f"layer {layer.name!r}: a point on the page is not finite")
         if not all(((fills.opacity >= 0.0) & (fills.opacity <= 1.0)).all() for fills in layer.fills):
             raise InputError(f"layer {layer.name!r}: an opacity is not a number from 0 to 1")
 
 
-def plain_text(text: str) -> str:
-    """The text on one line, without control characters and what else XML forbids."""
-    kept = (" " if c.isspace() else c for c in text if c.isspace() or unicodedata.category(c) not in ("Cc", "Cs", "Cn"))
-    return " ".join("".join(kept).split())
-
-
 def _ink(drawing: Drawing, layer: Layer, number: int) -> Ink:
     label = f"{'' if layer.plotted else '%'}{number} {plain_text(layer.name)}".rstrip()
-    parts: list[PageStrokes | Areas] = []
-    for filled, marks in groupby(layer.marks, lambda mark: isinstance(mark, Fills)):
+    parts: list[PageStrokes | Areas | PageTexts] = []
+    for kind, marks in groupby(layer.marks, _sort):
         some = tuple(marks)
-        if filled:
+        if kind is Fills:
             fills = Fills.joined(*(mark for mark in some if isinstance(mark, Fills)))
             parts.append(areas(fills, drawing.width_mm, drawing.height_mm))
+        elif kind is Texts:
+            parts.append(page_texts(Texts.joined([mark for mark in some if isinstance(mark, Texts)]), layer.pen.colour))
         else:
-            parts.append(_lines(drawing, one_mark(tuple(mark for mark in some if not isinstance(mark, Fills)))))
+            parts.append(_lines(drawing, one_mark(tuple(mark for mark in some if isinstance(mark, STROKES)))))
     return Ink(label, layer.pen, tuple(parts))
+
+
+def _sort(mark: object) -> type:
+    """Marks of one sort that follow one another are drawn together."""
+    return next(sort for sort in (Fills, Texts, object) if isinstance(mark, sort))
 
 
 def _lines(drawing: Drawing, mark: CurvedStrokes) -> PageStrokes:

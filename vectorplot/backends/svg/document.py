@@ -17,8 +17,10 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Ints
 from vectorplot.backends.page.areas import Areas
 from vectorplot.backends.page.page_marks import Ink, PageMarks, PageStrokes, page_marks
+from vectorplot.backends.page.page_texts import PageTexts
 from vectorplot.backends.svg.areas_in_svg import ID_PREFIX, area_elements
 from vectorplot.backends.svg.path_data import formatted
+from vectorplot.backends.svg.texts_in_svg import text_elements
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry import ragged
 from vectorplot.tolerances.of_parameters import ABOVE_WHOLE
@@ -64,8 +66,8 @@ def svg_text(drawing: Drawing) -> str:
     Width and height in mm and a viewBox, so that a user unit is 1 mm; three decimals; y downwards. The layers are
     top-level groups labelled ``1 visible``, ``%2 hidden``; lines are polyline and polygon elements, curves are path
     elements with cubic segments, or with elliptic arcs where they are such; filled polygons are path elements, several
-    neighbours of one colour in one, shaded ones have linear gradients. Ids begin with a hash of the content, so that
-    several drawings can share a web page; nothing else changes from run to run.
+    neighbours of one colour in one, shaded ones have linear gradients; texts are text elements. Ids begin with a hash
+    of the content, so that several drawings can share a web page; nothing else changes from run to run.
 
     Degenerate: an empty drawing is an empty page.
 
@@ -123,6 +125,8 @@ def _body(ink: Ink, number: int, height: int) -> bytes:
     for place, part in enumerate(ink.parts):
         if isinstance(part, Areas):
             found.append(area_elements(part, ink.pen.width_mm, _letters(number, place), height))
+        elif isinstance(part, PageTexts):
+            found.append(text_elements(part, height))
         else:
             found.append(elements(part, height))
     return b"".join(found)

@@ -8,8 +8,11 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Ints
 from vectorplot.backends.page.areas import Areas
 from vectorplot.backends.page.page_marks import Ink, PageStrokes, page_marks
+from vectorplot.backends.page.page_texts import PageTexts
 from vectorplot.backends.page.underlaps import grown, underlaps
 from vectorplot.backends.svg.path_data import millimetres
+from vectorplot.backends.tikz.colours import colour_of
+from vectorplot.backends.tikz.nodes import text_nodes
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import SEAM_MM
 from vectorplot.errors import InputError
@@ -51,8 +54,8 @@ def tikz_bytes(drawing: Drawing) -> bytes:
     Returns
     -------
     bytes
-        A tikzpicture environment in ASCII, that a document with the package tikz takes in by \\input, in its exact
-        size.
+        A tikzpicture environment, that a document with the package tikz takes in by \\input, in its exact size; in
+        ASCII but for texts, which are in UTF-8.
 
     Raises
     ------
@@ -62,8 +65,9 @@ def tikz_bytes(drawing: Drawing) -> bytes:
     Notes
     -----
     Lengths are in mm, with three decimals; a scope for each layer, with its pen; curves are cubic segments, polygons
-    are filled in drawing order. A shaded polygon has the mean of its colours. Polylines of more than LONGEST_PATH
-    points are several paths. Degenerate: an empty drawing is an empty picture of its size.
+    are filled in drawing order; texts are nodes in the document's font, formulas between dollars among them. A shaded
+    polygon has the mean of its colours. Polylines of more than LONGEST_PATH points are several paths. Degenerate: an
+    empty drawing is an empty picture of its size.
 
     Source: Tantau, TikZ and PGF manual.
 
@@ -90,14 +94,16 @@ def tikz_bytes(drawing: Drawing) -> bytes:
 
 
 def _layer(ink: Ink) -> bytes:
-    parts = [_areas(part, ink.pen.width_mm) if isinstance(part, Areas) else _strokes(part) for part in ink.parts]
+    parts = [_part(part, ink.pen.width_mm) for part in ink.parts]
     label = "".join(c if 32 <= ord(c) < 127 else "?" for c in ink.label)
-    pen = f"draw={_colour(int(ink.pen.colour[1:], 16))},line width={ink.pen.width_mm:.6g}mm"
+    pen = f"draw={colour_of(int(ink.pen.colour[1:], 16))},line width={ink.pen.width_mm:.6g}mm"
     return f"% {label}\n\\begin{{scope}}[{pen}]\n".encode("ascii") + b"".join(parts) + b"\\end{scope}\n"
 
 
-def _colour(packed: int) -> str:
-    return f"{{rgb,255:red,{packed >> 16};green,{packed >> 8 & 255};blue,{packed & 255}}}"
+def _part(part: PageStrokes | Areas | PageTexts, pen_mm: float) -> bytes:
+    if isinstance(part, PageTexts):
+        return text_nodes(part)
+    return _areas(part, pen_mm) if isinstance(part, Areas) else _strokes(part)
 
 
 def _strokes(lines: PageStrokes) -> bytes:
@@ -154,10 +160,10 @@ def _areas(areas: Areas, pen_mm: float) -> bytes:
         for first, last, is_line in zip(bounds[:-1], bounds[1:], line, strict=True)
     ]
     heads = [
-        f"\\draw[draw={_colour(colour)},draw opacity={clear:.3g},line width={pen_mm:.6g}mm]"
+        f"\\draw[draw={colour_of(colour)},draw opacity={clear:.3g},line width={pen_mm:.6g}mm]"
         if is_line
-        else f"\\path[nonzero rule,fill={_colour(colour)},fill opacity={clear:.3g}"
-        + (f",draw={_colour(colour)},line width={SEAM_MM:g}mm]" if seam else ",draw=none]")
+        else f"\\path[nonzero rule,fill={colour_of(colour)},fill opacity={clear:.3g}"
+        + (f",draw={colour_of(colour)},line width={SEAM_MM:g}mm]" if seam else ",draw=none]")
         for colour, clear, is_line, seam in zip(packed, opacity, line, stroked, strict=True)
     ]
     texts = [head.encode("ascii") + body for head, body in zip(heads, bodies, strict=True)]

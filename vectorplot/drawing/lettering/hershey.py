@@ -9,6 +9,7 @@ from functools import cache
 from vectorplot.drawing.lettering.accents import (
     ABOVE,
     BELOW,
+    CAPITAL,
     SAME,
     SHAPES,
     SIDE_BY_SIDE,
@@ -44,6 +45,9 @@ SMALLER = 0.6
 
 DOTS = 15.0
 """Dots of i and j are higher than this."""
+
+WIDE = 1.3
+"""The width of letters that fill the square of a type, beside the height of capitals."""
 
 RAISED, LOWERED = 9.5, -5.0
 """Where the line of letters that stand high or low is."""
@@ -86,6 +90,13 @@ def glyph(cluster: str) -> Glyph:
         codes = " ".join(f"U+{ord(character):04X}" for character in cluster)
         raise InputError(f"there are no strokes for the character {cluster!r} ({codes})")
     return found
+
+
+def room_of(cluster: str) -> Glyph:
+    """A letter by the room it takes: that of its strokes, or a square as high as capitals where there are none."""
+    found = _letter(cluster)
+    wide = CAPITAL * (WIDE if unicodedata.east_asian_width(cluster[0]) in "WF" else 1.0)
+    return found or Glyph(wide, (((0.0, 0.0), (wide, CAPITAL)),))
 
 
 @cache

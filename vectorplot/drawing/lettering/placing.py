@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.drawing.lettering.interrupted import inside_box, near_boxes
+from vectorplot.arrays import Floats, Ints
+from vectorplot.drawing.lettering.stroke_lengths import StrokeLengths
 
 DIRECTIONS = {
     "right": (1.0, 0.0),
@@ -37,6 +37,13 @@ towards the middle of the picture; another label or its point there; that it lea
 PREFERRED = 0.02
 """What counts against each place more than against the one before it in the order of directions: so there are no
 ties."""
+
+
+CELL = 0.5
+"""The sides of cells that tell how many strokes are in a place, in heights of capitals of the smallest labels."""
+
+AT_ONCE = 4
+"""So many places are looked at closely at once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,22 +86,25 @@ def places(
     every = np.concatenate([np.zeros((0, 3)), *tried])
     label = np.repeat(np.arange(len(tried)), counts)
     boxes = np.stack([every[:, :2] - 0.5 * sizes[label], every[:, :2] + 0.5 * sizes[label]], axis=1)
-    against = CROSSED * _crossed(boxes, start, end) / height[label] + FAR * every[:, 2]
+    lengths = StrokeLengths.of(start, end, CELL * float(height.min(initial=np.inf)) if len(height) else 1.0)
+    weight = CROSSED / height[label]
+    against = weight * lengths.at_least(boxes) + FAR * every[:, 2]
     against += OFF_PAGE * ((boxes[:, 0] < page[0]) | (boxes[:, 1] > page[1])).any(axis=1)
     against += INWARD * _inward(every[:, :2], anchors[label], middle)
     # The points of other labels are not covered.
     against += TAKEN * _covered(boxes, anchors, label)
     first = np.concatenate([[0], np.cumsum(counts)])
     chosen = np.zeros(len(tried), dtype=np.intp)
-    occupied = taken
+    count, occupied = len(taken), np.concatenate([taken, np.zeros((len(tried), 2, 2))])
     # Labels that were told where to stand come first.
     fixed = np.array([word != "auto" for word in asked], dtype=np.bool_)
     for number in np.argsort(~fixed, kind="stable").tolist():
         mine = slice(int(first[number]), int(first[number + 1]))
         cost = against[mine] + PREFERRED * np.arange(counts[number])
-        cost = cost + TAKEN * _overlapping(boxes[mine], occupied).sum(axis=1)
-        chosen[number] = first[number] + int(np.argmin(cost))
-        occupied = np.concatenate([occupied, boxes[chosen[number]][None]])
+        cost = cost + TAKEN * _overlapping(boxes[mine], occupied[:count])
+        chosen[number] = first[number] + _cheapest(cost, weight[mine], lengths, boxes[mine])
+        occupied[count] = boxes[chosen[number]]
+        count += 1
     far = np.flatnonzero(every[chosen, 2] > 0.0)
     feet = np.clip(anchors[far], boxes[chosen[far], 0], boxes[chosen[far], 1])
     return Places(every[chosen, :2], np.stack([anchors[far], feet], axis=1), far.tolist())
@@ -123,14 +133,16 @@ def _beside(way: Floats, size: Floats, gap: float) -> Floats:
     return np.asarray(0.5 * size * sign + gap * way / long)
 
 
-def _crossed(boxes: Floats, start: Floats, end: Floats) -> Floats:
-    """(c,) the length of strokes inside of boxes."""
-    (low, high) = boxes[:, 0], boxes[:, 1]
-    corners = np.stack([low, np.stack([high[:, 0], low[:, 1]], 1), high, np.stack([low[:, 0], high[:, 1]], 1)], axis=1)
-    segment, box = near_boxes(start, end, corners)
-    begin, stop = inside_box(start[segment], end[segment], corners[box])
-    long = np.hypot(*(end - start)[segment].T) * np.maximum(stop - begin, 0.0)
-    return np.asarray(np.bincount(box, long, minlength=len(boxes)), dtype=np.float64)
+def _cheapest(cost: Floats, weight: Floats, lengths: StrokeLengths, boxes: Floats) -> int:
+    """Which box costs least, where weights times the lengths of the strokes in them count; cost has those lengths only
+    as far as they are known without looking at single strokes. So few boxes need that."""
+    cost, exact = cost.copy(), np.zeros(len(cost), dtype=np.bool_)
+    while not exact[np.argmin(cost)]:
+        some = np.argsort(np.where(exact, np.inf, cost), kind="stable")[: min(AT_ONCE, int((~exact).sum()))]
+        box = boxes[some]
+        cost[some] += weight[some] * (lengths.inside(box) - lengths.at_least(box))
+        exact[some] = True
+    return int(np.argmin(cost))
 
 
 def _inward(middles: Floats, anchors: Floats, middle: Floats) -> Floats:
@@ -151,7 +163,8 @@ def _covered(boxes: Floats, anchors: Floats, label: Ints) -> Floats:
     return np.asarray(np.bincount(box[inside & other], minlength=len(boxes)), dtype=np.float64)
 
 
-def _overlapping(boxes: Floats, others: Floats) -> Bools:
-    """(c,n) which of boxes (c,2,2) and others (n,2,2) overlap."""
-    low, high = others[None, :, 0], others[None, :, 1]
-    return np.asarray(((boxes[:, None, 0] < high) & (boxes[:, None, 1] > low)).all(axis=2))
+def _overlapping(boxes: Floats, others: Floats) -> Ints:
+    """(c,) how many of others (n,2,2) each of boxes (c,2,2) overlaps."""
+    (left, bottom), (right, top) = boxes[:, 0].T[:, :, None], boxes[:, 1].T[:, :, None]
+    over = (left < others[:, 1, 0]) & (right > others[:, 0, 0]) & (bottom < others[:, 1, 1]) & (top > others[:, 0, 1])
+    return np.asarray(over.sum(axis=1))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,10 +12,11 @@ from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.layers import PENS
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
 from vectorplot.drawing.lettering.placing import places
-from vectorplot.drawing.lettering.text import Lettering, lettered, lettered_along
+from vectorplot.drawing.lettering.text import Lettering, lettered, lettered_along, typeset, typeset_along
 from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.drawing.strokes.long_strokes import split_long
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
+from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import segments
@@ -50,12 +51,29 @@ NO_ITEM = -1
 """Strokes of labels belong to no item."""
 
 
+BESIDE = 0.4
+"""A box whose middle lies farther from a point across, as a part of its width, stands beside it."""
+
+
+@dataclass(frozen=True)
+class Letters:
+    """How texts become letters: plain ones, and those along curves."""
+
+    plain: Callable[..., Lettering]
+    along: Callable[..., Lettering]
+
+
+LETTERS = {"strokes": Letters(lettered, lettered_along), "real": Letters(typeset, typeset_along)}
+"""What letters are: strokes of a pen, or those of the fonts of whatever reads the file."""
+
+
 @dataclass(frozen=True, eq=False)
 class SceneLabels:
-    """Labels on the page: letters, leaders and marks as strokes; boxes (b,4,2) before which the lines of the drawing
-    end."""
+    """Labels on the page: letters, leaders and marks as strokes, letters of a font as texts; boxes (b,4,2) before which
+    the lines of the drawing end."""
 
     strokes: Paths
+    texts: Texts
     boxes: Floats
 
     def __len__(self) -> int:
@@ -80,9 +98,10 @@ class SceneLabels:
         missing = (*PENS,)[len(layers) : -1] if by_kind else ()
         empty = (Layer(name, PENS[name], (Paths.empty(),)) for name in missing)
         strokes = self.strokes if longest_mm is None else split_long(self.strokes, longest_mm, page_from_world)
+        marks = (strokes, self.texts) if len(self.texts) else (strokes,)
         if layers and layers[-1].name == "label":
-            return (*layers[:-1], replace(layers[-1], marks=(*layers[-1].marks, strokes)))
-        return (*layers, *empty, Layer("label", pen, (strokes,)))
+            return (*layers[:-1], replace(layers[-1], marks=(*layers[-1].marks, *marks)))
+        return (*layers, *empty, Layer("label", pen, marks))
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,19 +145,23 @@ def seen_labels(
     return SeenLabels(kept, found[some], hidden[some])
 
 
-def labels_on_page(seen: SeenLabels, placement: Placement, strokes: Paths, hidden: str, mm: float = 1.0) -> SceneLabels:
+def labels_on_page(
+    seen: SeenLabels, placement: Placement, strokes: Paths, hidden: str, text: str = "strokes", mm: float = 1.0
+) -> SceneLabels:
     """The letters of labels, apart from strokes and from each other.
 
-    strokes: of the drawing; hidden: what becomes of hidden lines; mm: how long a millimetre is in units of the page.
+    strokes: of the drawing; hidden: what becomes of hidden lines; text: a word of LETTERS; mm: how long a millimetre is
+    in units of the page.
     Errors: InputError, with the label's name, for a character without strokes.
     """
+    letters = LETTERS[text]
     ways = [label.hidden or hidden for label in seen.anchors.labels]
     some = [k for k, way in enumerate(ways) if not seen.hidden_by[k] or way != "none"]
     labels = [seen.anchors.labels[k] for k in some]
     along = [k for k in some if isinstance(seen.anchors.labels[k].at, Along)]
-    set_: dict[int, Lettering] = {k: _along(seen, k, placement, mm) for k in along}
+    set_: dict[int, Lettering] = {k: _along(letters, seen, k, placement, mm) for k in along}
     beside = [k for k in some if k not in set_]
-    texts = [_set(seen.anchors.labels[k], mm) for k in beside]
+    texts = [_set(letters, seen.anchors.labels[k], mm) for k in beside]
     shown = strokes if hidden != "none" else chosen(strokes, strokes.hidden_by == 0)
     begin, end = shown.points[segments(shown)].transpose(1, 0, 2)
     sizes = np.array([np.ptp(text.bounds, axis=0) for text in texts]).reshape(-1, 2)
@@ -150,7 +173,11 @@ def labels_on_page(seen: SeenLabels, placement: Placement, strokes: Paths, hidde
     found = places(seen.points[beside], sizes, height, gap, asked, begin, end, page, taken)
     for number, k in enumerate(beside):
         middle = found.middles[number] - 0.5 * texts[number].bounds.sum(axis=0)
-        set_[k] = _moved(texts[number], middle)
+        text_ = texts[number].moved(middle)
+        # In whatever font, letters keep their distance from what they stand beside.
+        set_[k] = replace(
+            text_, texts=text_.texts.anchored(_side(found.middles[number], sizes[number], seen.points[k]))
+        )
     leaders = {beside[of]: line for of, line in zip(found.label, found.leaders, strict=True)}
     parts = []
     for k, label in zip(some, labels, strict=True):
@@ -161,7 +188,8 @@ def labels_on_page(seen: SeenLabels, placement: Placement, strokes: Paths, hidde
             made = dashed(made, DASH[0] * label.size_mm * mm, DASH[1] * label.size_mm * mm)
         parts.append(made)
     boxes = np.concatenate([np.zeros((0, 4, 2)), *(set_[k].boxes for k in some)])
-    return SceneLabels(concatenated(tuple(parts)), grown(boxes, HALO_MM * mm))
+    written = Texts.joined([set_[k].texts.hidden(int(seen.hidden_by[k])) for k in some])
+    return SceneLabels(concatenated(tuple(parts)), written, grown(boxes, HALO_MM * mm))
 
 
 def _asked(label: Label) -> str:
@@ -176,14 +204,22 @@ def _gap(label: Label, mm: float) -> float:
     return max(GAP * label.size_mm, 1.5 * HALO_MM) * mm + mark * mm
 
 
-def _set(label: Label, mm: float) -> Lettering:
+def _side(middle: Floats, size: Floats, point: Floats) -> float:
+    """What part of the lines of a text lies before the side of its box that is next to a point: 0 on the right of it, 1
+    on its left, 0.5 above and below."""
+    across = float(middle[0] - point[0])
+    beside = abs(across) >= BESIDE * float(size[0])
+    return 0.5 - 0.5 * float(np.sign(across)) if beside else 0.5
+
+
+def _set(letters: Letters, label: Label, mm: float) -> Lettering:
     try:
-        return lettered(label.text, size_mm=label.size_mm * mm, align="centre")
+        return letters.plain(label.text, size_mm=label.size_mm * mm, align="centre")
     except InputError as error:
         raise InputError(f"label {label.name}: {error.cause}") from None
 
 
-def _along(seen: SeenLabels, number: int, placement: Placement, mm: float) -> Lettering:
+def _along(letters: Letters, seen: SeenLabels, number: int, placement: Placement, mm: float) -> Lettering:
     """Letters along the course of a curve on the page."""
     label, course = seen.anchors.labels[number], seen.anchors.courses[number]
     assert course is not None and isinstance(label.at, Along)
@@ -198,13 +234,9 @@ def _along(seen: SeenLabels, number: int, placement: Placement, mm: float) -> Le
     size = label.size_mm * mm
     level, off = {"above": ("base", GAP), "below": ("top", -GAP)}.get(label.place, ("middle", 0.0))
     try:
-        return lettered_along(label.text, path, size_mm=size, level=level, at=part, off_mm=off * size)  # type: ignore[arg-type]
+        return letters.along(label.text, path, size_mm=size, level=level, at=part, off_mm=off * size)
     except InputError as error:
         raise InputError(f"label {label.name}: {error.cause}") from None
-
-
-def _moved(text: Lettering, way: Floats) -> Lettering:
-    return Lettering(replace(text.strokes, points=text.strokes.points + way), text.boxes + way)
 
 
 def _lines(text: Lettering) -> list[Floats]:

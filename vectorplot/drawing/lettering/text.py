@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import Literal
 
@@ -12,7 +13,8 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.lettering.accents import CAPITAL
-from vectorplot.drawing.lettering.hershey import Glyph, clusters, glyph
+from vectorplot.drawing.lettering.hershey import Glyph, clusters, glyph, room_of
+from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import Polylines
@@ -23,6 +25,9 @@ ALIGNED = {"left": 0.0, "centre": 0.5, "right": 1.0}
 LEVELS = ("base", "middle", "top", "bottom")
 """What of a text is as high as the point it is at: the first line's foot, the middle, or the ends of all lines."""
 
+FORMULA = re.compile(r"(?<!\\)\$([^$]+)(?<!\\)\$")
+"""A formula of TeX between dollars."""
+
 LINES_APART = 1.7
 """From one line of text to the next, in heights of capitals."""
 
@@ -32,15 +37,17 @@ DESCENT = 1.0 / 3.0
 
 @dataclass(frozen=True, eq=False)
 class Lettering:
-    """A text as strokes of a pen on the page.
+    """A text on the page: strokes of a pen, or lines in a font.
 
     Parameters
     ----------
     strokes : Polylines
-        Points (p, 2) in mm, y upwards; letter by letter as one reads.
+        Points (p, 2) in mm, y upwards; letter by letter as one reads. None where it is typeset.
     boxes : (b, 4, 2) array of float
         The corners of the rectangles that the text fills, counter-clockwise from the lower left one as one reads: one
         for each line, as high as its letters; or of a text along a curve one for each letter.
+    texts : Texts
+        Its lines where it is typeset, or of a text along a curve its letters.
 
     Examples
     --------
@@ -52,15 +59,21 @@ class Lettering:
 
     strokes: Polylines
     boxes: Floats
+    texts: Texts = field(default_factory=Texts.none)
 
     def __len__(self) -> int:
-        return len(self.strokes)
+        return len(self.strokes) + len(self.texts)
 
     @property
     def bounds(self) -> Floats:
         """(2, 2) smallest and largest coordinates of its boxes; zeros for an empty text."""
         corners = self.boxes.reshape(-1, 2)
         return np.stack([corners.min(axis=0), corners.max(axis=0)]) if len(corners) else np.zeros((2, 2))
+
+    def moved(self, way: Floats) -> Lettering:
+        """The same, moved on the page by (2,)."""
+        strokes = replace(self.strokes, points=self.strokes.points + way)
+        return Lettering(strokes, self.boxes + way, self.texts.moved(way))
 
 
 def lettered(
@@ -117,28 +130,74 @@ def lettered(
     _check_size(size_mm)
     lines = [[glyph(cluster) for cluster in clusters(line)] for line in text.split("\n")]
     unit = size_mm / CAPITAL
-    length = np.array([sum(one.advance for one in line) for line in lines]) * unit
-    begin = -ALIGNED[align] * length
-    foot = -LINES_APART * size_mm * np.arange(len(lines))
-    high, low = size_mm, foot[-1] - DESCENT * size_mm
-    foot -= {"base": 0.0, "top": high, "bottom": low, "middle": 0.5 * (foot[-1] + high)}[level]
-    counts = [len(line) for line in lines]
+    origin = np.asarray(at, dtype=np.float64)
+    layout = _layout(lines, origin, size_mm, align, level, rotation_deg)
     advance = np.array([one.advance for one in chain(*lines)], dtype=np.float64) * unit
+    counts = [len(line) for line in lines]
     line = ragged.owner(counts)
     passed = np.concatenate([[0.0], np.cumsum(advance)])
     along = passed[:-1] - passed[ragged.starts(counts)][line]
-    place = np.stack([begin[line] + along, foot[line]], axis=1)
+    place = np.stack([layout.begin[line] + along, layout.foot[line]], axis=1)
     turn = _turn(np.full(len(advance), rotation_deg))
+    return Lettering(_set([*chain(*lines)], unit, origin + place @ layout.turn.T, turn), layout.boxes)
+
+
+def typeset(
+    text: str,
+    at: ArrayLike = (0.0, 0.0),
+    *,
+    size_mm: float = 3.5,
+    align: Literal["left", "centre", "right"] = "left",
+    level: Literal["base", "middle", "top", "bottom"] = "base",
+    rotation_deg: float = 0.0,
+) -> Lettering:
+    """A text that is set in a font by what reads the file, in one line or several.
+
+    Parameters
+    ----------
+    text : str
+        As of lettered, but of any characters.
+    at, size_mm, align, level, rotation_deg : (float, float), float, str, str and float
+        As of lettered.
+
+    Returns
+    -------
+    Lettering
+        In mm, without strokes. The room it takes is that of the same text in single strokes: no font is known here.
+
+    Raises
+    ------
+    InputError
+        For a size that is not finite and positive.
+
+    Notes
+    -----
+    Degenerate: an empty line, and one of blanks, is none.
+
+    Examples
+    --------
+    >>> from vectorplot import drawing
+    >>> name = drawing.typeset("東京", at=(50, 20), align="centre")
+    >>> name.texts.strings, name.texts.anchor.tolist(), len(name.boxes)
+    (('東京',), [0.5], 1)
+    """
+    _check_size(size_mm)
+    written = text.split("\n")
     origin = np.asarray(at, dtype=np.float64)
-    reach = unit * np.array([_reach(some) for some in lines])
-    rows = np.flatnonzero(reach[:, 1] > reach[:, 0])
-    low_left = np.stack([begin, foot + reach[:, 0]], axis=1)[rows]
-    boxes = _rectangles(low_left, length[rows], np.ptp(reach[rows], axis=1))
-    whole = _turn(np.array([rotation_deg]))[0]
-    return Lettering(
-        _set([*chain(*lines)], unit, origin + place @ whole.T, turn),
-        np.asarray(boxes @ whole.T + origin),
+    layout = _layout([_measured(line) for line in written], origin, size_mm, align, level, rotation_deg)
+    rows = np.array([k for k, line in enumerate(written) if line.strip()], dtype=np.intp)
+    foot = np.stack([np.zeros(len(rows)), layout.foot[rows]], axis=1)
+    count = len(rows)
+    texts = Texts(
+        tuple(written[k].strip() for k in rows),
+        origin + foot @ layout.turn.T,
+        np.full(count, size_mm),
+        np.full(count, rotation_deg),
+        np.full(count, ALIGNED[align]),
+        layout.length[rows],
+        np.zeros(count, dtype=np.intp),
     )
+    return Lettering(_no_strokes(), layout.boxes, texts)
 
 
 def lettered_along(
@@ -192,14 +251,116 @@ def lettered_along(
     >>> len(text.boxes), bool(np.hypot(*text.strokes.points.T).min() > 48.0)
     (9, True)
     """
+    found, unit = [glyph(cluster) for cluster in clusters(text)], size_mm / CAPITAL
+    course = _course(found, path, size_mm, align, level, at, off_mm)
+    return Lettering(_set(found, unit, course.foot, course.turn), course.boxes)
+
+
+def typeset_along(
+    text: str,
+    path: ArrayLike,
+    *,
+    size_mm: float = 3.5,
+    align: Literal["left", "centre", "right"] = "centre",
+    level: Literal["base", "middle", "top"] = "middle",
+    at: float = 0.5,
+    off_mm: float = 0.0,
+) -> Lettering:
+    """A text of which each letter is set in a font, upright to a curve; one with a formula is set as a whole.
+
+    Parameters
+    ----------
+    text : str
+        As of typeset, in one line.
+    path, size_mm, align, level, at, off_mm : array_like, float, str, str, float and float
+        As of lettered_along.
+
+    Returns
+    -------
+    Lettering
+        In mm, without strokes.
+
+    Raises
+    ------
+    InputError
+        As of typeset; for a path without length.
+
+    Examples
+    --------
+    >>> from vectorplot import drawing
+    >>> river = drawing.typeset_along("Inn", [(0, 0), (30, 0), (60, 20)])
+    >>> river.texts.strings
+    ('I', 'n', 'n')
+    """
+    letters = [text] if FORMULA.search(text) else clusters(text)
+    found = [_as_one(_measured(letter)) for letter in letters]
+    course = _course(found, path, size_mm, align, level, at, off_mm)
+    shown = np.array([k for k, letter in enumerate(letters) if letter.strip()], dtype=np.intp)
+    count = len(shown)
+    texts = Texts(
+        tuple(letters[k] for k in shown),
+        course.foot[shown],
+        np.full(count, size_mm),
+        course.turn_deg[shown],
+        np.zeros(count),
+        np.array([one.advance for one in found])[shown] * size_mm / CAPITAL,
+        np.zeros(count, dtype=np.intp),
+    )
+    # A font's letters are narrower or wider than strokes: in the middle of their room they stay evenly apart.
+    return Lettering(_no_strokes(), course.boxes, texts.anchored(0.5))
+
+
+@dataclass(frozen=True, eq=False)
+class _Layout:
+    """Lines of text: where each begins (l,) and how high (l,) its foot is, from the point that the text is at, before
+    it is turned by a matrix (2,2); their lengths (l,); the boxes (b,4,2) of those that are not blank."""
+
+    begin: Floats
+    foot: Floats
+    length: Floats
+    turn: Floats
+    boxes: Floats
+
+
+def _layout(
+    lines: Sequence[Sequence[Glyph]], origin: Floats, size_mm: float, align: str, level: str, rotation_deg: float
+) -> _Layout:
+    unit = size_mm / CAPITAL
+    length = np.array([sum(one.advance for one in line) for line in lines]) * unit
+    begin = -ALIGNED[align] * length
+    foot = -LINES_APART * size_mm * np.arange(len(lines))
+    high, low = size_mm, foot[-1] - DESCENT * size_mm
+    foot -= {"base": 0.0, "top": high, "bottom": low, "middle": 0.5 * (foot[-1] + high)}[level]
+    reach = unit * np.array([_reach(some) for some in lines])
+    rows = np.flatnonzero(reach[:, 1] > reach[:, 0])
+    low_left = np.stack([begin, foot + reach[:, 0]], axis=1)[rows]
+    turn = _turn(np.array([rotation_deg]))[0]
+    boxes = _rectangles(low_left, length[rows], np.ptp(reach[rows], axis=1)) @ turn.T + origin
+    return _Layout(begin, np.asarray(foot), np.asarray(length), turn, np.asarray(boxes))
+
+
+@dataclass(frozen=True, eq=False)
+class _Course:
+    """Letters along a curve: their feet (n,2), left ends, the directions (n,) and matrices (n,2,2) they are turned by,
+    their boxes (n,4,2)."""
+
+    foot: Floats
+    turn_deg: Floats
+    turn: Floats
+    boxes: Floats
+
+
+def _course(
+    found: Sequence[Glyph], path: ArrayLike, size_mm: float, align: str, level: str, at: float, off_mm: float
+) -> _Course:
     _check_size(size_mm)
+    unit = size_mm / CAPITAL
     points = np.asarray(path, dtype=np.float64)
     steps = np.hypot(*np.diff(points, axis=0).T) if points.ndim == 2 and points.shape[1] == 2 else np.zeros(0)
     kept = np.append(True, steps > 0.0)[: len(points)]
     points, whole = points[kept], float(steps.sum())
     if not 0.0 < whole < np.inf:
         raise InputError("a text along a curve: the curve has no length")
-    found, unit = [glyph(cluster) for cluster in clusters(text)], size_mm / CAPITAL
     advance = np.array([one.advance for one in found], dtype=np.float64) * unit
     length = float(advance.sum())
     begin, end = (at * whole + part * length for part in (-ALIGNED[align], 1.0 - ALIGNED[align]))
@@ -208,13 +369,36 @@ def lettered_along(
         points, begin = points[::-1], whole - end
     middle = begin + np.cumsum(advance) - 0.5 * advance
     place, way = _along(points, middle)
-    turn = _turn(np.degrees(np.arctan2(way[:, 1], way[:, 0])))
+    turn_deg = np.degrees(np.arctan2(way[:, 1], way[:, 0]))
+    turn = _turn(turn_deg)
     down = {"base": 0.0, "middle": 0.5 * size_mm, "top": size_mm}[level] - off_mm
     foot = place - np.einsum("nij,nj->ni", turn, np.stack([0.5 * advance, np.full(len(advance), down)], axis=1))
     low, high = (unit * end for end in _reach(found))
     corner = np.tile([0.0, low], (len(found), 1))
     boxes = _rectangles(corner, advance, np.full(len(advance), high - low))
-    return Lettering(_set(found, unit, foot, turn), np.einsum("nij,nkj->nki", turn, boxes) + foot[:, None])
+    return _Course(foot, turn_deg, turn, np.einsum("nij,nkj->nki", turn, boxes) + foot[:, None])
+
+
+def _measured(line: str) -> list[Glyph]:
+    """The room that the letters of a line take: that of their strokes, or a square where there are none; of formulas
+    that of the signs they show."""
+    shown = FORMULA.sub(lambda formula: _signs(formula.group(1)), line)
+    return [room_of(cluster) for cluster in clusters(shown)]
+
+
+def _signs(formula: str) -> str:
+    """About as many letters as a formula of TeX shows."""
+    return re.sub(r"[{}^_\s]", "", re.sub(r"\\([a-zA-Z]+|.)", "o", formula))
+
+
+def _as_one(letters: Sequence[Glyph]) -> Glyph:
+    """Letters side by side as one, so far as their room goes."""
+    low, high = _reach(letters)
+    return Glyph(sum(one.advance for one in letters), (((0.0, low), (0.0, high)),) if high > low else ())
+
+
+def _no_strokes() -> Polylines:
+    return Polylines(np.zeros((0, 2)), np.zeros(1, dtype=np.intp), np.zeros(0, dtype=np.bool_))
 
 
 def _check_size(size_mm: float) -> None:

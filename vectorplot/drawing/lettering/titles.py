@@ -9,8 +9,8 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Pen
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
-from vectorplot.drawing.lettering.scene_labels import label_paths
-from vectorplot.drawing.lettering.text import Lettering, lettered
+from vectorplot.drawing.lettering.scene_labels import LETTERS, Letters, label_paths
+from vectorplot.drawing.lettering.text import Lettering
 from vectorplot.drawing.strokes.long_strokes import split_long
 from vectorplot.drawing.strokes.stroke_paths import concatenated
 from vectorplot.errors import InputError
@@ -27,32 +27,40 @@ BESIDE = 1.5
 
 
 def with_title(
-    layers: tuple[Layer, ...], placement: Placement, title: str, frame: bool, colour: str, longest_mm: float | None
+    layers: tuple[Layer, ...],
+    placement: Placement,
+    title: str,
+    frame: bool,
+    colour: str,
+    longest_mm: float | None,
+    text: str = "strokes",
 ) -> tuple[Layer, ...]:
     """The layers of a drawing, and one with its title and a frame, if these are wanted.
 
     The frame runs in the middle of the margin; the title stands in the middle of the lower margin, and the frame ends
-    before it. longest_mm: longer strokes leave in parts.
+    before it. longest_mm: longer strokes leave in parts; text: a word of LETTERS.
     Errors: InputError for a character without strokes, a title wider than the page, and a frame on a page without a
     margin.
     """
     page = placement.page
     if frame and not page.margin_mm > 0.0:
         raise InputError("a frame needs a margin to run in")
-    text = _title(title, page.width_mm, page.margin_mm)
+    set_ = _title(LETTERS[text], title, page.width_mm, page.margin_mm)
     world = placement.page_from_world
     border = label_paths([_ring(page.width_mm, page.height_mm, 0.5 * page.margin_mm)] if frame else [], 0, placement)
-    letters = label_paths([text.strokes[k] for k in range(len(text.strokes))], 0, placement)
-    if len(text.boxes):
-        border = outside_boxes(border, grown(text.boxes, BESIDE * float(np.ptp(text.bounds, axis=0)[1])), world)
+    letters = label_paths([set_.strokes[k] for k in range(len(set_.strokes))], 0, placement)
+    if len(set_.boxes):
+        border = outside_boxes(border, grown(set_.boxes, BESIDE * float(np.ptp(set_.bounds, axis=0)[1])), world)
     border = border if longest_mm is None else split_long(border, longest_mm, world)
-    return (*layers, Layer("frame", replace(FRAME, colour=colour), (concatenated((border, letters)),)))
+    strokes = concatenated((border, letters))
+    marks = (strokes, set_.texts) if len(set_.texts) else (strokes,)
+    return (*layers, Layer("frame", replace(FRAME, colour=colour), marks))
 
 
-def _title(title: str, width: float, margin: float) -> Lettering:
+def _title(letters: Letters, title: str, width: float, margin: float) -> Lettering:
     size = float(np.clip(0.6 * margin, SIZES_MM[1], SIZES_MM[0]))
     try:
-        text = lettered(title, (0.5 * width, 0.5 * margin), size_mm=size, align="centre", level="middle")
+        text = letters.plain(title, (0.5 * width, 0.5 * margin), size_mm=size, align="centre", level="middle")
     except InputError as error:
         raise InputError(f"title: {error.cause}") from None
     if float(np.ptp(text.bounds, axis=0)[0]) > width:

@@ -8,8 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.drawing.drawing import NO_CURVE, Layer, Paths, Pen
-from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.drawing import NO_CURVE, STROKES, Layer, Paths, Pen
 from vectorplot.drawing.strokes.curved_strokes import curved_strokes
 from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.drawing.strokes.join import joined
@@ -43,7 +42,7 @@ def inked(
     """Each layer's strokes joined, without collinear points, dashed as its pen says, hidden ones also if asked for, in
     the order of the pen, in parts where they are longer than longest_mm; smooth ones as curves within
     curve_tolerance_mm, or as polylines where it is None. thinned: ends that converge stop early. Filled polygons
-    stay."""
+    and texts stay."""
     parts = [paths for layer in layers for paths in layer.strokes]
     pens = [layer.pen for layer in layers for _ in layer.strokes]
     strokes = _pen_strokes(parts, pens, hidden, world, thinned)
@@ -51,7 +50,7 @@ def inked(
         strokes = [split_long(paths, longest_mm, world) for paths in strokes]
     drawn = iter(strokes if curve_tolerance_mm is None else (curved_strokes(s, curve_tolerance_mm) for s in strokes))
     return tuple(
-        replace(layer, marks=tuple(mark if isinstance(mark, Fills) else next(drawn) for mark in layer.marks))
+        replace(layer, marks=tuple(next(drawn) if isinstance(mark, STROKES) else mark for mark in layer.marks))
         for layer in layers
     )
 

@@ -49,6 +49,9 @@ ITEM_WORDS = (
 )
 SCENE_WORDS = ("camera", "light", "page", "background", "title", "label", "include", "assembly", "end")
 
+FORMULA = re.compile(r"\$[^$]*\$")
+"""What is between dollars: a formula of TeX, whose words begin with backslashes."""
+
 # A string that is not closed is one word too, up to the end of its line. Nothing is tried twice: what these patterns
 # have taken they keep (++ and *+), so that the time grows with the text, whatever the text.
 _STRING = re.compile(r'"(?:[^"\\\n]++|\\.)*+"')
@@ -133,7 +136,7 @@ class Words:
         if not word.startswith('"'):
             return word
         try:
-            return str(json.loads(word))
+            return str(json.loads(FORMULA.sub(_with_all_backslashes, word)))
         except ValueError:
             self.fail(index, f"{word[:40]} is not a string: escapes are those of JSON")
 
@@ -217,6 +220,11 @@ class Words:
     def is_number(self, index: int) -> bool:
         """Whether a word begins like a number."""
         return _NUMBER.match(self.words[index]) is not None
+
+
+def _with_all_backslashes(formula: re.Match[str]) -> str:
+    """A formula in which every backslash, but those that are escaped or escape a quote, is one of TeX."""
+    return re.sub(r'\\(?:\\|")|\\', lambda found: found.group() if len(found.group()) > 1 else "\\\\", formula.group())
 
 
 def bare_word(text: str) -> bool:
