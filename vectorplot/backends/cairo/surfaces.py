@@ -44,8 +44,7 @@ _TITLE_LENGTH = 200  # cairo refuses comments of more than 255 characters
 
 
 def ps_bytes(drawing: Drawing) -> bytes:
-    """The drawing as a PostScript file of one page, without fonts unless it has texts; language level 2, or 3 if it has
-    shaded triangles.
+    """The drawing as a PostScript file of one page; fonts are in it where it has texts.
 
     Parameters
     ----------
@@ -55,7 +54,7 @@ def ps_bytes(drawing: Drawing) -> bytes:
     Returns
     -------
     bytes
-        A whole file, in points of 1/72 inch.
+        A whole file, in points of 1/72 inch; language level 2, or 3 if it has shaded triangles.
 
     Raises
     ------
