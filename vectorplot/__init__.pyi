@@ -4,9 +4,11 @@ from .drawing.drawing import Drawing, Layer, Paths, Pen
 from .drawing.pens.styles import Style
 from .errors import InputError, InputWarning
 from .geometry.cameras.camera import Camera
+from .geometry.cameras.panorama import Panorama
 from .geometry.mesh import Mesh
 from .geometry.strokes import Strokes
 from .paint import paint
+from .panorama import panorama
 from .read import read
 from .render import render
 from .save import save, save_for_latex
@@ -40,6 +42,7 @@ __all__ = [
     "OnCurve",
     "OnPage",
     "Page",
+    "Panorama",
     "Paths",
     "Pattern",
     "Pen",
@@ -57,6 +60,7 @@ __all__ = [
     "draw",
     "graph",
     "paint",
+    "panorama",
     "read",
     "render",
     "save",

@@ -148,6 +148,15 @@ def plan_draw(
     return tuple(stages)
 
 
+def plan_panorama() -> tuple[Stage, ...]:
+    """The stages of a panorama."""
+    return (
+        Stage("panorama", "the visible lines of every quarter of the round, unrolled"),
+        Stage("layers", "what shares a pen"),
+        Stage("pen", "strokes joined, in an order that keeps the pen on the paper"),
+    )
+
+
 def _label_stages(scene: Scene) -> list[Stage]:
     """The stage that letters places, where the scene has names for any."""
     return [Stage("labels", "places have names; lines end before the letters")] if scene.labels else []

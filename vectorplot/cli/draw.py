@@ -18,7 +18,7 @@ from vectorplot.cli.common_options import (
     picture_verb,
 )
 from vectorplot.cli.hatching_options import HATCHING_OPTIONS, hatching_from
-from vectorplot.cli.options import at_least, dash, layers, pen, said_or_none, style
+from vectorplot.cli.options import at_least, dash, layers, pen, place, said_or_none, style
 from vectorplot.cli.view_options import PAGE_OPTIONS
 
 if TYPE_CHECKING:
@@ -29,6 +29,18 @@ if TYPE_CHECKING:
 @picture_verb(
     "Draw a scene or a mesh with exact hidden lines.",
     DRAWING_FORMATS,
+    click.option(
+        "--panorama",
+        type=place,
+        metavar="X,Y[,Z]",
+        help="What is seen all round from there, unrolled; X,Y is a place on a terrain.",
+    ),
+    click.option(
+        "--strips",
+        type=click.IntRange(1, 36),
+        metavar="N",
+        help="Strips that a panorama is cut into.  [default: as many as make it largest]",
+    ),
     *PAGE_OPTIONS,
     lines_option("Kinds of lines", default=None, note="  [default: all but edges; in wireframes all but intersection]"),
     crease_angle_option("Sharper edges are creases."),
@@ -110,4 +122,28 @@ def draw(scene: Scene, **told: Any) -> Drawing:
     from vectorplot.draw import draw as draw_scene
 
     hatch, rest = hatching_from(told)
+    standing, strips = rest.pop("panorama"), rest.pop("strips")
+    if standing is not None:
+        return _all_round(scene, standing, strips, hatch is not None, rest)
+    if strips is not None:
+        raise click.UsageError("--strips goes with --panorama")
     return draw_scene(scene, hatch=hatch, **rest)
+
+
+def _all_round(
+    scene: Scene, standing: tuple[float, ...], strips: int | None, hatched: bool, told: dict[str, Any]
+) -> Drawing:
+    """The panorama from a place. Bad usage for options that a panorama has nothing to do for."""
+    from vectorplot.geometry.cameras.panorama import Panorama
+    from vectorplot.panorama import panorama
+
+    given = click.get_current_context().params
+    unlike = {name: given[name] for name in ("eye", "target", "up", "twist", "fov", "height", "near", "far", "view")}
+    flags = {name: given[name] or None for name in ("parallel", "scale_pens", "thin_ends")}
+    halo = {"halo": told["halo_mm"] or None, "no-fit": None if told["fit"] else True, "hatch": hatched or None}
+    for name, value in {**unlike, **flags, **halo, "hidden": told["hidden"]}.items():
+        if value is not None and value != "none":
+            raise click.UsageError(f"--{name.replace('_', '-')} does not go with --panorama")
+    unused = ("camera", "fit", "hidden", "halo_mm", "scale_pens", "thin_ends")
+    rest = {name: value for name, value in told.items() if name not in unused}
+    return panorama(scene, Panorama(standing, strips=strips), **rest)

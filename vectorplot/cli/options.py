@@ -68,6 +68,14 @@ AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 """The axes of the world by name."""
 
 
+def place(text: str) -> tuple[float, ...]:
+    """X,Y on a terrain, or a point X,Y,Z."""
+    found = numbers(text)
+    if len(found) not in (2, 3):
+        raise click.BadParameter(f"{text!r} is not X,Y or X,Y,Z")
+    return found
+
+
 def direction(text: str) -> tuple[float, float, float]:
     """A vector, or the name of an axis, perhaps with a sign before it."""
     axis = AXES.get(text.strip().lower().lstrip("+-"))

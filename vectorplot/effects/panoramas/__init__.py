@@ -1,0 +1,1 @@
+"""What is seen all round from a place, unrolled."""

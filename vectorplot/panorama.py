@@ -1,0 +1,163 @@
+"""What is seen all round from a place becomes strokes on a page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+
+from vectorplot.draw import lines_in_place, titled
+from vectorplot.drawing.drawing import Drawing, Layer, Paths
+from vectorplot.drawing.layers import letter_pen
+from vectorplot.drawing.pens.paper import sheet_layer
+from vectorplot.drawing.pens.pen_rules import Pens, pen_of, pen_rules
+from vectorplot.drawing.pens.sorted_layers import line_list, sorted_layers
+from vectorplot.drawing.pens.style_file import style_of
+from vectorplot.drawing.pens.styles import Style
+from vectorplot.drawing.strokes.finishing import inked
+from vectorplot.effects.panoramas.standing import eye_of
+from vectorplot.effects.panoramas.strips import panorama_on_page
+from vectorplot.errors import InputError
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.cameras.panorama import Panorama
+from vectorplot.geometry.chunks import threads_of
+from vectorplot.io.anything import scene_of
+from vectorplot.plan import StageReport, Walk, plan_panorama
+from vectorplot.scene.placement import field_of_vision
+from vectorplot.scene.point_of_view import page_of
+from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.seamless_scene import without_seams
+from vectorplot.scene.view import look
+from vectorplot.visibility.projected_faces import project_faces
+from vectorplot.words import DRAWN, LineKind, check_colour, line_kinds
+
+
+def panorama(
+    scene: object,
+    place: Panorama | Sequence[float],
+    *,
+    page: Page | str | None = None,
+    width: float | str | None = None,
+    lines: str | Iterable[str] | None = None,
+    crease_angle_deg: float = 25.0,
+    style: Style | str = "plain",
+    pens: Pens | None = None,
+    dashes: str | Mapping[str, str] | Iterable[str] | None = None,
+    background: str | None = None,
+    layers: str | None = None,
+    unplotted: str | Iterable[str] = "",
+    curves: str = "bezier",
+    tolerance_mm: float = 0.02,
+    title: str = "",
+    frame: bool = False,
+    longest_mm: float | None = None,
+    budget: float = 1.0,
+    jobs: int | None = None,
+    progress: Callable[[str, float], None] | None = None,
+    explain: Callable[[StageReport], None] | None = None,
+) -> Drawing:
+    """What is seen of a scene all round from a place, unrolled: bearings along the page, elevations up it.
+
+    Parameters
+    ----------
+    scene : Scene, path, Item, Mesh, surface, curve, or several of these
+        As of `draw`.
+    place : Panorama or sequence of float
+        From where, and which part of the round; or only the eye, or x and y on a terrain.
+    page, width, lines, crease_angle_deg : as of draw
+        Items' own lines come first, as there.
+    style, pens, dashes, background, layers, unplotted : as of draw
+        Of a style that shows hidden lines none of them are here.
+    curves, tolerance_mm, title, frame, longest_mm : as of draw
+        Lines of smooth surfaces leave as curves, straight ones, which are none here, as polylines.
+    budget, jobs, progress, explain : as of draw
+        Progress is told for each quarter of the round.
+
+    Returns
+    -------
+    Drawing
+        The visible lines in strips that fill the page, below each strip its bearings: a tick every five degrees, and
+        the names of the winds. Its page_from_world is that of the flat sheet: no matrix unrolls the world.
+
+    Raises
+    ------
+    InputError
+        As of `draw` and `Panorama`; for a place of x and y where there is no terrain, and a wireframe.
+
+    Notes
+    -----
+    Hidden lines are found exactly, by a camera for every quarter of the round; the visible parts are unrolled then, and
+    divided until they are within half of the tolerance. Bearings are compass bearings, clockwise from y; the horizon,
+    elevation 0, is the height of the eye. Degenerate: what is just above or below the eye, beyond the elevations asked
+    for, is not there.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.scene import terrain_scene
+    >>> hill = terrain_scene([[2, 3, 2], [3, 1, 3], [2, 3, 2]])
+    >>> round_about = vp.panorama(hill, vp.Panorama((1.0, 1.0), above=0.5, strips=1), page="300x100")
+    >>> sum(len(strokes) for layer in round_about.layers for strokes in layer.strokes) > 10
+    True
+    """
+    chosen = style_of(style)
+    if chosen.look != "plain":
+        raise InputError(f"panorama: a picture in the style {chosen.look} shows all lines, and a panorama those seen")
+    allowed, threads = budget, threads_of(jobs)
+    round_about = place if isinstance(place, Panorama) else Panorama(tuple(place))
+    kinds = line_kinds(DRAWN if lines is None else lines)
+    seamless = without_seams(scene_of(scene))
+    eye = eye_of(round_about, seamless)
+    sheet = page_of(page, seamless, width)
+    walk = Walk(plan_panorama(), explain, progress, threads)
+    trace = partial(
+        _seen_by,
+        seamless,
+        kinds=kinds,
+        crease_angle_deg=crease_angle_deg,
+        tolerance_mm=tolerance_mm,
+        budget=allowed,
+    )
+    strokes, marks, placement = walk.run(
+        "panorama", panorama_on_page, round_about, eye, sheet, tolerance_mm, trace, walk.fraction("panorama")
+    )
+    rules = (*chosen.rules, *pen_rules(pens, dashes))
+    names, colours = ([getattr(item, field) for item in seamless.items] for field in ("name", "colour"))
+    shared = chosen.layers if layers is None else layers
+    found = walk.run("layers", sorted_layers, strokes, names, colours, shared, rules, line_list(unplotted), ())
+    curved = tolerance_mm if curves == "bezier" else None
+    world = placement.page_from_world
+    inks = walk.run("pen", inked, found, "none", world, curved, longest_mm, False)
+    letters = pen_of(rules, letter_pen(found), int(LineKind.LABEL), False, "")
+    inks = titled((*inks, Layer("bearings", letters, (marks,))), placement, title, frame, letters, longest_mm)
+    paper = chosen.background if background is None else background
+    if paper is not None:
+        check_colour(paper, "background: ")
+        inks = (sheet_layer(paper, placement.page), *inks)
+    sheet = placement.page
+    return Drawing(sheet.width_mm, sheet.height_mm, inks, tuple(names), seamless.title, world)
+
+
+def _seen_by(
+    scene: Scene,
+    camera: Camera,
+    page: Page,
+    *,
+    kinds: frozenset[LineKind],
+    crease_angle_deg: float,
+    tolerance_mm: float,
+    budget: float,
+) -> Paths:
+    """The visible lines of a scene on a page that the picture of a camera fills."""
+    view = look(scene, camera)
+    placement = replace(field_of_vision(view, page, fit=False), page=page)
+    return lines_in_place(
+        scene,
+        view,
+        project_faces(view),
+        placement,
+        kinds,
+        crease_angle_deg=crease_angle_deg,
+        tolerance_mm=tolerance_mm,
+        budget=budget,
+    )
