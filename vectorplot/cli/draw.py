@@ -141,9 +141,11 @@ def _all_round(
     unlike = {name: given[name] for name in ("eye", "target", "up", "twist", "fov", "height", "near", "far", "view")}
     flags = {name: given[name] or None for name in ("parallel", "scale_pens", "thin_ends")}
     halo = {"halo": told["halo_mm"] or None, "no-fit": None if told["fit"] else True, "hatch": hatched or None}
+    if told["text"] != "strokes":
+        raise click.UsageError("letters of panoramas are strokes: --text does not go with --panorama")
     for name, value in {**unlike, **flags, **halo, "hidden": told["hidden"]}.items():
         if value is not None and value != "none":
             raise click.UsageError(f"--{name.replace('_', '-')} does not go with --panorama")
-    unused = ("camera", "fit", "hidden", "halo_mm", "scale_pens", "thin_ends")
+    unused = ("camera", "fit", "hidden", "halo_mm", "scale_pens", "thin_ends", "text")
     rest = {name: value for name, value in told.items() if name not in unused}
     return panorama(scene, Panorama(standing, strips=strips), **rest)
