@@ -18,6 +18,7 @@ from vectorplot.cli.info import info
 from vectorplot.cli.main import run
 from vectorplot.cli.paint import paint
 from vectorplot.cli.render import render
+from vectorplot.cli.sheet import sheet
 from vectorplot.cli.speed import speed
 
 DOCS = ROOT / "docs"
@@ -73,7 +74,9 @@ def test_the_commands_of_the_pages_work(command, checkout, capfdbinary):
         assert out
 
 
-@pytest.mark.parametrize("command", [accuracy, draw, info, paint, render, speed], ids=lambda command: command.name)
+@pytest.mark.parametrize(
+    "command", [accuracy, draw, info, paint, render, sheet, speed], ids=lambda command: command.name
+)
 def test_every_option_is_on_the_page_of_the_command(command):
     page = (DOCS / "command.md").read_text(encoding="utf-8")
     for parameter in command.params:

@@ -23,7 +23,7 @@ ORDER = [
     *("drawing", "charts", "effects", "animation", "textbook", "backends"),
     *("verbs", "testing", "accuracy", "speed", "cli"),
 ]
-VERBS = {"draw", "paint", "painting", "panorama", "read", "render", "save", "plan"}
+VERBS = {"draw", "paint", "painting", "panorama", "read", "render", "save", "plan", "technical"}
 
 # Pictures show themselves in a notebook and save themselves; the import happens when they are asked to.
 ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "verbs"), ("shading/raster/image.py", "verbs")}

@@ -2,6 +2,8 @@ from .accuracy.verb import accuracy
 from .draw import draw
 from .drawing.drawing import Drawing, Layer, Paths, Pen
 from .drawing.pens.styles import Style
+from .drawing.sheets.contact_sheets import contact_sheet
+from .drawing.sheets.sheet import Sheet
 from .errors import InputError, InputWarning
 from .geometry.cameras.camera import Camera
 from .geometry.cameras.panorama import Panorama
@@ -13,12 +15,15 @@ from .read import read
 from .render import render
 from .save import save, save_for_latex
 from .scene.hatching import Hatching, Stippling
-from .scene.naming.annotations import angle, arrow, axes, dimension
+from .scene.naming.annotations import arrow, axes
+from .scene.naming.dimensions import angle, centre_line, centre_mark, diameter, dimension, leader, radius
 from .scene.naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from .scene.plots import graph, surface, tube
 from .scene.scene import Item, Light, Material, Page, Pattern, Scene
 from .scene.surface_lines import Section, SurfaceLines
 from .shading.raster.image import Image
+from .technical.technical_sheet import technical_sheet
+from .technical.turntables import turntable
 from .words import LineKind
 
 __version__: str
@@ -48,6 +53,7 @@ __all__ = [
     "Pen",
     "Scene",
     "Section",
+    "Sheet",
     "Stippling",
     "Strokes",
     "Style",
@@ -56,15 +62,23 @@ __all__ = [
     "angle",
     "arrow",
     "axes",
+    "centre_line",
+    "centre_mark",
+    "contact_sheet",
+    "diameter",
     "dimension",
     "draw",
     "graph",
+    "leader",
     "paint",
     "panorama",
+    "radius",
     "read",
     "render",
     "save",
     "save_for_latex",
     "surface",
+    "technical_sheet",
     "tube",
+    "turntable",
 ]

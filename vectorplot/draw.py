@@ -39,7 +39,7 @@ from vectorplot.scene.unbounded_items import tell_what_is_cut_off
 from vectorplot.scene.view import View, look, view_of
 from vectorplot.tolerances.of_extent import FINEST_CHORD_OF_EXTENT
 from vectorplot.visibility.framing import frame_of, in_frame
-from vectorplot.visibility.polyhedra.hidden_lines import Visibility, counted_parts, visible_parts
+from vectorplot.visibility.polyhedra.hidden_lines import Visibility, counted_parts, visible_parts, with_whole_lines
 from vectorplot.visibility.polyhedra.lines import (
     Lines,
     edge_lines,
@@ -487,7 +487,9 @@ def _behind_balls(walk: Walk, view: View, forms: ClosedForms | None, lines: Line
     from vectorplot.visibility.quadrics.closed_forms import lines_behind
 
     seen = _seen_among_balls(walk, "behind balls", view)
-    return walk.run("behind balls", lines_behind, view, forms, lines, seen)
+    over = lines.kind == LineKind.CENTRE
+    cut = walk.run("behind balls", lines_behind, view, forms, lines.some(~over), seen)
+    return joined_lines((cut, lines.some(over))) if over.any() else cut
 
 
 def _sheets(walk: Walk, scene: Scene, view: View, forms: ClosedForms | None) -> tuple[SmoothSheet, ...]:
@@ -528,6 +530,7 @@ def _lines_and_chords(
     done = walk.fraction("smooth surfaces")
     cut, unsure = walk.run("smooth surfaces", cut_lines_and_chords, view, traced, lines, tolerance, budget, done)
     _say([*traced.doubts, *((scene.items[item].name, text) for item, text in unsure)])
+    cut = replace(cut, behind=np.where(cut.kind == LineKind.CENTRE, 0, cut.behind))
     return cut if not walk.calls_for("visible lines") else cut.some(cut.behind == 0)
 
 
@@ -570,6 +573,10 @@ def _visibility(walk: Walk, view: View, faces: ProjectedFaces, solid: Bools, lin
         from vectorplot.effects.wireframe import all_lines
 
         return walk.run("all lines", all_lines, lines)
+    over = lines.kind == LineKind.CENTRE
+    if over.any():
+        rest = _visibility(walk, view, faces, solid, lines.some(~over))
+        return with_whole_lines(rest, over)
     segments = Segments(lines.start, lines.end)
     if walk.calls_for("visible lines"):
         return walk.run("visible lines", visible_parts, view, faces, solid, segments, walk.fraction("visible lines"))

@@ -51,6 +51,8 @@ class LineKind(IntEnum):
     """One of the sections that are drawn heavier, as every fifth level line of a map."""
     LABEL = 13
     """A stroke of a letter, or a leader from a label to what it names."""
+    CENTRE = 14
+    """A centre line, dashed with dots, which nothing hides: it belongs to the inside of things."""
 
     @property
     def word(self) -> str:
@@ -87,7 +89,7 @@ class LineKind(IntEnum):
         return cls[word.upper()]
 
 
-LINE_WORDS = tuple(kind.word for kind in LineKind if kind not in (LineKind.HATCH, LineKind.LABEL))
+LINE_WORDS = tuple(kind.word for kind in LineKind if kind not in (LineKind.HATCH, LineKind.LABEL, LineKind.CENTRE))
 """The kinds of lines that one can ask for, as they are spelled."""
 
 
@@ -98,8 +100,8 @@ WIRES = tuple(word for word in LINE_WORDS if word != LineKind.INTERSECTION.word)
 """Those of a wireframe: every edge, and no line in which things pierce each other."""
 
 
-OWN_LINE_WORDS = (*LINE_WORDS, LineKind.LABEL.word)
-"""The kinds of lines that an item may have of its own: a curve may be drawn as a leader is."""
+OWN_LINE_WORDS = (*LINE_WORDS, LineKind.LABEL.word, LineKind.CENTRE.word)
+"""The kinds of lines that an item may have of its own: a curve may be drawn as a leader is, or as a centre line."""
 
 
 def line_words(words: str | Iterable[str], known: tuple[str, ...] = LINE_WORDS) -> tuple[str, ...]:

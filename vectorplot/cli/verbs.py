@@ -10,6 +10,7 @@ from vectorplot.cli.draw import draw
 from vectorplot.cli.info import info
 from vectorplot.cli.paint import paint
 from vectorplot.cli.render import render
+from vectorplot.cli.sheet import sheet
 from vectorplot.cli.speed import speed
 from vectorplot.errors import printable
 from vectorplot.words import nearest
@@ -38,6 +39,7 @@ vectorplot.add_command(draw)
 vectorplot.add_command(paint)
 vectorplot.add_command(info)
 vectorplot.add_command(render)
+vectorplot.add_command(sheet)
 vectorplot.add_command(accuracy)
 vectorplot.add_command(speed)
 

@@ -4,6 +4,9 @@ from .fills_without_overlaps import visible_fills
 from .hatching.hatched_fills import hatched_fills
 from .lettering.text import Lettering, lettered, lettered_along, typeset, typeset_along
 from .painted_fills import placement_of_faces
+from .sheets.contact_sheets import contact_sheet
+from .sheets.drawing_scales import DrawingScale
+from .sheets.sheet import Sheet
 from .strokes.curved_strokes import curved_strokes
 from .strokes.long_strokes import split_long
 from .strokes.pen_order.order import pen_ordered, travel_mm
@@ -12,13 +15,16 @@ from .texts import Texts
 __all__ = [
     "CurvedStrokes",
     "Drawing",
+    "DrawingScale",
     "FillKind",
     "Fills",
     "Layer",
     "Lettering",
     "Paths",
     "Pen",
+    "Sheet",
     "Texts",
+    "contact_sheet",
     "curved_strokes",
     "hatched_fills",
     "lettered",

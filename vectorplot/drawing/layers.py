@@ -27,6 +27,7 @@ PENS = {
     "hatch": Pen(0.18, BLACK),
     "index": Pen(0.35, BLACK),
     "label": Pen(0.25, BLACK),
+    "centre": Pen(0.18, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -45,6 +46,7 @@ KIND_LAYER = {
     LineKind.HATCH: "hatch",
     LineKind.INDEX: "index",
     LineKind.LABEL: "label",
+    LineKind.CENTRE: "centre",
 }
 
 COLOURS = {

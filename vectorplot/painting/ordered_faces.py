@@ -12,7 +12,7 @@ from vectorplot.drawing.painted_fills import shown_faces
 from vectorplot.features.edge_splitting import Demand
 from vectorplot.geometry.budget import Budget
 from vectorplot.geometry.cameras.unit_projection import Projection
-from vectorplot.painting.reports import tell_groups, tell_knots, tell_slices, warn_of_guesses
+from vectorplot.painting.reports import group_names, tell_groups, tell_knots, tell_slices, warn_of_guesses
 from vectorplot.painting.seen import Seen, without_unseen_facets
 from vectorplot.plan import Walk
 from vectorplot.scene.placement import Placement
@@ -110,6 +110,6 @@ def _planes_of(scene: Scene, view: View, faces: ImageFaces, plane: Ints) -> Ints
 
 def _groups(scene: Scene) -> Ints | None:
     """(i,) the number of each item's group, -1 for none; None where there are no groups."""
-    names = sorted({item.group for item in scene.items} - {""})
+    names = group_names(scene)
     number = {"": -1, **{name: k for k, name in enumerate(names)}}
-    return np.array([number[item.group] for item in scene.items], dtype=np.intp) if names else None
+    return np.array([number.get(item.group, -1) for item in scene.items], dtype=np.intp) if names else None

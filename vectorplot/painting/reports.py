@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 
+from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.budget import unresolved
 from vectorplot.plan import Walk
@@ -16,9 +17,14 @@ MOST_NAMES = 5
 """So many items of a knot are named."""
 
 
+def group_names(scene: Scene) -> list[str]:
+    """The groups of what is painted: lines that belong together have no order."""
+    return sorted({item.group for item in scene.items if not is_curve(item.shape)} - {""})
+
+
 def tell_groups(walk: Walk, scene: Scene, painted: Painted) -> None:
     """Tell the listener which groups stay together, and which do not."""
-    names = sorted({item.group for item in scene.items} - {""})
+    names = group_names(scene)
     undone = [names[k] for k in painted.undone]
     if kept := [name for name in names if name not in undone]:
         walk.tell("groups", f"{', '.join(kept)}: ordered as wholes, then within", len(kept))

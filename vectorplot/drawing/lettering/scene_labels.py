@@ -95,12 +95,14 @@ class SceneLabels:
 
         longest_mm: longer strokes leave in parts; pen: of the letters.
         """
-        missing = (*PENS,)[len(layers) : -1] if by_kind else ()
-        empty = (Layer(name, PENS[name], (Paths.empty(),)) for name in missing)
         strokes = self.strokes if longest_mm is None else split_long(self.strokes, longest_mm, page_from_world)
         marks = (strokes, self.texts) if len(self.texts) else (strokes,)
-        if layers and layers[-1].name == "label":
-            return (*layers[:-1], replace(layers[-1], marks=(*layers[-1].marks, *marks)))
+        names = [layer.name for layer in layers]
+        if "label" in names:
+            at = names.index("label")
+            return (*layers[:at], replace(layers[at], marks=(*layers[at].marks, *marks)), *layers[at + 1 :])
+        missing = (*PENS,)[len(layers) : (*PENS,).index("label")] if by_kind else ()
+        empty = (Layer(name, PENS[name], (Paths.empty(),)) for name in missing)
         return (*layers, *empty, Layer("label", pen, marks))
 
 

@@ -10,18 +10,26 @@ from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated, sectio
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 
+CHAIN_MM = (6.0, 2.0, 0.3)
+"""Dash, gap and dot of centre lines (ISO 128-20, line 04)."""
 
-def dashed(paths: Paths, dash_mm: float, gap_mm: float, page_from_world: Floats | None = None) -> Paths:
+
+def dashed(
+    paths: Paths, dash_mm: float, gap_mm: float, page_from_world: Floats | None = None, *, dot_mm: float = 0.0
+) -> Paths:
     """The strokes broken into dashes; every dash is a stroke of its own.
 
     The pattern runs along each polyline and is stretched or squeezed as a whole so that an open stroke begins and ends
     with a whole dash, and the dash over the first point of a closed one joins up. page_from_world (4,4) as in Drawing,
-    by default a parallel projection. There are about length / (dash + gap) dashes: clip to the page first.
-    Errors: InputError unless the dash is positive and the gap positive or zero.
+    by default a parallel projection; dot_mm: of the dots in the middle of gaps. There are about length / (dash + gap)
+    dashes: clip to the page first.
+    Errors: InputError unless the dash is positive, the gap positive or zero, and the dot no longer than the gap.
     Degenerate: a stroke too short for two dashes stays whole; with a gap of 0 nothing changes.
     """
     if not (0.0 < dash_mm < np.inf and 0.0 <= gap_mm < np.inf):
         raise InputError(f"dash and gap must be lengths in mm, got {dash_mm:g} and {gap_mm:g}")
+    if not 0.0 <= dot_mm <= gap_mm:
+        raise InputError(f"a dot of {dot_mm:g} mm in a gap of {gap_mm:g} mm has no room")
     length = stroke_lengths(paths)
     many = _number_of_dashes(paths, length, dash_mm, gap_mm)
     index = np.flatnonzero(many > 0)
@@ -30,7 +38,7 @@ def dashed(paths: Paths, dash_mm: float, gap_mm: float, page_from_world: Floats 
     broken = chosen(paths, index)
     laps = np.where(broken.closed, np.diff(broken.offsets), 0)
     world = np.eye(4) if page_from_world is None else page_from_world
-    start, end, stroke = _dash_ends(many[index], length[index], broken.closed, dash_mm, gap_mm)
+    start, end, stroke = _dash_ends(many[index], length[index], broken.closed, (dash_mm, gap_mm, dot_mm))
     parts = parts_between(unrolled(broken, np.zeros_like(laps), laps), stroke, start, end, world)
     whole = chosen(paths, many == 0)
     order = np.argsort(np.concatenate((np.flatnonzero(many == 0), index[stroke])), kind="stable")
@@ -64,8 +72,11 @@ def _number_of_dashes(paths: Paths, length: Floats, dash_mm: float, gap_mm: floa
     return count.astype(np.intp)
 
 
-def _dash_ends(many: Ints, length: Floats, closed: Bools, dash_mm: float, gap_mm: float) -> tuple[Floats, Floats, Ints]:
-    """Where the dashes begin and end along their strokes, and whose they are."""
+def _dash_ends(
+    many: Ints, length: Floats, closed: Bools, pattern: tuple[float, float, float]
+) -> tuple[Floats, Floats, Ints]:
+    """Where the dashes, and the dots before them, begin and end along their strokes, and whose they are."""
+    dash_mm, gap_mm, dot_mm = pattern
     stroke = ragged.owner(many)
     number = ragged.place(many)
     gaps = np.where(closed, many, many - 1)
@@ -75,7 +86,15 @@ def _dash_ends(many: Ints, length: Floats, closed: Bools, dash_mm: float, gap_mm
     start = (number * (dash_mm + gap_mm) + shift[stroke]) * scale[stroke]
     end = start + dash_mm * scale[stroke]
     last = ~closed[stroke] & (number == many[stroke] - 1)
-    return start, np.where(last, length[stroke], end), stroke
+    end = np.where(last, length[stroke], end)
+    if not dot_mm:
+        return start, end, stroke
+    dotted = np.flatnonzero(closed[stroke] | (number > 0))
+    dots = start[dotted] - 0.5 * (gap_mm + dot_mm) * scale[stroke[dotted]]
+    order = np.argsort(np.concatenate((2 * dotted, 2 * np.arange(len(start)) + 1)), kind="stable")
+    start = np.concatenate((dots, start))[order]
+    end = np.concatenate((dots + dot_mm * scale[stroke[dotted]], end))[order]
+    return start, end, np.concatenate((stroke[dotted], stroke))[order]
 
 
 def parts_between(paths: Paths, stroke: Ints, start: Floats, end: Floats, page_from_world: Floats) -> Paths:

@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import NO_CURVE, STROKES, Layer, Paths, Pen
 from vectorplot.drawing.strokes.curved_strokes import curved_strokes
-from vectorplot.drawing.strokes.dashes import dashed
+from vectorplot.drawing.strokes.dashes import CHAIN_MM, dashed
 from vectorplot.drawing.strokes.join import joined
 from vectorplot.drawing.strokes.long_strokes import split_long
 from vectorplot.drawing.strokes.pen_order.order import pen_ordered
@@ -100,7 +100,11 @@ def _drawn(paths: Paths, pen: Pen, hidden: str, world: Floats, thinned: bool) ->
         long = thinned_ends(long, pen.width_mm, world)
     if pen.dash_mm is not None:
         return dashed(long, *pen.dash_mm, world) if any(pen.dash_mm) else long
-    if hidden != "dashed" or not (long.hidden_by > 0).any():
-        return long
-    dashes = dashed(chosen(long, np.flatnonzero(long.hidden_by > 0)), *DASH_MM, world)
-    return concatenated((chosen(long, np.flatnonzero(long.hidden_by == 0)), dashes))
+    centre = long.kind == int(LineKind.CENTRE)
+    behind = (long.hidden_by > 0) & (hidden == "dashed") & ~centre
+    parts = [chosen(long, ~(behind | centre))]
+    if behind.any():
+        parts.append(dashed(chosen(long, behind), *DASH_MM, world))
+    if centre.any():
+        parts.append(dashed(chosen(long, centre), *CHAIN_MM[:2], world, dot_mm=CHAIN_MM[2]))
+    return concatenated(tuple(parts)) if len(parts) > 1 else long

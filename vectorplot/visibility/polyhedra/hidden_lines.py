@@ -75,6 +75,16 @@ class Visibility:
         return len(self.segment)
 
 
+def with_whole_lines(seen: Visibility, whole: Bools) -> Visibility:
+    """What is seen of segments (n,) some of which, whole, nothing hides: the others are those that seen counts."""
+    over = np.flatnonzero(whole)
+    none = np.zeros(len(over), dtype=np.intp)
+    segment = np.concatenate([np.flatnonzero(~whole)[seen.segment], over])
+    order = np.argsort(segment, kind="stable")
+    low, high = np.concatenate([seen.low, none]), np.concatenate([seen.high, none + 1.0])
+    return Visibility(segment[order], low[order], high[order], np.concatenate([seen.hidden_by, none])[order])
+
+
 def visible_parts(
     view: View, faces: ProjectedFaces, solid: Bools, segments: Segments, progress: Progress
 ) -> Visibility:

@@ -1,0 +1,121 @@
+"""Technical sheets: views in line, exact scales, what stands around them; measured by a real reader."""
+
+from __future__ import annotations
+
+import subprocess
+from itertools import chain
+
+import numpy as np
+import pytest
+
+import vectorplot as vp
+from vectorplot.cli.verbs import vectorplot
+from vectorplot.geometry import box
+
+BRICK = vp.Item("brick", box((40, 20, 10)))
+
+
+def layer(drawing, name):
+    return next((layer for layer in drawing.layers if layer.name == name), None)
+
+
+def strokes_of(drawing, name):
+    """The polylines of a layer, each with the name of its item."""
+    found = []
+    for paths in layer(drawing, name).strokes:
+        parts = np.split(paths.points, paths.offsets[1:-1])
+        found += [
+            (drawing.items[k] if k >= 0 else "", part) for k, part in zip(paths.item.tolist(), parts, strict=True)
+        ]
+    return found
+
+
+def outlines(drawing):
+    """(k,2,2) the bounds of the contours that hang together, from left to right."""
+    boxes = np.array([(points.min(axis=0), points.max(axis=0)) for _, points in strokes_of(drawing, "contour")])
+    return boxes[np.argsort(boxes[:, 0, 0])]
+
+
+@pytest.mark.parametrize(("angle", "way"), [("first", -1), ("third", 1)])
+def test_views_stand_in_line_at_the_scale(angle, way):
+    sheet = vp.technical_sheet(BRICK, views="front,top,left", scale="2:1", angle=angle)
+    boxes = {tuple(np.round(np.ptp(one, axis=0), 6).tolist()): one for one in outlines(sheet)}
+    front, top, left = boxes[80.0, 20.0], boxes[80.0, 40.0], boxes[40.0, 20.0]
+    assert np.allclose(front[:, 0], top[:, 0]) and np.allclose(front[:, 1], left[:, 1])
+    assert np.sign(top[0, 1] - front[0, 1]) == way and np.sign(left[0, 0] - front[0, 0]) == -way
+
+
+def test_a_cube_of_a_centimetre_measures_one_in_the_pdf(tmp_path):
+    """Poppler at 508 dpi: 20 pixels a millimetre, one of them for rounding."""
+    sheet = vp.technical_sheet(vp.Item("cube", box((10, 10, 10))), views="front", scale="1:1", page="A5")
+    (outline,) = outlines(sheet)
+    assert np.ptp(outline, axis=0).tolist() == [10.0, 10.0]
+    vp.save(sheet, tmp_path / "cube.pdf")
+    corner = [int(20 * (outline[0, 0] - 5)), int(20 * (sheet.height_mm - outline[1, 1] - 5))]
+    places = chain.from_iterable(zip("-x -y -W -H".split(), map(str, [*corner, 400, 400]), strict=True))
+    command = ["pdftoppm", "-r", "508", "-gray", *places, str(tmp_path / "cube.pdf"), str(tmp_path / "cube")]
+    subprocess.run(command, check=True)
+    header, pixels = (tmp_path / "cube-1.pgm").read_bytes().split(b"255\n", 1)
+    dark = np.frombuffer(pixels, dtype=np.uint8).reshape(400, 400) < 128
+    for along in (dark.any(axis=0), dark.any(axis=1)):
+        places = np.flatnonzero(along)
+        # The pen of 0.5 mm stands half outside.
+        assert abs(np.ptp(places) + 1 - 20 * 10.5) <= 1, header
+
+
+def test_scales_fit_or_say_which_would():
+    assert vp.technical_sheet(BRICK, page="A4").title == "2:1"
+    assert vp.technical_sheet(BRICK.scaled(1e-3), page="A4").title == "2000:1"
+    with pytest.raises(vp.InputError, match=r"scale 5:1: too large for 4 views on .* that fits is 2:1"):
+        vp.technical_sheet(BRICK, scale="5:1")
+    with pytest.raises(vp.InputError, match="no room"):
+        vp.technical_sheet(BRICK, page="50x50")
+    with pytest.raises(vp.InputError, match="did you mean 'front'"):
+        vp.technical_sheet(BRICK, views="frnt")
+    with pytest.raises(vp.InputError, match="each once"):
+        vp.technical_sheet(BRICK, views="top,top")
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_dimensions_of_the_whole_are_three_and_mm_on_paper(size):
+    moved = BRICK.moved(30, 1, 7).scaled(size)
+    plain, told = (vp.technical_sheet(moved, dimensions=given) for given in (False, True))
+    lines = [points for name, points in strokes_of(told, "label") if name.startswith("dimension")]
+    factor = float(told.title.split(":")[0]) / float(told.title.split(":")[1])
+    lengths = sorted(float(np.hypot(*np.ptp(points, axis=0))) for points in lines)
+    assert np.allclose(lengths, factor * size * np.array([10.0, 20.0, 40.0]))
+    beside = [points for name, points in strokes_of(told, "label") if name.startswith("extension")]
+    assert np.allclose([np.hypot(*np.ptp(points, axis=0)) for points in beside], 11.0)
+    assert len(outlines(told)) == len(outlines(plain))
+
+
+def test_a_scenes_own_dimensions_are_in_the_view_that_is_square_to_them():
+    along_x = vp.dimension((0, 0, 0), (40, 0, 0), (0, 0, -8), gap=1, beyond=2)
+    without, only = (
+        vp.technical_sheet([BRICK, *added], views="top,front,left", scale="1:1") for added in ((), (along_x,))
+    )
+    names = set(only.items) - set(without.items)
+    found = [points for name, points in strokes_of(only, "label") if name in names]
+    lengths = sorted(float(np.abs(np.ptp(points, axis=0)).sum()) for points in found)
+    assert np.allclose(lengths, [9.0, 9.0, 40.0])
+
+
+def test_a_frame_has_zones_and_the_block_its_words(tmp_path):
+    plain, framed = (vp.technical_sheet(BRICK, frame=frame, title="Brick", angle="third") for frame in (False, True))
+    assert layer(framed, "rules").strokes[0].points.min() == 5.0
+    assert layer(plain, "frame").strokes[0].points[:, 0].max() == plain.width_mm - 10.0
+    with pytest.raises(vp.InputError, match="margin"):
+        vp.technical_sheet(BRICK, frame=True, page=vp.Page(420, 297, 4))
+    with pytest.raises(vp.InputError, match="no room for"):
+        vp.technical_sheet(BRICK, title="W" * 200)
+    with pytest.raises(vp.InputError, match="title block"):
+        vp.technical_sheet(BRICK, title="\u4e00")
+
+
+@pytest.mark.parametrize("suffix", ["svg", "ps", "pdf", "dxf", "tex", "png"])
+def test_the_command_writes_every_format(suffix, tmp_path):
+    scene = tmp_path / "brick.scene"
+    scene.write_text("BRICK gray box solid 40 20 10\n")
+    told = ["sheet", str(scene), "-o", str(tmp_path / f"s.{suffix}"), "--scale", "1:1", "--frame", "--dimensions"]
+    vectorplot(told, standalone_mode=False)
+    assert (tmp_path / f"s.{suffix}").stat().st_size > 1000

@@ -1,0 +1,72 @@
+"""``vectorplot sheet``: main views of a part on one sheet."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vectorplot.cli.common_options import (
+    DRAWING_FORMATS,
+    EXPLAIN,
+    INPUT,
+    OUT,
+    QUIET,
+    crease_angle_option,
+    format_option,
+    with_options,
+)
+from vectorplot.cli.options import format_of
+from vectorplot.cli.picture import Source, make_picture
+from vectorplot.cli.view_options import VIEW_WORDS
+
+if TYPE_CHECKING:
+    from vectorplot.cli.picture import Report
+    from vectorplot.drawing.drawing import Drawing
+    from vectorplot.scene.scene import Scene
+
+
+@click.command(short_help="Draw main views of a part on one sheet.", context_settings={"show_default": True})
+@with_options(
+    INPUT,
+    OUT,
+    format_option(DRAWING_FORMATS),
+    click.option(
+        "--views", default="front,top,left,iso", metavar="VIEW,...", help=f"Some of {', '.join(VIEW_WORDS)}; each once."
+    ),
+    click.option(
+        "--scale",
+        default="fit",
+        metavar="A:B",
+        help="Mm on paper for units of the part; fit: the largest of ISO 5455.",
+    ),
+    click.option(
+        "--angle",
+        type=click.Choice(["first", "third"]),
+        default="first",
+        help="Views opposite to the side they are seen from, or on it.",
+    ),
+    click.option("--page", default="A3", metavar="SIZE", help="A0 to A6, letter, ... or WIDTHxHEIGHT in mm."),
+    click.option("--dimensions", is_flag=True, help="How long the part is along x, y and z."),
+    click.option("--frame", is_flag=True, help="A border with centring marks and zones."),
+    click.option("--title", default="", metavar="TEXT", show_default=False, help="Letters in the title block."),
+    click.option("--author", default="", metavar="TEXT", show_default=False, help="Who has drawn it."),
+    click.option("--date", default="", metavar="TEXT", show_default=False, help="As it is to be written."),
+    click.option("--sheet", default="1", metavar="TEXT", help="The number of the sheet, such as 1/2."),
+    crease_angle_option("Sharper edges are creases."),
+    EXPLAIN,
+    QUIET,
+)
+def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: bool, explain: bool, **told: Any) -> None:
+    """Draw main views of INPUT in line with each other, at one exact scale with hidden lines dashed, and a title block;
+    write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
+
+    A named page lies on the side that gives the views more room.
+    """
+    from vectorplot.technical.technical_sheet import technical_sheet
+
+    def picture(scene: Scene, report: Report) -> Drawing:
+        return technical_sheet(scene, **told, progress=report.progress, explain=report.explain)
+
+    written = format_of(out, format_, DRAWING_FORMATS)
+    make_picture(Source(scene_file), out, written, picture, quiet=quiet, explain=explain)

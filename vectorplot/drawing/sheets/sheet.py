@@ -1,0 +1,164 @@
+"""Several drawings on one sheet of paper."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vectorplot.arrays import Ints
+from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
+from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.texts import Texts
+from vectorplot.errors import InputError
+from vectorplot.scene.point_of_view import page_of
+from vectorplot.scene.scene import Page, Scene
+
+NO_ITEM = -1
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedDrawing:
+    """A drawing on a sheet: where its lower left corner is, in mm, and how many times larger it is there."""
+
+    drawing: Drawing
+    x_mm: float
+    y_mm: float
+    scale: float
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    """A sheet of paper with drawings on it.
+
+    Parameters
+    ----------
+    page : Page or str
+        Or its name or size, such as "A3", "A3 landscape" or "200x150".
+    title : str
+        What it shows.
+    drawings : tuple of PlacedDrawing
+        What is on it, in drawing order; place adds to them.
+
+    Raises
+    ------
+    InputError
+        For a page that is none.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> one = vp.draw(triangle, "top", page="60x60")
+    >>> sheet = vp.Sheet("A5 landscape").place(one, 10, 10).place(one, 110, 10, scale=1.5)
+    >>> sheet.drawing()
+    <Drawing '': 210x148 mm, marks: visible 0, contour 2>
+    """
+
+    page: Page | str = "A4"
+    title: str = ""
+    drawings: tuple[PlacedDrawing, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "page", page_of(self.page, Scene(())))
+
+    def place(self, drawing: Drawing, x_mm: float, y_mm: float, scale: float = 1.0) -> Sheet:
+        """The sheet with one more drawing on it.
+
+        Parameters
+        ----------
+        drawing : Drawing
+            What is put on top of the others.
+        x_mm, y_mm : float
+            Where the lower left corner of its page goes, from that of the sheet.
+        scale : float
+            How many times larger it is there.
+
+        Returns
+        -------
+        Sheet
+            A new one.
+
+        Raises
+        ------
+        InputError
+            For places that are not finite, and a scale that is not finite and positive.
+
+        Notes
+        -----
+        Nothing is cut off at the edges of either page.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> empty = vp.draw([], page="40x40")
+        >>> len(vp.Sheet("A4").place(empty, 20, 30).place(empty, 80, 30).drawings)
+        2
+        """
+        if not (math.isfinite(x_mm) and math.isfinite(y_mm)):
+            raise InputError(f"a drawing at {x_mm:g}, {y_mm:g} mm: not a place on a sheet")
+        if not 0.0 < scale < math.inf:
+            raise InputError(f"a drawing {scale:g} times larger: expected a number that is finite and positive")
+        return replace(self, drawings=(*self.drawings, PlacedDrawing(drawing, x_mm, y_mm, scale)))
+
+    def drawing(self) -> Drawing:
+        """All of the sheet as one drawing.
+
+        Returns
+        -------
+        Drawing
+            Layers of one name and pen are one, where the first of them is; items of one name are one. Strokes, curves
+            and fills are those of the drawings, moved and scaled, pens as wide as they were; points3d are those of the
+            world still, and page_from_world is the identity, as the drawings need not look at the world alike.
+
+        Notes
+        -----
+        A layer lies below the next one in all drawings: so these lie beside each other, or the lower ones do not show
+        fills of later layers.
+        """
+        names = tuple(dict.fromkeys(name for placed in self.drawings for name in placed.drawing.items))
+        number = {name: index for index, name in enumerate(names)}
+        merged: dict[tuple[str, Pen, bool], list[Paths | CurvedStrokes | Fills | Texts]] = {}
+        curves = 0
+        for placed in self.drawings:
+            of_item = np.array([*(number[name] for name in placed.drawing.items), NO_ITEM], dtype=np.intp)
+            taken = curves
+            for layer in placed.drawing.layers:
+                marks = merged.setdefault((layer.name, layer.pen, layer.plotted), [])
+                marks.extend(_moved(mark, placed, of_item, taken) for mark in layer.marks)
+                curves = max((curves, *(taken + int(paths.curve.max(initial=-1)) + 1 for paths in layer.strokes)))
+        layers = tuple(Layer(name, pen, tuple(marks), plotted) for (name, pen, plotted), marks in merged.items())
+        page = page_of(self.page, Scene(()))
+        return Drawing(page.width_mm, page.height_mm, layers, names, self.title)
+
+
+def _moved(
+    mark: Paths | CurvedStrokes | Fills | Texts, placed: PlacedDrawing, of_item: Ints, curves: int
+) -> Paths | CurvedStrokes | Fills | Texts:
+    """A mark of a drawing on the sheet; of_item: the new numbers of items, and of none; curves: so many have numbers
+    already."""
+    scale, by = placed.scale, np.array([placed.x_mm, placed.y_mm])
+    if isinstance(mark, Texts):
+        lengths = {"size_mm": scale * mark.size_mm, "room_mm": scale * mark.room_mm}
+        return replace(mark, points=scale * mark.points + by, **lengths)
+    if isinstance(mark, Fills):
+        return replace(mark, points=scale * mark.points + by, item=of_item[mark.item])
+    if isinstance(mark, Paths):
+        return replace(
+            mark,
+            points=scale * mark.points + by,
+            item=of_item[mark.item],
+            curve=np.where(mark.curve < 0, mark.curve, mark.curve + curves),
+            handles=scale * mark.handles,
+        )
+    paths = _moved(mark.paths, placed, of_item, curves)
+    assert isinstance(paths, Paths)
+    beziers = replace(mark.beziers, control=scale * mark.beziers.control + by, error=scale * mark.beziers.error)
+    arcs = replace(
+        mark.arcs,
+        centre=scale * mark.arcs.centre + by,
+        first=scale * mark.arcs.first,
+        second=scale * mark.arcs.second,
+    )
+    return CurvedStrokes(paths, beziers, arcs)

@@ -1,0 +1,354 @@
+"""Dimensions, angles, radii, leaders and centre lines: curves in space, and labels at them.
+
+Source: ISO 128-22 (leaders), ISO 128-24 (centre lines), ISO 129-1 (dimensions).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Floats
+from vectorplot.curves.circle import Circle
+from vectorplot.curves.line import Line
+from vectorplot.curves.parameters import vector
+from vectorplot.errors import InputError
+from vectorplot.geometry.vectors import cross, normalize
+from vectorplot.scene.naming.annotations import thin_line
+from vectorplot.scene.naming.labels import USUAL_SIZE_MM, Along, Label, OnCurve
+from vectorplot.scene.scene import Item, Scene
+
+BEYOND, SHORT = 0.15, 0.05
+"""How far extension lines go on beyond the dimension line, and how far from the thing they begin, as parts of the way
+between, where nothing is said."""
+
+CROSS = 1.2
+"""Centre marks reach so far beyond the circle, in radii."""
+
+
+def dimension(
+    start: ArrayLike,
+    end: ArrayLike,
+    offset: ArrayLike,
+    text: str | None = None,
+    *,
+    size_mm: float = USUAL_SIZE_MM,
+    gap: float | None = None,
+    beyond: float | None = None,
+) -> Scene:
+    """A dimension line beside two points, with extension lines, arrowheads and its measure.
+
+    Parameters
+    ----------
+    start, end : (3,) array_like of float
+        Between which points is measured.
+    offset : (3,) array_like of float
+        From these points to the dimension line.
+    text : str, optional
+        What it says: the distance of the points where nothing is given.
+    size_mm : float
+        Of the letters.
+    gap, beyond : float, optional
+        How far from the points extension lines begin, and how far beyond the dimension line they end, in world units;
+        where None 0.05 and 0.15 times the offset.
+
+    Returns
+    -------
+    Scene
+        Thin lines, hidden like any other curves, and their labels, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For points in one place, and an offset without length; for a gap that is negative or reaches the dimension line,
+        and a length beyond that is negative.
+
+    Notes
+    -----
+    The look is that of ISO 129-1: arrowheads of 20 degrees, the measure above the line.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.dimension((0, 0, 0), (3, 4, 0), (0, 0, -1)).labels[-1].text
+    '5'
+    """
+    one, other, off = (vector("dimension: a point", point) for point in (start, end, offset))
+    long = float(np.linalg.norm(other - one))
+    if not long > 0.0 or not np.any(off):
+        raise InputError("dimension: two different points and an offset are needed")
+    reach = float(np.linalg.norm(off))
+    before = SHORT if gap is None else gap / reach
+    behind = BEYOND if beyond is None else beyond / reach
+    if not (0.0 <= before < 1.0 and 0.0 <= behind < np.inf):
+        raise InputError("dimension: expected a gap before the dimension line, and a length of 0 or more beyond it")
+    said = f"{long:g}" if text is None else text
+    lines = [
+        Line.through(one + before * off, one + (1.0 + behind) * off),
+        Line.through(other + before * off, other + (1.0 + behind) * off),
+        Line.through(one + off, other + off),
+    ]
+    names = [f"extension {said} 1", f"extension {said} 2", f"dimension {said}"]
+    group = f"dimension {said} {_place(one)} {_place(other)} {_place(off)}"
+    items = tuple(thin_line(name, line, group) for name, line in zip(names, lines, strict=True))
+    return Scene(items, labels=_measured(items[2].name, said, size_mm))
+
+
+def angle(
+    vertex: ArrayLike,
+    one: ArrayLike,
+    other: ArrayLike,
+    radius: float,
+    text: str | None = None,
+    *,
+    size_mm: float = USUAL_SIZE_MM,
+) -> Scene:
+    """The arc of an angle, with arrowheads and its measure.
+
+    Parameters
+    ----------
+    vertex : (3,) array_like of float
+        Of the angle.
+    one, other : (3,) array_like of float
+        Points on its sides.
+    radius : float
+        Of the arc, in world units.
+    text : str, optional
+        What it says: the angle in degrees where nothing is given.
+    size_mm : float
+        Of the letters.
+
+    Returns
+    -------
+    Scene
+        A thin arc, hidden like any other curve, and its labels, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For sides in one line, and a radius that is not positive.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.angle((0, 0, 0), (1, 0, 0), (1, 1, 0), radius=0.5).labels[-1].text
+    '45°'
+    """
+    middle = vector("angle: vertex", vertex)
+    first, second = (normalize(vector("angle: a point", point) - middle) for point in (one, other))
+    axis = cross(first, second)
+    sine, cosine = float(np.linalg.norm(axis)), float(first @ second)
+    if not sine > 0.0 or not 0.0 < radius < np.inf:
+        raise InputError("angle: two sides that are not in one line, and a positive radius are needed")
+    begins = _angle_on(Circle(middle, radius, axis), middle, first)
+    arc = Circle(middle, radius, axis, begins, begins + float(np.arctan2(sine, cosine)))
+    said = f"{np.degrees(np.arctan2(sine, cosine)):.4g}°" if text is None else text
+    item = thin_line(f"angle {said}", arc)
+    return Scene((item,), labels=_measured(item.name, said, size_mm))
+
+
+def radius(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float = USUAL_SIZE_MM) -> Scene:
+    """The dimension of a radius: a line from the centre to a point of the circle, with an arrowhead there.
+
+    Parameters
+    ----------
+    centre, point : (3,) array_like of float
+        In the world.
+    text : str, optional
+        What it says: R and the radius where nothing is given.
+    size_mm : float
+        Of the letters.
+
+    Returns
+    -------
+    Scene
+        A thin line, hidden like any other curve, and its labels, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For points in one place.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.radius((0, 0, 0), (3, 4, 0)).labels[-1].text
+    'R5'
+    """
+    middle, outer = vector("radius: centre", centre), vector("radius: a point", point)
+    said = f"R{_distance('radius', middle, outer):g}" if text is None else text
+    item = thin_line(f"radius {said}", Line.through(middle, outer))
+    head = Label("", OnCurve(item.name), f"{item.name} end", size_mm, mark="arrow")
+    return Scene((item,), labels=(head, Label(said, Along(item.name), item.name, size_mm, "above")))
+
+
+def diameter(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float = USUAL_SIZE_MM) -> Scene:
+    """The dimension of a diameter: a line across a circle through its centre, with arrowheads.
+
+    Parameters
+    ----------
+    centre : (3,) array_like of float
+        In the world.
+    point : (3,) array_like of float
+        One of its ends, on the circle.
+    text : str, optional
+        What it says: ø and the diameter where nothing is given.
+    size_mm : float
+        Of the letters.
+
+    Returns
+    -------
+    Scene
+        A thin line, hidden like any other curve, and its labels, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For points in one place.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.diameter((0, 0, 0), (3, 4, 0)).labels[-1].text
+    'ø10'
+    """
+    middle, outer = vector("diameter: centre", centre), vector("diameter: a point", point)
+    said = f"ø{2.0 * _distance('diameter', middle, outer):g}" if text is None else text
+    item = thin_line(f"diameter {said}", Line.through(2.0 * middle - outer, outer))
+    return Scene((item,), labels=_measured(item.name, said, size_mm))
+
+
+def leader(point: ArrayLike, elbow: ArrayLike, text: str, *, size_mm: float = USUAL_SIZE_MM) -> Scene:
+    """A line from a text to what it is about, with an arrowhead there.
+
+    Parameters
+    ----------
+    point : (3,) array_like of float
+        What it is about, in the world.
+    elbow : (3,) array_like of float
+        Where the text is.
+    text : str
+        What it says.
+    size_mm : float
+        Of the letters.
+
+    Returns
+    -------
+    Scene
+        A thin line, hidden like any other curve, and its labels, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For points in one place.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> [label.mark for label in vp.leader((0, 0, 1), (2, 0, 2), "4 x ø6").labels]
+    ['arrow', 'none']
+    """
+    tip, end = vector("leader: a point", point), vector("leader: elbow", elbow)
+    _distance("leader", tip, end)
+    item = thin_line(f"leader {text}".strip(), Line.through(tip, end))
+    head = Label("", OnCurve(item.name, 0.0), f"{item.name} end", size_mm, mark="arrow")
+    return Scene((item,), labels=(head, Label(text, OnCurve(item.name), item.name, size_mm)))
+
+
+def centre_line(start: ArrayLike, end: ArrayLike, *, name: str = "centre line") -> Scene:
+    """The axis of something round, as a line of dashes and dots which nothing hides.
+
+    Parameters
+    ----------
+    start, end : (3,) array_like of float
+        In the world; a little outside of what is round.
+    name : str
+        Of the item.
+
+    Returns
+    -------
+    Scene
+        The line, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For points in one place.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.centre_line((0, 0, -1), (0, 0, 5)).items[0].lines
+    ('centre',)
+    """
+    ends = [vector("centre_line: a point", point) for point in (start, end)]
+    _distance("centre_line", *ends)
+    return Scene((Item(name, Line.through(*ends), "black", lines=("centre",), group=f"{name} {_place(ends[0])}"),))
+
+
+def centre_mark(centre: ArrayLike, radius: float, axis: ArrayLike = (0.0, 0.0, 1.0)) -> Scene:
+    """The centre lines of a circle: two that cross in its centre at right angles, and reach a little beyond it.
+
+    Parameters
+    ----------
+    centre : (3,) array_like of float
+        In the world.
+    radius : float
+        Of the circle.
+    axis : (3,) array_like of float
+        At right angles to the circle.
+
+    Returns
+    -------
+    Scene
+        Lines of dashes and dots, which nothing hides, to be drawn together with others; of circles about a coordinate
+        axis they are parallel to the others.
+
+    Raises
+    ------
+    InputError
+        For a radius that is not positive, and an axis without length.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.centre_mark((0, 0, 0), 5.0).bounds[1].tolist()
+    [6.0, 6.0, 0.0]
+    """
+    middle, along = vector("centre_mark: centre", centre), vector("centre_mark: axis", axis)
+    if not 0.0 < radius < np.inf or not np.any(along):
+        raise InputError("centre_mark: a positive radius and an axis are needed")
+    along = normalize(along)
+    # The coordinate axis that is farthest from it: for circles about one of these, one of the others.
+    first = normalize(cross(along, np.eye(3)[int(np.argmin(np.abs(along)))]))
+    both = [centre_line(middle - way, middle + way) for way in CROSS * radius * np.array([first, cross(along, first)])]
+    group = f"centre mark {_place(middle)} {_place(along)} {radius:g}"
+    marks = zip(("centre mark", "centre mark 2"), both, strict=True)
+    return Scene(tuple(Item(name, one.items[0].shape, "black", lines=("centre",), group=group) for name, one in marks))
+
+
+def _measured(name: str, said: str, size_mm: float) -> tuple[Label, ...]:
+    """Arrowheads at both ends of a curve, and a text along it."""
+    ends = [
+        Label("", OnCurve(name, part), f"{name} end {k}", size_mm, mark="arrow") for k, part in enumerate((0.0, 1.0))
+    ]
+    return (*ends, Label(said, Along(name), name, size_mm, "above"))
+
+
+def _distance(what: str, one: Floats, other: Floats) -> float:
+    """Between two points. Errors: InputError where they are one."""
+    long = float(np.linalg.norm(other - one))
+    if not long > 0.0:
+        raise InputError(f"{what}: two different points are needed")
+    return long
+
+
+def _place(point: Floats) -> str:
+    """A point in words, which tell lines that belong together from others."""
+    return ",".join(f"{x:.17g}" for x in point.tolist())
+
+
+def _angle_on(circle: Circle, middle: Floats, way: Floats) -> float:
+    """The parameter of a circle in a direction from its middle."""
+    right, left = (circle.points(np.array(at)) - middle for at in (0.0, 0.5 * np.pi))
+    return float(np.arctan2(way @ left, way @ right))

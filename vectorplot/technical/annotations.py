@@ -1,0 +1,132 @@
+"""Dimensions and centre lines of a part: which view each belongs to, and those of its whole extent."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.curves.curve import is_curve
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.scene.naming.dimensions import dimension
+from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnCurve
+from vectorplot.scene.scene import Item, Scene
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+
+OWN_LINES = ("label", "centre")
+"""What annotations are drawn as."""
+
+OFFSET_MM, GAP_MM, BEYOND_MM = 10.0, 1.0, 2.0
+"""From the part to a dimension line, to the extension lines, and from the dimension line to their ends."""
+
+TEXT_MM = 6.0
+"""What letters beside a dimension line need."""
+
+PLACES = 9
+"""On each line, which say whether it lies in a plane."""
+
+SHOWN_IN = (("front", "top", "bottom", "back"), ("left", "right", "top", "bottom"), ("front", "left", "right", "back"))
+"""The views that show the extent along x, y and z, the best first."""
+
+
+@dataclass(frozen=True, eq=False)
+class Annotation:
+    """Lines that belong together, with their labels."""
+
+    scene: Scene
+
+    @cached_property
+    def points(self) -> Floats:
+        """(n,3) places on its lines."""
+        shapes = [item.shape for item in self.scene.items]
+        found = [shape.points(np.linspace(shape.start, shape.end, PLACES)) for shape in shapes if is_curve(shape)]
+        return np.concatenate(found)
+
+    @property
+    def is_centre(self) -> bool:
+        """Whether it is centre lines."""
+        return all(item.lines == ("centre",) for item in self.scene.items)
+
+    def is_square_to(self, camera: Camera, extent: float) -> bool:
+        """Whether a view shows all of it in its true shape, and not as a point."""
+        seen = self.points @ camera.axes.T
+        zero = ZERO_OF_EXTENT * extent
+        return bool(np.ptp(seen[:, 2]) <= zero and np.ptp(seen[:, :2], axis=0).max() > zero)
+
+
+def is_annotation(item: Item) -> bool:
+    """Whether an item is a line of a dimension, a leader or a centre line."""
+    return is_curve(item.shape) and item.lines is not None and len(item.lines) == 1 and item.lines[0] in OWN_LINES
+
+
+def without_annotations(scene: Scene) -> tuple[Scene, tuple[Annotation, ...]]:
+    """A part, and its annotations, those of one group together."""
+    groups: dict[str, list[Item]] = {}
+    for item in filter(is_annotation, scene.items):
+        groups.setdefault(item.group or item.name, []).append(item)
+    owner = {item.name: name for name, items in groups.items() for item in items}
+    labels: dict[str, list[Label]] = {name: [] for name in groups}
+    rest: list[Label] = []
+    for label in scene.labels:
+        named = label.at.item if isinstance(label.at, AtVertex | OnCurve | Along) else ""
+        (labels[owner[named]] if named in owner else rest).append(label)
+    found = tuple(Annotation(Scene(tuple(items), labels=tuple(labels[name]))) for name, items in groups.items())
+    part = replace(scene, items=tuple(item for item in scene.items if not is_annotation(item)), labels=tuple(rest))
+    return part, found
+
+
+def views_of(annotations: Sequence[Annotation], cameras: Sequence[Camera], extent: float) -> list[list[Annotation]]:
+    """The annotations of each view: dimensions in the first one that they are square to, centre lines in every one."""
+    found: list[list[Annotation]] = [[] for _ in cameras]
+    for one in annotations:
+        square = [number for number, camera in enumerate(cameras) if one.is_square_to(camera, extent)]
+        for number in square if one.is_centre else square[:1]:
+            found[number].append(one)
+    return found
+
+
+@dataclass(frozen=True)
+class OverallDimension:
+    """The dimension of the whole part along an axis (0, 1, 2), in a view of that name."""
+
+    axis: int
+    view: str
+
+    def is_level(self, camera: Camera) -> bool:
+        """Whether it runs across the view, and not upwards in it."""
+        return bool(abs(camera.axes[0, self.axis]) > abs(camera.axes[1, self.axis]))
+
+    def room_mm(self, camera: Camera) -> Floats:
+        """(2,2) what it needs around the part: below it, or at its left."""
+        room = np.zeros((2, 2))
+        room[0, 1 if self.is_level(camera) else 0] = OFFSET_MM + TEXT_MM
+        return room
+
+    def annotation(self, camera: Camera, bounds: Floats, factor: float) -> Annotation:
+        """It, where a unit of the world is so many mm on paper, beside bounds (2,3)."""
+        right, up, back = camera.axes
+        middle, half = bounds.mean(axis=0), 0.5 * np.ptp(bounds, axis=0)
+        low, high = (middle + sign * half[self.axis] * np.eye(3)[self.axis] for sign in (-1.0, 1.0))
+        # Before the part, so that it does not lie in the dimension's way.
+        nearest = float(np.abs(back) @ half) * back
+        level = self.is_level(camera)
+        beside = -(float(np.abs(up) @ half) * up if level else float(np.abs(right) @ half) * right)
+        ends = [point + nearest + beside for point in (low, high)]
+        along = right if level else up
+        start, end = sorted(ends, key=lambda point: float(point @ along))
+        off = -(up if level else right) * OFFSET_MM / factor
+        gap, beyond = GAP_MM / factor, BEYOND_MM / factor
+        return Annotation(dimension(start, end, off, gap=gap, beyond=beyond))
+
+
+def overall_dimensions(names: Sequence[str], bounds: Floats) -> tuple[OverallDimension, ...]:
+    """The dimensions of the whole part, each in one of the views that are named; none along what has no extent."""
+    found = []
+    for axis, views in enumerate(SHOWN_IN):
+        view = next((name for name in views if name in names), None)
+        if view is not None and float(np.ptp(bounds[:, axis])) > 0.0:
+            found.append(OverallDimension(axis, view))
+    return tuple(found)

@@ -1,0 +1,234 @@
+"""The verb technical_sheet: main views of a part, side by side on one sheet, at one exact scale."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.draw import draw
+from vectorplot.drawing.drawing import Drawing
+from vectorplot.drawing.sheets.drawing_frames import drawing_space, frame_layers
+from vectorplot.drawing.sheets.drawing_scales import DrawingScale
+from vectorplot.drawing.sheets.sheet import Sheet
+from vectorplot.drawing.sheets.title_block import BLOCK_MM, TitleBlock
+from vectorplot.errors import InputError
+from vectorplot.geometry.cameras.camera import VIEWS, Camera
+from vectorplot.io.anything import scene_of, together
+from vectorplot.plan import StageReport
+from vectorplot.scene.point_of_view import camera_of, page_of
+from vectorplot.scene.scene import Page, Scene
+from vectorplot.technical.annotations import (
+    TEXT_MM,
+    Annotation,
+    OverallDimension,
+    overall_dimensions,
+    views_of,
+    without_annotations,
+)
+from vectorplot.technical.arranged_views import Arrangement, SheetView, cells_of
+from vectorplot.words import check_word, unknown
+
+LINES = "contour,boundary,crease,intersection,curve"
+"""The kinds of lines of a technical drawing."""
+
+PENS = "contour=0.5,boundary=0.5,crease=0.5,intersection=0.5,curve=0.5,hidden=0.25"
+"""Visible lines are wide, hidden ones narrow, as ISO 128-24 has it."""
+
+DASHES = "hidden=3,1"
+
+BORDER_MM = 20.0
+"""What the page of a view has around the view, so that letters beside it are not cut off."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """What is drawn: the part, its annotations, and the views of it that were asked for."""
+
+    scene: Scene
+    annotations: tuple[Annotation, ...]
+    names: tuple[str, ...]
+    cameras: tuple[Camera, ...]
+    overall: tuple[OverallDimension, ...]
+
+    @property
+    def bounds(self) -> Floats:
+        return self.scene.bounds
+
+    def notes(self) -> list[list[Annotation]]:
+        """The annotations of each view; a pictorial one has none."""
+        flat = [number for number, name in enumerate(self.names) if name != "iso"]
+        extent = float(np.ptp(self.bounds, axis=0).max())
+        found = iter(views_of(self.annotations, [self.cameras[number] for number in flat], extent))
+        return [[] if name == "iso" else next(found) for name in self.names]
+
+    def views(self, first_angle: bool) -> tuple[SheetView, ...]:
+        """Where each view stands, and how far it reaches."""
+        cells = cells_of(self.names, (), first_angle)
+        middle, half = self.bounds.mean(axis=0), 0.5 * np.ptp(self.bounds, axis=0)
+        found = []
+        for name, camera, notes in zip(self.names, self.cameras, self.notes(), strict=True):
+            across = camera.axes[:2]
+            world = np.tile(np.abs(across) @ half, (2, 1))
+            beside = [(one.points - middle) @ across.T for one in notes]
+            for places in beside:
+                world = np.maximum(world, [-places.min(axis=0), places.max(axis=0)])
+            mm = np.full((2, 2), TEXT_MM if beside else 0.0)
+            rooms = [one.room_mm(camera) for one in self.overall if one.view == name]
+            found.append(SheetView(name, camera, cells[name], world, np.max([mm, *rooms], axis=0)))
+        return tuple(found)
+
+
+def technical_sheet(
+    scene: object,
+    *,
+    views: str | Iterable[str] = "front,top,left,iso",
+    scale: str = "fit",
+    angle: Literal["first", "third"] = "first",
+    page: Page | str = "A3",
+    dimensions: bool = False,
+    frame: bool = False,
+    title: str = "",
+    author: str = "",
+    date: str = "",
+    sheet: str = "1",
+    crease_angle_deg: float = 25.0,
+    progress: Callable[[str, float], None] | None = None,
+    explain: Callable[[StageReport], None] | None = None,
+) -> Drawing:
+    """Main views of a part in line with each other on one sheet, at one exact scale, hidden lines dashed.
+
+    Parameters
+    ----------
+    scene : Scene, path, Item, Mesh, surface, curve, or several of these
+        What is drawn, as of `io.scene_of`; a unit of the world is a mm. Dimensions in it are shown in the first view
+        that they are square to, centre lines in every such view.
+    views : str or iterable of str
+        Some of front, back, left, right, top, bottom, iso, each once; iso stands in a free corner, without hidden lines
+        and dimensions.
+    scale : str
+        Lengths on paper to lengths of the part, such as 1:2; fit: the largest of ISO 5455 that fits.
+    angle : {"first", "third"}
+        Whether a view stands opposite to the side it is seen from, as in Europe, or on that side, as in America.
+    page : Page or str
+        Or its name or size, such as "A3" or "200x150"; one that is named lies on the side that gives the views more
+        room.
+    dimensions : bool
+        How long the whole part is along x, y and z, each in one view.
+    frame : bool
+        The border of the drawing space, with centring marks and zones, and a wider margin at the left.
+    title, author, date, sheet : str
+        Letters in the title block.
+    crease_angle_deg : float
+        As of draw.
+    progress, explain : callable, optional
+        As of draw, for every view.
+
+    Returns
+    -------
+    Drawing
+        With contours, boundaries, creases, intersections and curves, and a title block in the lower right corner.
+
+    Raises
+    ------
+    InputError
+        As of draw; for views that are unknown, twice or none; for a scale that is too large for the page, with the
+        largest that fits; for a page without room, and a title without room in its block.
+
+    Notes
+    -----
+    The isometric view is a projection at the same scale: edges along the axes are 0.816 times as long in it.
+
+    Degenerate: a scene without extent is drawn 1:1.
+
+    Source: ISO 128-30 and ISO 5456-2 (views), ISO 5455 (scales), ISO 5457 (frames), ISO 7200 (title blocks).
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> corners = [(0, 0, 0), (90, 0, 0), (0, 60, 0), (0, 0, 30)]
+    >>> part = vp.Mesh.from_triangles(corners, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
+    >>> sheet = vp.technical_sheet(part, page="A4", title="Corner")
+    >>> sheet.width_mm, sheet.height_mm, sheet.title
+    (297.0, 210.0, 'Corner, 1:1')
+    """
+    names = _view_names(views)
+    check_word("angle", angle, ("first", "third"))
+    asked = None if scale == "fit" else DrawingScale.of(scale)
+    solid, annotations = without_annotations(scene_of(scene))
+    cameras = tuple(camera_of(name, solid) for name in names)
+    overall = overall_dimensions(names, solid.bounds) if dimensions else ()
+    part = _Part(solid, annotations, names, cameras, overall)
+    paper, arranged = _roomiest(page, part.views(angle == "first"), frame)
+    chosen = _scale(asked, arranged, paper)
+    factor = chosen.factor
+    name = page.strip().split()[0].upper() if isinstance(page, str) else f"{paper.width_mm:g}x{paper.height_mm:g}"
+    block = TitleBlock(title, author, date, sheet, str(chosen), name, angle).layers(drawing_space(paper, frame))
+    done = Sheet(paper, f"{title}, {chosen}" if title else str(chosen))
+    notes = part.notes()
+    for number, (view, (x, y)) in enumerate(zip(arranged.views, arranged.middles(factor), strict=True)):
+        added = [one.scene for one in notes[number]]
+        added += [
+            one.annotation(view.camera, part.bounds, factor).scene for one in part.overall if one.view == view.name
+        ]
+        width, height = (2.0 * (view.reach_mm(factor).max(axis=0) + BORDER_MM)).tolist()
+        drawn = draw(
+            together([part.scene, *added]),
+            replace(view.camera, height=height / factor),
+            page=Page(width, height, 0.0),
+            fit=False,
+            lines=LINES,
+            hidden="none" if view.name == "iso" else "dashed",
+            pens=PENS,
+            dashes=DASHES,
+            crease_angle_deg=crease_angle_deg,
+            progress=progress,
+            explain=explain,
+        )
+        done = done.place(drawn, x - 0.5 * width, y - 0.5 * height)
+    borders = (*(frame_layers(paper) if frame else ()), *block)
+    return done.place(Drawing(paper.width_mm, paper.height_mm, borders, ()), 0.0, 0.0).drawing()
+
+
+def _view_names(views: str | Iterable[str]) -> tuple[str, ...]:
+    names = tuple(word.strip() for word in (views.split(",") if isinstance(views, str) else views))
+    for name in names:
+        if name not in VIEWS:
+            raise unknown("view", name, VIEWS)
+    if not names or len(set(names)) < len(names):
+        raise InputError(f"views {','.join(names)!r}: expected some of {', '.join(VIEWS)}, each once")
+    return names
+
+
+def _roomiest(page: Page | str, views: tuple[SheetView, ...], frame: bool) -> tuple[Page, Arrangement]:
+    """The sheet, and the views on it; a named one lies as gives them more room."""
+    given = page_of(page, Scene(()))
+    turned = isinstance(page, str) and len(page.split()) == 1 and "x" not in page.lower()
+    tried = [(paper, _arranged(paper, views, frame)) for paper in ((given.landscape, given) if turned else (given,))]
+    paper, arranged = max(tried, key=lambda pair: pair[1].largest_factor())
+    if not arranged.largest_factor() > 0.0:
+        raise InputError(f"page {paper.width_mm:g}x{paper.height_mm:g} mm: no room for {len(views)} views")
+    return paper, arranged
+
+
+def _arranged(paper: Page, views: tuple[SheetView, ...], frame: bool) -> Arrangement:
+    """The views above the title block."""
+    return Arrangement(views, np.add(drawing_space(paper, frame), [(0.0, BLOCK_MM[1]), (0.0, 0.0)]))
+
+
+def _scale(asked: DrawingScale | None, arranged: Arrangement, paper: Page) -> DrawingScale:
+    """The scale asked for, or the largest standard one that fits. Errors: InputError for one that is too large."""
+    room = arranged.largest_factor()
+    if asked is None:
+        return DrawingScale.largest_standard(room) if math.isfinite(room) else DrawingScale(1.0, 1.0)
+    if asked.factor > room:
+        largest = DrawingScale.largest_standard(room)
+        raise InputError(
+            f"scale {asked}: too large for {len(arranged.views)} views on {paper.width_mm:g}x{paper.height_mm:g} mm; "
+            f"the largest standard scale that fits is {largest}"
+        )
+    return asked
