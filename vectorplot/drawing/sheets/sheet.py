@@ -140,8 +140,8 @@ def _moved(
     already."""
     scale, by = placed.scale, np.array([placed.x_mm, placed.y_mm])
     if isinstance(mark, Texts):
-        lengths = {"size_mm": scale * mark.size_mm, "room_mm": scale * mark.room_mm}
-        return replace(mark, points=scale * mark.points + by, **lengths)
+        points = scale * mark.points + by
+        return replace(mark, points=points, size_mm=scale * mark.size_mm, room_mm=scale * mark.room_mm)
     if isinstance(mark, Fills):
         return replace(mark, points=scale * mark.points + by, item=of_item[mark.item])
     if isinstance(mark, Paths):
