@@ -99,7 +99,9 @@ def test_curves_beside_poles_and_holes_end_where_the_surface_does(text: str) -> 
     scene = vp.Scene((vp.Item("S", graph_of(text)),))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", InputWarning)
+        before = time.process_time()
         drawing = vp.draw(scene, vp.Camera((5.0, -7.0, 4.0)), page=PAGE)
+    assert time.process_time() - before < SECONDS
     strokes = [paths.points for layer in drawing.layers for paths in layer.strokes]
     assert strokes and all(np.isfinite(points).all() for points in strokes)
 

@@ -114,19 +114,33 @@ def _is_straight(surface: Surface, places: Floats, triangles: Ints, known: Bools
     corner, *others = np.take_along_axis(triangles, (odd[:, None] + np.arange(3)) % 3, axis=1).T
     size = np.array(surface.domain.size)
     base, alone = places[corner], known[corner]
-    ends = []
-    for other in others:
-        way = ways_between(surface.domain, base, places[other])
+    ways, ends = [ways_between(surface.domain, base, places[other]) for other in others], []
+    at_corners = np.ones(len(base), dtype=np.bool_)
+    for way in ways:
         low, high = np.zeros(len(base)), np.ones(len(base))
         for _ in range(HALVINGS):
             part = 0.5 * (low + high)
             same = is_known(surface, base + part[:, None] * way) == alone
             low, high = np.where(same, part, low), np.where(same, high, part)
         ends.append(0.5 * (low + high)[:, None] * way / size)
+        at_corners &= np.where(alone, low == 0.0, high == 1.0)
     chord = ends[1] - ends[0]
     along = ends[0] + LOOKS[:, None, None] * chord
     # The corner that differs lies to the right of the way, which turns as the triangle does.
     turn = np.sign(ends[0][:, 0] * ends[1][:, 1] - ends[0][:, 1] * ends[1][:, 0])[:, None]
     aside = STRAIGHT * turn * np.stack([chord[:, 1], -chord[:, 0]], axis=1)
     beyond, before = (is_known(surface, base + size * (along + way)) for way in (aside, -aside))
-    return np.asarray(((before == alone) & (beyond != alone)).all(axis=0))
+    straight = ((before == alone) & (beyond != alone)).all(axis=0)
+    bare = np.flatnonzero(~straight & at_corners)
+    straight[bare] = _is_bare(surface, base[bare], *(way[bare] for way in ways))
+    return np.asarray(straight)
+
+
+def _is_bare(surface: Surface, corner: Floats, one: Floats, two: Floats) -> Bools:
+    """(t,) whether all is hole between the sides of triangles, as far as is looked; corner (t,2), one and two (t,2) the
+    ways from it to the others. Where a surface is a line or a point and no more, triangles beside it would be divided
+    for ever."""
+    first, second = np.meshgrid(LOOKS, LOOKS)
+    within = first + second < 1.0
+    looks = corner + first[within][:, None, None] * one + second[within][:, None, None] * two
+    return np.asarray(~is_known(surface, looks).any(axis=0))
