@@ -86,3 +86,7 @@ of a unit normal."""
 SAME_PLANE_SINE = 1e-6
 """Normals of hatched faces that agree when rounded to so much are those of one plane: lines run on from one to the
 other, and are as far off as the thickness of a pen's line where they are not."""
+
+NARROW_CONIC = 1e-7
+"""A section of a mantle, of a plane along its rulings, that turns by less about the axis is straight: it is off its
+chord by less than a rounding of the radius."""

@@ -241,6 +241,20 @@ def test_bodies_on_a_ground_are_drawn_in_closed_form():
     assert 0 in rims
 
 
+@pytest.mark.parametrize("upwards", [True, False])
+def test_what_lies_beyond_an_apex_is_not_inside_of_the_cone(upwards):
+    # In the other half of the double cone, in front of the base.
+    cone = Item("cone", Capped(Cone.standing(1.0, 0.3) if upwards else Cone(1.0, 0.0, 0.3)))
+    apex, way = (np.array([0.0, 0.0, 0.3]), 1.0) if upwards else (np.zeros(3), -1.0)
+    middles = [apex + np.array([x, 0.0, 0.1 * way]) for x in (-0.1, 0.0, 0.1)]
+    grains = [Item(str(k), box(p - 1e-2, p + 1e-2)) for k, p in enumerate(middles)]
+    for parallel in (False, True):
+        drawing = draw(Scene((cone, *grains)), Camera((0.0, -6.0, 3.0 * way), parallel=parallel), hidden="solid")
+        assert {paths.hidden_by[k] for paths, k in strokes_of(drawing) if paths.item[k]} == {0, 1}
+        whole = draw(Scene((cone, *grains)), Camera((0.0, -6.0, 3.0 * way), parallel=parallel), lines="contour")
+        assert {paths.item[k] for paths, k in strokes_of(whole)} == {0, 1, 2, 3}
+
+
 def test_a_rod_through_balls_meets_them_in_circles():
     first, second = np.array([0.0, 0.0, 0.0]), np.array([3.0, 1.0, 2.0])
     items = (Item("a", Sphere(1.0, first)), Item("b", Sphere(0.7, second)), Item("bond", rod(first, second, 0.3)))
@@ -287,8 +301,11 @@ def test_what_has_no_closed_form_is_a_surface_like_any_other():
     assert items(can) == {0, 1}
     assert items(can, Item("ring", Torus(1.0, 0.4))) == {2}
     assert items(can, camera=Camera((0.2, 0.1, 0.3), (5, 0, 0))) == {1}
-    assert items(Item("lit", can.shape, curves=SurfaceLines(isophotes=(0.5,)))) == {1}
-    assert items(Item("cut", can.shape, curves=SurfaceLines(sections=(Section((1, 0, 0), (0.1,)),)))) == {1}
+    lit, cut = SurfaceLines(isophotes=(0.5,)), SurfaceLines(sections=(Section((1, 0, 0), (0.1,)),))
+    oval = PlacedSurface(can.shape, np.diag([1.0, 0.5, 1.0]), np.zeros(3))
+    assert items(Item("lit", can.shape, curves=lit), Item("cut", far.shape, curves=cut)) == {0, 1, 2}
+    assert items(Item("lit", oval, curves=lit)) == {1}
+    assert items(Item("cut", oval, curves=cut)) == {0, 1}
     assert items(Item("vase", Capped(Cylinder()), lines=("contour",))) == {0, 1}
 
 

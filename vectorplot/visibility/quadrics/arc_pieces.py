@@ -22,7 +22,7 @@ LARGE, MOST = 2.0, 512
 
 @dataclass(frozen=True, eq=False)
 class Pieces:
-    """Parts of arcs: control (3,4,n) homogeneous control points, weights first and last 1; arc (n,); middle, half (n,):
+    """Parts of arcs: control (3,4,n) homogeneous control points; arc (n,); middle, half (n,):
     from middle - half to middle + half in the arc's parameter; box (4,n) left, right, bottom, top in the image; nearest
     and farthest (n,) depth."""
 
@@ -84,12 +84,13 @@ def _control(arcs: Arcs, arc: Ints, middle: Floats, half: Floats) -> Floats:
     straight = arcs.straight[arc]
     weight = np.where(straight, 1.0, np.cos(half))
     centre, first, second = arcs.middle[arc].T, arcs.first[arc].T, arcs.second[arc].T
+    divisor = arcs.weight[arc]
     control = np.empty((3, 4, len(arc)))
     one = np.ones(len(arc))
     for k, (t, w) in enumerate(((middle - half, one), (middle, weight), (middle + half, one))):
         along = np.where(straight, t, np.cos(t)), np.where(straight, 0.0, np.sin(t))
         control[k, :3] = centre * w + first * along[0] + second * along[1]
-        control[k, 3] = w
+        control[k, 3] = w + divisor * along[0]
     return control
 
 

@@ -42,6 +42,7 @@ from vectorplot.visibility.quadrics.lines.body_meetings import (
     on_one_axis,
 )
 from vectorplot.visibility.quadrics.lines.capped_arcs import capped_arcs
+from vectorplot.visibility.quadrics.lines.capped_sections import are_round, capped_isophotes, capped_sections
 from vectorplot.visibility.quadrics.lines.meetings_inside import meet_inside_balls
 from vectorplot.visibility.quadrics.own_bodies import own_bodies
 from vectorplot.words import LineKind
@@ -93,9 +94,10 @@ def closed_forms(
     """The bodies of a scene of which all lines that are asked for are conics and straight, and these lines.
 
     Bodies are spheres and ellipsoids, and frusta and parts of balls between caps. The others are smooth surfaces like
-    any other: those with the eye inside, with curves of their own, isophotes of all but spheres and of lamps inside,
-    sections of capped bodies, and all that meet surfaces which are no bodies themselves. Ellipsoids that meet others of
-    another form, and capped bodies that meet anything but a ball on their axis, do so in curves that are traced.
+    any other: those with the eye inside, with curves of their own, with isophotes but those of spheres without a lamp
+    inside and of round capped bodies in parallel light, and all that meet surfaces which are no bodies themselves.
+    Ellipsoids that meet others of another form, and capped bodies that meet anything but a ball on their axis, do so in
+    curves that are traced.
     hidden_too: whether hidden lines are asked for too; otherwise what two capped bodies have in common inside of a ball
     that hides, as the bonds of an atom do, is left out.
     """
@@ -110,7 +112,10 @@ def closed_forms(
     parts = ball_arcs(scene, view, bodies.balls, asked)
     parts.append(balls_with_balls(bodies.balls, *met.balls, wanting[: len(bodies.balls)]))
     parts.append(balls_with_faces(view, bodies.balls, wants))
-    parts += capped_arcs(scene, bodies.capped, len(bodies.balls), asked)
+    count, items = len(bodies.balls), [scene.items[k] for k in bodies.capped.item.tolist()]
+    parts += capped_arcs(bodies.capped, count, items, asked)
+    parts += capped_sections(view, bodies.capped, count, items, asked)
+    parts += capped_isophotes(scene, view, bodies.capped, count, items, asked)
     parts.append(circles_on_one_axis(bodies, *met.on_axis, wanting))
     arcs, sides = beyond_near(bodies.sight, *joined_arcs(parts))
     found = seen(bodies, arcs, sides)
@@ -123,13 +128,13 @@ def closed_forms(
 def lines_behind(view: View, forms: ClosedForms, lines: Lines, seen: Seen) -> Lines:
     """Lines beyond the near plane, cut where bodies begin or end to hide them, and what is seen of them; the arcs on
     the bodies themselves as they are."""
-    own, family = np.zeros(len(lines), dtype=np.bool_), np.full(len(lines), -1)
+    own, curve = np.zeros(len(lines), dtype=np.bool_), np.full(len(lines), -1)
     if lines.chords is not None:
         curves = lines.chords.curves
         conic = np.array([isinstance(family, ConicArcs) for family in curves.families] + [False])
         chord = lines.chords.chord
-        family[chord >= 0] = curves.family[curves.owner[chord[chord >= 0]]]
-        own = conic[family]
+        curve[chord >= 0] = curves.owner[chord[chord >= 0]]
+        own = conic[np.append(curves.family, -1)[curve]]
     others = np.flatnonzero(~own)
     sight = forms.bodies.sight
     start, end = sight.points(lines.start[:, others].T), sight.points(lines.end[:, others].T)
@@ -145,11 +150,12 @@ def lines_behind(view: View, forms: ClosedForms, lines: Lines, seen: Seen) -> Li
         lines.item[others],
         np.full((count, 2), -1, dtype=np.intp),
         lines.side[others],
+        np.zeros(count),
     )
     none = np.zeros(0, dtype=np.intp)
     sides = OwnSides(none, np.zeros((0, 4)), none)
     if lines.chords is not None:
-        bodies, sides = own_bodies(forms.bodies, lines.chords.curves, family[others])
+        bodies, sides = own_bodies(forms.bodies, lines.chords.curves, curve[others])
         arcs = replace(arcs, own=bodies)
     found = seen(forms.bodies, arcs, sides)
     kept = np.flatnonzero(own)
@@ -175,33 +181,34 @@ def _bodies(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Bodies:
     )
     balls = balls.some(np.flatnonzero(outside & usual))
     ends = [(number, body) for number, item in enumerate(scene.items) if (body := capped_quadric_of(item.shape))]
-    simple = [(number, body) for number, body in ends if _has_simple_lines(scene.items[number], kinds)]
+    simple = [(number, body) for number, body in ends if _has_simple_lines(scene, view, scene.items[number], kinds)]
     which = np.array([number for number, _ in simple], dtype=np.intp)
     capped = capped_bodies_of(view, scene.items, which, [body for _, body in simple])
-    return Bodies(balls, capped.some(~capped.has_eye_inside))
+    lit = np.array([_has_isophotes(scene.items[number], kinds) for number, _ in simple], dtype=np.bool_)
+    return Bodies(balls, capped.some(~capped.has_eye_inside & (~lit | are_round(capped))))
 
 
-def _has_simple_lines(item: Item, kinds: frozenset[LineKind]) -> bool:
-    """Whether an item asks for lines that are straight or conics on any capped body."""
+def _has_simple_lines(scene: Scene, view: View, item: Item, kinds: frozenset[LineKind]) -> bool:
+    """Whether an item asks for lines that are straight or conics on any capped body that is round."""
+    if _has_own_curves(item, kinds):
+        return False
+    return not _has_isophotes(item, kinds) or curve_light(scene, view, item).parallel
+
+
+def _has_own_curves(item: Item, kinds: frozenset[LineKind]) -> bool:
     lines, wanted = item.curves, kinds_of(item, kinds)
-    curved = (
-        (lines.paths, LineKind.CURVE),
-        (lines.integral, LineKind.INTEGRAL),
-        (lines.isophotes, LineKind.ISOPHOTE),
-        *((True, section.kind) for section in lines.sections),
-    )
-    return not any(asked and kind in wanted for asked, kind in curved)
+    return bool((lines.paths and LineKind.CURVE in wanted) or (lines.integral and LineKind.INTEGRAL in wanted))
+
+
+def _has_isophotes(item: Item, kinds: frozenset[LineKind]) -> bool:
+    return bool(item.curves.isophotes) and LineKind.ISOPHOTE in kinds_of(item, kinds)
 
 
 def _is_conic(scene: Scene, view: View, item: Item, ball: Ball, kinds: frozenset[LineKind]) -> bool:
     """Whether all lines that an item asks for are conics."""
-    lines = item.curves
-    if not lines:
-        return True
-    wanted = kinds_of(item, kinds)
-    if (lines.paths and LineKind.CURVE in wanted) or (lines.integral and LineKind.INTEGRAL in wanted):
+    if _has_own_curves(item, kinds):
         return False
-    if not lines.isophotes or LineKind.ISOPHOTE not in wanted:
+    if not _has_isophotes(item, kinds):
         return True
     product = ball.frame @ ball.frame.T
     square = float(product[0, 0])

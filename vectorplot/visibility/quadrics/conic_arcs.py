@@ -15,11 +15,13 @@ from vectorplot.words import LineKind
 
 @dataclass(frozen=True, eq=False)
 class Arcs:
-    """The points middle + cos(t) first + sin(t) second, low <= t <= high; of a straight line middle + t first.
+    """The points middle + cos(t) first + sin(t) second, low <= t <= high, divided by 1 + cos(t) weight; of a straight
+    line middle + t first.
 
     middle, first, second (n,3) in the coordinates of sight; low, high (n,); straight (n,); kind, item (n,); own (n,2)
     the bodies on which an arc lies, or -1; side (n,): 1 or -1 where it is an outline, and its body to the left or right
-    of it, else 0.
+    of it, else 0; weight (n,): 0 of ellipses about their middles and of straight lines, larger of other conics, which
+    do not reach further than a quarter turn from t = 0.
     """
 
     middle: Floats
@@ -32,6 +34,7 @@ class Arcs:
     item: Ints
     own: Ints
     side: Ints
+    weight: Floats
 
     def __len__(self) -> int:
         return len(self.low)
@@ -44,11 +47,20 @@ class Arcs:
         along = cosine * first + sine * second
         points = middle + np.where(straight, t[:, None] * first, along)
         slopes = np.where(straight, first, cosine * second - sine * first)
-        return points, slopes, np.where(straight, 0.0, -along)
+        bends = np.where(straight, 0.0, -along)
+        weight = self.weight[which][:, None]
+        if not weight.any():
+            return points, slopes, bends
+        divisor = 1.0 + weight * cosine
+        points = points / divisor
+        slopes = (slopes + weight * sine * points) / divisor
+        return points, slopes, (bends + weight * (2.0 * sine * slopes + cosine * points)) / divisor
 
     def in_view(self, sight: EyeCoordinates) -> Arcs:
         """The arcs in the coordinates of the view."""
-        first, second = sight.vectors(self.first), sight.vectors(self.second)
+        origin = sight.points_of_view(np.zeros(3))
+        first = sight.vectors(self.first) + self.weight[:, None] * origin
+        second = sight.vectors(self.second)
         return replace(self, middle=sight.points_of_view(self.middle), first=first, second=second)
 
     def some(self, which: Ints | Bools) -> Arcs:
@@ -73,12 +85,15 @@ def arcs_on(
     item: Ints,
     own: Ints,
     side: Ints | None = None,
+    weight: Floats | None = None,
 ) -> Arcs:
-    """Arcs of one kind: their middles and conjugate radii, and from where to where (n,) they go."""
+    """Arcs of one kind: their middles and conjugate radii, and from where to where (n,) they go; of ellipses where
+    there is no weight."""
     count = len(item)
     straight = np.zeros(count, dtype=np.bool_)
     sides = np.zeros(count, dtype=np.intp) if side is None else side
-    return Arcs(*circles, *span, straight, np.full(count, int(kind)), item, own, sides)
+    weights = np.zeros(count) if weight is None else weight
+    return Arcs(*circles, *span, straight, np.full(count, int(kind)), item, own, sides, weights)
 
 
 def lines_on(start: Floats, way: Floats, kind: LineKind, item: Ints, own: Ints, side: Ints | None = None) -> Arcs:
@@ -94,7 +109,7 @@ def joined_arcs(parts: Sequence[tuple[Arcs, OwnSides]]) -> tuple[Arcs, OwnSides]
     whole = np.zeros(0, dtype=np.intp)
     flags = np.zeros(0, dtype=np.bool_)
     pairs = np.zeros((0, 2), dtype=np.intp)
-    empty = Arcs(none, none, none, number, number, flags, whole, whole, pairs, whole)
+    empty = Arcs(none, none, none, number, number, flags, whole, whole, pairs, whole, number)
     arcs = [empty, *(arcs for arcs, _ in parts)]
     shift = ragged.starts([len(some) for some in arcs])[1:]
     sides = [OwnSides(whole, np.zeros((0, 4)), whole)]
@@ -106,13 +121,15 @@ def beyond_near(sight: EyeCoordinates, arcs: Arcs, sides: OwnSides) -> tuple[Arc
     """The parts of arcs that are no nearer to the eye than the near plane."""
     if not sight.central:
         return arcs, sides
-    # Depth is base + reach cos(t - turn): no less than near within half of turn.
-    base, reach = arcs.middle[:, 2], np.hypot(arcs.first[:, 2], arcs.second[:, 2])
+    # Depth, times what is divided by, less so much of near as that is above 1: base + reach cos(t - turn), which is no
+    # less than near within half of turn.
+    base, ahead = arcs.middle[:, 2], arcs.first[:, 2] - sight.near * arcs.weight
+    reach = np.hypot(ahead, arcs.second[:, 2])
     reach = np.where(arcs.straight, np.abs(arcs.first[:, 2]) * np.maximum(np.abs(arcs.low), np.abs(arcs.high)), reach)
     doubtful = base - reach < sight.near
     if not doubtful.any():
         return arcs, sides
-    turn = np.arctan2(arcs.second[:, 2], arcs.first[:, 2])
+    turn = np.arctan2(arcs.second[:, 2], ahead)
     with np.errstate(divide="ignore", invalid="ignore"):
         half = np.arccos(np.clip((sight.near - base) / reach, -1.0, 1.0))
     half = np.where(base + reach < sight.near, -1.0, np.where(reach > 0.0, half, np.pi))

@@ -128,9 +128,9 @@ def _of_lines(bodies: Bodies, pairs: PartPairs, lines: RuledCurves, wants: Bools
         closed=lines.closed,
         kind=np.full(len(none), int(LineKind.INTERSECTION)),
         item=np.where(wants[one] & (~wants[two] | (one < two)), one, two),
-        family=np.asarray(family, dtype=np.intp),
-        level=np.zeros(len(none)),
-        families=tuple(BodiesMeet(meet, on, form) for on, form in zip(body, shown, strict=True)),
+        family=np.zeros(len(none), dtype=np.intp),
+        level=family.astype(np.float64),
+        families=(BodiesMeet(meet, body, shown),),
         sheet=none,
         second_sheet=none,
     )
@@ -138,9 +138,9 @@ def _of_lines(bodies: Bodies, pairs: PartPairs, lines: RuledCurves, wants: Bools
 
 def _on_bodies(curves: Curves, parts: tuple[_Part, ...]) -> Curves:
     """The curves with what is known of the bodies that they lie on."""
-    body = np.full(2, -1)
-    form = np.zeros((2, 4))
+    body = np.full((1, 2), -1)
+    form = np.zeros((1, 2, 4))
     for k, part in enumerate(parts):
-        body[k], form[k] = part.body, part.form
+        body[0, k], form[0, k] = part.body, part.form
     families, no_sheet = tuple(BodiesMeet(family, body, form) for family in curves.families), np.full(len(curves), -1)
     return replace(curves, families=families, sheet=no_sheet, second_sheet=no_sheet)

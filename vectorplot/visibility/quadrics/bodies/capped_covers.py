@@ -163,7 +163,9 @@ def _inside(bodies: CappedBodies, which: Ints, box: Floats32, unit: Floats) -> C
     for end in (BOTTOM, TOP):
         inwards = -bodies.outside_of_cap(which, end)
         inwards[:, 3] += np.where(bodies.faces_eye[which, end], 0.0, BEYOND_CAP * bodies.tolerance)
-        linear.append(np.where(bodies.has_cap[which, end][:, None], inwards, _ALWAYS))
+        # Beyond its apex the squares of a cone are those of its other half; a whole ball ends by itself.
+        ends = bodies.has_cap[which, end] | ~bodies.is_round[which]
+        linear.append(np.where(ends[:, None], inwards, _ALWAYS))
     inverse, centre = bodies.inverse[which], bodies.centre[which]
     gradient = np.einsum("nij,qnj->qni", inverse, unit[:, :, :3])
     constant = unit[:, :, 3] - np.einsum("qni,ni->qn", gradient, centre)

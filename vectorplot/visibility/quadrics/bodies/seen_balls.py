@@ -74,11 +74,7 @@ class Balls:
     def circles(self, which: Ints, normal: Floats, height: Floats) -> tuple[Floats, Floats, Floats]:
         """Centres and two conjugate radii (k,3) of the sections of balls with planes: s.normal = height of the unit
         sphere, unit normals (k,3)."""
-        first, second = across(normal)
-        radius = np.sqrt(np.maximum(1.0 - height * height, 0.0))[:, None]
-        parts = (height[:, None] * normal, radius * first, radius * second)
-        middle, p, q = (np.einsum("ni,nij->nj", part, self.frame[which]) for part in parts)
-        return self.centre[which] + middle, p, q
+        return sphere_sections(self.centre[which], self.frame[which], normal, height)
 
     def contours(self, which: Ints) -> tuple[Floats, Floats, Floats]:
         """Centres and two conjugate radii (k,3) of the contours."""
@@ -103,6 +99,16 @@ def balls_of(view: View, items: Sequence[Item], which: Ints, balls: Sequence[Bal
     hides = np.array([items[k].hides for k in which.tolist()], dtype=np.bool_)
     in_view = (centre - view.centre) @ turned
     return Balls(sight, sight.points(in_view), sight.vectors(frame @ turned), which, hides, view.tolerance)
+
+
+def sphere_sections(centre: Floats, frame: Floats, normal: Floats, height: Floats) -> tuple[Floats, Floats, Floats]:
+    """Centres and two conjugate radii (k,3) of what the planes s.normal = height cut out of the unit sphere, at the
+    points centre + s @ frame: centre, unit normals (k,3), frame (k,3,3)."""
+    first, second = across(normal)
+    radius = np.sqrt(np.maximum(1.0 - height * height, 0.0))[:, None]
+    parts = (height[:, None] * normal, radius * first, radius * second)
+    middle, p, q = (np.einsum("ni,nij->nj", part, frame) for part in parts)
+    return centre + middle, p, q
 
 
 def same_numbers(numbers: Floats, tolerance: float) -> Ints:

@@ -2,40 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import cross, dot
-from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.quadrics.bodies.seen_balls import Balls
 from vectorplot.visibility.quadrics.conic_arcs import Arcs, OwnSides, arcs_on
+from vectorplot.visibility.quadrics.lines.asked_lines import Wants, cosines, lamps, section_planes, wanting
 from vectorplot.words import LineKind
 
 Found = tuple[Arcs, OwnSides]
-Wants = Callable[[Item, LineKind], bool]
 
 
 def ball_arcs(scene: Scene, view: View, balls: Balls, wants: Wants) -> list[Found]:
     """The lines that items with balls ask for; wants(item, kind) tells."""
     items = [scene.items[k] for k in balls.item.tolist()]
     return [
-        _contours(balls, _wanting(items, wants, LineKind.CONTOUR)),
-        *_parameter_lines(balls, items, _wanting(items, wants, LineKind.PARAMETER)),
-        _isophotes(scene, view, balls, items, _wanting(items, wants, LineKind.ISOPHOTE)),
+        _contours(balls, wanting(items, wants, LineKind.CONTOUR)),
+        *_parameter_lines(balls, items, wanting(items, wants, LineKind.PARAMETER)),
+        _isophotes(scene, view, balls, items, wanting(items, wants, LineKind.ISOPHOTE)),
         *(
-            _sections(view, balls, items, _wanting(items, wants, kind), kind)
+            _sections(view, balls, items, wanting(items, wants, kind), kind)
             for kind in (LineKind.SECTION, LineKind.INDEX)
         ),
     ]
-
-
-def _wanting(items: Sequence[Item], wants: Wants, kind: LineKind) -> Ints:
-    return np.array([k for k, item in enumerate(items) if wants(item, kind)], dtype=np.intp)
 
 
 def on_balls(
@@ -95,25 +90,18 @@ def _parameter_lines(balls: Balls, items: Sequence[Item], which: Ints) -> list[F
 
 def _isophotes(scene: Scene, view: View, balls: Balls, items: Sequence[Item], which: Ints) -> Found:
     """The isophotes of spheres: circles about the direction of the light."""
-    counts = np.array([len(items[k].curves.isophotes) for k in which.tolist()], dtype=np.intp)
+    counts, cosine = cosines(items, which)
     which, counts = which[counts > 0], counts[counts > 0]
-    parallel, position = [], []
-    for k in which.tolist():
-        light = curve_light(scene, view, items[k])
-        parallel.append(light.parallel)
-        position.append(light.position)
-    lamp = np.array(position).reshape(-1, 3)
-    away = np.array(parallel, dtype=np.bool_)[:, None]
-    sight = balls.sight
-    lamps = sight.points(view.points_of(lamp).T) - balls.centre[which]
-    towards = np.where(away, sight.vectors(lamp @ view.axes.T), lamps)
+    direction, place, far_away = lamps(scene, view, balls.sight, items, which)
+    away = far_away[:, None]
+    towards = np.where(away, direction, place - balls.centre[which])
     distance = np.sqrt(dot(towards, towards)) / balls.reach[which, 0]
     # In the frame of the unit sphere, which a mirrored one turns inside out.
     s = np.einsum("ni,nij->nj", towards, balls.inverse[which])
     s /= np.sqrt(dot(s, s))[:, None]
     turned = np.sign(np.linalg.det(balls.frame[which])) * (-1.0)
     owner = ragged.owner(counts)
-    cosine = np.concatenate([np.zeros(0), *(items[k].curves.isophotes for k in which.tolist())]) * turned[owner]
+    cosine = cosine * turned[owner]
     far, near_by = away[owner, 0], distance[owner]
     with np.errstate(all="ignore"):
         root = np.sqrt(np.maximum(near_by * near_by - 1.0 + cosine * cosine, 0.0))
@@ -127,21 +115,8 @@ def _isophotes(scene: Scene, view: View, balls: Balls, items: Sequence[Item], wh
 
 def _sections(view: View, balls: Balls, items: Sequence[Item], which: Ints, kind: LineKind) -> Found:
     """The sections of a kind with planes."""
-    ball: list[int] = []
-    normals: list[tuple[float, float, float]] = []
-    offsets: list[float] = []
-    for k in which.tolist():
-        for section in (s for s in items[k].curves.sections if s.kind == kind):
-            ball += [k] * len(section.offsets)
-            normals += [section.normal] * len(section.offsets)
-            offsets += section.offsets
-    normal = np.array(normals).reshape(-1, 3)
-    height = (np.array(offsets) - normal @ view.centre) / view.scale
-    in_view = normal @ view.axes.T
-    of = np.array(ball, dtype=np.intp)
-    sight = balls.sight
-    at = sight.points(in_view * height[:, None])
-    return plane_circles(balls, of, sight.vectors(in_view), at, kind)
+    ball, normal, point = section_planes(view, balls.sight, items, which, kind)
+    return plane_circles(balls, ball, normal, point, kind)
 
 
 def plane_circles(balls: Balls, ball: Ints, normal: Floats, point: Floats, kind: LineKind) -> Found:

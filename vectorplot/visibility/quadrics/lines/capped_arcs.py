@@ -9,11 +9,12 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import cross, dot
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Item
 from vectorplot.visibility.quadrics.bodies.capped_covers import ball_contours
 from vectorplot.visibility.quadrics.bodies.seen_capped import BOTTOM, TOP, CappedBodies
 from vectorplot.visibility.quadrics.conic_arcs import OwnSides, arcs_on, lines_on
-from vectorplot.visibility.quadrics.lines.ball_arcs import Found, Wants
+from vectorplot.visibility.quadrics.lines.asked_lines import Wants
+from vectorplot.visibility.quadrics.lines.ball_arcs import Found
 from vectorplot.visibility.quadrics.lines.parts_of_circles import parts_inside
 from vectorplot.words import LineKind
 
@@ -23,10 +24,9 @@ ALWAYS_TURNED_AWAY = np.array([0.0, 0.0, 0.0, -1.0])
 NO_SIDES = OwnSides(np.zeros(0, dtype=np.intp), np.zeros((0, 4)), np.zeros(0, dtype=np.intp))
 
 
-def capped_arcs(scene: Scene, bodies: CappedBodies, before: int, wants: Wants) -> list[Found]:
-    """The lines that items with capped bodies ask for; wants(item, kind) tells; before: how many bodies are numbered
-    before these."""
-    items = [scene.items[k] for k in bodies.item.tolist()]
+def capped_arcs(bodies: CappedBodies, before: int, items: Sequence[Item], wants: Wants) -> list[Found]:
+    """Contours, rims and parameter lines that items, one for each capped body, ask for; wants(item, kind) tells;
+    before: how many bodies are numbered before these."""
     once = np.zeros(len(bodies), dtype=np.bool_)
     once[np.unique(bodies.same, return_index=True)[1]] = True
     contour, crease, parameter = (
@@ -48,9 +48,9 @@ def _rulings(bodies: CappedBodies, before: int, which: Ints) -> Found:
     which, turn, reach = which[seen], turn[seen], reach[seen]
     parts = []
     for sign in (-1.0, 1.0):
-        start, end = (_on_rims(bodies, which, k, turn + sign * reach) for k in (BOTTOM, TOP))
+        start, end = (on_rims(bodies, which, k, turn + sign * reach) for k in (BOTTOM, TOP))
         # The next to the eye is between the two.
-        middle = 0.5 * (_on_rims(bodies, which, BOTTOM, turn) + _on_rims(bodies, which, TOP, turn))
+        middle = 0.5 * (on_rims(bodies, which, BOTTOM, turn) + on_rims(bodies, which, TOP, turn))
         side = _side(bodies, start, end - start, middle)
         parts.append((start, end - start, side))
     start, way, side = (np.concatenate(column) for column in zip(*parts, strict=True))
@@ -58,7 +58,7 @@ def _rulings(bodies: CappedBodies, before: int, which: Ints) -> Found:
     return lines_on(start, way, LineKind.CONTOUR, bodies.item[body], _own(before, body), side), NO_SIDES
 
 
-def _on_rims(bodies: CappedBodies, which: Ints, end: int, angle: Floats) -> Floats:
+def on_rims(bodies: CappedBodies, which: Ints, end: int, angle: Floats) -> Floats:
     """(k,3) points on the rims at one end of bodies which (k,)."""
     middle, first, second = bodies.rims(which, end)
     return np.asarray(middle + np.cos(angle)[:, None] * first + np.sin(angle)[:, None] * second)
@@ -107,7 +107,7 @@ def _rims(bodies: CappedBodies, before: int, once: Bools, contour: Bools, crease
     # A rim without a part of its own that is turned the other way is a single arc.
     kept = np.flatnonzero(wanted & (high > low))
     body, low, high, outline = body[kept], low[kept], high[kept], outline[kept]
-    hidden = ~mantle[kept] & ~cap[kept] & _hide(bodies)[body]
+    away = ~mantle[kept] & ~cap[kept]
     circles = bodies.rims(body, end)
     middle, first, second = circles
     start = middle + np.cos(low)[:, None] * first + np.sin(low)[:, None] * second
@@ -116,8 +116,7 @@ def _rims(bodies: CappedBodies, before: int, once: Bools, contour: Bools, crease
     side = np.where(outline, _side(bodies, start, way, inside), 0)
     arcs = arcs_on(circles, (low, high), LineKind.CREASE, bodies.item[body], _own(before, body), side)
     arcs.kind[outline] = int(LineKind.CONTOUR)
-    turned = np.flatnonzero(hidden)
-    return arcs, OwnSides(turned, np.tile(ALWAYS_TURNED_AWAY, (len(turned), 1)), before + body[turned])
+    return arcs, _turned_away(bodies, before, body, away)
 
 
 def _parameter_lines(bodies: CappedBodies, before: int, items: Sequence[Item], which: Ints) -> list[Found]:
@@ -125,21 +124,14 @@ def _parameter_lines(bodies: CappedBodies, before: int, items: Sequence[Item], w
     columns = np.array([items[k].curves.columns for k in which.tolist()], dtype=np.intp)
     body, angle = np.repeat(which, columns), 2.0 * np.pi * ragged.place(columns) / np.repeat(columns, columns)
     flat = np.flatnonzero(~bodies.is_round[body])
-    start, end = (_on_rims(bodies, body[flat], k, angle[flat]) for k in (BOTTOM, TOP))
-    item, own = bodies.item[body[flat]], _own(before, body[flat])
-    rulings = lines_on(start, end - start, LineKind.PARAMETER, item, own)
-    # Along a ruling the mantle turns nowhere.
-    turn, reach = bodies.turn[0][body[flat]], bodies.turn[1][body[flat], BOTTOM]
-    away = np.cos(angle[flat] - turn) < np.cos(reach)
-    turned = np.flatnonzero(away & _hide(bodies)[body[flat]])
-    of_rulings = OwnSides(turned, np.tile(ALWAYS_TURNED_AWAY, (len(turned), 1)), before + body[flat][turned])
-    found = [(rulings, of_rulings)]
+    found = [rulings(bodies, before, body[flat], angle[flat], LineKind.PARAMETER)]
     bent = np.flatnonzero(bodies.is_round[body])
     body, angle = body[bent], angle[bent]
     frame = bodies.frame[body]
     equator = np.cos(angle)[:, None] * frame[:, 0] + np.sin(angle)[:, None] * frame[:, 1]
     low, high = np.arcsin(np.clip(bodies.ends[body], -1.0, 1.0)).T
-    found.append(_on_mantles(bodies, before, (bodies.centre[body], equator, frame[:, 2]), (low, high), body))
+    circles = (bodies.centre[body], equator, frame[:, 2])
+    found.append(on_mantles(bodies, before, circles, (low, high), body, LineKind.PARAMETER))
     rows = np.array([items[k].curves.rows for k in which.tolist()], dtype=np.intp)
     inner = np.maximum(rows - 1, 0)
     body, part = np.repeat(which, inner), (ragged.place(inner) + 1) / np.repeat(rows, inner)
@@ -149,17 +141,63 @@ def _parameter_lines(bodies: CappedBodies, before: int, items: Sequence[Item], w
     height = np.where(round_, np.sin(latitude), part)
     radius = np.where(round_, np.cos(latitude), (1.0 - part) * bodies.radii[body, 0] + part * bodies.radii[body, 1])
     span = np.zeros(len(body)), np.full(len(body), 2.0 * np.pi)
-    found.append(_on_mantles(bodies, before, bodies.circles(body, height, radius), span, body))
+    circles = bodies.circles(body, height, radius)
+    found.append(on_mantles(bodies, before, circles, span, body, LineKind.PARAMETER))
     return found
 
 
-def _on_mantles(
-    bodies: CappedBodies, before: int, circles: tuple[Floats, Floats, Floats], span: tuple[Floats, Floats], body: Ints
+def rulings(bodies: CappedBodies, before: int, body: Ints, angle: Floats, kind: LineKind) -> Found:
+    """Rulings of frusta (n,) at angles (n,) from the bottom to the top, in the picture where the mantle shows."""
+    start, end = (on_rims(bodies, body, k, angle) for k in (BOTTOM, TOP))
+    arcs = lines_on(start, end - start, kind, bodies.item[body], _own(before, body))
+    # Along a ruling the mantle turns nowhere.
+    turn, reach = bodies.turn[0][body], bodies.turn[1][body, BOTTOM]
+    away = np.cos(angle - turn) < np.cos(reach)
+    return arcs, _turned_away(bodies, before, body, away)
+
+
+def straight_on_mantles(
+    bodies: CappedBodies, before: int, body: Ints, start: Floats, end: Floats, kind: LineKind
+) -> Found:
+    """Straight lines from start to end (n,3) along mantles of bodies (n,), in the picture where these show."""
+    arcs = lines_on(start, end - start, kind, bodies.item[body], _own(before, body))
+    return arcs, _shown_sides(bodies, before, body)
+
+
+def lines_on_caps(
+    bodies: CappedBodies, before: int, body: Ints, end: int, ends: tuple[Floats, Floats], kind: LineKind
+) -> Found:
+    """Straight lines between two points (n,3) on the caps at one end of bodies (n,), in the picture where these
+    show."""
+    start, way = ends[0], ends[1] - ends[0]
+    arcs = lines_on(start, way, kind, bodies.item[body], _own(before, body))
+    return arcs, _turned_away(bodies, before, body, ~bodies.faces_eye[body, end])
+
+
+def _turned_away(bodies: CappedBodies, before: int, body: Ints, away: Bools) -> OwnSides:
+    """What bodies (n,) hide of lines on them of which those that are away (n,) are so as a whole."""
+    turned = np.flatnonzero(away & _hide(bodies)[body])
+    return OwnSides(turned, np.tile(ALWAYS_TURNED_AWAY, (len(turned), 1)), before + body[turned])
+
+
+def on_mantles(
+    bodies: CappedBodies,
+    before: int,
+    circles: tuple[Floats, Floats, Floats],
+    span: tuple[Floats, Floats],
+    body: Ints,
+    kind: LineKind,
+    weight: Floats | None = None,
 ) -> Found:
     """Arcs on the mantles of bodies (n,), in the picture where these show."""
-    arcs = arcs_on(circles, span, LineKind.PARAMETER, bodies.item[body], _own(before, body))
+    arcs = arcs_on(circles, span, kind, bodies.item[body], _own(before, body), None, weight)
+    return arcs, _shown_sides(bodies, before, body)
+
+
+def _shown_sides(bodies: CappedBodies, before: int, body: Ints) -> OwnSides:
+    """What bodies (n,) hide of curves on their mantles."""
     hiding = np.flatnonzero(_hide(bodies)[body])
-    return arcs, OwnSides(hiding, bodies.polar_planes(body[hiding]), before + body[hiding])
+    return OwnSides(hiding, bodies.polar_planes(body[hiding]), before + body[hiding])
 
 
 def _hide(bodies: CappedBodies) -> Bools:
