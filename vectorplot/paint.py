@@ -179,7 +179,7 @@ def paint(
 
     ordered = ordered_faces(walk, scene, shown, projection, demand, budget_of(budget))
     placement = placement_of_faces(ordered.view, ordered.faces, sheet, fit)
-    seen, plane = seen_on_page(walk, ordered, placement)
+    seen, plane = seen_on_page(walk, ordered, placement, budget_of(budget))
     view, true = seen.view, ordered.facets.normals
     page, world = placement.page, placement.page_from_world
     here = view_lights(view, scene.lights)

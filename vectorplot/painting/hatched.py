@@ -64,7 +64,7 @@ def hatched(
         return picture_fineness(shown, projection, bool(toned.lights), allowed, ROUGHLY * tolerance_mm)
 
     ordered = ordered_faces(walk, toned, shown, projection, demand, budget)
-    seen, plane = seen_on_page(walk, ordered, placement)
+    seen, plane = seen_on_page(walk, ordered, placement, budget)
     lights = view_lights(seen.view, toned.lights)
     # Planes have one shade each: no light varies on them.
     normals = painted_normals(seen.view, toned.items, (), ordered.facets.normals, plane, crease_angle_deg)

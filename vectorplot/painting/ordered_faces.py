@@ -12,7 +12,14 @@ from vectorplot.drawing.painted_fills import shown_faces
 from vectorplot.features.edge_splitting import Demand
 from vectorplot.geometry.budget import Budget
 from vectorplot.geometry.cameras.unit_projection import Projection
-from vectorplot.painting.reports import group_names, tell_groups, tell_knots, tell_slices, warn_of_guesses
+from vectorplot.painting.reports import (
+    group_names,
+    tell_groups,
+    tell_knots,
+    tell_slices,
+    warn_of_guesses,
+    warn_of_single_polygons,
+)
 from vectorplot.painting.seen import Seen, without_unseen_facets
 from vectorplot.plan import Walk
 from vectorplot.scene.placement import Placement
@@ -61,8 +68,9 @@ def ordered_faces(
     projected = walk.run("faces", project_faces, view)
     known, groups = known_orders(shown, view), _groups(scene)
     sliced = {number: planes for number, item in enumerate(scene.items) if (planes := item.curves.slices)}
-    most = budget.pieces
-    painted = walk.run("order", painters_order, view, projected, known=known, sliced=sliced, group=groups, most=most)
+    painted = walk.run(
+        "order", painters_order, view, projected, known=known, sliced=sliced, group=groups, budget=budget
+    )
     warn_of_guesses(scene, painted)
     tell_slices(walk, scene, sliced, painted)
     tell_knots(walk, scene, painted)
@@ -73,11 +81,15 @@ def ordered_faces(
     return OrderedFaces(facets, view, projected, faces)
 
 
-def seen_on_page(walk: Walk, ordered: OrderedFaces, placement: Placement) -> tuple[Seen, Ints]:
-    """What is seen of faces back to front on a page, and the numbers (f,) of the planes of the view."""
+def seen_on_page(walk: Walk, ordered: OrderedFaces, placement: Placement, budget: Budget) -> tuple[Seen, Ints]:
+    """What is seen of faces back to front on a page, and the numbers (f,) of the planes of the view.
+
+    Warns: InputWarning for transparent items with too much on one another.
+    """
     facets, view, projected, faces = ordered.facets, ordered.view, ordered.projected, ordered.faces
     if walk.calls_for("transparent sheets"):
-        from vectorplot.visibility.painter.transparent_sheets import in_sheets
+        from vectorplot.visibility.painter.sheets.transparent_sheets import in_sheets
+        from vectorplot.visibility.painter.sheets.units import connected_parts
 
         item = view.face_item[faces.source]
         opacity = opacities(facets.scene.items)[item]
@@ -87,7 +99,11 @@ def seen_on_page(walk: Walk, ordered: OrderedFaces, placement: Placement) -> tup
 
             # What is seen in them is mixed, and opaque: nothing of them is blended.
             sheet = np.where(refracting_items(facets.scene, view, projected)[item], -1, sheet)
-        faces = walk.run("transparent sheets", in_sheets, faces, sheet, opacity, width, view.tolerance)
+        part = connected_parts(view, faces, sheet)
+        most = budget.pairs
+        sheets = walk.run("transparent sheets", in_sheets, faces, sheet, part, opacity, width, view.tolerance, most)
+        warn_of_single_polygons(facets.scene, sheets.single)
+        faces = sheets.faces
     plane = plane_numbers(view)
     faces = faces.some(side_by_side(faces, _planes_of(facets.scene, view, faces, plane), view.tolerance))
     return Seen(facets.scene, view, projected, shown_faces(faces, placement), placement), plane

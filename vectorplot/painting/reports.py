@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 
+from vectorplot.arrays import Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.budget import unresolved
@@ -46,13 +47,29 @@ def tell_slices(walk: Walk, scene: Scene, sliced: Mapping[int, Section], painted
 def tell_knots(walk: Walk, scene: Scene, painted: Painted) -> None:
     """Say which items were cut because no order of whole faces was right."""
     if len(painted) > painted.uncut:
-        names = ", ".join(scene.items[number].name for number in painted.knots[:MOST_NAMES].tolist())
-        more = f" and {len(painted.knots) - MOST_NAMES} more" if len(painted.knots) > MOST_NAMES else ""
-        walk.tell("cut", f"{names}{more}: they pierce one another, or overlap in circles", len(painted) - painted.uncut)
+        names = _names(scene, painted.knots)
+        walk.tell("cut", f"{names}: they pierce one another, or overlap in circles", len(painted) - painted.uncut)
 
 
 def warn_of_guesses(scene: Scene, painted: Painted) -> None:
-    """An InputWarning for each item parts of which may be painted in a wrong order."""
-    for number in painted.guessed.tolist():
-        text = unresolved("what pierces it, or itself, takes too many cuts, and is in order by depth alone")
-        warnings.warn(f"{scene.items[number].name}: {text}", InputWarning, stacklevel=3)
+    """An InputWarning for all items parts of which may be painted in a wrong order, and for all around which that is
+    so."""
+    _warn(scene, painted.guessed, "what pierces it, or itself, takes too many cuts, and is in order by depth alone")
+    _warn(scene, painted.crowded, "too many faces overlap; they, and what overlaps them, are in order by depth alone")
+
+
+def warn_of_single_polygons(scene: Scene, items: Ints) -> None:
+    """An InputWarning for transparent items that are blended polygon by polygon in parts."""
+    _warn(scene, items, "too much that is transparent lies on one another; polygons are blended one by one, with seams")
+
+
+def _warn(scene: Scene, items: Ints, text: str) -> None:
+    """One InputWarning about some items, if there are any."""
+    if len(items):
+        warnings.warn(f"{_names(scene, items)}: {unresolved(text)}", InputWarning, stacklevel=4)
+
+
+def _names(scene: Scene, items: Ints) -> str:
+    """The names of some items, the first MOST_NAMES of them."""
+    names = ", ".join(scene.items[number].name for number in items[:MOST_NAMES].tolist())
+    return f"{names} and {len(items) - MOST_NAMES} more" if len(items) > MOST_NAMES else names

@@ -214,3 +214,21 @@ def test_graphs_know_their_vertical_however_they_are_placed() -> None:
         up = np.diff(placed.points(0.25, 0.5)[None] + [[0.0] * 3, np.array([0.0, 0.0, 1.0]) @ turn @ turn], axis=0)[0]
         assert np.allclose(vertical(placed), up)
     assert vertical(box((0, 0, 0), (1, 1, 1))) is None
+
+
+@pytest.mark.capability("G5.4-graph")
+@pytest.mark.parametrize("seed", range(3))
+def test_the_plan_tells_the_order_of_all_but_the_few_faces_whose_borders_cross_in_it(seed: int) -> None:
+    mesh = field(seed, 14, 12, holes=False)
+    random = np.random.default_rng(seed)
+    # A triangle of its own across a corner of the border, above the rest or below it.
+    x, y = mesh.vertices[:, :2].max(axis=0)
+    more = np.array([(x - 0.1, y - 0.1), (x + 0.4, y + 0.1), (x + 0.1, y + 0.4)])
+    points = np.column_stack([more, np.full(3, random.choice([-3.0, 3.0]))])
+    corners = np.append(mesh.corners, len(mesh.vertices) + np.arange(3))
+    lapped = Mesh.from_triangles(np.concatenate([mesh.vertices, points]), corners.reshape(-1, 3))
+    scene = Scene((Item("lapped", lapped), Item("floor", box((-9.0, -9.0, -5.0), (20.0, 20.0, -4.0)))))
+    view = look(scene, seen_from_everywhere(mesh, seed, parallel=bool(seed % 2)))
+    known = known_orders(scene, view)
+    assert len(known[0].face[known[0].face >= 0]) > 0.9 * len(lapped.offsets)
+    assert wrong_pairs(view, painters_order(view, known=known).faces) == 0

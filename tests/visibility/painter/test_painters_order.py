@@ -8,6 +8,7 @@ from support.hard_shapes import HARD_SHAPES
 from support.painted import compared, nearest, sample_points, top_polygon
 from support.strewn import STREWN, placed
 
+from vectorplot.geometry.budget import Budget
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Item, Scene
@@ -233,7 +234,30 @@ def test_faces_that_pierce_each_other_too_often_are_cut_as_often_as_the_budget_a
     bars = [box((0.0, low, 0.08), (1.0, high, 0.13)) for low, high in places]
     scene = numbered([*plates, *bars])
     view = look(scene, Camera((2.0, 3.0, 4.0)))
-    whole, some = (painters_order(view, most=number) for number in (1 << 15, most))
+    whole, some = (painters_order(view, budget=Budget(pieces=number)) for number in (1 << 15, most))
     assert not len(whole.guessed) and len(whole) > whole.uncut + 2 * most
     assert len(some.guessed) and len(some) <= 2 * (some.uncut + most)
     assert set(some.faces.source) == set(whole.faces.source)
+
+
+def test_of_shapes_that_overlap_in_too_many_pairs_only_these_are_in_order_by_depth_and_they_are_named():
+    random = np.random.default_rng(3)
+    # Needles through one line of sight, a plate behind them, and boxes beside them.
+    ends = random.uniform(-1.0, 1.0, (900, 1, 2))
+    flat = np.concatenate([ends, -ends, -ends + 0.01], axis=1)
+    height = np.linspace(0.0, 1.0, 900)[random.permutation(900)]
+    points = np.concatenate([flat, np.broadcast_to(height[:, None, None], (900, 3, 1))], axis=2)
+    needles = Mesh.from_triangles(points.reshape(-1, 3), np.arange(2700).reshape(-1, 3))
+    beside = [box((k + 3.0, 0.0, k % 5), (k + 4.5, 1.0, k % 5 + 1)) for k in range(30)]
+    plate = box((-1.0, -1.0, -0.3), (1.0, 1.0, -0.2))
+    view = look(numbered([needles, plate, *beside]), Camera.view("top", distance=90.0))
+    budget = Budget(pairs=1)
+    right, quick = painters_order(view), painters_order(view, budget=budget)
+    assert not len(right.crowded) and quick.crowded.tolist() == [0]
+    item = view.face_item[quick.faces.source]
+    assert item[item < 2].tolist() == [1] + [0] * 900
+    # As flat as they are, depth tells all of their order.
+    assert (np.diff(quick.faces.box[4][item == 0]) >= 0.0).all()
+    places = {face: place for place, face in enumerate(quick.faces.source[item > 1].tolist())}
+    of_right = [face for face in right.faces.source.tolist() if face in places]
+    assert sorted(of_right) == sorted(places)

@@ -262,5 +262,5 @@ def test_a_known_order_is_kept_where_nothing_is_between():
         own = painted.faces.source[view.face_item[painted.faces.source] == number]
         if used:
             assert own.tolist() == [f for f in faces.tolist() if f in set(own.tolist())]
-    with pytest.raises(InputError, match="each of its faces once"):
+    with pytest.raises(InputError, match="not its own"):
         painters_order(view, known={1: Precedence.of_order(order[1:])})

@@ -12,7 +12,7 @@ from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.graphs import vertical
-from vectorplot.visibility.painter.plans import Plan, plan_of
+from vectorplot.visibility.painter.plans import Plan, largest_plan
 from vectorplot.visibility.painter.precedence import Precedence
 from vectorplot.visibility.projected_faces import newell
 
@@ -88,7 +88,8 @@ def _all_along(normal: Floats) -> Floats | None:
 
 def field_order(view: View, face: Ints, direction: Floats) -> Precedence | None:
     """What has to be drawn before what of some consecutive faces (f,) of a view; None if they do not all show the same
-    side along a direction (3,), or their plan across it overlaps itself.
+    side along a direction (3,), or their plan across it overlaps itself. A few faces whose borders cross in it are left
+    out.
 
     A plane along the direction through a side of two faces has the eye on one side: the face on the other side goes
     first. So wherever the eye is, and whatever the heights are; gaps of the plan, which sight lines cross as well, are
@@ -102,11 +103,12 @@ def field_order(view: View, face: Ints, direction: Floats) -> Precedence | None:
     if not frame[1:].any():
         return None
     corners = view.corners[view.offsets[face[0]] : view.offsets[face[-1] + 1]]
-    plan = plan_of(frame[:2] @ view.points, corners, ragged.offsets(view.face_sizes[face]))
-    if plan is None:
+    found = largest_plan(frame[:2] @ view.points, corners, ragged.offsets(view.face_sizes[face]))
+    if found is None:
         return None
+    plan, kept = found
     before, after = _across_sides(plan, view, frame[:2])
-    return Precedence(np.append(face, np.full(plan.count - len(face), -1)), before, after)
+    return Precedence(np.append(face[kept], np.full(plan.count - len(kept), -1)), before, after)
 
 
 def _side(direction: Floats, normal: Floats, zero: Floats) -> int:

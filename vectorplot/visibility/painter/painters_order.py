@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged, records
-from vectorplot.geometry.budget import USUAL
+from vectorplot.geometry.budget import USUAL, Budget
 from vectorplot.geometry.polylines import joined
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
@@ -19,8 +19,9 @@ from vectorplot.visibility.painter.groups import group_ranks
 from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces
 from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.pairs.body_pairs import UNDECIDED, body_relations
-from vectorplot.visibility.painter.pairs.box_pairs import box_pairs, pairs_across
+from vectorplot.visibility.painter.pairs.box_pairs import box_pairs, boxes_of_items, pairs_across
 from vectorplot.visibility.painter.pairs.convex_bodies import Bodies, convex_bodies, outlined_items
+from vectorplot.visibility.painter.pairs.crowds import around, by_depth, crowded_items, pairs_allowed
 from vectorplot.visibility.painter.pairs.face_pairs import (
     APART,
     BEHIND,
@@ -61,6 +62,8 @@ class Painted:
         How many ribbons the items have that are painted slice by slice.
     guessed : (k,) array of int
         The items parts of which are in order by their heights alone: that they pierce one another took too many cuts.
+    crowded : (k,) array of int
+        The items whose faces overlap in too many pairs; they, and what they overlap, are in order by depth alone.
 
     Examples
     --------
@@ -78,6 +81,7 @@ class Painted:
     undone: tuple[int, ...] = ()
     ribbons: Mapping[int, int] = field(default_factory=dict)
     guessed: Ints = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
+    crowded: Ints = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
 
     def __len__(self) -> int:
         return len(self.faces)
@@ -90,7 +94,7 @@ def painters_order(
     known: Mapping[int, Precedence] | None = None,
     sliced: Mapping[int, Section] | None = None,
     group: Ints | None = None,
-    most: int = USUAL.pieces,
+    budget: Budget = USUAL,
 ) -> Painted:
     """The faces that can be seen, in an order in which each may be painted over those before it.
 
@@ -110,9 +114,10 @@ def painters_order(
     group : (i,) array of int, optional
         The group of each item, -1 for none: first the groups are put in order, then what is in each, but for those that
         lie on other things in a circle.
-    most : int
-        So many cuts of faces along planes of others, and as many pieces in a tree of planes, or four of each; what is
-        not in order then is painted by its heights, and named.
+    budget : Budget
+        As many cuts of faces along planes of others as it has pieces, and as many pieces in a tree of planes, or four
+        of each; and eight times as many comparisons as it has pairs, or 32 for each face. What is not in order then is
+        painted by depth, and named.
 
     Returns
     -------
@@ -150,21 +155,22 @@ def painters_order(
     alone = _alone(view, faces, item, list(sliced or {}))
     usual = {number: order for number, order in (known or {}).items() if not alone[number]}
     together = faces.some(np.flatnonzero(~alone[item])) if alone.any() else faces
-    rest = _ordered(view, projected, together, usual, group, most)
+    rest = _ordered(view, projected, together, usual, group, budget)
     ordered, uncut, counts = rest.faces, rest.uncut, {}
     for number in np.flatnonzero(alone).tolist():
         slices = in_slices(view, faces.some(np.flatnonzero(item == number)), (sliced or {})[number])
         found = ribbons(view, projected.facing, slices)
         counts[number], uncut = len(found), uncut + len(slices.faces)
         ordered = joined((ribbon_order(view, slices, found), ordered))
-    return Painted(ordered, uncut, rest.knots, rest.undone, counts, rest.guessed)
+    return replace(rest, faces=ordered, uncut=uncut, ribbons=counts)
 
 
 def _check_known(view: View, known: Mapping[int, Precedence]) -> None:
     for number, order in known.items():
         named = np.sort(order.face[order.face >= 0])
-        if not np.array_equal(named, np.flatnonzero(view.face_item == number)):
-            raise InputError(f"the known order of item {number} does not name each of its faces once")
+        own = np.flatnonzero(view.face_item == number)
+        if (np.diff(named) == 0).any() or len(np.setdiff1d(named, own)):
+            raise InputError(f"the known order of item {number} names a face twice, or one that is not its own")
 
 
 def _alone(view: View, faces: ImageFaces, item: Ints, asked: Sequence[int]) -> Bools:
@@ -173,9 +179,7 @@ def _alone(view: View, faces: ImageFaces, item: Ints, asked: Sequence[int]) -> B
     alone[list(asked)] = True
     if not asked:
         return alone
-    box = np.tile(np.array([[np.inf], [-np.inf], [np.inf], [-np.inf]]), len(alone))
-    for row in range(4):
-        (np.maximum if row % 2 else np.minimum).at(box[row], item, faces.box[row])
+    box = boxes_of_items(faces.box, item, len(alone))
     drawn = np.flatnonzero(box[0] <= box[1])
     for first, second in box_pairs(box[:, drawn], view.tolerance):
         alone[drawn[first]] = alone[drawn[second]] = False
@@ -189,14 +193,20 @@ def _ordered(
     faces: ImageFaces,
     known: Mapping[int, Precedence],
     group_of_item: Ints | None,
-    most: int,
+    budget: Budget,
 ) -> Painted:
     """The painter's order of some faces of a view."""
     things = _things(view, projected, faces)
     nodes = among_things(known, faces, things.of_face, len(things), view.face_count)
     field = np.full(len(things), -1, dtype=np.intp)
-    is_known = np.isin(view.face_item[faces.source], list(known))
-    field[things.of_face[is_known]] = view.face_item[faces.source[is_known]]
+    for number, precedence in known.items():
+        thing = nodes.of_face[precedence.face[precedence.face >= 0]]
+        field[thing[thing >= 0]] = number
+    item = np.append(things.bodies.item, view.face_item[faces.source[things.single]])
+    allowed = pairs_allowed(budget.pairs, len(things))
+    crowded = crowded_items(things.box, item, field, view.tolerance, allowed)
+    if len(crowded):
+        return _with_crowds(view, projected, faces, crowded, known, group_of_item, budget)
     compared = _demands(view, faces, things, field)
     before, after = (np.concatenate(two) for two in zip(compared, (nodes.before, nodes.after), strict=True))
     rank = _ranks(faces, things, len(nodes.owner), before, after)
@@ -215,8 +225,11 @@ def _ordered(
     rest = np.flatnonzero(~circled[things.of_face])
     pieces = faces.some(loose)
     group = rank[things.of_face[loose]]
-    pairs = _pairs_within(pieces, group, things.of_face[loose], view.tolerance)
-    pieces, place, right = cut_into_order(pieces, group, pairs, view.tolerance, most)
+    pairs = _pairs_within(pieces, group, things.of_face[loose], view.tolerance, allowed)
+    if pairs is None:
+        among = np.unique(view.face_item[pieces.source])
+        return _with_crowds(view, projected, faces, among, known, group_of_item, budget)
+    pieces, place, right = cut_into_order(pieces, group, pairs, view.tolerance, budget.pieces)
     # Pieces keep their group: it is what their source had.
     group_of_source = np.full(view.face_count, -1, dtype=np.intp)
     group_of_source[faces.source] = rank[things.of_face]
@@ -225,6 +238,31 @@ def _ordered(
     order = np.lexsort((whole.rank, places, group_of_source[whole.source]))
     guessed = np.unique(view.face_item[pieces.source[~right]])
     return Painted(whole.some(order), len(faces), np.unique(view.face_item[pieces.source]), undone, guessed=guessed)
+
+
+def _with_crowds(
+    view: View,
+    projected: ProjectedFaces,
+    faces: ImageFaces,
+    crowded: Ints,
+    known: Mapping[int, Precedence],
+    group_of_item: Ints | None,
+    budget: Budget,
+) -> Painted:
+    """The order of some faces of a view where some items, and what they overlap, are in order by depth alone."""
+    item = view.face_item[faces.source]
+    apart = around(faces.box, item, crowded, view.tolerance)
+    others = faces.some(np.flatnonzero(~apart[item]))
+    usual = {number: order for number, order in known.items() if number >= len(apart) or not apart[number]}
+    rest = _ordered(view, projected, others, usual, group_of_item, budget)
+    undone: set[int] = set() if group_of_item is None else set(group_of_item[np.flatnonzero(apart)].tolist())
+    return replace(
+        rest,
+        faces=joined((by_depth(faces.some(np.flatnonzero(apart[item]))), rest.faces)),
+        uncut=len(faces),
+        undone=tuple(sorted({*rest.undone, *undone} - {-1})),
+        crowded=np.union1d(rest.crowded, crowded),
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -347,11 +385,15 @@ def _ranks(faces: ImageFaces, things: _Things, more: int, before: Ints, after: I
     return component_ranks(count, number[before], number[after])[number]
 
 
-def _pairs_within(faces: ImageFaces, group: Ints, thing: Ints, tolerance: float) -> Pairs:
-    """Pairs of faces of one group, but not of one thing, whose images overlap."""
+def _pairs_within(faces: ImageFaces, group: Ints, thing: Ints, tolerance: float, most: int) -> Pairs | None:
+    """Pairs of faces of one group, but not of one thing, whose images overlap; None where those whose boxes do are more
+    than most."""
     none = np.zeros(0, dtype=np.intp)
-    found = [Pairs(none, none, none.astype(np.int8))]
+    found, total = [Pairs(none, none, none.astype(np.int8))], 0
     for first, second in box_pairs(faces.box, tolerance):
+        total += len(first)
+        if total > most:
+            return None
         mine = np.flatnonzero((group[first] == group[second]) & (thing[first] != thing[second]))
         first, second = first[mine], second[mine]
         pairs = Pairs(first, second, face_relations(faces, first, second, tolerance))

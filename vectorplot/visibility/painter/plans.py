@@ -13,6 +13,18 @@ from vectorplot.geometry import ragged
 MOST_BORDER = 1 << 13
 """Sides on the border of a plan at most: filling its gaps takes a second where so many of them are in one line."""
 
+MOST_NEIGHBOURS = 64
+"""With more boxes of other sides than this across that of a side on the border, in the mean, it is no border."""
+
+SIDES_AT_ONCE = 256
+"""Sides looked up at once."""
+
+ROUNDS = 8
+"""So often polygons whose borders cross are left out of a plan."""
+
+SHARE_LEFT_OUT = 1.0 / 16.0
+"""Where more of all polygons would be left out, they are no plan."""
+
 MARGIN = 0.5
 """The gaps around a plan reach so many times its size beyond it."""
 
@@ -31,6 +43,56 @@ class Plan:
     left: Ints
     right: Ints
     count: int
+
+
+def largest_plan(places: Floats, corners: Ints, offsets: Ints) -> tuple[Plan, Ints] | None:
+    """The plan of polygons as of plan_of, and which ones it is of (k,): all of them, or those that are left without the
+    few whose borders cross; None where too many do, or they overlap otherwise."""
+    kept = np.arange(len(offsets) - 1)
+    fewest = (1.0 - SHARE_LEFT_OUT) * len(kept)
+    for _ in range(ROUNDS):
+        corner, ends = ragged.take(offsets, kept)
+        plan = plan_of(places, corners[corner], ends)
+        if plan is not None:
+            return plan, kept
+        crossing = _crossing(places, corners[corner], ends)
+        kept = np.delete(kept, crossing)
+        if not len(crossing) or len(kept) < fewest:
+            break
+    return None
+
+
+def _crossing(places: Floats, corners: Ints, offsets: Ints) -> Ints:
+    """The polygons with a side on the border that another such side crosses, or runs along in part; none where these
+    are in one another's way more often than MOST_NEIGHBOURS allows."""
+    import shapely
+
+    start, end, face = _border(places, corners, offsets)
+    none = np.zeros(0, dtype=np.intp)
+    if len(face) > MOST_BORDER:
+        return none
+    sides = shapely.linestrings(np.stack([places[:, start].T, places[:, end].T], axis=1))
+    tree, met, found = shapely.STRtree(sides), 0, [none]
+    for low in range(0, len(sides), SIDES_AT_ONCE):
+        one, other = tree.query(sides[low : low + SIDES_AT_ONCE])
+        met += len(one)
+        if met > MOST_NEIGHBOURS * (len(sides) + SIDES_AT_ONCE):
+            return none
+        one += low
+        across = shapely.crosses(sides[one], sides[other]) | shapely.overlaps(sides[one], sides[other])
+        found.append(one[across])
+    return np.unique(face[np.concatenate(found)])
+
+
+def _border(places: Floats, corners: Ints, offsets: Ints) -> tuple[Ints, Ints, Ints]:
+    """The sides, from start to end (s,), that no other polygon has, and whose they are; nothing where two run the same
+    way."""
+    start, end = corners, corners[ragged.following(offsets)]
+    face = ragged.owner(np.diff(offsets))
+    one, other = _paired(start, end, places.shape[1])
+    single = np.full(len(start), one is not None)
+    single[one] = single[other] = False
+    return start[single], end[single], face[single]
 
 
 def plan_of(places: Floats, corners: Ints, offsets: Ints) -> Plan | None:

@@ -18,8 +18,8 @@ class Precedence:
     Parameters
     ----------
     face : (n,) array of int
-        Every face of the item, by its number in the view, and -1 for gaps, which hide nothing but pass on what comes
-        before what.
+        Faces of the item, by their numbers in the view, each one once, and -1 for gaps, which hide nothing but pass on
+        what comes before what. The item's other faces are compared with all.
     before, after : (k,) array of int
         Positions in face: before[k] has to be drawn before after[k].
 

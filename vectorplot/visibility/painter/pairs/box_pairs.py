@@ -71,3 +71,11 @@ def boxes_over(box: Floats, others: Floats, tolerance: float) -> Iterator[tuple[
         low += step
         step = int(np.clip(PARTNERS_AT_ONCE * step // max(len(first), 1), 1, most))
         yield first[wide], second[wide]
+
+
+def boxes_of_items(box: Floats, item: Ints, count: int) -> Floats:
+    """(4,count) the boxes around all boxes (4 or more, n) of each item (n,); of items without any, inside out."""
+    found = np.tile(np.array([[np.inf], [-np.inf]]), (2, count))
+    for row in range(4):
+        (np.maximum if row % 2 else np.minimum).at(found[row], item, box[row])
+    return found

@@ -11,12 +11,13 @@ from vectorplot.arrays import Ints
 from vectorplot.backends.page.page_marks import page_marks
 from vectorplot.drawing.fills import FillKind
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
 from vectorplot.scene.scene import Item, Material, Scene
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.visibility.painter.image_faces import ImageFaces, polygons_of
-from vectorplot.visibility.painter.transparent_sheets import in_sheets
+from vectorplot.visibility.painter.sheets.transparent_sheets import in_sheets
 
 GLASS = Material("transparent", opacity=0.5)
 WIDTH = 1e-3
@@ -31,7 +32,7 @@ def squares(places) -> ImageFaces:
 
 
 def sheets(faces: ImageFaces, item: Ints, opacity=0.5) -> ImageFaces:
-    return in_sheets(faces, item, np.broadcast_to(opacity, len(item)), WIDTH, 1e-9)
+    return in_sheets(faces, item, item, np.broadcast_to(opacity, len(item)), WIDTH, 1e-9).faces
 
 
 def shapes_of(faces: ImageFaces) -> np.ndarray:
@@ -106,6 +107,38 @@ def test_random_heaps_show_the_same(seed, opacity):
             old = np.flatnonzero(shapely.contains(before, point))
             new = found.source[np.flatnonzero(shapely.contains(after, point))]
             assert old.tolist() == new.tolist(), (x, y)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_where_sheets_take_too_much_work_what_is_left_shows_the_same_polygon_by_polygon(seed):
+    random = np.random.default_rng(seed)
+    faces = squares(random.uniform(0.0, 5.0, (40, 2)))
+    item = random.integers(0, 3, 40)
+    opacity = np.full(40, 0.5)
+    found = in_sheets(faces, item, item, opacity, WIDTH, 1e-9, most=400)
+    whole = in_sheets(faces, item, item, opacity, WIDTH, 1e-9)
+    assert len(found.single) and set(found.single.tolist()) <= {0, 1, 2} and not len(whole.single)
+    before, after = shapes_of(faces), shapes_of(found.faces)
+    for x, y in random.uniform(0.0, 7.0, (200, 2)):
+        point = shapely.Point(x, y)
+        if shapely.distance(shapely.boundary(after), point).min() > 3 * WIDTH:
+            old = np.flatnonzero(shapely.contains(before, point))
+            new = found.faces.source[np.flatnonzero(shapely.contains(after, point))]
+            assert old.tolist() == new.tolist(), (x, y)
+
+
+@pytest.mark.parametrize("kind", ["one item", "items"])
+def test_plates_that_lie_on_one_another_are_not_cut(kind):
+    random = np.random.default_rng(5)
+    count, glass = 60, Material("transparent", opacity=0.3)
+    corners = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]) + random.uniform(-0.5, 0.5, (count, 1, 2))
+    points = np.concatenate([corners, np.broadcast_to(0.05 * np.arange(count)[:, None, None], (count, 4, 1))], axis=2)
+    square = [(0, 1, 2, 3)]
+    plates = [Item(f"P{k}", Mesh.from_polygons(four, square), material=glass) for k, four in enumerate(points)]
+    every = Mesh.from_polygons(points.reshape(-1, 3), np.arange(4 * count).reshape(-1, 4).tolist())
+    items = {"items": plates, "one item": [Item("all", every, material=glass)]}[kind]
+    drawing = paint(Scene(tuple(items)), Camera((4.0, 3.0, 9.0)))
+    assert sum(len(mark) for layer in drawing.layers for mark in layer.fills) == count
 
 
 def ball(x: float, radius: float, opacity: float = 0.5) -> Item:

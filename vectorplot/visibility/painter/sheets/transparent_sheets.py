@@ -1,9 +1,9 @@
 """Painter's orders in which transparent polygons stand together as sheets, each of which is blended once.
 
-Blended one by one, polygons with a common side let the paper through along it. So those of one item are taken together
-as sheets, from behind: on each lies what has as many other parts of the item behind it. Items that pierce one another,
-or lie on one another in circles, have no order as wholes. Where they are equally transparent they make common sheets:
-in the line in which two pierce one another one goes on where the other ends, on every sheet. Otherwise the one that is
+Blended one by one, polygons with a common side let the paper through along it. So those of one item that hang together
+are taken together as sheets, from behind: on each lies what has as many others of them behind it. What pierces one
+another, or lies on one another in circles, has no order as wholes. What of it is equally transparent makes common
+sheets: in the line in which two pierce one another one goes on where the other ends, on every sheet. Otherwise the one that is
 most transparent is cut where others end or pierce it: at lines that are to be seen anyway.
 """
 
@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.budget import USUAL
 from vectorplot.geometry.polylines import joined
 from vectorplot.geometry.regions import corners_of, insides_of, polygons_of, triangles_of, unions
 from vectorplot.tolerances.of_numbers import NEGLIGIBLE_PART
@@ -23,6 +24,7 @@ from vectorplot.visibility.painter.mikado import Links, component_ranks
 from vectorplot.visibility.painter.pairs.box_pairs import box_pairs
 from vectorplot.visibility.painter.pairs.coverage import Covered, coverage
 from vectorplot.visibility.painter.pairs.outlines import Outlines, overlapping
+from vectorplot.visibility.painter.sheets.units import units_of
 
 GRID_OF_WIDTH = 1.0 / 128.0
 """New corners lie on a grid of so much of a width that is not seen."""
@@ -31,27 +33,46 @@ FULL = 1.0 - NEGLIGIBLE_PART
 """What is covered over so much of its area is covered."""
 
 
-def in_sheets(faces: ImageFaces, item: Ints, opacity: Floats, width: float, tolerance: float) -> ImageFaces:
+@dataclass(frozen=True, eq=False)
+class Sheets:
+    """Polygons back to front, those of transparent items in sheets but for those of the items single (k,), which took
+    too much work: what was left of them is blended polygon by polygon."""
+
+    faces: ImageFaces
+    single: Ints
+
+
+def in_sheets(
+    faces: ImageFaces,
+    item: Ints,
+    part: Ints,
+    opacity: Floats,
+    width: float,
+    tolerance: float,
+    most: int = USUAL.pairs,
+) -> Sheets:
     """The polygons, given back to front, in an order that shows the same, those of transparent items in sheets.
 
-    item (n,): the transparent item of each polygon, -1 for what is opaque; opacity (n,). A sheet is a run of polygons
+    item (n,): the transparent item of each polygon, -1 for what is opaque; part (n,): the part of it that hangs
+    together, as of connected_parts; opacity (n,). A sheet is a run of polygons
     that do not overlap, of one item, or of several that are equally transparent, which are in conflict. Polygons are
     cut where parts of them belong to different sheets. Opaque ones stand as they stood, as far as that allows. width:
-    what overlaps by less lies side by side.
+    what overlaps by less lies side by side. most: corners of what lies behind others that are looked at.
     Degenerate: without transparent polygons they are the same.
     """
     clear = np.flatnonzero(item >= 0)
     if not len(clear):
-        return faces
+        return Sheets(faces, clear)
     between = slice(int(clear[0]), int(clear[-1]) + 1)
     number = np.arange(len(faces))
     some = faces.some(number[between])
-    names, unit = np.unique(item[between], return_inverse=True)
-    unit = unit.ravel() - int((names < 0).sum())
+    before, after = _overlaps(some, tolerance)
+    unit = units_of(item[between], part[between], before, after)
     region = polygons_of(some.points, some.offsets)
-    heap = _Heap(region, unit, opacity[between], width, *_overlaps(some, tolerance))
+    heap = _Heap(region, unit, opacity[between], width, before, after, most)
     laid = _listed(some, item[between], heap.sheets())
-    return joined((faces.some(number[: between.start]), laid, faces.some(number[between.stop :])))
+    whole = joined((faces.some(number[: between.start]), laid, faces.some(number[between.stop :])))
+    return Sheets(whole, np.unique(item[between][heap.single]))
 
 
 def _overlaps(faces: ImageFaces, tolerance: float) -> tuple[Ints, Ints]:
@@ -80,7 +101,9 @@ class _Parts:
 class _Heap:
     """What is left of polygons while sheets are taken off from behind, and what lies on what."""
 
-    def __init__(self, region: Any, unit: Ints, opacity: Floats, width: float, before: Ints, after: Ints) -> None:
+    def __init__(
+        self, region: Any, unit: Ints, opacity: Floats, width: float, before: Ints, after: Ints, most: int
+    ) -> None:
         count = len(unit)
         self.region, self.unit, self.opacity, self.width = region, unit.copy(), opacity, width
         self._grid = width * GRID_OF_WIDTH
@@ -98,6 +121,9 @@ class _Heap:
         self.bare = region.copy()
         self.looked, self.buried = np.zeros(count, dtype=np.bool_), np.zeros(count, dtype=np.bool_)
         self.stage = 0
+        # Corners that may still be looked at, and the transparent polygons that were left when there were none.
+        self.allowed = most
+        self.single = np.zeros(0, dtype=np.intp)
 
     def sheets(self) -> _Parts:
         """All polygons, or parts of them, and at which stage they are painted."""
@@ -105,12 +131,22 @@ class _Heap:
         while self.left.any():
             found.append(self._opaque())
             self._find_fronts()
+            if self.allowed < 0:
+                found.append(self._one_by_one())
+                break
             ready = self._ready()
             if ready.any():
                 found.append(self._taken(self.front & ready[self.unit] & (self.unit >= 0), self.free))
             elif self.left.any() and not self._forget_strips() and not self._united():
                 found.append(self._cut())
         return _Parts(*(np.concatenate([getattr(p, row) for p in found]) for row in _Parts.__annotations__))
+
+    def _one_by_one(self) -> _Parts:
+        """All that is left, as it stands."""
+        polygon = np.flatnonzero(self.left)
+        self.single = polygon[self.unit[polygon] >= 0]
+        stage = self.stage + 1 + np.arange(len(polygon))
+        return _Parts(polygon, self.region[polygon], self.whole[polygon], stage)
 
     def _opaque(self) -> _Parts:
         """The opaque polygons that nothing left lies behind, again and again."""
@@ -174,11 +210,18 @@ class _Heap:
         partly = np.flatnonzero(how == Covered.PARTLY)
         if len(partly):
             some = np.isin(polygon, number[partly])
+            self._spend(below[some])
             cut = region[number[partly]]
             covers = unions(self.region[below[some]], np.searchsorted(number[partly], polygon[some]), self._grid)
             free[partly] = insides_of(shapely.difference(cut, covers, grid_size=self._grid))
             on[partly] = insides_of(shapely.intersection(cut, covers, grid_size=self._grid))
         return number, free, on
+
+    def _spend(self, polygon: Ints) -> None:
+        """Count the corners of what is left of some polygons as looked at."""
+        import shapely
+
+        self.allowed -= int(shapely.get_num_coordinates(self.region[polygon]).sum())
 
     def _thin(self, region: Any) -> Bools:
         """(k,) which regions are so narrow that they are not seen."""
@@ -198,6 +241,7 @@ class _Heap:
         blocked = self.unit[above[~part]]
         found[blocked[blocked >= 0]] = False
         open_ = np.flatnonzero(part & found[self.unit[above]])
+        self._spend(below[open_])
         both = shapely.intersection(self.free[above[open_]], self.region[below[open_]])
         found[self.unit[above[open_[~self._thin(both)]]]] = False
         return found
@@ -236,6 +280,7 @@ class _Heap:
 
         # Others are not in the way of anything.
         pair = np.flatnonzero(~self.real & self._held())
+        self._spend(self.before[pair])
         both = shapely.intersection(self.region[self.before[pair]], self.region[self.after[pair]])
         thin = self._thin(both)
         self.real[pair[~thin]] = True

@@ -1,0 +1,1 @@
+"""Transparent polygons, blended as sheets."""
