@@ -3,8 +3,8 @@
 Blended one by one, polygons with a common side let the paper through along it. So those of one item that hang together
 are taken together as sheets, from behind: on each lies what has as many others of them behind it. What pierces one
 another, or lies on one another in circles, has no order as wholes. What of it is equally transparent makes common
-sheets: in the line in which two pierce one another one goes on where the other ends, on every sheet. Otherwise the one that is
-most transparent is cut where others end or pierce it: at lines that are to be seen anyway.
+sheets: in the line in which two pierce one another one goes on where the other ends, on every sheet. Otherwise the one
+that is most transparent is cut where others end or pierce it: at lines that are to be seen anyway.
 """
 
 from __future__ import annotations
