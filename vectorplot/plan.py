@@ -20,7 +20,7 @@ from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.surfaces.balls import ball_of
 from vectorplot.surfaces.capped_quadrics import capped_quadric_of
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
-from vectorplot.words import LineKind
+from vectorplot.words import FEATURE_KINDS, LineKind
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -118,9 +118,13 @@ def plan_draw(
     if LineKind.PATTERN in wanted and any(item.patterns for item in scene.items):
         stages.append(Stage("patterns", "faces carry patterns"))
     drawn_on_meshes = {LineKind.ISOPHOTE, LineKind.SECTION, LineKind.INDEX, LineKind.INTEGRAL}
-    if wanted & drawn_on_meshes and any(map(_has_mesh_lines, scene.items)):
+    features = wanted & set(FEATURE_KINDS) and any(isinstance(item.shape, Mesh) for item in scene.items)
+    if features or (wanted & drawn_on_meshes and any(map(_has_mesh_lines, scene.items))):
         stages.append(
-            Stage("lines on meshes", "polyhedra carry isophotes, sections, integral curves or lines of terrains")
+            Stage(
+                "lines on meshes",
+                "polyhedra carry isophotes, sections, integral curves, lines of terrains or of their curvature",
+            )
         )
     smooth = [item.shape for item in scene.items if not isinstance(item.shape, Mesh)]
     balls = any(ball_of(shape) or capped_quadric_of(shape) for shape in smooth)

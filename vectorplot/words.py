@@ -53,6 +53,14 @@ class LineKind(IntEnum):
     """A stroke of a letter, or a leader from a label to what it names."""
     CENTRE = 14
     """A centre line, dashed with dots, which nothing hides: it belongs to the inside of things."""
+    SUGGESTIVE = 15
+    """A line that would be a contour if one looked from a little elsewhere: a suggestive contour."""
+    RIDGE = 16
+    """A line along which a shape bends outwards more than to both of its sides."""
+    VALLEY = 17
+    """A line along which a shape bends inwards more than to both of its sides."""
+    APPARENT = 18
+    """A line along which normals turn faster, as seen, than to both of its sides: an apparent ridge."""
 
     @property
     def word(self) -> str:
@@ -93,10 +101,15 @@ LINE_WORDS = tuple(kind.word for kind in LineKind if kind not in (LineKind.HATCH
 """The kinds of lines that one can ask for, as they are spelled."""
 
 
-DRAWN = tuple(word for word in LINE_WORDS if word != LineKind.EDGES.word)
+FEATURE_KINDS = (LineKind.SUGGESTIVE, LineKind.RIDGE, LineKind.VALLEY, LineKind.APPARENT)
+"""The kinds of lines that curvature makes, which are drawn only where they are asked for."""
+
+_USUAL = tuple(word for word in LINE_WORDS if word not in [kind.word for kind in FEATURE_KINDS])
+
+DRAWN = tuple(word for word in _USUAL if word != LineKind.EDGES.word)
 """The kinds of lines that are drawn where nothing else is said."""
 
-WIRES = tuple(word for word in LINE_WORDS if word != LineKind.INTERSECTION.word)
+WIRES = tuple(word for word in _USUAL if word != LineKind.INTERSECTION.word)
 """Those of a wireframe: every edge, and no line in which things pierce each other."""
 
 

@@ -145,7 +145,7 @@ class Told:
         added = self.added.of_scene(scene)
         if keywords.get("lines") is not None:
             keywords["lines"] = tuple(dict.fromkeys((*keywords["lines"], *line_kinds(added))))
-        return with_lines(scene, sections=added.sections, isophotes=added.isophotes), keywords
+        return with_lines(scene, sections=added.sections, isophotes=added.isophotes, detail=added.detail), keywords
 
 
 def check_overlaid(out: str, format_: str) -> None:

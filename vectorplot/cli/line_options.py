@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.options import AXES, direction, number
+from vectorplot.cli.options import AXES, at_least, direction, number
 from vectorplot.errors import InputError
 
 if TYPE_CHECKING:
@@ -91,6 +91,13 @@ LINE_OPTIONS = (
         help="About N level lines at round heights, every fifth of the kind index; or at AXIS=D,...",
     ),
     click.option("--isophotes", type=count, metavar="N", help="N lines of the same light on all that is shown."),
+    click.option(
+        "--detail",
+        type=at_least(0.01),
+        default=1.0,
+        metavar="FACTOR",
+        help="How much there is of suggestive, ridge, valley and apparent lines.",
+    ),
 )
 
 
@@ -101,6 +108,7 @@ class LineOptions:
     sections: tuple[Planes, ...] = ()
     levels: Planes | None = None
     isophotes: int | None = None
+    detail: float = 1.0
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> LineOptions:
@@ -111,8 +119,9 @@ class LineOptions:
         """The lines that these are in a scene. Errors: InputError as of even_sections and round_sections."""
         from vectorplot.scene.surface_lines import SurfaceLines, even_cosines
 
+        cosines = even_cosines(self.isophotes) if self.isophotes else ()
         planes = tuple(_sections(one, scene) for one in self.sections) + _levels(self.levels, scene)
-        return SurfaceLines(sections=planes, isophotes=even_cosines(self.isophotes) if self.isophotes else ())
+        return SurfaceLines(sections=planes, isophotes=cosines, detail=self.detail)
 
 
 def _sections(planes: Planes, scene: Scene) -> Section:

@@ -28,6 +28,10 @@ PENS = {
     "index": Pen(0.35, BLACK),
     "label": Pen(0.25, BLACK),
     "centre": Pen(0.18, BLACK),
+    "suggestive": Pen(0.35, BLACK),
+    "ridge": Pen(0.25, BLACK),
+    "valley": Pen(0.25, BLACK),
+    "apparent": Pen(0.35, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -47,6 +51,10 @@ KIND_LAYER = {
     LineKind.INDEX: "index",
     LineKind.LABEL: "label",
     LineKind.CENTRE: "centre",
+    LineKind.SUGGESTIVE: "suggestive",
+    LineKind.RIDGE: "ridge",
+    LineKind.VALLEY: "valley",
+    LineKind.APPARENT: "apparent",
 }
 
 COLOURS = {

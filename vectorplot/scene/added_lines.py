@@ -18,7 +18,9 @@ from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import ROUNDING
 
 
-def with_lines(scene: Scene, *, sections: Sequence[Section] = (), isophotes: Sequence[float] = ()) -> Scene:
+def with_lines(
+    scene: Scene, *, sections: Sequence[Section] = (), isophotes: Sequence[float] = (), detail: float = 1.0
+) -> Scene:
     """The scene with further lines on all its polyhedra and surfaces, beside those that they ask for.
 
     Parameters
@@ -29,6 +31,9 @@ def with_lines(scene: Scene, *, sections: Sequence[Section] = (), isophotes: Seq
         Planes in world coordinates, such as `even_sections` and `round_sections` give.
     isophotes : sequence of float
         Cosines of the angle between normal and light, such as `even_cosines` gives.
+    detail : float
+        How many times the detail that items ask for there is of suggestive contours, ridges, valleys and apparent
+        ridges.
 
     Returns
     -------
@@ -56,8 +61,8 @@ def with_lines(scene: Scene, *, sections: Sequence[Section] = (), isophotes: Seq
     planes = sum(len(section.offsets) for section in sections)
     if planes > MAX_LINES:
         raise InputError(f"sections: {planes} of them, expected at most {MAX_LINES}")
-    added = SurfaceLines(sections=tuple(sections), isophotes=tuple(isophotes))
-    if not added:
+    added = SurfaceLines(sections=tuple(sections), isophotes=tuple(isophotes), detail=detail)
+    if not added and detail == 1.0:
         return scene
     return replace(scene, items=tuple(item if is_curve(item.shape) else _with(item, added) for item in scene.items))
 
@@ -67,7 +72,8 @@ def _with(item: Item, added: SurfaceLines) -> Item:
     reaching = tuple(one for section in added.sections if (one := _reaching(section, item)).offsets)
     sections, isophotes = (*own.sections, *reaching), (*own.isophotes, *added.isophotes)
     lines = None if item.lines is None else tuple(dict.fromkeys((*item.lines, *line_kinds(added))))
-    return replace(item, curves=replace(own, sections=sections, isophotes=isophotes), lines=lines)
+    curves = replace(own, sections=sections, isophotes=isophotes, detail=own.detail * added.detail)
+    return replace(item, curves=curves, lines=lines)
 
 
 def _reaching(section: Section, item: Item) -> Section:

@@ -235,10 +235,14 @@ class SurfaceLines:
         Integral curves of a parametrised surface, or a polyhedron.
     terrain : tuple of WaterCourses, Watersheds and Roads
         Lines of a terrain, a mesh of triangles of which none is above another.
+    detail : float
+        How much there is of suggestive contours, ridges, valleys and apparent ridges: of twice the detail lines may be
+        half as clear and half as long.
 
     Raises
     ------
     InputError
+        For a detail that is not finite and positive.
         For counts below 0 or above MAX_LINES, cosines that are not between -1 and 1, a light below 0, two families of
         slices.
 
@@ -266,8 +270,11 @@ class SurfaceLines:
     paths: tuple[SurfacePath, ...] = ()
     integral: tuple[IntegralLines, ...] = ()
     terrain: tuple[TerrainLines, ...] = ()
+    detail: float = 1.0
 
     def __post_init__(self) -> None:
+        if not 0.0 < self.detail < np.inf:
+            raise InputError(f"a detail of {self.detail:g}: expected a number that is finite and positive")
         for word, count in (("columns", self.columns), ("rows", self.rows)):
             if not 0 <= count <= MAX_LINES or count != int(count):
                 raise InputError(f"parameter lines: {count} {word}, expected a whole number from 0 to {MAX_LINES}")

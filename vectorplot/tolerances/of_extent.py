@@ -237,3 +237,7 @@ and nothing that a drawing can show."""
 ROAD_ARRIVES = 1e-8
 """A road of constant slope that comes so near to its end, as a part of the terrain, arrives there: errors of thousands
 of edges add up."""
+
+THIRD_DIFFERENCE_IN_SPACE = 1e-4
+"""Part of the extent over which third derivatives in space are differences of second ones, which may be differences
+themselves, known to about 1e-12."""

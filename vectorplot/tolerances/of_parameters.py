@@ -131,3 +131,7 @@ write coordinates with few digits."""
 ONE_BREAK_OF_DOMAIN = 1e-7
 """Places, this part of the range of lines that sweep a surface apart, at which curves on it begin, end, turn or cross
 are one: a double zero is known to about the root of the rounding."""
+
+BENT_ASIDE_OF_POLE = 1e-3
+"""Part of the domain by which derivatives of curvatures are looked at from inside of a pole: nearer to it their
+differences are noise."""

@@ -140,3 +140,7 @@ LENGTH_ROUGHLY = 1e-3
 
 MET_OF_INTEGRATED = 1e-3
 """Part of the error they are integrated with that geodesics to a place may miss it by."""
+
+SETTLED_FIT = 1e-6
+"""Part of the trace of a least-squares fit that is added to its diagonal: what its equations leave open becomes zero,
+and what they settle changes by as little."""

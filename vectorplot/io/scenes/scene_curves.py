@@ -164,6 +164,15 @@ def read_smooth_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> t
     return _with_lines(draft, at, replace(draft.lines, smooth=True)), at + 1
 
 
+def read_detail(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
+    """How much there is of feature lines."""
+    value = words.number(at + 1, owner, "detail")
+    try:
+        return _with_lines(draft, at, replace(draft.lines, detail=value)), at + 2
+    except InputError as error:
+        words.fail(at, owner + error.cause)
+
+
 def read_isophote_edges(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
     """Isophotes of a polyhedron along its edges."""
     return _with_lines(draft, at, replace(draft.lines, along_edges=True)), at + 1

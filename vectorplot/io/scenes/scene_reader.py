@@ -12,6 +12,7 @@ from vectorplot.errors import InputWarning
 from vectorplot.io.named_files import NamedFiles
 from vectorplot.io.scenes.scene_curves import (
     CurveDraft,
+    read_detail,
     read_integral_lines,
     read_isophote_edges,
     read_isophotes,
@@ -524,6 +525,7 @@ HANDLERS: dict[str, Callable[[ItemReader, Draft], None]] = {
     **dict.fromkeys(TERRAIN_WORDS, _curves(read_terrain_lines)),
     "smooth_lines": _curves(read_smooth_lines),
     "isophote_edges": _curves(read_isophote_edges),
+    "detail": _curves(read_detail),
     **dict.fromkeys(INTEGRAL_WORDS, _integral_lines),
 }
 """What reads the words of an item."""

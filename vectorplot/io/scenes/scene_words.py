@@ -41,7 +41,7 @@ ITEM_WORDS = (
     ),
     *("meridian", "order", "translation", "base_points", "trans_vector", "box", "intersection", "rotation", "patterns"),
     *("lines", "occludes", "group", "scale", "matrix", "surface", "curve", "parameter_lines", "isophotes", "sections"),
-    *("level_lines", "slices", "surface_curve", "smooth_lines", "isophote_edges", "hatch"),
+    *("level_lines", "slices", "surface_curve", "smooth_lines", "isophote_edges", "detail", "hatch"),
     *("mesh", "grid", "ring"),
     *INTEGRAL_WORDS,
     "terrain",

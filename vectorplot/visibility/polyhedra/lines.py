@@ -33,7 +33,7 @@ from vectorplot.scene.terrains.terrain_lines import Roads, TerrainLines, WaterCo
 from vectorplot.scene.twins import first_twins
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import ProjectedFaces
-from vectorplot.words import LineKind
+from vectorplot.words import FEATURE_KINDS, LineKind
 
 if TYPE_CHECKING:
     from vectorplot.visibility.smooth.chord_parts import ChordParts
@@ -329,7 +329,8 @@ def pattern_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines
 
 
 def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines:
-    """The isophotes, sections, integral curves and lines of terrains that polyhedra ask for: they lie in the faces.
+    """The isophotes, sections, integral curves, lines of terrains and feature lines that polyhedra ask for: they lie in
+    the faces.
 
     Errors: InputError, with the item's name, for a light that the scene does not have, and as of item_integral_lines.
     """
@@ -354,6 +355,11 @@ def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Li
                 for asked in item.curves.terrain:
                     found = _terrain_lines(item, item.shape, asked)
                     parts.append(_lines_of_curves(view, found, LineKind.INTEGRAL, number, item.curves.smooth))
+            if features := [kind for kind in FEATURE_KINDS if kind in wanted]:
+                from vectorplot.visibility.polyhedra.feature_lines import item_feature_lines
+
+                for kind, found in item_feature_lines(item, item.shape, view, features).items():
+                    parts.append(_lines_of_curves(view, found, kind, number, True))
     return joined_lines(parts)
 
 

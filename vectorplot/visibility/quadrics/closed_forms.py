@@ -45,7 +45,7 @@ from vectorplot.visibility.quadrics.lines.capped_arcs import capped_arcs
 from vectorplot.visibility.quadrics.lines.capped_sections import are_round, capped_isophotes, capped_sections
 from vectorplot.visibility.quadrics.lines.meetings_inside import meet_inside_balls
 from vectorplot.visibility.quadrics.own_bodies import own_bodies
-from vectorplot.words import LineKind
+from vectorplot.words import FEATURE_KINDS, LineKind
 
 Seen = Callable[[Bodies, Arcs, OwnSides], Visibility]
 """What becomes of arcs: the visible parts, or all of them counted."""
@@ -84,6 +84,9 @@ CURVE_PIECES = 256
 
 BOX_SLACK = 0.01
 """Boxes are made larger by this part on every side: a curve may bulge between the points looked at."""
+
+_CURVED_KINDS = frozenset(FEATURE_KINDS) - {LineKind.SUGGESTIVE}
+"""Those lines of curvature that ellipsoids have, which are convex; spheres have none."""
 
 _CORNERS = np.array(list(np.ndindex(2, 2, 2)), dtype=np.bool_)
 
@@ -206,16 +209,22 @@ def _has_isophotes(item: Item, kinds: frozenset[LineKind]) -> bool:
 
 def _is_conic(scene: Scene, view: View, item: Item, ball: Ball, kinds: frozenset[LineKind]) -> bool:
     """Whether all lines that an item asks for are conics."""
+    if kinds_of(item, kinds) & _CURVED_KINDS and not _is_sphere(ball):
+        return False
     if _has_own_curves(item, kinds):
         return False
     if not _has_isophotes(item, kinds):
         return True
+    if not _is_sphere(ball):
+        return False
+    light, square = curve_light(scene, view, item), float(ball.frame[0] @ ball.frame[0])
+    return light.parallel or float(np.sum((np.asarray(light.position) - ball.centre) ** 2)) > square
+
+
+def _is_sphere(ball: Ball) -> bool:
     product = ball.frame @ ball.frame.T
     square = float(product[0, 0])
-    if np.abs(product - square * np.eye(3)).max() > HOMOTHETIC * square:
-        return False
-    light = curve_light(scene, view, item)
-    return light.parallel or float(np.sum((np.asarray(light.position) - ball.centre) ** 2)) > square
+    return bool(np.abs(product - square * np.eye(3)).max() <= HOMOTHETIC * square)
 
 
 Pairs = tuple[Ints, Ints]

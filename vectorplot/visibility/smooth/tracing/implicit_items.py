@@ -8,6 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.features.feature_lines.bending import Sight
+from vectorplot.features.feature_lines.clear_lines import Detail
+from vectorplot.features.feature_lines.implicit_feature_lines import implicit_feature_lines
 from vectorplot.features.implicit.implicit_borders import implicit_borders
 from vectorplot.features.implicit.implicit_conditions import (
     ImplicitCentralContour,
@@ -36,7 +39,7 @@ from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.sheets.family import Family, NearChords, SingularCurves, SpatialCurves
 from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
-from vectorplot.words import LineKind
+from vectorplot.words import FEATURE_KINDS, LineKind
 
 UNIT = 1.0
 """How large scenes are in a view, about."""
@@ -57,6 +60,12 @@ def curves_of_implicit(
     if LineKind.ISOPHOTE in wanted and item.curves.isophotes:
         found.append(_isophotes(scene, view, item, sheet, number, tracing))
     found += _sections(view, [s for s in item.curves.sections if s.kind in wanted], sheet, number, tracing)
+    features = [kind for kind in FEATURE_KINDS if kind in wanted]
+    if features:
+        eye = None if view.eye is None else view.world_of(view.eye[:, None])[0]
+        sight, detail = Sight(eye, view.axes[2]), Detail(item.curves.detail)
+        lines = implicit_feature_lines(sheet.home, sheet.own.mesh, sight, features, detail)
+        found += [(kind, NearChords(sheet, number), curves) for kind, curves in lines.items()]
     borders = implicit_borders(sheet.home, tracing=tracing)
     found += _singular(sheet, number, tracing)
     parts = [as_spatial_curves(curves, kind, sheet, family) for kind, family, curves in found]

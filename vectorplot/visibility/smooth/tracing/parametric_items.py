@@ -7,6 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.features.feature_lines.bending import Sight
+from vectorplot.features.feature_lines.clear_lines import Detail
+from vectorplot.features.feature_lines.surface_feature_lines import surface_feature_lines
 from vectorplot.features.parametric.conditions import (
     CentralContour,
     Contour,
@@ -40,7 +43,7 @@ from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.tracing.integral_items import integral_curves_in_view
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.visibility.smooth.tracing.traced_surface_curves import as_curves
-from vectorplot.words import LineKind
+from vectorplot.words import FEATURE_KINDS, LineKind
 
 Found = tuple[LineKind, ConditionCurves | ParameterCurves | RimCurves, SurfaceCurves]
 
@@ -121,7 +124,7 @@ def _asked_for(
     wanted: frozenset[LineKind],
     tracing: Tracing,
 ) -> list[Found]:
-    """Parameter lines, isophotes, sections, paths and integral curves."""
+    """Parameter lines, isophotes, sections, paths, feature lines and integral curves."""
     surface, lines = sheet.surface, item.curves
     result: list[Found] = []
     if LineKind.PARAMETER in wanted and lines.columns + lines.rows > 0 and not sheet.is_cap:
@@ -140,6 +143,11 @@ def _asked_for(
         for path in lines.paths:
             found = surface_path(surface, path.function.values, path.start, path.end, tracing=tracing)
             result.append((LineKind.CURVE, ParameterCurves(sheet, number), found))
+    features = [kind for kind in FEATURE_KINDS if kind in wanted]
+    if features and not sheet.is_cap:
+        sight, detail = Sight(view.eye, np.array([0.0, 0.0, 1.0])), Detail(lines.detail)
+        for kind, found in surface_feature_lines(surface, sight, features, detail, tracing).items():
+            result.append((kind, ParameterCurves(sheet, number), found))
     if LineKind.INTEGRAL in wanted and not sheet.is_cap:
         for asked in lines.integral:
             found = integral_curves_in_view(view, item, surface, asked, tracing)

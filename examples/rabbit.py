@@ -1,0 +1,53 @@
+"""A rabbit made of soft balls: level lines, and suggestive contours that show its folds."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import vectorplot as vp
+from vectorplot import features, scene, surfaces
+
+BALLS = np.array(
+    [
+        # middle x, y, z; radii along x, y, z; weight
+        (0.45, 0.0, 0.95, 0.80, 0.62, 0.72, 1.0),  # body
+        (0.80, 0.42, 0.62, 0.48, 0.30, 0.52, 0.8),  # haunch
+        (-0.25, 0.0, 1.02, 0.46, 0.44, 0.56, 0.8),  # chest
+        (-0.72, 0.0, 1.86, 0.44, 0.38, 0.40, 1.0),  # head
+        (-1.10, 0.0, 1.74, 0.22, 0.22, 0.20, 0.7),  # nose
+        (-0.92, 0.16, 1.62, 0.20, 0.16, 0.16, 0.35),  # cheek
+        (-0.42, 0.24, 2.62, 0.11, 0.17, 0.62, 0.95),  # ear
+        (-0.60, 0.22, 0.30, 0.30, 0.15, 0.24, 0.7),  # fore foot
+        (0.42, 0.52, 0.22, 0.52, 0.17, 0.17, 0.8),  # hind foot
+        (1.32, 0.0, 0.72, 0.26, 0.26, 0.26, 0.9),  # tail
+    ]
+)
+BALLS = np.concatenate([BALLS, (BALLS * (1, -1, 1, 1, 1, 1, 1))[BALLS[:, 1] > 0.0]])
+
+
+def thickness(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+    total = np.full_like(x, -0.32)
+    for a, b, c, width, depth, height, weight in BALLS:
+        lean = 0.22 * (z - c) if height > 0.6 and width < 0.2 else 0.0
+        total += weight * np.exp(-(((x - a - lean) / width) ** 2 + ((y - b) / depth) ** 2 + ((z - c) / height) ** 2))
+    return -total
+
+
+def main(folder: Path) -> None:
+    soft = surfaces.implicit_of_function(thickness, np.array([(-2.0, -1.4, -0.4), (2.2, 1.4, 4.0)]))
+    rabbit = vp.Scene((vp.Item("RABBIT", features.polygonized(soft, 72)),), title="A rabbit")
+    lined = scene.with_lines(rabbit, sections=scene.round_sections(rabbit, count=40))
+    drawing = vp.draw(
+        lined,
+        vp.Camera((-9.0, -14.0, 6.0), (0.0, 0.0, 1.5), fov_deg=16.0),
+        page="fit",
+        width="120mm",
+        lines="contour,suggestive,section,index",
+        pens="contour=0.5,suggestive=0.4,section=0.1:#777777,index=0.1:#777777",
+    )
+    vp.save(drawing, folder / "rabbit.svg")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1] if len(sys.argv) > 1 else "docs/gallery"))

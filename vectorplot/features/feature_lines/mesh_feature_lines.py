@@ -1,0 +1,48 @@
+"""Feature lines of meshes."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+import numpy as np
+
+from vectorplot.features.feature_lines.bending import Sight
+from vectorplot.features.feature_lines.clear_lines import Detail, clear_segments
+from vectorplot.features.feature_lines.crossed_triangles import crossings
+from vectorplot.features.feature_lines.line_fields import line_function
+from vectorplot.features.feature_lines.mesh_bending import mesh_bending
+from vectorplot.features.meshes.mesh_curves import MeshCurves, all_mesh_curves, face_triangles, joined_segments
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import norm
+from vectorplot.words import LineKind
+
+
+def mesh_feature_lines(
+    mesh: Mesh, sight: Sight, kinds: Collection[LineKind], detail: Detail
+) -> dict[LineKind, MeshCurves]:
+    """The feature lines of a mesh of each of these kinds: they run across its faces."""
+    faces = face_triangles(mesh)
+    found = {kind: all_mesh_curves([]) for kind in kinds}
+    extent = float(np.linalg.norm(np.ptp(mesh.bounds, axis=0)))
+    if not (len(faces.triangles) and extent > 0.0):
+        return found
+    bending = mesh_bending(faces)
+    outward = enclosed(mesh)
+    for kind in kinds:
+        field = line_function(kind, sight, extent, outward)(bending)
+        met = crossings(mesh.vertices, faces.triangles, field)
+        a, b = mesh.vertices[met.low], mesh.vertices[met.high]
+        points = a + met.part[:, None] * (b - a)
+        lengths = norm(points[met.pairs[:, 1]] - points[met.pairs[:, 0]])
+        kept = clear_segments(met.pairs, met.strength, lengths, kind, extent, detail)
+        found[kind] = joined_segments(points, met.pairs[kept], faces.face[met.triangle[kept]], 0.0)
+    return found
+
+
+def enclosed(mesh: Mesh) -> float | None:
+    """1 or -1 as the normals of a closed mesh point out of or into it; None of one that is open."""
+    if not mesh.is_closed:
+        return None
+    middle = mesh.bounds.mean(axis=0)
+    first = mesh.vertices[mesh.corners[mesh.offsets[:-1]]] - middle
+    return 1.0 if float((first * mesh.area_vectors).sum()) >= 0.0 else -1.0
