@@ -6,7 +6,9 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot import features, scene, surfaces
+from vectorplot.features import polygonized
+from vectorplot.scene import round_sections, with_lines
+from vectorplot.surfaces import implicit_of_function
 
 BALLS = np.array(
     [
@@ -35,9 +37,9 @@ def thickness(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
 
 
 def main(folder: Path) -> None:
-    soft = surfaces.implicit_of_function(thickness, np.array([(-2.0, -1.4, -0.4), (2.2, 1.4, 4.0)]))
-    rabbit = vp.Scene((vp.Item("RABBIT", features.polygonized(soft, 72)),), title="A rabbit")
-    lined = scene.with_lines(rabbit, sections=scene.round_sections(rabbit, count=40))
+    soft = implicit_of_function(thickness, np.array([(-2.0, -1.4, -0.4), (2.2, 1.4, 4.0)]))
+    rabbit = vp.Scene((vp.Item("RABBIT", polygonized(soft, 72)),), title="A rabbit")
+    lined = with_lines(rabbit, sections=round_sections(rabbit, count=40))
     drawing = vp.draw(
         lined,
         vp.Camera((-9.0, -14.0, 6.0), (0.0, 0.0, 1.5), fov_deg=16.0),
