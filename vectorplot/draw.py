@@ -14,10 +14,10 @@ from vectorplot.arrays import Bools
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.drawn_lines import fitted_lines, strokes_on_page
 from vectorplot.drawing.hatching.hatch_layers import hatch_layers
-from vectorplot.drawing.layers import PENS, letter_pen
+from vectorplot.drawing.layers import FRAME_PEN, letter_pen
 from vectorplot.drawing.pens.paper import pen_scale, sheet_layer
-from vectorplot.drawing.pens.pen_rules import PenRule, Pens, pen_of, pen_rules, scaled_pen
-from vectorplot.drawing.pens.sorted_layers import layer_words, line_list, sorted_layers
+from vectorplot.drawing.pens.pen_rules import PenRule, Pens, frame_pen, pen_of, pen_rules, scaled_pen
+from vectorplot.drawing.pens.sorted_layers import layer_words, line_list, not_plotted, sorted_layers
 from vectorplot.drawing.pens.style_file import style_of
 from vectorplot.drawing.pens.styles import Style
 from vectorplot.drawing.strokes.finishing import inked
@@ -144,7 +144,8 @@ def draw(
         What shares a layer: kind, object or colour, or several of these with commas between them; as the style says
         where None.
     unplotted : str or iterable of str
-        The names of layers that plotters skip.
+        The names of layers that plotters skip; kinds, items and colours of which the picture shows nothing may be among
+        them.
     curves : {"bezier", "polyline"}
         Strokes of smooth curves are fitted with cubic Béziers and elliptic arcs, or stay polylines.
     tolerance_mm : float
@@ -176,9 +177,9 @@ def draw(
     ------
     InputError
         As of `io.scene_of`.
-        For unknown words, impossible cameras, and widths and angles out of range; for a tolerance or a budget that is
-        not finite and positive; for hidden lines, a halo, a hatching or layers other than by kind in a wireframe, which
-        has colours of its own.
+        For unknown words and layers, impossible cameras, and widths and angles out of range; for a tolerance or a
+        budget that is not finite and positive; for hidden lines, a halo, a hatching or layers other than by kind in a
+        wireframe, which has colours of its own.
     TypeError
         For what is nothing of that kind.
 
@@ -295,8 +296,8 @@ def draw(
     if paper is not None:
         check_colour(paper, "background: ")
     if shown == "plain":
-        drawn_by, skipped = (*chosen.rules, *rules), line_list(unplotted)
-        found = walk.run("layers", _layers, scene, strokes, hatches, hatch, layers, drawn_by, skipped)
+        drawn_by = (*chosen.rules, *rules)
+        found = walk.run("layers", _layers, scene, strokes, hatches, hatch, layers, drawn_by)
     else:
         from vectorplot.effects.wireframe import wire_layers
 
@@ -310,9 +311,11 @@ def draw(
     letters = pen_of(drawn_by, letter_pen(found), int(LineKind.LABEL), False, "")
     if labels is not None:
         inks = labels.on_top(inks, layers == "kind" and shown == "plain", longest_mm, world, letters)
-    inks = titled(inks, placement, title, frame, letters, longest_mm, text)
+    border = frame_pen(drawn_by, replace(FRAME_PEN, colour=letters.colour))
+    inks = titled(inks, placement, title, frame, border, longest_mm, text)
     if paper is not None and shown == "plain":
         inks = (sheet_layer(paper, page), *inks)
+    inks = not_plotted(inks, line_list(unplotted), (*names, *(item.colour for item in scene.items)))
     return Drawing(page.width_mm, page.height_mm, inks, names, scene.title, world)
 
 
@@ -395,7 +398,7 @@ def titled(
     placement: Placement,
     title: str,
     frame: bool,
-    pen: Pen = PENS["label"],
+    pen: Pen = FRAME_PEN,
     longest_mm: float | None = None,
     text: str = "strokes",
 ) -> tuple[Layer, ...]:
@@ -404,7 +407,7 @@ def titled(
         return layers
     from vectorplot.drawing.lettering.titles import with_title
 
-    return with_title(layers, placement, title, frame, pen.colour, longest_mm, text)
+    return with_title(layers, placement, title, frame, pen, longest_mm, text)
 
 
 def labels_in_place(
@@ -591,10 +594,9 @@ def _layers(
     hatch: Hatching | Stippling | None,
     layers: str,
     rules: Sequence[PenRule],
-    unplotted: Sequence[str],
 ) -> tuple[Layer, ...]:
     """The layers of lines, and those of strokes that hatch faces."""
     how = [hatch if item.hatch is None else item.hatch for item in scene.items]
     names, colours = [item.name for item in scene.items], [item.colour for item in scene.items]
     behind = hatch_layers(hatches, how, colours if "colour" in layer_words(layers) else None)
-    return sorted_layers(strokes, names, colours, layers, rules, unplotted, behind)
+    return sorted_layers(strokes, names, colours, layers, rules, behind)

@@ -100,7 +100,7 @@ def test_arrays_are_welded_and_turned_outwards():
 @pytest.mark.parametrize("shown", [3, None, 1.5, [1], object(), np.zeros((3, 3)), b"file.stl", {"a": 2}])
 @pytest.mark.parametrize("verb", [vp.draw, vp.paint, vp.render, scene_of])
 def test_what_has_no_shape_is_a_type_error_in_one_sentence(verb, shown):
-    with pytest.raises(TypeError, match=r"^expected a path, Scene, Item, .*, or a list of these, not \w+$"):
+    with pytest.raises(TypeError, match=r"^expected a path, Scene, .*, or a list of these, not \w+( of shape .*)?$"):
         verb(shown)
 
 
@@ -127,3 +127,58 @@ def test_pictures_save_themselves(tmp_path):
     vp.draw(CUBE, "iso", page="A6").save(tmp_path / "cube.svg")
     vp.render(CUBE, size=(8, 8)).save(tmp_path / "cube.png")
     assert {path.name for path in tmp_path.iterdir()} == {"cube.svg", "cube.png"}
+
+
+def test_lists_that_hold_themselves_are_refused():
+    ring = []
+    ring.append([ring])
+    with pytest.raises(TypeError, match="holds itself"):
+        vp.draw(ring)
+    names = {}
+    names["a"] = names
+    with pytest.raises(TypeError, match="holds itself"):
+        vp.draw(names)
+
+
+def test_an_array_that_is_nothing_is_told_with_its_shape():
+    with pytest.raises(TypeError, match=r"ndarray of shape \(7, 3\)"):
+        vp.draw(np.zeros((7, 3)))
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda faces: vp.Mesh.from_triangles(np.eye(3), faces),
+        lambda faces: vp.Mesh.from_polygons(np.eye(3), faces),
+        lambda faces: vp.draw((np.eye(3), faces)),
+        lambda faces: vp.draw((np.eye(3), np.array(faces))),
+    ],
+)
+def test_indices_are_whole_numbers(make):
+    make([[0.0, 1.0, 2.0]])
+    for bad in (1.7, np.nan, np.inf):
+        with pytest.raises(vp.InputError, match="no index of a vertex"):
+            make([[0, bad, 2]])
+
+
+def test_a_tube_about_points_is_that_about_the_spline_through_them():
+    from vectorplot.curves import CubicSpline, spline_curve
+
+    points = np.array([(0, 0, 0), (2, 1, 0), (4, 0, 1), (6, 2, 2.0)])
+    tube, same = vp.tube(points, 0.2), vp.tube(spline_curve(points, CubicSpline()), 0.2)
+    at = np.array([0.3]), np.array([0.5])
+    assert np.array_equal(tube.shape.points(*at), same.shape.points(*at))
+    assert vp.tube([*points.tolist(), points[0].tolist()], 0.2).shape.domain.closed_v
+    for bad in (np.zeros((4, 2)), "points", 3.0):
+        with pytest.raises(vp.InputError, match="a tube needs a curve"):
+            vp.tube(bad, 0.2)
+
+
+def test_what_is_too_large_is_told_without_a_warning_of_arrays():
+    from vectorplot.surfaces import Torus
+
+    for shape in (vp.Mesh.from_triangles(np.eye(3), [(0, 1, 2)]), Torus(3, 1)):
+        with pytest.raises(vp.InputError):
+            vp.draw(vp.Item("a", shape).scaled(1e300))
+        with pytest.raises(vp.InputError):
+            vp.draw(vp.Item("a", shape).scaled(1e300).scaled(1e300))

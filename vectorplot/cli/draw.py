@@ -96,6 +96,7 @@ if TYPE_CHECKING:
         "--unplotted",
         default="",
         metavar="LAYER,...",
+        show_default=False,
         help="Layers that plotters skip.  [default: none]",
     ),
     click.option(

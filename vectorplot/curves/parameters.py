@@ -46,7 +46,10 @@ def invertible(name: str, matrix: ArrayLike) -> Floats:
     m = np.array(matrix, dtype=np.float64)
     if m.shape != (3, 3) or not np.isfinite(m).all():
         raise InputError(f"{name} needs a matrix of 3 times 3 finite numbers")
-    if abs(np.linalg.det(m)) <= SINGULAR_DETERMINANT * np.linalg.norm(m) ** 3:
+    largest = float(np.abs(m).max()) or 1.0
+    # Of a matrix of the size of one nothing overflows, or vanishes.
+    unit = m / largest
+    if abs(np.linalg.det(unit)) <= SINGULAR_DETERMINANT * np.linalg.norm(unit) ** 3:
         raise InputError(f"{name} needs a matrix that can be inverted")
     return m
 

@@ -32,7 +32,9 @@ class Placed:
     def followed_by(self, matrix: ArrayLike) -> tuple[Floats, Floats]:
         """The matrix (3,3) and the shift (3,) of this placement and, after it, a matrix (4,4) that acts on columns."""
         rows, shift = rows_and_shift(matrix)
-        return np.asarray(self.matrix) @ rows, np.asarray(self.shift) @ rows + shift
+        # What overflows is refused, as any matrix that is not finite.
+        with np.errstate(over="ignore", invalid="ignore"):
+            return np.asarray(self.matrix) @ rows, np.asarray(self.shift) @ rows + shift
 
     def placed_points(self, points: Floats) -> Floats:
         """(..., 3) where points (..., 3) are placed."""

@@ -73,6 +73,9 @@ COLOURS = {
 """Inks for the palettes' names: dark enough for a line on white paper."""
 
 
+FRAME_PEN = Pen(0.5)
+"""What draws frames and titles."""
+
 MIDDLE_TONE = 128.0
 """Darker sheets have white letters."""
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
@@ -125,7 +126,7 @@ class Mesh(Movable["Mesh"]):
         [[0, 1, 2, 3]]
         """
         lists = [list(face) for face in faces]
-        corners = np.array([corner for face in lists for corner in face], dtype=np.intp)
+        corners = whole_numbers(np.array([corner for face in lists for corner in face]))
         offsets = ragged.offsets([len(face) for face in lists])
         flags = None if present is None else np.asarray(present, dtype=np.bool_)
         return cls(np.asarray(vertices, dtype=np.float64).reshape(-1, 3), corners, offsets, flags)
@@ -157,7 +158,7 @@ class Mesh(Movable["Mesh"]):
         >>> vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]).is_triangular
         True
         """
-        corners = np.asarray(triangles, dtype=np.intp).reshape(-1)
+        corners = whole_numbers(np.asarray(triangles)).reshape(-1)
         return cls(np.asarray(vertices, dtype=np.float64), corners, np.arange(0, len(corners) + 1, 3, dtype=np.intp))
 
     @classmethod
@@ -264,8 +265,9 @@ class Mesh(Movable["Mesh"]):
         [[2, 1, 0]]
         """
         m = np.asarray(matrix, dtype=np.float64)
-        vertices = self.vertices @ m[:3, :3].T + m[:3, 3]
-        if np.linalg.det(m[:3, :3]) >= 0.0:
+        with np.errstate(over="ignore", invalid="ignore"):
+            vertices = self.vertices @ m[:3, :3].T + m[:3, 3]
+        if np.linalg.slogdet(m[:3, :3])[0] >= 0.0:
             return Mesh(vertices, self.corners, self.offsets, self.present)
         return Mesh(vertices, self.corners, self.offsets, self.present).reversed()
 
@@ -274,3 +276,15 @@ class Mesh(Movable["Mesh"]):
         mirrored = (self.offsets[:-1] + self.offsets[1:])[self.corner_face] - 1
         order = mirrored - np.arange(len(self.corners))
         return Mesh(self.vertices, self.corners[order], self.offsets, self.present)
+
+
+def whole_numbers(indices: NDArray[Any]) -> Ints:
+    """Indices as whole numbers, which floats may be too. Errors: InputError for what is none."""
+    if indices.dtype.kind in "iu" or not indices.size:
+        return indices.astype(np.intp)
+    with np.errstate(invalid="ignore"):
+        cut = indices.astype(np.intp)
+    wrong = np.flatnonzero(cut.ravel() != indices.ravel())
+    if len(wrong):
+        raise InputError(f"faces: {indices.ravel()[wrong[0]]} is no index of a vertex")
+    return cut

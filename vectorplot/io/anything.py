@@ -17,7 +17,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
-from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.mesh import Mesh, whole_numbers
 from vectorplot.geometry.repair.mesh_repair import mended
 from vectorplot.io.meshes.cells import faces_of_cells
 from vectorplot.io.read_file import read
@@ -74,6 +74,13 @@ def scene_of(shown: object) -> Scene:
     >>> [item.name for item in scene.items]
     ['torus', 'mesh']
     """
+    return _scene_of(shown, ())
+
+
+def _scene_of(shown: Any, around: tuple[object, ...]) -> Scene:
+    """The same, of a part of what is around it."""
+    if any(shown is one for one in around):
+        raise TypeError(f"a {type(shown).__name__} that holds itself has no end")
     if isinstance(shown, Scene):
         return shown
     if isinstance(shown, str | os.PathLike):
@@ -84,12 +91,12 @@ def scene_of(shown: object) -> Scene:
     if item is not None:
         return Scene((item,))
     if isinstance(shown, Mapping):
-        return together([_named(str(name), scene_of(one)) for name, one in shown.items()])
+        return together([_named(str(name), _scene_of(one, (*around, shown))) for name, one in shown.items()])
     dump = getattr(shown, "dump", None)
     if callable(dump) and hasattr(shown, "geometry"):
         return together([scene_of(one) for one in dump()])
     if isinstance(shown, Iterable) and not isinstance(shown, np.ndarray | bytes):
-        return together([scene_of(one) for one in shown])
+        return together([_scene_of(one, (*around, shown)) for one in shown])
     _refuse(shown)
 
 
@@ -104,7 +111,8 @@ def _is_heights(shown: object) -> TypeGuard[Floats]:
 
 
 def _refuse(shown: object) -> NoReturn:
-    raise TypeError(f"expected {TAKEN}, not {type(shown).__name__}")
+    shape = f" of shape {shown.shape}" if isinstance(shown, np.ndarray) else ""
+    raise TypeError(f"expected {TAKEN}, not {type(shown).__name__}{shape}")
 
 
 def _read(path: str | os.PathLike[str]) -> Scene:
@@ -136,7 +144,7 @@ def _is_pair(vertices: object, faces: object) -> bool:
     if not isinstance(vertices, np.ndarray) or vertices.ndim != 2 or vertices.shape[1] != 3:
         return False
     if isinstance(faces, np.ndarray):
-        return faces.ndim == 2 and np.issubdtype(faces.dtype, np.integer)
+        return faces.ndim == 2 and faces.dtype.kind in "iuf"
     return isinstance(faces, Sequence) and all(isinstance(face, Sequence | np.ndarray) for face in faces)
 
 
@@ -144,10 +152,10 @@ def _from_arrays(vertices: Any, faces: Any) -> Mesh:
     """The mesh of vertices (n,3) and of faces, an array (f,k) or lists of indices."""
     places = np.asarray(vertices)
     if isinstance(faces, np.ndarray) and faces.ndim == 2:
-        return _mended(places, faces.ravel(), np.arange(0, faces.size + 1, max(faces.shape[1], 1)))
+        return _mended(places, whole_numbers(faces).ravel(), np.arange(0, faces.size + 1, max(faces.shape[1], 1)))
     lists = [np.asarray(face).ravel() for face in faces]
     corners = np.concatenate([np.zeros(0, dtype=np.intp), *lists])
-    return _mended(places, corners, ragged.offsets([len(face) for face in lists]))
+    return _mended(places, whole_numbers(corners), ragged.offsets([len(face) for face in lists]))
 
 
 def _mended(vertices: np.ndarray[Any, Any], corners: Ints, offsets: Ints) -> Mesh:

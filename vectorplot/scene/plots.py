@@ -121,13 +121,14 @@ def graph(
     return Item(name, shape, colour, curves=SurfaceLines(columns=columns, rows=rows))
 
 
-def tube(curve: Curve, radius: float, colour: str = "gray", name: str = "tube") -> Item:
+def tube(curve: Curve | ArrayLike, radius: float, colour: str = "gray", name: str = "tube") -> Item:
     """The tube about a curve, as an item.
 
     Parameters
     ----------
-    curve : Curve
-        In the middle; a smooth loop gives a ring.
+    curve : Curve or (n, 3) array_like of float
+        In the middle; a smooth loop gives a ring. Of points the cubic spline through them, a loop where the last is the
+        first one.
     radius : float
         In world units.
     colour, name : str

@@ -334,7 +334,8 @@ class SurfaceLines:
 
 def linear_growth(matrix: Floats) -> float:
     """How many times longer lengths become, on average, under a matrix (4,4) that acts on columns."""
-    return float(np.cbrt(abs(np.linalg.det(matrix[:3, :3]))))
+    with np.errstate(over="ignore"):
+        return float(np.cbrt(abs(np.linalg.det(matrix[:3, :3]))))
 
 
 NO_LINES = SurfaceLines()

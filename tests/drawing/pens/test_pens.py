@@ -9,6 +9,7 @@ import vectorplot as vp
 from vectorplot.drawing.pens.pen_rules import pen_rules
 from vectorplot.drawing.pens.style_file import read_style
 from vectorplot.drawing.pens.styles import STYLES
+from vectorplot.errors import InputError
 from vectorplot.geometry import box
 from vectorplot.words import LineKind
 
@@ -192,3 +193,38 @@ def test_files_that_are_no_styles_are_told(tmp_path):
             read_style(tmp_path / "x.toml")
     with pytest.raises(vp.InputError, match="no such file"):
         read_style(tmp_path / "y.toml")
+
+
+def test_several_dashes_in_one_text_are_several_rules():
+    found = pen_rules(None, "contour=3,1,crease=2,1,hidden=none")
+    assert [(rule.kind, rule.dash_mm) for rule in found] == [
+        ("contour", (3.0, 1.0)),
+        ("crease", (2.0, 1.0)),
+        ("hidden", (0.0, 0.0)),
+    ]
+
+
+@pytest.mark.parametrize("pens", ["contour=1e-9", "0.009", "contour=0.02pt"])
+def test_no_pen_is_finer_than_a_hundredth_of_a_millimetre(pens):
+    with pytest.raises(InputError, match="mm or more"):
+        drawn(pens=pens)
+
+
+def test_frames_and_titles_have_a_pen_of_their_own():
+    drawing = drawn(pens="frame=0.9:blue,0.2", dashes="frame=4,2", title="T", frame=True)
+    assert drawing.layers[-1].name == "frame" and drawing.layers[-1].pen.width_mm == 0.9
+    assert len(drawing.layers[-1].strokes[0]) > 30
+
+
+def test_layers_that_are_not_plotted_are_layers():
+    drawing = drawn(unplotted="frame, hidden, HOUSE", frame=True)
+    assert [layer.name for layer in drawing.layers if not layer.plotted] == ["frame"]
+    with pytest.raises(InputError, match="unplotted 'contuor'"):
+        drawn(unplotted="contuor")
+
+
+def test_a_style_that_ends_too_early_is_told_with_its_last_line(tmp_path):
+    (tmp_path / "a.toml").write_text('hidden = "dashed"\n[pens]\na = [1,\n')
+    with pytest.raises(InputError) as error:
+        read_style(tmp_path / "a.toml")
+    assert error.value.line == 3

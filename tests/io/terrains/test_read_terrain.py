@@ -142,3 +142,19 @@ def test_verbs_take_arrays_of_heights_and_terrains():
         assert sum(len(layer.marks) for layer in vp.draw(given).layers) > 0
     with pytest.raises(TypeError):
         vp.draw(np.zeros((5, 3)))
+
+
+def test_points_with_two_numbers_are_no_molecule(tmp_path):
+    (tmp_path / "a.xyz").write_text("1 2\n3 4\n5 6\n")
+    with pytest.raises(vp.InputError, match="expected x, y and z, got 2 numbers"):
+        vp.read(tmp_path / "a.xyz")
+
+
+@pytest.mark.parametrize("stray", [(1000.0, 1000.0, 0.0), (0.5, 0.5, -9999.0)])
+def test_a_point_far_off_all_others_is_left_out_and_told(stray, tmp_path):
+    place = np.random.default_rng(3).random((300, 2))
+    points = np.column_stack([place, 0.1 * place.sum(axis=1)])
+    np.savetxt(tmp_path / "a.xyz", np.vstack([points, stray]))
+    with pytest.warns(vp.InputWarning, match="a point lies far off all others and is left out"):
+        scene = vp.read(tmp_path / "a.xyz")
+    assert np.ptp(scene.bounds, axis=0).max() < 1.1

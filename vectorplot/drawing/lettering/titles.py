@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from vectorplot.arrays import Floats
@@ -11,13 +9,11 @@ from vectorplot.drawing.drawing import Layer, Pen
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
 from vectorplot.drawing.lettering.scene_labels import LETTERS, Letters, label_paths
 from vectorplot.drawing.lettering.text import Lettering
+from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.drawing.strokes.long_strokes import split_long
 from vectorplot.drawing.strokes.stroke_paths import concatenated
 from vectorplot.errors import InputError
 from vectorplot.scene.placement import Placement
-
-FRAME = Pen(0.5)
-"""What draws frame and title."""
 
 SIZES_MM = (5.0, 2.5)
 """The height of the capitals of titles: as large as fits the margin of the page, between these."""
@@ -31,14 +27,15 @@ def with_title(
     placement: Placement,
     title: str,
     frame: bool,
-    colour: str,
+    pen: Pen,
     longest_mm: float | None,
     text: str = "strokes",
 ) -> tuple[Layer, ...]:
     """The layers of a drawing, and one with its title and a frame, if these are wanted.
 
     The frame runs in the middle of the margin; the title stands in the middle of the lower margin, and the frame ends
-    before it. longest_mm: longer strokes leave in parts; text: a word of LETTERS.
+    before it. pen: of both, the frame with its dashes; longest_mm: longer strokes leave in parts; text: a word of
+    LETTERS.
     Errors: InputError for a character without strokes, a title wider than the page, and a frame on a page without a
     margin.
     """
@@ -51,10 +48,12 @@ def with_title(
     letters = label_paths([set_.strokes[k] for k in range(len(set_.strokes))], 0, placement)
     if len(set_.boxes):
         border = outside_boxes(border, grown(set_.boxes, BESIDE * float(np.ptp(set_.bounds, axis=0)[1])), world)
+    if pen.dash_mm is not None and any(pen.dash_mm):
+        border = dashed(border, *pen.dash_mm, world)
     border = border if longest_mm is None else split_long(border, longest_mm, world)
     strokes = concatenated((border, letters))
     marks = (strokes, set_.texts) if len(set_.texts) else (strokes,)
-    return (*layers, Layer("frame", replace(FRAME, colour=colour), marks))
+    return (*layers, Layer("frame", pen, marks))
 
 
 def _title(letters: Letters, title: str, width: float, margin: float) -> Lettering:

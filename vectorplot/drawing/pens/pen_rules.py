@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -14,14 +15,20 @@ from vectorplot.words import COLOURS, LineKind, is_colour, nearest
 HIDDEN = "hidden"
 """The kind of what something is in front of, whatever else it is."""
 
-PEN_KINDS = (*(kind.word for kind in LineKind), HIDDEN)
+FRAME = "frame"
+"""What draws the frame of a page and its title: a kind that no line of a scene is of."""
+
+PEN_KINDS = (*(kind.word for kind in LineKind), HIDDEN, FRAME)
 """The kinds that rules are for."""
 
 WIDEST_MM = 1000.0
 """Wider than any pen."""
 
 FINEST_MM = 0.01
-"""No pen draws a shorter dash."""
+"""No pen is finer, or draws a shorter dash."""
+
+_NEXT = re.compile(r",(?=[^,=]*=)")
+"""The commas between rules, where a rule has commas of its own."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +87,8 @@ def _dash_pairs(dashes: str | Mapping[str, str] | Iterable[str] | None) -> list[
         return []
     if isinstance(dashes, Mapping):
         return list(dashes.items())
-    return [_halves(text) for text in ([dashes] if isinstance(dashes, str) else dashes)]
+    texts = [dashes] if isinstance(dashes, str) else list(dashes)
+    return [_halves(one) for text in texts for one in _NEXT.split(text)]
 
 
 def _halves(text: str) -> tuple[str, str]:
@@ -126,8 +134,6 @@ def _dash_rule(target: str, value: str) -> PenRule:
     if len(parts) != 2:
         raise InputError(f"dash {target}={value}: expected DASH,GAP such as 3,1 or 8pt,3pt; or none")
     dash, gap = (_length(part, f"dash {target}={value}") for part in parts)
-    if min(dash, gap) < FINEST_MM:
-        raise InputError(f"dash {target}={value}: expected {FINEST_MM:g} mm or more")
     return PenRule(kind, item, dash_mm=(dash, gap))
 
 
@@ -139,6 +145,8 @@ def _length(text: str, owner: str) -> float:
         size = 0.0
     if not 0.0 < size <= WIDEST_MM:
         raise InputError(f"{owner}: {text.strip()!r} is no length in mm or pt")
+    if size < FINEST_MM:
+        raise InputError(f"{owner}: expected {FINEST_MM:g} mm or more")
     return size
 
 
@@ -163,6 +171,14 @@ def check_targets(rules: Sequence[PenRule], items: Sequence[str]) -> None:
             near = nearest(word, PEN_KINDS) or known.get(word, known.get(nearest(word, known) or "", ""))
             hint = f" (did you mean {near!r}?)" if near else ""
             raise InputError(f"pen {rule.item!r}: no kind of line, and no item{hint}")
+
+
+def frame_pen(rules: Sequence[PenRule], pen: Pen) -> Pen:
+    """The pen of a frame and a title with what the rules for these say."""
+    for rule in rules:
+        if rule.kind == FRAME:
+            pen = rule.applied(pen)
+    return pen
 
 
 def pen_of(rules: Sequence[PenRule], pen: Pen, kind: int, hidden: bool, item: str) -> Pen:

@@ -20,7 +20,7 @@ from vectorplot.drawing.layers import (
 )
 from vectorplot.drawing.pens.pen_rules import PenRule, check_targets, pen_of
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
-from vectorplot.words import LineKind, check_word
+from vectorplot.words import LineKind, check_word, unknown
 
 _HATCH = KIND_LAYER[LineKind.HATCH]
 
@@ -51,15 +51,13 @@ def sorted_layers(
     colours: Sequence[str],
     layers: str = "kind",
     rules: Sequence[PenRule] = (),
-    unplotted: Sequence[str] = (),
     hatches: Sequence[Layer] = (),
 ) -> tuple[Layer, ...]:
     """The layers of strokes; hidden ones have one of their own.
 
-    items, colours: the name and the colour of every item; layers: as of layer_words; unplotted: the names of layers
-    that are there to be looked at only; hatches: layers of hatching, which come last. Where rules give strokes of a
-    layer different pens, it becomes one layer for each of them, the first one with its name, the others with what their
-    pens are added to it.
+    items, colours: the name and the colour of every item; layers: as of layer_words; hatches: layers of hatching, which
+    come last. Where rules give strokes of a layer different pens, it becomes one layer for each of them, the first one
+    with its name, the others with what their pens are added to it.
     Errors: InputError for rules for items that are not there.
     """
     check_targets(rules, items)
@@ -77,7 +75,20 @@ def sorted_layers(
     found = (*found, *hatches)
     if rules:
         found = tuple(part for layer in found for part in _with_pens(layer, items, rules))
-    return tuple(replace(layer, plotted=False) if layer.name in unplotted else layer for layer in found)
+    return tuple(found)
+
+
+def not_plotted(layers: Sequence[Layer], unplotted: Sequence[str], others: Sequence[str]) -> tuple[Layer, ...]:
+    """The layers, those of these names there to be looked at only.
+
+    others: names that layers may have where there are such lines, beside kinds. Errors: InputError for a name that no
+    layer has or may have.
+    """
+    known = (*(layer.name for layer in layers), *PENS, "frame", "background", *others)
+    for name in unplotted:
+        if name not in known:
+            raise unknown("unplotted", name, tuple(dict.fromkeys(layer.name for layer in layers)))
+    return tuple(replace(layer, plotted=False) if layer.name in unplotted else layer for layer in layers)
 
 
 def _by_several(paths: Paths, items: Sequence[str], colours: Sequence[str], words: Sequence[str]) -> tuple[Layer, ...]:

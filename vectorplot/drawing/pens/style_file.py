@@ -35,10 +35,9 @@ def read_style(path: str | os.PathLike[str]) -> Style:
         text = Path(path).read_text(encoding="utf-8-sig")
         said = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        cause, line = str(error), re.search(r" \(at line (\d+), column \d+\)", str(error))
-        raise InputError(
-            cause[: line.start()] if line else cause, file=file, line=int(line[1]) if line else None
-        ) from None
+        cause, place = str(error), re.search(r" \(at (?:line (\d+), column \d+|end of document)\)", str(error))
+        line = int(place[1]) if place and place[1] else len(text.splitlines())
+        raise InputError(cause[: place.start()] if place else cause, file=file, line=line) from None
     except UnicodeDecodeError:
         raise InputError("not UTF-8: this is no style", file=file) from None
     except OSError as error:

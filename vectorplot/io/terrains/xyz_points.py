@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+import warnings
 from pathlib import Path
 
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.meshes.mesh_file import TextFile, joined, text_file
 from vectorplot.surfaces.height_grid import MOST_POINTS
 from vectorplot.surfaces.terrains.terrain import Terrain, terrain_of_points
@@ -24,6 +25,10 @@ LONGEST_SIDE = 400
 
 SHORTEST_SIDE = 32
 """And at least."""
+
+STRAYS, FAR_OFF = 0.01, 50.0
+"""Of scattered points so large a part at either end of an axis may be strays: those farther from the others than these
+reach along it, so many times."""
 
 CELLS_A_POINT = 2.0
 """Cells of the grid over scattered points for each of them."""
@@ -41,17 +46,23 @@ def read_xyz_points(path: Path) -> Terrain:
     try:
         if len(points) < 3:
             raise InputError(f"{len(points)} points, expected at least three")
-        return _regular(points) or _scattered(points)
+        return _regular(points) or _scattered(_without_strays(points, path))
     except InputError as error:
         raise InputError(error.cause, file=error.file or str(path)) from None
 
 
 def is_points(beginning: bytes) -> bool:
-    """Whether the first line of a file that is neither a comment nor names holds three numbers."""
+    """Whether the first line of a file that is neither a comment nor names holds three numbers, or the first two of
+    them two numbers each: such points lack something, but are no molecule."""
+    found = 0
     for line in beginning.split(b"\n")[:32]:
         words = line.split(b"#")[0].replace(b",", b" ").replace(b";", b" ").split()
         if words and not _NAMES.match(line + b"\n"):
-            return len(words) >= 3 and all(_is_number(word) for word in words[:3])
+            if len(words) < 2 or not all(_is_number(word) for word in words[:3]):
+                return False
+            found += 1
+            if len(words) > 2 or found > 1:
+                return True
     return False
 
 
@@ -109,6 +120,21 @@ def _places(values: Floats) -> tuple[Ints, float, float] | None:
     if np.abs(place - np.round(place)).max() > OFF_REGULAR_GRID:
         return None
     return np.round(place).astype(np.intp), float(there[0]), step
+
+
+def _without_strays(points: Floats, path: Path) -> Floats:
+    """The points without the few that lie so far off all others that these would be one dot; an InputWarning tells."""
+    low, high = np.quantile(points, (STRAYS, 1.0 - STRAYS), axis=0)
+    reach = FAR_OFF * (high - low)
+    near = ((points >= low - reach) & (points <= high + reach) | (reach == 0.0)).all(axis=1)
+    if near.all():
+        return points
+    lost = np.flatnonzero(~near)
+    x, y, z = points[lost[0]].tolist()
+    count = f"{len(lost)} points lie" if len(lost) > 1 else "a point lies"
+    told = f"{path}: {count} far off all others and {'are' if len(lost) > 1 else 'is'} left out: {x:g} {y:g} {z:g}"
+    warnings.warn(told + (", ..." if len(lost) > 1 else ""), InputWarning, stacklevel=2)
+    return np.asarray(points[near])
 
 
 def _scattered(points: Floats) -> Terrain:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
-from vectorplot.curves.curve import Curve
-from vectorplot.curves.splines.kinds import InterpolatingSpline
+from vectorplot.curves.curve import Curve, is_curve
+from vectorplot.curves.splines.kinds import CubicSpline, InterpolatingSpline
 from vectorplot.curves.splines.spline_curve import spline_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import cross, normalize
@@ -21,13 +22,14 @@ SMOOTH = 6
 """Order of the splines between frames."""
 
 
-def tube(curve: Curve, radius: float) -> FunctionSurface:
+def tube(curve: Curve | ArrayLike, radius: float) -> FunctionSurface:
     """The tube about a curve: circles of one radius, across it and about its points.
 
     Parameters
     ----------
-    curve : Curve
-        In the middle; a smooth loop gives a ring.
+    curve : Curve or (n, 3) array_like of float
+        In the middle; a smooth loop gives a ring. Of points the cubic spline through them, a loop where the last is the
+        first one.
     radius : float
         In world units; where the curve bends more than that, the tube pierces itself.
 
@@ -57,6 +59,7 @@ def tube(curve: Curve, radius: float) -> FunctionSurface:
     """
     if not 0.0 < radius < np.inf:
         raise InputError(f"a tube with a radius of {radius:g}: expected a positive, finite number")
+    curve = _course(curve)
     t = np.linspace(curve.start, curve.end, STEPS + 1)
     middle, along = curve.points(t), curve.tangents(t)
     if not (np.isfinite(middle).all() and np.isfinite(along).all() and (np.linalg.norm(along, axis=1) > 0.0).all()):
@@ -74,6 +77,18 @@ def tube(curve: Curve, radius: float) -> FunctionSurface:
         return np.asarray(curve.points(v) + radius * around)
 
     return surface_of_function(points, Domain(0.0, 2.0 * np.pi, curve.start, curve.end, True, curve.closed))
+
+
+def _course(curve: Curve | ArrayLike) -> Curve:
+    """The curve, or that through points."""
+    if is_curve(curve):
+        return curve
+    points = np.asarray(curve, dtype=np.float64) if isinstance(curve, np.ndarray | list | tuple) else np.zeros(0)
+    if points.ndim != 2 or points.shape[1] != 3:
+        given = f"an array of shape {points.shape}" if points.size else type(curve).__name__
+        raise InputError(f"a tube needs a curve, or points (n, 3), not {given}")
+    loop = len(points) > 3 and bool((points[0] == points[-1]).all())
+    return spline_curve(points[:-1] if loop else points, CubicSpline(closed=loop))
 
 
 def _least_turning(points: Floats, tangents: Floats, closed: bool) -> Floats:
