@@ -8,10 +8,10 @@ from functools import partial
 
 from vectorplot.draw import lines_in_place, titled
 from vectorplot.drawing.drawing import Drawing, Layer, Paths
-from vectorplot.drawing.layers import letter_pen
+from vectorplot.drawing.layers import FRAME_PEN, letter_pen
 from vectorplot.drawing.pens.paper import sheet_layer
-from vectorplot.drawing.pens.pen_rules import Pens, pen_of, pen_rules
-from vectorplot.drawing.pens.sorted_layers import line_list, sorted_layers
+from vectorplot.drawing.pens.pen_rules import Pens, frame_pen, pen_of, pen_rules
+from vectorplot.drawing.pens.sorted_layers import line_list, not_plotted, sorted_layers
 from vectorplot.drawing.pens.style_file import style_of
 from vectorplot.drawing.pens.styles import Style
 from vectorplot.drawing.strokes.finishing import inked
@@ -124,16 +124,18 @@ def panorama(
     rules = (*chosen.rules, *pen_rules(pens, dashes))
     names, colours = ([getattr(item, field) for item in seamless.items] for field in ("name", "colour"))
     shared = chosen.layers if layers is None else layers
-    found = walk.run("layers", sorted_layers, strokes, names, colours, shared, rules, line_list(unplotted), ())
+    found = walk.run("layers", sorted_layers, strokes, names, colours, shared, rules)
     curved = tolerance_mm if curves == "bezier" else None
     world = placement.page_from_world
     inks = walk.run("pen", inked, found, "none", world, curved, longest_mm, False)
     letters = pen_of(rules, letter_pen(found), int(LineKind.LABEL), False, "")
-    inks = titled((*inks, Layer("bearings", letters, (marks,))), placement, title, frame, letters, longest_mm)
+    border = frame_pen(rules, replace(FRAME_PEN, colour=letters.colour))
+    inks = titled((*inks, Layer("bearings", letters, (marks,))), placement, title, frame, border, longest_mm)
     paper = chosen.background if background is None else background
     if paper is not None:
         check_colour(paper, "background: ")
         inks = (sheet_layer(paper, placement.page), *inks)
+    inks = not_plotted(inks, line_list(unplotted), (*names, *colours))
     sheet = placement.page
     return Drawing(sheet.width_mm, sheet.height_mm, inks, tuple(names), seamless.title, world)
 
