@@ -24,6 +24,7 @@ from vectorplot.painting.erased import erased
 from vectorplot.painting.ordered_faces import ordered_faces, seen_on_page
 from vectorplot.painting.ruler import PEN, Ruler
 from vectorplot.plan import StageReport, Walk, accuracy_of_paint, plan_cuts, plan_paint, with_accuracy
+from vectorplot.scene.naming.annotations import annotation_points
 from vectorplot.scene.naming.label_anchors import label_anchors
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.point_of_view import camera_of, page_of
@@ -178,7 +179,7 @@ def paint(
         return picture_fineness(shown, projection, casts, allowed, tolerance_mm)
 
     ordered = ordered_faces(walk, scene, shown, projection, demand, budget_of(budget))
-    placement = placement_of_faces(ordered.view, ordered.faces, sheet, fit)
+    placement = placement_of_faces(ordered.view, ordered.faces, sheet, fit, annotation_points(scene))
     seen, plane = seen_on_page(walk, ordered, placement, budget_of(budget))
     view, true = seen.view, ordered.facets.normals
     page, world = placement.page, placement.page_from_world

@@ -15,6 +15,7 @@ from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.chunks import threads
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.hatching import Hatching, Stippling
+from vectorplot.scene.naming.annotations import is_annotation
 from vectorplot.scene.placement import box_corners, field_of_vision
 from vectorplot.scene.scene import Item, Page, Scene
 from vectorplot.surfaces.balls import ball_of
@@ -234,7 +235,7 @@ def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple
         stages.append(Stage("mirrors", "what mirrors show"))
     if any(item.material.opacity < 1.0 for item in scene.items):
         stages.append(Stage("transparency", "what one sees through"))
-    if lines:
+    if lines or any(map(is_annotation, scene.items)):
         stages.append(Stage("lines", "drawn over the picture, with exact hidden lines"))
     stages += _label_stages(scene)
     stages.append(Stage("average", "the pixels of the picture"))
@@ -381,7 +382,9 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
         stages.append(Stage("visible fills", "each without what is painted over it"))
         if any(item.material.opacity < 1.0 for item in scene.items):
             stages.append(Stage("screen door", "transparent polygons become sparse lines"))
-    if kinds and fills != "erasing":
-        stages.append(Stage("lines", ", ".join(sorted(kind.word for kind in kinds)) + " on top"))
+    shown = sorted(kind.word for kind in kinds) if fills != "erasing" else []
+    shown += ["axes, dimensions and centre lines"] if any(map(is_annotation, scene.items)) else []
+    if shown:
+        stages.append(Stage("lines", ", ".join(shown) + " on top"))
     stages += _label_stages(scene)
     return tuple(stages)

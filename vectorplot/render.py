@@ -11,6 +11,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Ints
 from vectorplot.draw import labels_in_place, lines_in_place, seen_part, with_smooth_surfaces
+from vectorplot.drawing.strokes.finishing import centre_lines_dashed
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.facets import Within
 from vectorplot.geometry.budget import budget_of
@@ -30,6 +31,7 @@ from vectorplot.plan import (
     plan_render,
     with_accuracy,
 )
+from vectorplot.scene.naming.annotations import annotation_points, only_annotations
 from vectorplot.scene.naming.label_anchors import LabelAnchors, label_anchors
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.point_of_view import camera_of
@@ -225,7 +227,7 @@ def render(
         facets = walk.run("facets", faceted, shown, lambda number: demand, budget_of(budget))
     view = walk.run("look", view_of, facets.scene, projection)
     triangles = walk.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
-    placement = picture_placement(view, *fine, fit)
+    placement = picture_placement(view, *fine, fit, annotation_points(scene))
     system = pixel_system(placement)
     here = view_lights(view, scene.lights)
     region = _region(triangles, system, fine, how) if walk.calls_for("shadows") else None
@@ -243,6 +245,7 @@ def render(
     if walk.calls_for("lines"):
         how_far = walk.fraction("lines")
         found = walk.run("lines", _lines, scene, placement, view, crease_angle_deg, budget, kinds, how_far)
+        found = centre_lines_dashed(found, placement.page_from_world, samples * PIXELS_PER_MM)
     if walk.calls_for("labels"):
         beside = (scene, placement, view, crease_angle_deg, budget)
         found, letters = walk.run("labels", _with_labels, anchors, found, samples, *beside)
@@ -388,7 +391,9 @@ def _lines(
     kinds: frozenset[LineKind],
     progress: Callable[[float], None] | None = None,
 ) -> Paths:
-    """The visible lines of a scene on the page whose millimetres are the pixels of its picture."""
+    """The visible lines of a scene on the page whose millimetres are the pixels of its picture; of no kinds those of
+    annotations."""
+    scene = scene if kinds else only_annotations(scene)
     return lines_in_place(
         scene,
         *with_smooth_surfaces(scene, view, None),

@@ -13,9 +13,9 @@ from vectorplot.errors import printable
 @click.option("--quiet", "-q", is_flag=True, help="No warnings.")
 def info(files: tuple[str, ...], quiet: bool) -> None:
     """Say what the files hold: counts, whether it is closed and convex, its size, and what is wrong with it."""
-    from vectorplot.io.anything import together
     from vectorplot.io.description import describe
     from vectorplot.io.read_file import read
+    from vectorplot.scene.naming.joined_scenes import together
 
     with told_warnings(quiet=quiet):
         lines = describe(together([read(file) for file in files]))

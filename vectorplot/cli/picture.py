@@ -47,9 +47,9 @@ class Source:
 
     def read(self) -> Scene:
         """All that is in them; an InputWarning hints at files with y upwards."""
-        from vectorplot.io.anything import together
         from vectorplot.io.read_file import read
         from vectorplot.io.upwards import upwards_hint
+        from vectorplot.scene.naming.joined_scenes import together
 
         scenes = [read(path, exaggeration=self.exaggeration) for path in self.paths]
         for path, scene in zip(self.paths, scenes, strict=True):

@@ -47,7 +47,7 @@ def interleaved(base: Fills, overlays: Sequence[Overlay]) -> Fills:
     return overlaid(Overlay(base, np.arange(len(base))), overlays).fills
 
 
-def placement_of_faces(view: View, faces: ImageFaces, page: Page, fit: bool) -> Placement:
+def placement_of_faces(view: View, faces: ImageFaces, page: Page, fit: bool, beside: Floats | None = None) -> Placement:
     """The place on the page of a picture of painted polygons.
 
     Parameters
@@ -60,6 +60,8 @@ def placement_of_faces(view: View, faces: ImageFaces, page: Page, fit: bool) -> 
         The sheet of paper.
     fit : bool
         Whether the picture fills the page but for its margin; otherwise the page height is the camera's picture height.
+    beside : (n, 3) array of float, optional
+        Points of the world that are to be on it as well.
 
     Returns
     -------
@@ -86,9 +88,10 @@ def placement_of_faces(view: View, faces: ImageFaces, page: Page, fit: bool) -> 
     used = np.zeros(view.face_count, dtype=np.bool_)
     used[faces.source] = True
     points = view.points[:, view.corners[np.repeat(used, view.face_sizes)]]
-    if not fit or view.reaches_too_far(points):
+    others = view.points_of(np.zeros((0, 3)) if beside is None else beside)
+    if not fit or view.reaches_too_far(np.concatenate([points, others], axis=1)):
         return field_of_vision(view, page, fit)
-    return fitted_picture(view, page, faces.points[:2])
+    return fitted_picture(view, page, np.concatenate([faces.points[:2], view.image_of(others)], axis=1))
 
 
 def shown_faces(faces: ImageFaces, placement: Placement) -> ImageFaces:

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from itertools import chain
 from pathlib import Path
 from typing import Any, NoReturn, TypeGuard
 
@@ -21,7 +19,7 @@ from vectorplot.geometry.mesh import Mesh, whole_numbers
 from vectorplot.geometry.repair.mesh_repair import mended
 from vectorplot.io.meshes.cells import faces_of_cells
 from vectorplot.io.read_file import read
-from vectorplot.scene.naming.labels import Label, renamed
+from vectorplot.scene.naming.joined_scenes import renamed_labels, together
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.terrains.terrain import terrain_scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
@@ -175,45 +173,4 @@ def _named(name: str, scene: Scene) -> Scene:
     """The scene with this name for its only item, or in front of those of its items."""
     alone = len(scene.items) == 1
     items = tuple(replace(item, name=name if alone else f"{name} {item.name}") for item in scene.items)
-    return replace(scene, items=items, labels=_labels(scene, items))
-
-
-def _labels(scene: Scene, items: Sequence[Item]) -> tuple[Label, ...]:
-    """The labels of a scene whose items have other names now."""
-    names = {old.name: new.name for old, new in zip(reversed(scene.items), reversed(items), strict=True)}
-    return tuple(renamed(label, names) for label in scene.labels)
-
-
-def together(scenes: Sequence[Scene]) -> Scene:
-    """All items and lights; what there can be only one of is that of the first scene that has it."""
-    if len(scenes) == 1:
-        return scenes[0]
-    items = _told_apart([item for scene in scenes for item in scene.items])
-    ends = np.cumsum([len(scene) for scene in scenes]).tolist()
-    return Scene(
-        items,
-        tuple(light for scene in scenes for light in scene.lights),
-        next((scene.camera for scene in scenes if scene.camera), None),
-        next((scene.page for scene in scenes if scene.page), None),
-        next((scene.background for scene in scenes if scene.background), None),
-        next((scene.title for scene in scenes if scene.title), ""),
-        tuple(chain(*(_labels(scene, items[end - len(scene) : end]) for scene, end in zip(scenes, ends, strict=True)))),
-    )
-
-
-def _told_apart(items: Sequence[Item]) -> tuple[Item, ...]:
-    """The items, those whose names came before with numbers behind them."""
-    count: Counter[str] = Counter()
-    taken = {item.name for item in items}
-    result = []
-    for item in items:
-        count[item.name] += 1
-        name = item.name
-        if count[item.name] > 1:
-            number = count[item.name]
-            while f"{item.name} {number}" in taken:
-                number += 1
-            count[item.name], name = number, f"{item.name} {number}"
-            taken.add(name)
-        result.append(item if name == item.name else replace(item, name=name))
-    return tuple(result)
+    return replace(scene, items=items, labels=renamed_labels(scene, items))

@@ -12,6 +12,7 @@ from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.layers import layers_by_kind
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.painting.seen import Seen
+from vectorplot.scene.naming.annotations import only_annotations
 from vectorplot.scene.naming.label_anchors import LabelAnchors
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
@@ -36,8 +37,8 @@ class Ruler:
     budget: float
 
     def found(self, kinds: frozenset[LineKind], progress: Callable[[float], None]) -> Paths:
-        """The visible lines, as they come."""
-        return self._found(self.scene, kinds, progress)
+        """The visible lines, as they come; of no kinds those of annotations."""
+        return self._found(self.scene if kinds else only_annotations(self.scene), kinds, progress)
 
     def labels(self, anchors: LabelAnchors, strokes: Paths | None, text: str) -> SceneLabels:
         """The labels of the scene, apart from strokes, or where there are none from its contours; text: a word of

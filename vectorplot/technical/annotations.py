@@ -9,24 +9,18 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.arrays import Floats
-from vectorplot.curves.curve import is_curve
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.scene.naming.annotations import annotation_points, is_annotation
 from vectorplot.scene.naming.dimensions import dimension
 from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnCurve
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
-
-OWN_LINES = ("label", "centre")
-"""What annotations are drawn as."""
 
 OFFSET_MM, GAP_MM, BEYOND_MM = 10.0, 1.0, 2.0
 """From the part to a dimension line, to the extension lines, and from the dimension line to their ends."""
 
 TEXT_MM = 6.0
 """What letters beside a dimension line need."""
-
-PLACES = 9
-"""On each line, which say whether it lies in a plane."""
 
 SHOWN_IN = (("front", "top", "bottom", "back"), ("left", "right", "top", "bottom"), ("front", "left", "right", "back"))
 """The views that show the extent along x, y and z, the best first."""
@@ -41,9 +35,7 @@ class Annotation:
     @cached_property
     def points(self) -> Floats:
         """(n,3) places on its lines."""
-        shapes = [item.shape for item in self.scene.items]
-        found = [shape.points(np.linspace(shape.start, shape.end, PLACES)) for shape in shapes if is_curve(shape)]
-        return np.concatenate(found)
+        return annotation_points(self.scene)
 
     @property
     def is_centre(self) -> bool:
@@ -55,11 +47,6 @@ class Annotation:
         seen = self.points @ camera.axes.T
         zero = ZERO_OF_EXTENT * extent
         return bool(np.ptp(seen[:, 2]) <= zero and np.ptp(seen[:, :2], axis=0).max() > zero)
-
-
-def is_annotation(item: Item) -> bool:
-    """Whether an item is a line of a dimension, a leader or a centre line."""
-    return is_curve(item.shape) and item.lines is not None and len(item.lines) == 1 and item.lines[0] in OWN_LINES
 
 
 def without_annotations(scene: Scene) -> tuple[Scene, tuple[Annotation, ...]]:

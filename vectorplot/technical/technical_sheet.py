@@ -18,8 +18,9 @@ from vectorplot.drawing.sheets.sheet import Sheet
 from vectorplot.drawing.sheets.title_block import BLOCK_MM, TitleBlock
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
-from vectorplot.io.anything import scene_of, together
+from vectorplot.io.anything import scene_of
 from vectorplot.plan import StageReport
+from vectorplot.scene.naming.joined_scenes import together
 from vectorplot.scene.point_of_view import camera_of, page_of
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.technical.annotations import (

@@ -69,6 +69,17 @@ def long_strokes(paths: Paths) -> Paths:
     return without_collinear_points(joined(paths, _group(paths), COINCIDENT_MM), COLLINEAR_MM)
 
 
+def centre_lines_dashed(paths: Paths, world: Floats, mm: float = 1.0) -> Paths:
+    """The strokes, of which centre lines are broken into long dashes and dots; mm: how long a millimetre is in units of
+    the page."""
+    centre = paths.kind == int(LineKind.CENTRE)
+    if not centre.any():
+        return paths
+    dash, gap, dot = (mm * length for length in CHAIN_MM)
+    broken = dashed(long_strokes(chosen(paths, centre)), dash, gap, world, dot_mm=dot)
+    return concatenated((chosen(paths, ~centre), broken))
+
+
 def _group(paths: Paths) -> Ints:
     """(m,) equal for strokes of the same item, kind and count."""
     return (paths.item * len(LineKind) + paths.kind) * (int(paths.hidden_by.max(initial=0)) + 1) + paths.hidden_by
@@ -106,5 +117,5 @@ def _drawn(paths: Paths, pen: Pen, hidden: str, world: Floats, thinned: bool) ->
     if behind.any():
         parts.append(dashed(chosen(long, behind), *DASH_MM, world))
     if centre.any():
-        parts.append(dashed(chosen(long, centre), *CHAIN_MM[:2], world, dot_mm=CHAIN_MM[2]))
+        parts.append(centre_lines_dashed(chosen(long, centre), world))
     return concatenated(tuple(parts)) if len(parts) > 1 else long

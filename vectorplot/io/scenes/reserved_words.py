@@ -5,6 +5,7 @@ from __future__ import annotations
 from vectorplot.io.scenes.scene_families import CURVES, SLOT_WORDS, SURFACES
 from vectorplot.io.scenes.scene_item import CAP_WORDS
 from vectorplot.io.scenes.scene_words import FORM_WORDS, ITEM_WORDS, SCENE_WORDS
+from vectorplot.io.scenes.statements.annotation_statements import FIELD_WORDS
 from vectorplot.words import COLOURS, MATERIALS
 
 _WITHIN = ("position", "direction", "intensity", "fading", "none", "face", "polygon", "at", "normal", "lit_by")
@@ -13,7 +14,7 @@ _OF_LABELS = ("vertex", "on", "along", "size", "place", "hidden", "mark")
 RESERVED = frozenset(
     (
         *(*SCENE_WORDS, *ITEM_WORDS, *FORM_WORDS, *CAP_WORDS, *COLOURS, *MATERIALS),
-        *(*SURFACES, *CURVES, *SLOT_WORDS, *_WITHIN, *_OF_LABELS),
+        *(*SURFACES, *CURVES, *SLOT_WORDS, *_WITHIN, *_OF_LABELS, *FIELD_WORDS),
     )
 )
 """Words that are no names unless they are quoted."""

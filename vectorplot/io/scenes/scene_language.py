@@ -19,8 +19,10 @@ from vectorplot.io.named_files import DEEPEST, NamedFiles
 from vectorplot.io.scenes.scene_item import Draft, finished
 from vectorplot.io.scenes.scene_reader import ItemReader
 from vectorplot.io.scenes.scene_statements import read_camera, read_label, read_light, read_page
-from vectorplot.io.scenes.scene_words import SCENE_WORDS, Words
+from vectorplot.io.scenes.scene_words import ANNOTATION_WORDS, SCENE_WORDS, Words
+from vectorplot.io.scenes.statements.annotation_statements import read_annotation
 from vectorplot.scene.extent import check_range
+from vectorplot.scene.naming.joined_scenes import together
 from vectorplot.scene.naming.label_anchors import label_anchors
 from vectorplot.scene.naming.labels import Label
 from vectorplot.scene.scene import Item, Light, Scene
@@ -75,7 +77,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     ['DIE']
     """
     name, file = printable(str(path)), Path(path)
-    return _Reader(Words(_text(file, name), name), NamedFiles.of(file)).scene()
+    return _Reader(Words(_text(file, name), name), NamedFiles.of(file)).annotated()
 
 
 def _text(file: Path, name: str) -> str:
@@ -131,7 +133,7 @@ def parse_scene(text: str, name: str = "<text>") -> Scene:
     >>> scene.items[0].mesh.face_count
     6
     """
-    return _Reader(Words(text, name)).scene()
+    return _Reader(Words(text, name)).annotated()
 
 
 class _Reader(ItemReader):
@@ -144,9 +146,15 @@ class _Reader(ItemReader):
         self.parts: set[int] = set()
         self.lights: list[Light] = []
         self.labels: list[tuple[int, Label]] = []
+        self.annotations: list[Scene] = []
         self.settings = Scene(items=())
         self.set: set[str] = set()
         self.lit: list[tuple[int, Draft]] = []
+
+    def annotated(self) -> Scene:
+        """The whole file: the scene, and behind its items the lines and labels of annotations."""
+        scene = self.scene()
+        return together([scene, *self.annotations])
 
     def scene(self) -> Scene:
         """All statements and items up to the end of the text."""
@@ -187,6 +195,10 @@ class _Reader(ItemReader):
         """camera, light, page, background, title or label, and what follows it."""
         if word in _MANIFOLD:
             _MANIFOLD[word](self)
+            return
+        if word in ANNOTATION_WORDS:
+            annotation, self.at = read_annotation(self.source, self.at)
+            self.annotations.append(annotation)
             return
         if word in self.set and word not in ("light", "label"):
             self.fail(f"a second '{word}'")

@@ -13,6 +13,7 @@ from vectorplot.errors import InputError
 from vectorplot.io.expressions.expression import Expression, parse_expression
 from vectorplot.io.scenes.scene_formulas import Formulas
 from vectorplot.io.scenes.scene_words import Words
+from vectorplot.io.scenes.statements.annotation_statements import begins_annotation
 from vectorplot.tolerances.of_numbers import LARGEST
 
 Reader = Callable[[Words, int, str, str], tuple[Any, int]]
@@ -53,7 +54,7 @@ def read_family(words: Words, at: int, owner: str, name: str, families: Mapping[
         if words.words[at] in family.slots or not (slot.quoted or words.is_number(at)):
             break
         given[slot.into or word], at = slot.read(words, at, owner, word)
-    while (slot_found := family.slots.get(words.words[at])) is not None:
+    while (slot_found := family.slots.get(words.words[at])) is not None and not begins_annotation(words, at):
         word = words.words[at]
         key = slot_found.into or word
         if key in given:

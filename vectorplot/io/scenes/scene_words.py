@@ -47,7 +47,15 @@ ITEM_WORDS = (
     "terrain",
     *TERRAIN_WORDS,
 )
-SCENE_WORDS = ("camera", "light", "page", "background", "title", "label", "include", "assembly", "end")
+ANNOTATION_WORDS = (
+    *("axes", "arrow", "dimension", "radius", "diameter", "angle", "leader", "centre_line", "centre_mark"),
+)
+"""The words for lines and labels that make items of their own."""
+
+SCENE_WORDS = (
+    *("camera", "light", "page", "background", "title", "label", "include", "assembly", "end"),
+    *ANNOTATION_WORDS,
+)
 
 FORMULA = re.compile(r"\$[^$]*\$")
 """What is between dollars: a formula of TeX, whose words begin with backslashes."""

@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.curves.curve import Curve
+from vectorplot.arrays import Floats
+from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.curves.line import Line
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
 from vectorplot.scene.naming.labels import USUAL_SIZE_MM, Label, OnCurve
 from vectorplot.scene.scene import Item, Scene
+
+OWN_LINES = ("label", "centre")
+"""What annotations are drawn as."""
+
+PLACES = 17
+"""On each annotation, which say how far it reaches."""
 
 MOST_TICKS = 1000
 """On one axis."""
@@ -111,6 +119,25 @@ def axes(
                 place = OnCurve(item.name, at / one)
                 labels.append(Label(f"{at:g}", place, f"{item.name} {at:g}", size_mm * 2.0 / 3.0, mark="tick"))
     return Scene(tuple(items), labels=tuple(labels))
+
+
+def is_annotation(item: Item) -> bool:
+    """Whether an item is a line of an axis, a dimension, a leader or a centre line: pictures show it as they show
+    labels, whatever other lines they have."""
+    return is_curve(item.shape) and item.lines is not None and len(item.lines) == 1 and item.lines[0] in OWN_LINES
+
+
+def only_annotations(scene: Scene) -> Scene:
+    """The scene, of which only annotations have lines."""
+    items = (item if is_annotation(item) else replace(item, lines=()) for item in scene.items)
+    return replace(scene, items=tuple(items))
+
+
+def annotation_points(scene: Scene) -> Floats:
+    """(n,3) places on the annotations of a scene, their ends among them."""
+    shapes = [item.shape for item in scene.items if is_annotation(item)]
+    found = [shape.points(np.linspace(shape.start, shape.end, PLACES)) for shape in shapes if is_curve(shape)]
+    return np.concatenate([np.zeros((0, 3)), *found])
 
 
 def thin_line(name: str, curve: Curve, group: str = "") -> Item:

@@ -144,7 +144,9 @@ def angle(
     arc = Circle(middle, radius, axis, begins, begins + float(np.arctan2(sine, cosine)))
     said = f"{np.degrees(np.arctan2(sine, cosine)):.4g}°" if text is None else text
     item = thin_line(f"angle {said}", arc)
-    return Scene((item,), labels=_measured(item.name, said, size_mm))
+    # Letters along an arc that is hardly larger than they are would fall over each other.
+    label = Label(said, OnCurve(item.name, 0.5), item.name, size_mm)
+    return Scene((item,), labels=(*_heads(item.name, size_mm), label))
 
 
 def radius(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float = USUAL_SIZE_MM) -> Scene:
@@ -329,10 +331,13 @@ def centre_mark(centre: ArrayLike, radius: float, axis: ArrayLike = (0.0, 0.0, 1
 
 def _measured(name: str, said: str, size_mm: float) -> tuple[Label, ...]:
     """Arrowheads at both ends of a curve, and a text along it."""
-    ends = [
-        Label("", OnCurve(name, part), f"{name} end {k}", size_mm, mark="arrow") for k, part in enumerate((0.0, 1.0))
-    ]
-    return (*ends, Label(said, Along(name), name, size_mm, "above"))
+    return (*_heads(name, size_mm), Label(said, Along(name), name, size_mm, "above"))
+
+
+def _heads(name: str, size_mm: float) -> tuple[Label, ...]:
+    """Arrowheads at both ends of a curve."""
+    ends = enumerate((0.0, 1.0))
+    return tuple(Label("", OnCurve(name, part), f"{name} end {k}", size_mm, mark="arrow") for k, part in ends)
 
 
 def _distance(what: str, one: Floats, other: Floats) -> float:

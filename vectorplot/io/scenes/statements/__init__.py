@@ -1,0 +1,1 @@
+"""Statements of scene files that make items of their own."""

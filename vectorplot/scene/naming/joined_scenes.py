@@ -1,0 +1,55 @@
+"""Several scenes as one, whose items have names of their own."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import chain
+
+import numpy as np
+
+from vectorplot.scene.naming.labels import Label, renamed
+from vectorplot.scene.scene import Item, Scene
+
+
+def renamed_labels(scene: Scene, items: Sequence[Item]) -> tuple[Label, ...]:
+    """The labels of a scene whose items have other names now."""
+    names = {old.name: new.name for old, new in zip(reversed(scene.items), reversed(items), strict=True)}
+    return tuple(renamed(label, names) for label in scene.labels)
+
+
+def together(scenes: Sequence[Scene]) -> Scene:
+    """All items and lights; what there can be only one of is that of the first scene that has it."""
+    if len(scenes) == 1:
+        return scenes[0]
+    items = _told_apart([item for scene in scenes for item in scene.items])
+    ends = np.cumsum([len(scene) for scene in scenes]).tolist()
+    parts = zip(scenes, ends, strict=True)
+    return Scene(
+        items,
+        tuple(light for scene in scenes for light in scene.lights),
+        next((scene.camera for scene in scenes if scene.camera), None),
+        next((scene.page for scene in scenes if scene.page), None),
+        next((scene.background for scene in scenes if scene.background), None),
+        next((scene.title for scene in scenes if scene.title), ""),
+        tuple(chain(*(renamed_labels(scene, items[end - len(scene) : end]) for scene, end in parts))),
+    )
+
+
+def _told_apart(items: Sequence[Item]) -> tuple[Item, ...]:
+    """The items, those whose names came before with numbers behind them."""
+    count: Counter[str] = Counter()
+    taken = {item.name for item in items}
+    result = []
+    for item in items:
+        count[item.name] += 1
+        name = item.name
+        if count[item.name] > 1:
+            number = count[item.name]
+            while f"{item.name} {number}" in taken:
+                number += 1
+            count[item.name], name = number, f"{item.name} {number}"
+            taken.add(name)
+        result.append(item if name == item.name else replace(item, name=name))
+    return tuple(result)
