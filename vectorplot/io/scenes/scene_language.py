@@ -20,7 +20,7 @@ from vectorplot.io.scenes.scene_item import Draft, finished
 from vectorplot.io.scenes.scene_reader import ItemReader
 from vectorplot.io.scenes.scene_statements import read_camera, read_label, read_light, read_page
 from vectorplot.io.scenes.scene_words import ANNOTATION_WORDS, SCENE_WORDS, Words
-from vectorplot.io.scenes.statements.annotation_statements import read_annotation
+from vectorplot.io.scenes.statements.annotation_statements import begins_annotation, read_annotation
 from vectorplot.scene.extent import check_range
 from vectorplot.scene.naming.joined_scenes import together
 from vectorplot.scene.naming.label_anchors import label_anchors
@@ -159,7 +159,7 @@ class _Reader(ItemReader):
     def scene(self) -> Scene:
         """All statements and items up to the end of the text."""
         while word := self.words[self.at]:
-            if word in SCENE_WORDS:
+            if word in SCENE_WORDS or begins_annotation(self.source, self.at):
                 self.statement(word)
             else:
                 self.item()
@@ -272,7 +272,8 @@ class _Reader(ItemReader):
         while (word := self.words[self.at]) != "end":
             if not word:
                 self.source.fail(start, "assembly: expected 'end' behind its items, got the end of the file")
-            if word in SCENE_WORDS and word not in ("include", "assembly"):
+            alone = word in SCENE_WORDS and word not in ("include", "assembly")
+            if alone or begins_annotation(self.source, self.at):
                 self.fail(f"assembly: expected an item or 'end', got {self.source.shown(self.at)}")
             if word == "assembly" and self.depth >= DEEPEST:
                 self.fail(f"assembly: more than {DEEPEST} in one another")

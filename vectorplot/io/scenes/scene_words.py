@@ -47,14 +47,15 @@ ITEM_WORDS = (
     "terrain",
     *TERRAIN_WORDS,
 )
-ANNOTATION_WORDS = (
-    *("axes", "arrow", "dimension", "radius", "diameter", "angle", "leader", "centre_line", "centre_mark"),
-)
+SLOT_TOO = ("radius", "angle")
+"""Words for annotations that are also words of surfaces: what comes next tells."""
+
+ANNOTATION_WORDS = ("axes", "arrow", "dimension", "diameter", "leader", "centre_line", "centre_mark", *SLOT_TOO)
 """The words for lines and labels that make items of their own."""
 
 SCENE_WORDS = (
     *("camera", "light", "page", "background", "title", "label", "include", "assembly", "end"),
-    *ANNOTATION_WORDS,
+    *(word for word in ANNOTATION_WORDS if word not in SLOT_TOO),
 )
 
 FORMULA = re.compile(r"\$[^$]*\$")

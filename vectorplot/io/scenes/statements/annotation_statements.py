@@ -120,8 +120,10 @@ def read_annotation(words: Words, at: int) -> tuple[Scene, int]:
 
 def begins_annotation(words: Words, at: int) -> bool:
     """Whether a word that may also be one of a surface begins a statement: a text or a place comes next."""
+    if words.words[at] not in ANNOTATIONS:
+        return False
     first = at + 2 if words.words[at + 1].startswith('"') else at + 1
-    return words.words[at] in ANNOTATIONS and words.words[first] in FIELD_WORDS
+    return words.words[first] in FIELD_WORDS
 
 
 def _lengths(words: Words, at: int, owner: str) -> tuple[tuple[float, ...], int]:
