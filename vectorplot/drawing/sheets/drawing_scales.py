@@ -18,6 +18,11 @@ class DrawingScale:
     paper, world : float
         Of 1:2 these are 1 and 2.
 
+    Raises
+    ------
+    InputError
+        By `of`, for a text that says no scale.
+
     Examples
     --------
     >>> from vectorplot.drawing import DrawingScale
