@@ -29,6 +29,7 @@ from vectorplot.geometry.chunks import threads_of
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
 from vectorplot.plan import StageReport, Walk, accuracy_of_draw, plan_cuts, plan_draw, plan_hatching, with_accuracy
+from vectorplot.scene.fitted_pages import FittedPage
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.naming.label_anchors import LabelAnchors, label_anchors
 from vectorplot.scene.placement import Placement, fitted_picture, mm_per_image
@@ -311,6 +312,11 @@ def draw(
     letters = pen_of(drawn_by, letter_pen(found), int(LineKind.LABEL), False, "")
     if labels is not None:
         inks = labels.on_top(inks, layers == "kind" and shown == "plain", longest_mm, world, letters)
+    if labels is not None and isinstance(sheet, FittedPage):
+        from vectorplot.drawing.lettering.room_for_labels import with_room
+
+        inks, placement = with_room(inks, placement, labels.boxes)
+        page, world = placement.page, placement.page_from_world
     border = frame_pen(drawn_by, replace(FRAME_PEN, colour=letters.colour))
     inks = titled(inks, placement, title, frame, border, longest_mm, text)
     if paper is not None and shown == "plain":

@@ -10,6 +10,7 @@ import numpy as np
 
 from vectorplot.draw import seen_part, titled
 from vectorplot.drawing.drawing import Drawing, Layer
+from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.painted_fills import placement_of_faces
 from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import Demand
@@ -22,8 +23,11 @@ from vectorplot.io.anything import scene_of
 from vectorplot.painting.coloured import coloured
 from vectorplot.painting.erased import erased
 from vectorplot.painting.ordered_faces import ordered_faces, seen_on_page
+from vectorplot.painting.painted_paper import background as background_of
+from vectorplot.painting.painted_paper import paper
 from vectorplot.painting.ruler import PEN, Ruler
 from vectorplot.plan import StageReport, Walk, accuracy_of_paint, plan_cuts, plan_paint, with_accuracy
+from vectorplot.scene.fitted_pages import FittedPage
 from vectorplot.scene.naming.annotations import annotation_points
 from vectorplot.scene.naming.label_anchors import label_anchors
 from vectorplot.scene.placement import allowed_in_space
@@ -210,10 +214,21 @@ def paint(
     if walk.calls_for("labels"):
         labels = walk.run("labels", ruler.labels, anchors, found, text)
         found = found and labels.interrupted(found, world)
+        from vectorplot.drawing.fills_without_overlaps import cut_out
+
+        blanks = labels.blanks(paper(scene))
+        polygons = cut_out(polygons, blanks, world) if fills == "visible" else Fills.joined(polygons, blanks)
+        layers = (replace(layers[0], marks=(polygons,)),)
     if found is not None:
         layers += ruler.layers(found)
     if labels is not None:
         layers = labels.on_top(layers, False, None, world)
+        if isinstance(sheet, FittedPage):
+            from vectorplot.drawing.lettering.room_for_labels import with_room
+
+            layers, placement = with_room(layers, placement, labels.boxes)
+            page, world = placement.page, placement.page_from_world
+            layers = (replace(layers[0], marks=(*background_of(scene, page), *layers[0].marks)), *layers[1:])
     layers = titled(layers, placement, title, frame, text=text)
     return Drawing(page.width_mm, page.height_mm, layers, tuple(i.name for i in scene.items), scene.title, world)
 

@@ -64,6 +64,8 @@ from vectorplot.words import LineKind, check_word, line_kinds
 
 if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Paths
+    from vectorplot.drawing.fills import Fills
+    from vectorplot.drawing.lettering.scene_labels import SceneLabels
     from vectorplot.shading.shadows.seen_region import SeenRegion
 
 SIZE = (800, 600)
@@ -248,8 +250,9 @@ def render(
         found = centre_lines_dashed(found, placement.page_from_world, samples * PIXELS_PER_MM)
     if walk.calls_for("labels"):
         beside = (scene, placement, view, crease_angle_deg, budget)
-        found, letters = walk.run("labels", _with_labels, anchors, found, samples, *beside)
-        pixels = _with_lines(pixels, letters, samples * LETTER_PIXELS)
+        found, labels = walk.run("labels", _with_labels, anchors, found, samples, *beside)
+        pixels = _with_blanks(pixels, labels.blanks(palette(background or scene.background or BACKGROUND)[-1:]))
+        pixels = _with_lines(pixels, labels.strokes, samples * LETTER_PIXELS)
     if found is not None:
         pixels = _with_lines(pixels, found, float(samples))
     return Image(walk.run("average", averaged_light, pixels, samples), scene.title)
@@ -415,13 +418,22 @@ def _with_labels(
     view: View,
     crease_angle_deg: float,
     budget: float,
-) -> tuple[Paths | None, Paths]:
-    """The lines of a picture, ending before its letters, and the letters; without lines these keep off contours."""
+) -> tuple[Paths | None, SceneLabels]:
+    """The lines of a picture, ending before its letters, and its labels; without lines these keep off contours."""
     outlines = frozenset({LineKind.CONTOUR, LineKind.BOUNDARY})
     beside = _lines(scene, placement, view, crease_angle_deg, budget, outlines) if found is None else found
     seen = with_smooth_surfaces(scene, view, None)
     labels = labels_in_place(scene, *seen, placement, anchors, beside, mm=samples * PIXELS_PER_MM)
-    return found and labels.interrupted(found, placement.page_from_world), labels.strokes
+    return found and labels.interrupted(found, placement.page_from_world), labels
+
+
+def _with_blanks(pixels: Bytes, blanks: Fills) -> Bytes:
+    """The picture with polygons over it."""
+    from vectorplot.backends.raster import painted
+    from vectorplot.drawing.drawing import Drawing, Layer, Pen
+
+    rows, columns = pixels.shape[:2]
+    return painted(pixels, Drawing(float(columns), float(rows), (Layer("blank", Pen(), (blanks,)),)))
 
 
 def _with_lines(pixels: Bytes, found: Paths, width: float) -> Bytes:

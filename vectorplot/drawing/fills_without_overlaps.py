@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -56,6 +57,13 @@ def visible_fills(fills: Fills, page_from_world: Floats) -> Fills:
     solid, lines = fills.some(np.flatnonzero(sizes > 2)), fills.some(np.flatnonzero(sizes == 2))
     parts, source = without_holes(*visible_regions(solid))
     return Fills.joined(_listed(solid, parts, source, page_from_world), lines)
+
+
+def cut_out(fills: Fills, over: Fills, page_from_world: Floats) -> Fills:
+    """The parts of polygons, as of visible_fills, that do not lie under others; these are not among them."""
+    mark = int(fills.item.max(initial=0)) + 1
+    found = visible_fills(Fills.joined(fills, replace(over, item=np.full(len(over), mark))), page_from_world)
+    return found.some(np.flatnonzero(found.item != mark))
 
 
 def visible_regions(fills: Fills) -> tuple[Any, Ints]:

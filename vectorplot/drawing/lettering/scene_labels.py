@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Layer, Paths, Pen
+from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.layers import PENS
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
 from vectorplot.drawing.lettering.placing import places
@@ -82,6 +83,11 @@ class SceneLabels:
     def interrupted(self, strokes: Paths, page_from_world: Floats) -> Paths:
         """The strokes of a drawing without what lies behind the letters."""
         return outside_boxes(strokes, self.boxes, page_from_world)
+
+    def blanks(self, colour: Colours) -> Fills:
+        """Polygons in the colour (1,3) of the paper under the letters: fills end before these, as lines do."""
+        corners, count = self.boxes.reshape(-1, 2), len(self.boxes)
+        return Fills.flat(corners, 4 * np.arange(count + 1), np.repeat(colour, count, axis=0), kind=FillKind.BACKGROUND)
 
     def on_top(
         self,

@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.lettering.accents import CAPITAL
 from vectorplot.drawing.lettering.hershey import Glyph, clusters, glyph, room_of
 from vectorplot.drawing.texts import Texts
@@ -30,6 +30,15 @@ FORMULA = re.compile(r"(?<!\\)\$([^$]+)(?<!\\)\$")
 
 LINES_APART = 1.7
 """From one line of text to the next, in heights of capitals."""
+
+NEAREST = 0.2
+"""Letters along a curve may stand so far in each other's boxes, which are larger than they, in heights of capitals."""
+
+STEP, MOST_STEPS = 0.05, 120
+"""By such steps, in heights of capitals, letters go on along a curve until they stand clear, by so many at most."""
+
+BACK = 6
+"""How many letters before each one along a curve may be in its way."""
 
 DESCENT = 1.0 / 3.0
 """How far letters reach below their line, in heights of capitals."""
@@ -368,15 +377,60 @@ def _course(
     if to[0] < from_[0]:
         points, begin = points[::-1], whole - end
     middle = begin + np.cumsum(advance) - 0.5 * advance
+    down = {"base": 0.0, "middle": 0.5 * size_mm, "top": size_mm}[level] - off_mm
+    low, high = (unit * end for end in _reach(found))
+    course = _upright(points, middle, advance, down, low, high)
+    boxes, slack = course.boxes, NEAREST * size_mm
+    if any(_overlaps(boxes[:-lag], boxes[lag:], slack).any() for lag in range(1, min(BACK, len(boxes)))):
+        middle = _apart(points, middle, advance, down, low, high, size_mm)
+        course = _upright(points, middle, advance, down, low, high)
+    return course
+
+
+def _upright(points: Floats, middle: Floats, advance: Floats, down: float, low: float, high: float) -> _Course:
+    """Letters of some widths whose middles are at these lengths along a curve."""
     place, way = _along(points, middle)
     turn_deg = np.degrees(np.arctan2(way[:, 1], way[:, 0]))
     turn = _turn(turn_deg)
-    down = {"base": 0.0, "middle": 0.5 * size_mm, "top": size_mm}[level] - off_mm
     foot = place - np.einsum("nij,nj->ni", turn, np.stack([0.5 * advance, np.full(len(advance), down)], axis=1))
-    low, high = (unit * end for end in _reach(found))
-    corner = np.tile([0.0, low], (len(found), 1))
+    corner = np.tile([0.0, low], (len(advance), 1))
     boxes = _rectangles(corner, advance, np.full(len(advance), high - low))
     return _Course(foot, turn_deg, turn, np.einsum("nij,nkj->nki", turn, boxes) + foot[:, None])
+
+
+def _apart(
+    points: Floats, middle: Floats, advance: Floats, down: float, low: float, high: float, size_mm: float
+) -> Floats:
+    """(n,) lengths along a curve so far apart that letters do not overlap where it turns sharply: each goes on until
+    it stands clear of the one before it, and all of them back by one half of what the last one has gone."""
+    steps = STEP * size_mm * np.arange(MOST_STEPS)
+    found, gone = middle, 0.0
+    for part in (0.0, 0.5):
+        # The second time the text has its middle about where it is to be.
+        found, gone = np.zeros(len(middle)), -part * gone
+        taken = np.zeros((0, 4, 2))
+        for k, (at, wide) in enumerate(zip(middle.tolist(), advance.tolist(), strict=True)):
+            tried = at + gone + steps
+            boxes = _upright(points, tried, np.full(len(tried), wide), down, low, high).boxes
+            pairs = np.tile(taken, (len(tried), 1, 1)), np.repeat(boxes, len(taken), axis=0)
+            clear = ~_overlaps(*pairs, NEAREST * size_mm).reshape(len(tried), len(taken)).any(axis=1)
+            which = int(np.argmax(clear)) if clear.any() else 0
+            found[k], gone = tried[which], gone + float(steps[which])
+            taken = np.concatenate([taken, boxes[which : which + 1]])[-BACK:]
+    return found
+
+
+def _overlaps(boxes: Floats, others: Floats, slack: float) -> Bools:
+    """(n,) whether rectangles (n,4,2) reach more than slack into each other."""
+    apart = np.full(len(boxes), -np.inf)
+    for one in (boxes, others):
+        for axis in (one[:, 1] - one[:, 0], one[:, 3] - one[:, 0]):
+            long = np.sqrt((axis * axis).sum(axis=1, keepdims=True))
+            unit = axis / np.where(long > 0.0, long, 1.0)
+            first, second = (np.einsum("nkj,nj->nk", some, unit) for some in (boxes, others))
+            gap = np.maximum(second.min(axis=1) - first.max(axis=1), first.min(axis=1) - second.max(axis=1))
+            apart = np.maximum(apart, gap)
+    return apart < -slack
 
 
 def _measured(line: str) -> list[Glyph]:
