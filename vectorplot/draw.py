@@ -395,7 +395,7 @@ def _straight_lines(
     if walk.calls_for("patterns"):
         found.append(walk.run("patterns", pattern_lines, scene, view, kinds))
     if walk.calls_for("lines on meshes"):
-        found.append(walk.run("lines on meshes", mesh_curve_lines, scene, view, kinds))
+        found.append(walk.run("lines on meshes", mesh_curve_lines, scene, view, kinds, crease_angle_deg))
     return with_shared_kinds(view, joined_lines(found))
 
 

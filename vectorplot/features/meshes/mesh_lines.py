@@ -19,6 +19,7 @@ from vectorplot.features.meshes.mesh_curves import (
     joined_segments,
     without_inner,
 )
+from vectorplot.features.meshes.smooth_patches import apart_at_creases
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.adjacency import face_barycentres
 from vectorplot.geometry.repair.winding import edge_uses
@@ -112,17 +113,19 @@ def mesh_level_lines(mesh: Mesh, heights: ArrayLike) -> MeshCurves:
     return mesh_plane_sections(mesh, (0.0, 0.0, 1.0), heights)
 
 
-def mesh_isophotes(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurves:
+def mesh_isophotes(mesh: Mesh, light: ArrayLike, cosines: ArrayLike, crease_angle_deg: float = 180.0) -> MeshCurves:
     """The curves across the faces of a mesh on which N.l = c in parallel light.
 
     Parameters
     ----------
     mesh : Mesh
-        Best one of a smooth surface.
+        Best one of a surface that is smooth but for creases.
     light : (3,) array_like of float
         l, of any length, towards the light.
     cosines : (k,) array_like of float
         c, -1 to 1; or one of them.
+    crease_angle_deg : float
+        At edges where faces turn by more, 0 to 180 degrees, they are taken for different surfaces; where 180 at none.
 
     Returns
     -------
@@ -132,12 +135,12 @@ def mesh_isophotes(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurv
     Raises
     ------
     InputError
-        For a light without length, cosines not within -1 and 1.
+        For a light without length, cosines not within -1 and 1, an angle not within 0 and 180.
 
     Notes
     -----
     N.l is taken from average normals at the vertices and linear in every triangle: on a mesh of a smooth surface the
-    curves come near the true isophotes; across creases they mean little.
+    curves come near the true isophotes. They end at creases, and flat faces between creases have none.
 
     Source: Glaeser, section 9.3, example 2.
 
@@ -152,20 +155,25 @@ def mesh_isophotes(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurv
     (1, True)
     """
     towards = normalize(vector("isophotes: light", light))
-    return _across_faces(mesh, lambda points, normals: np.asarray(normals @ towards), _cosines(cosines))
+    whole = _apart(mesh, crease_angle_deg)
+    return _across_faces(whole, lambda points, normals: np.asarray(normals @ towards), _cosines(cosines))
 
 
-def mesh_point_light_isophotes(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurves:
+def mesh_point_light_isophotes(
+    mesh: Mesh, light: ArrayLike, cosines: ArrayLike, crease_angle_deg: float = 180.0
+) -> MeshCurves:
     """The curves across the faces of a mesh on which N.l = c in the light of a point.
 
     Parameters
     ----------
     mesh : Mesh
-        Best one of a smooth surface.
+        Best one of a surface that is smooth but for creases.
     light : (3,) array_like of float
         Where the light stands, in world coordinates.
     cosines : (k,) array_like of float
         c, -1 to 1; or one of them.
+    crease_angle_deg : float
+        At edges where faces turn by more, 0 to 180 degrees, they are taken for different surfaces; where 180 at none.
 
     Returns
     -------
@@ -192,7 +200,8 @@ def mesh_point_light_isophotes(mesh: Mesh, light: ArrayLike, cosines: ArrayLike)
     (1, True)
     """
     lamp = vector("isophotes: light", light)
-    return _across_faces(mesh, lambda points, normals: _towards(points, lamp, normals), _cosines(cosines))
+    whole = _apart(mesh, crease_angle_deg)
+    return _across_faces(whole, lambda points, normals: _towards(points, lamp, normals), _cosines(cosines))
 
 
 def mesh_isophote_edges(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurves:
@@ -367,6 +376,12 @@ def vertex_normals(mesh: Mesh) -> Floats:
     total = np.stack([np.bincount(corner, weighted[:, k], len(mesh.vertices)) for k in range(3)], axis=1)
     length = np.linalg.norm(total, axis=1, keepdims=True)
     return np.asarray(total / np.where(length > NO_NORMAL, length, np.inf))
+
+
+def _apart(mesh: Mesh, crease_angle_deg: float) -> Mesh:
+    if not 0.0 <= crease_angle_deg <= 180.0:
+        raise InputError(f"isophotes: a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
+    return apart_at_creases(mesh, crease_angle_deg)
 
 
 def _across_faces(mesh: Mesh, cosine: Callable[[Floats, Floats], Floats], levels: Floats) -> MeshCurves:

@@ -328,10 +328,11 @@ def pattern_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines
     return straight_lines(start, end, np.full(len(owner), int(LineKind.PATTERN)), owner, np.zeros_like(owner))
 
 
-def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines:
+def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind], crease_angle_deg: float) -> Lines:
     """The isophotes, sections, integral curves, lines of terrains and feature lines that polyhedra ask for: they lie in
     the faces.
 
+    Isophotes end at edges that turn by more than the crease angle.
     Errors: InputError, with the item's name, for a light that the scene does not have, and as of item_integral_lines.
     """
     parts = []
@@ -339,7 +340,7 @@ def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Li
         wanted = kinds_of(item, kinds)
         if isinstance(item.shape, Mesh) and item.shape.face_count:
             if LineKind.ISOPHOTE in wanted and item.curves.isophotes:
-                found = _mesh_isophotes(scene, view, item)
+                found = _mesh_isophotes(scene, view, item, crease_angle_deg)
                 parts.append(_lines_of_curves(view, found, LineKind.ISOPHOTE, number, item.curves.smooth))
             for section in item.curves.sections:
                 if section.kind in wanted:
@@ -379,13 +380,13 @@ def _terrain_lines(item: Item, mesh: Mesh, asked: TerrainLines) -> MeshCurves:
         raise InputError(f"{item.name}: {error.cause}") from None
 
 
-def _mesh_isophotes(scene: Scene, view: View, item: Item) -> MeshCurves:
+def _mesh_isophotes(scene: Scene, view: View, item: Item, crease_angle_deg: float) -> MeshCurves:
     light, cosines = curve_light(scene, view, item), item.curves.isophotes
     if item.curves.along_edges:
-        trace = mesh_isophote_edges if light.parallel else mesh_point_light_isophote_edges
-    else:
-        trace = mesh_isophotes if light.parallel else mesh_point_light_isophotes
-    return trace(item.mesh, light.position, cosines)
+        along = mesh_isophote_edges if light.parallel else mesh_point_light_isophote_edges
+        return along(item.mesh, light.position, cosines)
+    across = mesh_isophotes if light.parallel else mesh_point_light_isophotes
+    return across(item.mesh, light.position, cosines, crease_angle_deg)
 
 
 def _lines_of_curves(view: View, curves: MeshCurves, kind: LineKind, item: int, smooth: bool) -> Lines:
