@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.zeros.grid_triangulation import average_normals, triangulate_surface
+from vectorplot.features.zeros.grid_triangulation import average_normals, mesh_of_grid, triangulate_surface
+from vectorplot.surfaces.families.ellipsoid import Sphere
 
 
 def torus_grid(columns, rows, a=3.0, b=1.0):
@@ -88,3 +89,19 @@ def test_the_diagonal_follows_the_fold():
 def test_a_grid_needs_points_both_ways(shape):
     with pytest.raises(InputError, match="grid of points"):
         average_normals(np.zeros(shape))
+
+
+@pytest.mark.parametrize(("scale", "shift"), [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 1e6)])
+def test_poles_are_one_vertex_and_close_the_mesh(scale, shift):
+    u, v = np.meshgrid(*Sphere().domain.grid(36, 18), indexing="ij")
+    points = scale * Sphere().points(u, v) + shift
+    ball, turned = mesh_of_grid(points, closed_u=True), mesh_of_grid(points.transpose(1, 0, 2), closed_v=True)
+    for mesh in (ball, turned):
+        assert mesh.is_closed and len(mesh.vertices) == 36 * 17 + 2 and mesh.face_count == 2 * 36 * 17
+
+
+def test_a_grid_with_a_row_that_is_not_finite_has_the_other_rows():
+    x, y = np.meshgrid(np.arange(4.0), np.arange(3.0), indexing="ij")
+    points = np.stack([x, y, np.zeros_like(x)], axis=2)
+    points[0] = np.nan
+    assert mesh_of_grid(points).face_count == 8

@@ -9,6 +9,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_numbers import ROUNDING
 from vectorplot.tolerances.of_values import SYMMETRIC_DEVIATION
 
 
@@ -176,8 +178,8 @@ def mesh_of_grid(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = Fa
 
     Notes
     -----
-    Triangles with a corner that is not finite are left out, as those without extent are at poles, whose points stay
-    apart.
+    A border row whose points are one but for rounding, as at a pole, is one vertex. Triangles with a corner that is not
+    finite are left out, and those that have one corner twice.
 
     Source: Glaeser, section 9.3.
 
@@ -195,11 +197,26 @@ def mesh_of_grid(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = Fa
     m, n = p.shape[:2]
     i, j = np.divmod(np.arange(m * n), n)
     i, j = (i % (m - 1) if closed_u else i), (j % (n - 1) if closed_v else j)
-    triangles = (i * n + j)[triangles]
     points = p.reshape(-1, 3)
+    triangles = _with_poles((i * n + j).reshape(m, n), p).ravel()[triangles]
     finite = np.asarray(np.isfinite(points).all(axis=1))
     whole = finite[triangles].all(axis=1)
     a, b, c = (points[triangles[:, k]] for k in range(3))
     whole &= (a != b).any(axis=1) & (b != c).any(axis=1) & (c != a).any(axis=1)
     used, corners = np.unique(triangles[whole], return_inverse=True)
     return Mesh.from_triangles(points[used], corners.reshape(-1, 3))
+
+
+def _with_poles(vertex: Ints, points: Floats) -> Ints:
+    """(m,n) vertices of a grid of points, those of a border row the same where it is a pole."""
+    finite = points[np.isfinite(points).all(axis=2)]
+    if not len(finite):
+        return vertex
+    least = max(ZERO_OF_EXTENT * float(np.ptp(finite, axis=0).max()), ROUNDING * float(np.abs(finite).max()))
+    vertex = vertex.copy()
+    for row in (np.s_[:, 0], np.s_[:, -1], np.s_[0], np.s_[-1]):
+        with np.errstate(invalid="ignore"):
+            extent = np.ptp(points[row], axis=0).max()
+        if extent <= least:
+            vertex[row] = vertex[row][0]
+    return vertex
