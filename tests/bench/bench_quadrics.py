@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import cProfile
+import pstats
+
 import numpy as np
 import pytest
 
 from vectorplot.draw import draw
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.plan import StageReport
+from vectorplot.scene.added_lines import even_sections, with_lines
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Item, Scene
-from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
+from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, even_cosines
 from vectorplot.speed.clock import cpu_seconds
 from vectorplot.surfaces.families.capped import Capped, rod
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
@@ -131,4 +135,45 @@ def test_a_forest_on_a_ground() -> None:
 def test_balls_on_sticks() -> None:
     exponent = measured("atoms with bonds from middle to middle", {count: molecule(count) for count in (500, 2000)})
     print(f"  growth exponent {exponent:.2f}")
+    assert exponent < 1.2
+
+
+def mikado(count: int) -> Scene:
+    """Rods that lie across each other, as dense whatever their number."""
+    rng = np.random.default_rng(1)
+    middles = rng.uniform(0.0, 1.6 * count ** (1.0 / 3.0), (count, 3))
+    ways = rng.normal(size=(count, 3))
+    ways *= 2.0 / np.linalg.norm(ways, axis=1, keepdims=True)
+    rods = [rod(middle - way, middle + way, 0.15) for middle, way in zip(middles, ways, strict=True)]
+    return Scene(tuple(Item(str(k), shape) for k, shape in enumerate(rods)))
+
+
+def calls(scene: Scene) -> int:
+    """How many functions are called, on one thread."""
+    draw(scene, CAMERA)
+    profile = cProfile.Profile()
+    profile.runcall(draw, scene, CAMERA, jobs=1)
+    return int(pstats.Stats(profile).total_calls)  # type: ignore[attr-defined]
+
+
+def test_rods_across_each_other() -> None:
+    """Every pair has its curve, found with those of the others in whole arrays."""
+    exponent = measured("rods across each other", {count: mikado(count) for count in (400, 1600)})
+    more = calls(mikado(400)) - calls(mikado(100))
+    print(f"  growth exponent {exponent:.2f}, {more / 300:,.0f} calls for each more")
+    assert exponent < 1.2
+    assert more < 300 * 600
+
+
+def test_sections_and_isophotes_of_balls_on_sticks() -> None:
+    """Each line costs little beside the bodies: they stay what they are."""
+    plain = molecule(200)
+    lit = with_lines(plain, isophotes=even_cosines(9))
+    lined = with_lines(plain, sections=(even_sections(plain, (0.3, 0.2, 1.0), 20),))
+    times = [cpu_seconds(lambda s=scene: draw(s, CAMERA)) for scene in (plain, lined, lit)]
+    print("\n200 atoms with bonds: plain, 20 sections, 9 isophotes\n  " + ", ".join(f"{t:.3f} s" for t in times))
+    assert max(times) < 5.0 * times[0]
+    exponent = measured(
+        "atoms with bonds, 9 isophotes", {k: with_lines(molecule(k), isophotes=even_cosines(9)) for k in (250, 1000)}
+    )
     assert exponent < 1.2

@@ -44,10 +44,14 @@ class Targets:
         """Some of the triangles, in their order."""
         return records.some(self, which)
 
+    def range_of_sheet(self, number: int) -> slice:
+        """Where the triangles of one sheet are."""
+        first, last = np.searchsorted(self.sheet, [number, number + 1]).tolist()
+        return slice(first, last)
+
     def of_sheet(self, number: int) -> Targets:
         """The triangles of one sheet."""
-        first, last = np.searchsorted(self.sheet, [number, number + 1])
-        return self.some(np.arange(first, last))
+        return self.some(np.arange(len(self))[self.range_of_sheet(number)])
 
     @cached_property
     def tree(self) -> shapely.STRtree:

@@ -88,11 +88,18 @@ def _close(
     curve, of = curve[stranger], of[stranger]
     order = np.argsort(of, kind="stable")
     sizes = np.diff(curves.offsets) - 1
+    within = _within(targets)
+    start, end = curves.points[:-1], curves.points[1:]
+    below, above = np.minimum(start, end), np.maximum(start, end)
     for own in np.split(order, np.flatnonzero(np.diff(of[order])) + 1) if len(order) else ():
         number, mine = int(of[own[0]]), np.sort(curve[own])
-        target = targets.of_sheet(number)
         chord = ragged.ranges(curves.offsets[mine], sizes[mine])
         chord = chord[(depth[chord] > view.near) & (depth[chord + 1] > view.near)]
+        all_of_it = targets.range_of_sheet(number)
+        chord, triangle = _near_each_other(below, above, chord, targets.corners[all_of_it], within[all_of_it])
+        if not len(chord):
+            continue
+        target = targets.some(all_of_it.start + triangle)
 
         def look(rows: Ints, target: Targets = target, number: int = number) -> Block[_Close]:
             chord, part, places, reach, looked = _near_triangles(target, curves, rows, image, depth)
@@ -112,14 +119,31 @@ def _neighbours(sheets: Sheets, targets: Targets, curves: Curves) -> tuple[Ints,
     first = np.flatnonzero(np.diff(targets.sheet, prepend=-1))
     if not len(first) or not len(curves):
         return np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp)
-    size = np.ptp(targets.corners, axis=1).max(axis=1)
-    # As far as a chord may be from a triangle that it comes close to.
-    within = np.maximum.reduceat(targets.off + NEAR * np.sqrt(3.0) * size, first)
+    within = np.maximum.reduceat(_within(targets), first)
     vertices = [sheets[number].vertices for number in targets.sheet[first].tolist()]
     finite = [own[np.isfinite(own).all(axis=1)] for own in vertices]
     of_sheets = SlabHulls.of(np.concatenate(finite), np.array([len(own) for own in finite])).widened(within)
     curve, sheet = SlabHulls.of(curves.points, np.diff(curves.offsets)).near(of_sheets)
     return curve, targets.sheet[first[sheet]]
+
+
+def _within(targets: Targets) -> Floats:
+    """(t,) as far as a chord may be from a triangle that it comes close to."""
+    size = np.ptp(targets.corners, axis=1).max(axis=1)
+    return np.asarray(targets.off + NEAR * np.sqrt(3.0) * size)
+
+
+def _near_each_other(below: Floats, above: Floats, chord: Ints, corners: Floats, within: Floats) -> tuple[Ints, Ints]:
+    """The chords, in boxes from below to above (n,3), that are in the box around all triangles (t,3,3), made larger by
+    the largest distance within (t,); and the triangles that are in the box around these chords."""
+    low, high = np.nanmin(corners, axis=1), np.nanmax(corners, axis=1)
+    low, high = low - within[:, None], high + within[:, None]
+    beside = (below[chord] > high.max(axis=0)) | (above[chord] < low.min(axis=0))
+    chord = chord[~beside.any(axis=1)]
+    if not len(chord):
+        return chord, np.zeros(0, dtype=np.intp)
+    beside = (low > above[chord].max(axis=0)) | (high < below[chord].min(axis=0))
+    return chord, np.flatnonzero(~beside.any(axis=1))
 
 
 def _elsewhere(
