@@ -185,3 +185,9 @@ def test_a_point_in_the_lamp_is_not_lit_and_gives_no_nan():
 def test_bad_numbers_are_refused(make):
     with pytest.raises(InputError):
         make()
+
+
+def test_glass_keeps_its_colour():
+    cosine = np.linspace(0.0, 1.0, 50)
+    clear, plain = (il.brightness(cosine, np.zeros(50), FINISHES[word]) for word in ("transparent", "normal"))
+    assert (clear >= 0.85 * plain).all()

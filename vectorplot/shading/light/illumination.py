@@ -94,7 +94,7 @@ class Finish:
         sharpness : float
             Of the highlight, 2 to 1024.
         diffuse : float
-            0.2 to 0.5.
+            0.2 to 0.5; 0.9 for what is clear, the colour of which is what is seen of it.
         exponent : float
             As of Finish.
 
@@ -145,7 +145,7 @@ FINISHES: dict[str, Finish] = {
     "mat": Finish(exponent=0.5),
     "wood": Finish(exponent=0.7, diffuse=0.9),
     "plastic": Finish.polished(64.0, 0.5),
-    "transparent": Finish.polished(256.0, 0.3),
+    "transparent": Finish.polished(256.0, 0.9),
     "mirror": Finish.polished(1024.0, 0.2),
 }
 """What the words of scene.Material mean. Source: Glaeser, sections 4.5, figure 4, and 8.5, figure 18."""
