@@ -70,3 +70,20 @@ def test_the_hint_is_one_line_and_goes_where_up_is_said(cube, tmp_path, capsys):
     for said in (["--up", "y"], ["--view", "front"], ["-q"]):
         assert run(["draw", str(tall), "-o", out, *said]) == 0
         assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize("verb", ["draw", "paint", "render"])
+@pytest.mark.parametrize(
+    ("item", "options", "status"),
+    [
+        ("BALL surface sphere 1 asymptotic_lines apart 0.00001", ["--lines", "contour,integral"], 1),
+        ('BALL surface implicit "x*y" box -1 1 -1 1 -1 1', ["--budget", "0.001"], 0),
+    ],
+    ids=["error", "warning"],
+)
+def test_what_is_found_late_names_the_file_and_the_line_too(tmp_path, capsys, verb, item, options, status):
+    path = tmp_path / "late.scene"
+    path.write_text(f"BALL_2 red box 1 1 1\n\n{item}\n  translation 3 0 0\n")
+    assert run([verb, str(path), *options, "-o", str(tmp_path / "x.png")]) == status
+    told = capsys.readouterr().err.splitlines()
+    assert told and all(f"{path}:3: BALL: " in line for line in told)

@@ -6,7 +6,8 @@ import errno
 import os
 import sys
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,13 +15,17 @@ from typing import TYPE_CHECKING
 import click
 
 from vectorplot.cli.progress import progress_bar, table, told_warnings
-from vectorplot.errors import InputWarning
+from vectorplot.errors import InputError, InputWarning
 
 if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Drawing
     from vectorplot.plan import StageReport
     from vectorplot.scene.scene import Scene
     from vectorplot.shading.raster.image import Image
+
+
+AFTER_A_NAME = (": ", ", ", " and ")
+"""What follows the name of an item that a message begins with."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +92,8 @@ def make_picture(
         check_place(out)
         with progress_bar(quiet=quiet) as progress:
             scene = walk.run("read", source.read)
-            made = picture(scene, Report(progress, reports.append))
+            with located(scene):
+                made = picture(scene, Report(progress, reports.append))
             if is_empty(made):
                 warnings.warn(f"{source.name}: nothing to draw: the picture is empty", InputWarning, stacklevel=2)
             if overlaid and isinstance(made, Drawing):
@@ -98,6 +104,31 @@ def make_picture(
                 write_out(out, walk.run("write", write, made, format_))
     if explain:
         click.echo(table(reports), err=True)
+
+
+@contextmanager
+def located(scene: Scene) -> Iterator[None]:
+    """In the errors and warnings of the work that begin with the name of an item: the file and the line it is in."""
+    places = {item.name: item.place for item in scene.items if item.place is not None}
+
+    def place_of(text: str) -> tuple[str, int] | None:
+        named = [name for name in places if text.startswith(tuple(name + after for after in AFTER_A_NAME))]
+        return places[max(named, key=len)] if named else None
+
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", InputWarning)
+        try:
+            yield
+        except InputError as error:
+            place = place_of(error.cause) if error.file is None else None
+            if place is None:
+                raise
+            raise InputError(error.cause, file=place[0], line=place[1]) from error
+    for entry in caught:
+        text = str(entry.message)
+        place = place_of(text)
+        told = entry.message if place is None else InputWarning(f"{place[0]}:{place[1]}: {text}")
+        warnings.warn_explicit(told, entry.category, entry.filename, entry.lineno)
 
 
 def is_empty(made: Drawing | Image) -> bool:

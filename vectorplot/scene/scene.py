@@ -196,6 +196,8 @@ class Item(Movable["Item"]):
         A name that items share which stay together in the painter's order.
     hatch : Hatching, optional
         How its faces are hatched (None: as the drawing asks for).
+    place : (str, int), optional
+        The file and the line, from 1, where it is described, for messages about it.
 
     Raises
     ------
@@ -221,6 +223,7 @@ class Item(Movable["Item"]):
     curves: SurfaceLines = NO_LINES
     group: str = ""
     hatch: Hatching | None = None
+    place: tuple[str, int] | None = None
 
     def __post_init__(self) -> None:
         check_colour(self.colour, f"{self.name}: ")

@@ -153,6 +153,7 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
         curves,
         draft.group or "",
         draft.hatch,
+        (words.name, words.line(draft.index)),
     )
 
 
