@@ -72,14 +72,13 @@ def test_the_hint_is_one_line_and_goes_where_up_is_said(cube, tmp_path, capsys):
         assert capsys.readouterr().err == ""
 
 
-@pytest.mark.parametrize("verb", ["draw", "paint", "render"])
 @pytest.mark.parametrize(
-    ("item", "options", "status"),
+    ("verb", "item", "options", "status"),
     [
-        ("BALL surface sphere 1 asymptotic_lines apart 0.00001", ["--lines", "contour,integral"], 1),
-        ('BALL surface implicit "x*y" box -1 1 -1 1 -1 1', ["--budget", "0.001"], 0),
+        ("draw", "BALL surface sphere 1 asymptotic_lines apart 0.00001", [], 1),
+        ("draw", 'BALL surface implicit "x*y" box -1 1 -1 1 -1 1', ["--budget", "0.001"], 0),
+        ("paint", 'BALL surface implicit "x*y" box -1 1 -1 1 -1 1', ["--budget", "0.001"], 0),
     ],
-    ids=["error", "warning"],
 )
 def test_what_is_found_late_names_the_file_and_the_line_too(tmp_path, capsys, verb, item, options, status):
     path = tmp_path / "late.scene"
