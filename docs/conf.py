@@ -33,7 +33,16 @@ autodoc_typehints = "none"
 
 
 CONTENTS = {
-    "Start": ("first-drawing", "how-to", "concepts", "gallery/README"),
+    "Start": (
+        "first-drawing",
+        "for_plotters",
+        "for_latex",
+        "for_notebooks",
+        "for_tests",
+        "how-to",
+        "concepts",
+        "gallery/README",
+    ),
     "What it does": (
         *("drawing", "labels", "hatching", "paint", "render", "scene-language", "molecules", "landscapes"),
         "textbook",

@@ -12,6 +12,7 @@ from support.backend_samples import run
 import vectorplot as vp
 from vectorplot.backends.tikz.nodes import latex
 from vectorplot.drawing import Texts, typeset, typeset_along
+from vectorplot.drawing.lettering.formulas import without_formulas
 from vectorplot.errors import InputError
 from vectorplot.geometry import box
 from vectorplot.save import write
@@ -22,7 +23,7 @@ WORDS = ("<A & B>", "100% \\ {x}_1^2 ~ #7", "Größe: α ≤ π/2", "%%c", "東�
 @pytest.fixture(scope="module")
 def labelled():
     labels = [vp.Label(word, vp.OnPage(20, 20 + 8 * k)) for k, word in enumerate(WORDS)]
-    labels.append(vp.Label("behind", (0, 1, 0), hidden="solid"))
+    labels.append(vp.Label("behind", (0, 1, 0), hidden="dashed"))
     scene = vp.Scene((vp.Item("box", box((1, 1, 1))),), labels=tuple(labels))
     return vp.draw(scene, vp.Camera((6, -5, 4)), page=vp.Page(100, 80), text="real", title="Letters", frame=True)
 
@@ -143,3 +144,16 @@ def test_room_is_that_of_strokes():
 
     for text in ("Ab", "Two\nlines", ""):
         assert np.allclose(typeset(text, (3, 4), align="centre").boxes, lettered(text, (3, 4), align="centre").boxes)
+
+
+@pytest.mark.parametrize(
+    ("formula", "plain"),
+    [
+        (r"$\alpha_1^2$ & 5 %", "α₁² & 5 %"),
+        (r"$e = \frac{\sin\varepsilon}{\sin\alpha} < 1$", "e = sin ε/sin α < 1"),
+        (r"$x_{max}$, \$5", "xmax, $5"),
+        ("5 $", "5 $"),
+    ],
+)
+def test_formulas_that_nobody_sets_are_plain_letters(formula, plain):
+    assert without_formulas(formula) == plain

@@ -29,7 +29,8 @@ class Texts:
     room_mm : (n,) array of float
         The lengths that are kept free for the lines. The font of the reader decides how long they are.
     hidden_by : (n,) array of int
-        Number of items in front of what they name; those that are hidden are written in a fainter colour.
+        Number of items in front of what they name, 0 where these do not count; of others the letters are fainter, as
+        lines are dashed.
 
     Examples
     --------

@@ -25,7 +25,7 @@ def show(context: cairo.Context[Any], texts: PageTexts, scale: float, height: fl
         texts.turn_deg.tolist(),
         texts.anchor.tolist(),
         texts.colours,
-        texts.strings,
+        texts.plain,
         strict=True,
     ):
         context.save()

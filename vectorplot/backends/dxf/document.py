@@ -147,7 +147,7 @@ def _texts(space: Modelspace, texts: PageTexts, layer: str) -> None:
         texts.turn_deg.tolist(),
         texts.anchor.tolist(),
         texts.colours,
-        texts.strings,
+        texts.plain,
         strict=True,
     ):
         own = {"layer": layer, "true_color": int(colour[1:], 16)}

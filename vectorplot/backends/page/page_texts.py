@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.drawing.lettering.formulas import without_formulas
 from vectorplot.drawing.texts import Texts
 from vectorplot.scene.naming.labels import TYPE_SIZE
 
@@ -30,6 +31,11 @@ class PageTexts:
 
     def __len__(self) -> int:
         return len(self.strings)
+
+    @property
+    def plain(self) -> tuple[str, ...]:
+        """The lines for readers that set no formulas."""
+        return tuple(map(without_formulas, self.strings))
 
 
 def page_texts(texts: Texts, colour: str) -> PageTexts:

@@ -18,7 +18,7 @@ def text_elements(texts: PageTexts, height: int) -> bytes:
         texts.turn_deg.tolist(),
         texts.anchor.tolist(),
         texts.colours,
-        texts.strings,
+        texts.plain,
         strict=True,
     ):
         across, down = f"{x / 1000.0:.10g}", f"{(height - y) / 1000.0:.10g}"

@@ -6,8 +6,8 @@ import unicodedata
 
 from vectorplot.backends.page.page_texts import PageTexts
 from vectorplot.backends.tikz.colours import colour_of
+from vectorplot.drawing.lettering.formulas import FORMULA
 from vectorplot.drawing.lettering.hershey import clusters
-from vectorplot.drawing.lettering.text import FORMULA
 
 POINTS_PER_MM = 72.0 / 25.4
 """Big points, of which 72 are an inch."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.layers import PENS
+from vectorplot.drawing.lettering.formulas import without_formulas
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
 from vectorplot.drawing.lettering.placing import places
 from vectorplot.drawing.lettering.text import Lettering, lettered, lettered_along, typeset, typeset_along
@@ -64,7 +66,15 @@ class Letters:
     along: Callable[..., Lettering]
 
 
-LETTERS = {"strokes": Letters(lettered, lettered_along), "real": Letters(typeset, typeset_along)}
+def _stroked(text: str, *where: Any, **how: Any) -> Lettering:
+    return lettered(without_formulas(text), *where, **how)
+
+
+def _stroked_along(text: str, *where: Any, **how: Any) -> Lettering:
+    return lettered_along(without_formulas(text), *where, **how)
+
+
+LETTERS = {"strokes": Letters(_stroked, _stroked_along), "real": Letters(typeset, typeset_along)}
 """What letters are: strokes of a pen, or those of the fonts of whatever reads the file."""
 
 
@@ -196,7 +206,8 @@ def labels_on_page(
             made = dashed(made, DASH[0] * label.size_mm * mm, DASH[1] * label.size_mm * mm)
         parts.append(made)
     boxes = np.concatenate([np.zeros((0, 4, 2)), *(set_[k].boxes for k in some)])
-    written = Texts.joined([set_[k].texts.hidden(int(seen.hidden_by[k])) for k in some])
+    faint = [int(seen.hidden_by[k]) if ways[k] == "dashed" else 0 for k in some]
+    written = Texts.joined([set_[k].texts.hidden(by) for k, by in zip(some, faint, strict=True)])
     return SceneLabels(concatenated(tuple(parts)), written, grown(boxes, HALO_MM * mm))
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
@@ -13,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.lettering.accents import CAPITAL
+from vectorplot.drawing.lettering.formulas import FORMULA, without_formulas
 from vectorplot.drawing.lettering.hershey import Glyph, clusters, glyph, room_of
 from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
@@ -24,9 +24,6 @@ ALIGNED = {"left": 0.0, "centre": 0.5, "right": 1.0}
 
 LEVELS = ("base", "middle", "top", "bottom")
 """What of a text is as high as the point it is at: the first line's foot, the middle, or the ends of all lines."""
-
-FORMULA = re.compile(r"(?<!\\)\$([^$]+)(?<!\\)\$")
-"""A formula of TeX between dollars."""
 
 LINES_APART = 1.7
 """From one line of text to the next, in heights of capitals."""
@@ -436,13 +433,7 @@ def _overlaps(boxes: Floats, others: Floats, slack: float) -> Bools:
 def _measured(line: str) -> list[Glyph]:
     """The room that the letters of a line take: that of their strokes, or a square where there are none; of formulas
     that of the signs they show."""
-    shown = FORMULA.sub(lambda formula: _signs(formula.group(1)), line)
-    return [room_of(cluster) for cluster in clusters(shown)]
-
-
-def _signs(formula: str) -> str:
-    """About as many letters as a formula of TeX shows."""
-    return re.sub(r"[{}^_\s]", "", re.sub(r"\\([a-zA-Z]+|.)", "o", formula))
+    return [room_of(cluster) for cluster in clusters(without_formulas(line))]
 
 
 def _as_one(letters: Sequence[Glyph]) -> Glyph:
