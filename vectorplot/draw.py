@@ -56,6 +56,8 @@ from vectorplot.words import DRAWN, TEXT_WORDS, WIRES, LineKind, check_colour, c
 
 if TYPE_CHECKING:
     from vectorplot.drawing.lettering.scene_labels import SceneLabels
+    from vectorplot.effects.scales.coloured_scene import ColourBar
+    from vectorplot.effects.scales.scaled_scene import Scaled
     from vectorplot.visibility.quadrics.closed_forms import ClosedForms, Seen
     from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet
     from vectorplot.visibility.smooth.tracing.traced import TracedScene
@@ -210,7 +212,7 @@ def draw(
     ['contour', 'hidden']
     """
     chosen = style_of(style)
-    rules = pen_rules(pens, dashes)
+    asked = pen_rules(pens, dashes)
     hidden = chosen.hidden if hidden is None else hidden
     layers = chosen.layers if layers is None else layers
     _check_options(hidden, layers, curves, halo_mm, crease_angle_deg, tolerance_mm)
@@ -218,14 +220,17 @@ def draw(
     check_word("text", text, TEXT_WORDS)
     allowed, threads = budget_of(budget), threads_of(jobs)
     shown = chosen.look
-    others = {"halo_mm": halo_mm > 0.0, "hatch": hatch is not None, "layers": layers != "kind", "pens": bool(rules)}
+    others = {"halo_mm": halo_mm > 0.0, "hatch": hatch is not None, "layers": layers != "kind", "pens": bool(asked)}
     _check_style(shown, hidden=hidden != "none", **others)
     kinds = line_kinds((DRAWN if shown == "plain" else WIRES) if lines is None else lines)
     given = scene_of(scene)
+    chart = chart_of(given, camera)
+    given, camera, bar = (given, camera, None) if chart is None else (chart.scene, chart.camera, chart.bar)
+    rules = (*(() if bar is None else bar.pens), *asked)
     anchors, scene = label_anchors(given), without_seams(given)
     tell_what_is_cut_off(scene)
     camera = camera_of(camera, scene)
-    sheet = page_of(page, scene, width, fit)
+    sheet, strip = left_of_bar(page_of(page, scene, width, fit), bar)
     smooth = curves == "bezier" and any(not isinstance(item.shape, Mesh) for item in scene.items)
     planned = plan_draw(scene, kinds, hidden, halo_mm, shown)
     if shown == "plain":
@@ -322,7 +327,40 @@ def draw(
     if paper is not None and shown == "plain":
         inks = (sheet_layer(paper, page), *inks)
     inks = not_plotted(inks, line_list(unplotted), (*names, *(item.colour for item in scene.items)))
-    return Drawing(page.width_mm, page.height_mm, inks, names, scene.title, world)
+    drawing = Drawing(page.width_mm, page.height_mm, inks, names, scene.title, world)
+    return beside_bar(drawing, bar, strip, paper, longest_mm)
+
+
+def chart_of(scene: Scene, camera: Camera | str | None) -> Scaled | None:
+    """The scene with what its colouring and its box ask for, if it has one."""
+    if scene.colouring is None and scene.box is None:
+        return None
+    from vectorplot.effects.scales.scaled_scene import scaled
+
+    return scaled(scene, camera)
+
+
+def left_of_bar(sheet: Page, bar: ColourBar | None) -> tuple[Page, float]:
+    """The part of a sheet that a colour bar leaves, and the width of the strip that it takes."""
+    if bar is None:
+        return sheet, 0.0
+    from vectorplot.effects.scales.colour_bar import narrower
+
+    rest = narrower(sheet)
+    return rest, sheet.width_mm - rest.width_mm
+
+
+def beside_bar(
+    drawing: Drawing, bar: ColourBar | None, strip: float, paper: str | None, longest_mm: float | None = None
+) -> Drawing:
+    """The drawing with a colour bar in a strip (mm) beside it; paper: the colour of that, where it has one."""
+    if bar is None:
+        return drawing
+    from vectorplot.effects.scales.colour_bar import with_colour_bar
+    from vectorplot.shading.light.palettes import palette
+
+    shade = None if paper is None else "#{:02x}{:02x}{:02x}".format(*palette(paper)[-1].tolist())
+    return with_colour_bar(drawing, bar, strip, shade, longest_mm)
 
 
 def seen_part(walk: Walk, scene: Scene, camera: Camera) -> Scene:

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from vectorplot.draw import seen_part, titled
+from vectorplot.draw import beside_bar, chart_of, left_of_bar, seen_part, titled
 from vectorplot.drawing.drawing import Drawing, Layer
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.painted_fills import placement_of_faces
@@ -160,12 +160,14 @@ def paint(
     budget_of(budget)
     threads = threads_of(jobs)
     given = scene_of(scene)
+    chart = chart_of(given, camera)
+    given, camera, bar = (given, camera, None) if chart is None else (chart.scene, chart.camera, chart.bar)
     given = given if background is None else replace(given, background=background)
     anchors = label_anchors(given)
     scene = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
     tell_what_is_cut_off(scene)
     camera = camera_of(camera, scene)
-    sheet = page_of(page, scene, width, fit)
+    sheet, strip = left_of_bar(page_of(page, scene, width, fit), bar)
     kinds = line_kinds(lines)
     stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
     walk = Walk((*plan_cuts(camera), *stages), explain, progress, threads)
@@ -184,6 +186,8 @@ def paint(
 
     ordered = ordered_faces(walk, scene, shown, projection, demand, budget_of(budget))
     placement = placement_of_faces(ordered.view, ordered.faces, sheet, fit, annotation_points(scene))
+    if chart is not None and fit:
+        placement = chart.around(placement, ordered.view, sheet)
     seen, plane = seen_on_page(walk, ordered, placement, budget_of(budget))
     view, true = seen.view, ordered.facets.normals
     page, world = placement.page, placement.page_from_world
@@ -230,7 +234,9 @@ def paint(
             page, world = placement.page, placement.page_from_world
             layers = (replace(layers[0], marks=(*background_of(scene, page), *layers[0].marks)), *layers[1:])
     layers = titled(layers, placement, title, frame, text=text)
-    return Drawing(page.width_mm, page.height_mm, layers, tuple(i.name for i in scene.items), scene.title, world)
+    names = tuple(item.name for item in scene.items)
+    drawing = Drawing(page.width_mm, page.height_mm, layers, names, scene.title, world)
+    return beside_bar(drawing, bar, strip, scene.background)
 
 
 def _check_options(

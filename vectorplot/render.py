@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Ints
-from vectorplot.draw import labels_in_place, lines_in_place, seen_part, with_smooth_surfaces
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.draw import chart_of, labels_in_place, lines_in_place, seen_part, with_smooth_surfaces
 from vectorplot.drawing.strokes.finishing import centre_lines_dashed
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.facets import Within
@@ -56,7 +56,7 @@ from vectorplot.shading.raster.screen import (
     pixel_system,
     raster_size,
 )
-from vectorplot.shading.raster.supersampling import averaged_light
+from vectorplot.shading.raster.supersampling import averaged, averaged_light
 from vectorplot.shading.shadows.map_settings import MapSettings
 from vectorplot.tolerances.of_numbers import LARGEST_VIEW
 from vectorplot.visibility.painter.image_faces import outer_sides
@@ -66,6 +66,7 @@ if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Paths
     from vectorplot.drawing.fills import Fills
     from vectorplot.drawing.lettering.scene_labels import SceneLabels
+    from vectorplot.effects.scales.coloured_scene import ColourBar
     from vectorplot.shading.shadows.seen_region import SeenRegion
 
 SIZE = (800, 600)
@@ -76,6 +77,12 @@ SAMPLES = 2
 
 PIXELS_PER_MM = 96.0 / 25.4
 """How large a millimetre of letters is, as on screens."""
+
+BAR_SAMPLES = 4
+"""Along each side of a pixel of a colour bar."""
+
+AROUND_BOX = 0.04
+"""Part of a picture that stays free around the places of the numbers of a box."""
 
 LETTER_PIXELS = 1.25
 """The width of the strokes of letters."""
@@ -209,6 +216,9 @@ def render(
     budget_of(budget)
     threads = threads_of(jobs)
     given = scene_of(scene)
+    chart = chart_of(given, camera)
+    given, camera, bar = (given, camera, None) if chart is None else (chart.scene, chart.camera, chart.bar)
+    whole, size = size, _left_of_bar(size, bar)
     anchors = label_anchors(given)
     scene = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
     _check_lights(scene.lights)
@@ -230,6 +240,8 @@ def render(
     view = walk.run("look", view_of, facets.scene, projection)
     triangles = walk.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
     placement = picture_placement(view, *fine, fit, annotation_points(scene))
+    if chart is not None and fit:
+        placement = chart.around(placement, view, placement.page, AROUND_BOX)
     system = pixel_system(placement)
     here = view_lights(view, scene.lights)
     region = _region(triangles, system, fine, how) if walk.calls_for("shadows") else None
@@ -255,7 +267,31 @@ def render(
         pixels = _with_lines(pixels, labels.strokes, samples * LETTER_PIXELS)
     if found is not None:
         pixels = _with_lines(pixels, found, float(samples))
-    return Image(walk.run("average", averaged_light, pixels, samples), scene.title)
+    averages = walk.run("average", averaged_light, pixels, samples)
+    return Image(averages if bar is None else _beside_bar(averages, bar, whole, paper), scene.title)
+
+
+def _left_of_bar(size: tuple[int, int], bar: ColourBar | None) -> tuple[int, int]:
+    """Columns and rows that a colour bar leaves of a picture."""
+    if bar is None:
+        return size
+    from vectorplot.effects.scales.colour_bar import strip_mm
+
+    return max(1, size[0] - round(strip_mm(size[0] / PIXELS_PER_MM) * PIXELS_PER_MM)), size[1]
+
+
+def _beside_bar(pixels: Bytes, bar: ColourBar, size: tuple[int, int], paper: Floats) -> Bytes:
+    """The pixels of a picture with those of a colour bar to the right of them, on paper (3,)."""
+    from vectorplot.backends.raster import painted
+    from vectorplot.drawing.drawing import Drawing
+    from vectorplot.effects.scales.colour_bar import with_colour_bar
+
+    rows, columns = pixels.shape[:2]
+    width, height = columns / PIXELS_PER_MM, rows / PIXELS_PER_MM
+    drawing = with_colour_bar(Drawing(width, height, ()), bar, size[0] / PIXELS_PER_MM - width)
+    blank = np.broadcast_to(np.rint(paper).astype(np.uint8), (BAR_SAMPLES * rows, BAR_SAMPLES * size[0], 3))
+    fine = averaged(painted(blank, drawing), BAR_SAMPLES)
+    return np.concatenate([pixels, np.rint(fine[:, columns:]).astype(np.uint8)], axis=1)
 
 
 def _tell_what_is_missing(walk: Walk, scene: Scene, kinds: frozenset[LineKind]) -> None:

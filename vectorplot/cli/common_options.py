@@ -142,10 +142,11 @@ class Told:
         from vectorplot.scene.added_lines import line_kinds, with_lines
 
         keywords = self.keywords(scene)
+        charted = self.added.with_chart(scene)
         added = self.added.of_scene(scene)
         if keywords.get("lines") is not None:
             keywords["lines"] = tuple(dict.fromkeys((*keywords["lines"], *line_kinds(added))))
-        return with_lines(scene, sections=added.sections, isophotes=added.isophotes, detail=added.detail), keywords
+        return with_lines(charted, sections=added.sections, isophotes=added.isophotes, detail=added.detail), keywords
 
 
 def check_overlaid(out: str, format_: str) -> None:

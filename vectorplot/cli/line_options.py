@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -98,6 +98,18 @@ LINE_OPTIONS = (
         metavar="FACTOR",
         help="How much there is of suggestive, ridge, valley and apparent lines.",
     ),
+    click.option(
+        "--colour-by",
+        metavar="WORD|FORMULA",
+        help="Colours by x, y, z, height, slope, curvature or a formula such as x*y, and their bar.",
+    ),
+    click.option(
+        "--colour-map",
+        metavar="NAME",
+        help="viridis, heat, diverging, land, gray, or one of matplotlib.",
+    ),
+    click.option("--colour-steps", type=click.IntRange(2, 100), metavar="N", help="How many colours (24)."),
+    click.option("--box", is_flag=True, help="A box with ticks around all that is shown."),
 )
 
 
@@ -109,11 +121,29 @@ class LineOptions:
     levels: Planes | None = None
     isophotes: int | None = None
     detail: float = 1.0
+    colour_by: str | None = None
+    colour_map: str | None = None
+    colour_steps: int | None = None
+    box: bool = False
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> LineOptions:
         """What a command with LINE_OPTIONS was told."""
         return cls(**{field.name: options[field.name] for field in fields(cls)})
+
+    def with_chart(self, scene: Scene) -> Scene:
+        """A scene with the colours and the box that the user asked for. Bad usage for a map of no colours."""
+        from vectorplot.scene.naming.scales import BoxAxes, Colouring
+
+        own = scene.colouring
+        if self.colour_by is not None:
+            own = Colouring(self.colour_by)
+        if own is None and (self.colour_map is not None or self.colour_steps is not None):
+            raise click.UsageError("--colour-map and --colour-steps go with --colour-by")
+        if own is not None:
+            named = own if self.colour_map is None else replace(own, colour_map=self.colour_map)
+            own = named if self.colour_steps is None else replace(named, steps=self.colour_steps)
+        return replace(scene, colouring=own, box=BoxAxes() if self.box else scene.box)
 
     def of_scene(self, scene: Scene) -> SurfaceLines:
         """The lines that these are in a scene. Errors: InputError as of even_sections and round_sections."""

@@ -2,6 +2,7 @@ from .added_lines import even_sections, round_sections, with_lines
 from .hatching import Hatching, Stippling
 from .integral_lines import FieldLines, GeodesicLines, GeodesicsBetween, ShortestPaths
 from .naming.labels import Along, AtVertex, Label, OnCurve, OnPage
+from .naming.scales import BoxAxes, Colouring
 from .paper import sheet_size
 from .placement import Placement, field_of_vision, fitted_picture
 from .scene import Item, Light, Material, Page, Pattern, Scene
@@ -16,6 +17,8 @@ __all__ = [
     "TINTS",
     "Along",
     "AtVertex",
+    "BoxAxes",
+    "Colouring",
     "FieldLines",
     "GeodesicLines",
     "GeodesicsBetween",

@@ -17,6 +17,7 @@ from vectorplot.geometry.motions.movable import Movable
 from vectorplot.scene.extent import in_range, smooth_bounds
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.naming.labels import Label
+from vectorplot.scene.naming.scales import BoxAxes, Colouring
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, linear_growth
 from vectorplot.surfaces.balls import ball_of, bounds_of_balls
 from vectorplot.surfaces.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
@@ -371,6 +372,10 @@ class Scene(Movable["Scene"]):
         What the scene is called.
     labels : tuple of Label
         Names in the picture.
+    colouring : Colouring, optional
+        Colours of all bodies by a number, and the bar that explains them.
+    box : BoxAxes, optional
+        A box with ticks around all items.
 
     Raises
     ------
@@ -395,6 +400,8 @@ class Scene(Movable["Scene"]):
     background: str | None = None
     title: str = ""
     labels: tuple[Label, ...] = ()
+    colouring: Colouring | None = None
+    box: BoxAxes | None = None
 
     def __post_init__(self) -> None:
         if self.background is not None:

@@ -241,3 +241,7 @@ of edges add up."""
 THIRD_DIFFERENCE_IN_SPACE = 1e-4
 """Part of the extent over which third derivatives in space are differences of second ones, which may be differences
 themselves, known to about 1e-12."""
+
+COLOURED_OF_EXTENT = 3e-4
+"""Part of the extent of a scene within which smooth surfaces become triangles that get colours by numbers: a twentieth
+of a millimetre on a page."""

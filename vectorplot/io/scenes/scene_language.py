@@ -18,7 +18,14 @@ from vectorplot.io.meshes.mesh_file import shown
 from vectorplot.io.named_files import DEEPEST, NamedFiles
 from vectorplot.io.scenes.scene_item import Draft, finished
 from vectorplot.io.scenes.scene_reader import ItemReader
-from vectorplot.io.scenes.scene_statements import read_camera, read_label, read_light, read_page
+from vectorplot.io.scenes.scene_statements import (
+    read_box_axes,
+    read_camera,
+    read_colouring,
+    read_label,
+    read_light,
+    read_page,
+)
 from vectorplot.io.scenes.scene_words import ANNOTATION_WORDS, SCENE_WORDS, Words
 from vectorplot.io.scenes.statements.annotation_statements import begins_annotation, read_annotation
 from vectorplot.scene.extent import check_range
@@ -217,6 +224,12 @@ class _Reader(ItemReader):
         elif word == "page":
             page, self.at = read_page(source, self.at)
             self.settings = replace(now, page=page)
+        elif word == "colour_by":
+            colouring, self.at = read_colouring(source, self.at)
+            self.settings = replace(now, colouring=colouring)
+        elif word == "box_axes":
+            box, self.at = read_box_axes(source, self.at)
+            self.settings = replace(now, box=box)
         else:
             self.at += 1
             if word == "title":

@@ -1,4 +1,4 @@
-"""What a scene file says about the scene as a whole: camera, lights, page, labels."""
+"""What a scene file says about the scene as a whole: camera, lights, page, labels, colours by numbers, a box."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from vectorplot.scene.naming.labels import (
     OnPage,
     capital_height,
 )
+from vectorplot.scene.naming.scales import BoxAxes, Colouring
 from vectorplot.scene.paper import sheet_size
 from vectorplot.scene.scene import Light, Page
 from vectorplot.words import COLOURS, is_colour, nearest
@@ -223,3 +224,45 @@ def _check_spelling(words: Words, start: int, at: int, known: tuple[str, ...]) -
     meant = words.misspelled(start, at, known)
     if meant is not None:
         words.fail(at, f"{words.words[start]}: unknown word {words.shown(at)} (did you mean '{meant}'?)")
+
+
+def read_colouring(words: Words, at: int) -> tuple[Colouring, int]:
+    """The colours that the words from ``colour_by`` on describe, and the word behind them."""
+    start, owner = at, "colour_by: "
+    if words.words[at + 1] in ("", ",") or words.is_number(at + 1):
+        words.fail(at + 1, f"{owner}expected a word or a formula, got {words.shown(at + 1)}")
+    by, at = words.string(at + 1), at + 2
+    colour_map, steps, label = "viridis", 24, None
+    while (word := words.words[at]) in ("map", "steps", "called"):
+        if word == "steps":
+            steps = words.whole(at + 1, owner, word)
+        elif words.words[at + 1] in ("", ","):
+            words.fail(at + 1, f"{owner}expected what '{word}' is, got {words.shown(at + 1)}")
+        elif word == "map":
+            colour_map = words.string(at + 1)
+        elif words.words[at + 1].startswith('"'):
+            label = words.string(at + 1)
+        else:
+            words.fail(at + 1, f"{owner}expected a text in quotes, got {words.shown(at + 1)}")
+        at += 2
+    try:
+        return Colouring(by, colour_map, steps, label), at
+    except InputError as error:
+        words.fail(start, error.cause)
+
+
+def read_box_axes(words: Words, at: int) -> tuple[BoxAxes, int]:
+    """The box that the words from ``box_axes`` on describe, and the word behind them."""
+    names, size, after = ("x", "y", "z"), 3.5, at + 1
+    while (word := words.words[after]) in ("names", "size"):
+        if word == "size":
+            size, after = words.number(after + 1, "box_axes: ", word), after + 2
+            continue
+        for place in range(after + 1, after + 4):
+            if not words.words[place].startswith('"'):
+                words.fail(place, f"box_axes: expected three names in quotes, got {words.shown(place)}")
+        names, after = (words.string(after + 1), words.string(after + 2), words.string(after + 3)), after + 4
+    try:
+        return BoxAxes(names, size), after
+    except InputError as error:
+        words.fail(at, error.cause)

@@ -16,6 +16,7 @@ from vectorplot.io.scenes.reserved_words import RESERVED
 from vectorplot.io.scenes.scene_hatching import hatch_text
 from vectorplot.io.scenes.scene_words import bare_word
 from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnCurve, OnPage
+from vectorplot.scene.naming.scales import Colouring
 from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.words import COLOURS
@@ -62,6 +63,10 @@ def write_scene(scene: Scene) -> str:
         blocks.append(f"title {dumps(scene.title)}")
     if scene.background is not None:
         blocks.append(f"background {_colour(scene.background)}")
+    if scene.colouring is not None:
+        blocks.append(_colouring(scene.colouring))
+    if scene.box is not None:
+        blocks.append(f"box_axes names {' '.join(map(dumps, scene.box.names))} size {scene.box.size_mm:.17g}")
     if scene.page is not None:
         blocks.append(_page(scene.page))
     if scene.camera is not None:
@@ -74,6 +79,13 @@ def write_scene(scene: Scene) -> str:
 
 def _name(text: str) -> str:
     return text if bare_word(text) and text not in RESERVED else dumps(text)
+
+
+def _colouring(own: Colouring) -> str:
+    if not isinstance(own.by, str):
+        raise InputError("colours by a function of Python have no words")
+    called = "" if own.label is None else f" called {dumps(own.label)}"
+    return f"colour_by {dumps(own.by)} map {dumps(own.colour_map)} steps {own.steps}{called}"
 
 
 def _colour(text: str) -> str:

@@ -34,6 +34,8 @@ def together(scenes: Sequence[Scene]) -> Scene:
         next((scene.background for scene in scenes if scene.background), None),
         next((scene.title for scene in scenes if scene.title), ""),
         tuple(chain(*(renamed_labels(scene, items[end - len(scene) : end]) for scene, end in parts))),
+        next((scene.colouring for scene in scenes if scene.colouring), None),
+        next((scene.box for scene in scenes if scene.box), None),
     )
 
 

@@ -1,0 +1,160 @@
+"""Colours by numbers, their bar, and boxes with ticks."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vectorplot as vp
+from vectorplot.effects.scales.box_axes import with_box
+from vectorplot.effects.scales.colour_maps import COLOUR_MAPS, map_colours
+from vectorplot.effects.scales.coloured_scene import coloured
+from vectorplot.effects.scales.value_bands import Valued, bands
+from vectorplot.errors import InputError
+from vectorplot.geometry import box as solid_box
+from vectorplot.io import parse_scene, write_scene
+from vectorplot.scene import BoxAxes, Colouring
+from vectorplot.surfaces import Sphere
+
+CUBE = vp.Scene((vp.Item("CUBE", solid_box((2.0, 2.0, 2.0))),))
+VIEWS = [(9.0, -7.0, 5.0), (-9.0, 7.0, 5.0), (3.0, 8.0, -6.0), (-4.0, -9.0, -5.0)]
+
+
+@pytest.mark.parametrize("name", COLOUR_MAPS)
+def test_maps_run_from_their_first_colour_to_their_last(name):
+    colours = map_colours(name, 9)
+    assert len(colours) == 9
+    assert (colours[0], colours[-1]) == (COLOUR_MAPS[name][0], COLOUR_MAPS[name][-1])
+
+
+def test_an_unknown_map_gets_its_nearest():
+    with pytest.raises(InputError, match="viridis"):
+        map_colours("virdis", 4)
+
+
+@pytest.mark.parametrize(("scale", "away"), [(1.0, 0.0), (1e-6, 0.0), (1e6, 3e8)])
+def test_bands_have_all_of_the_area_and_only_their_numbers(scale, away):
+    rng = np.random.default_rng(5)
+    x, y = np.meshgrid(np.linspace(-1, 1, 13), np.linspace(-1, 1, 13), indexing="ij")
+    points = scale * np.stack([x.ravel(), y.ravel(), rng.uniform(0.0, 1.0, x.size)], axis=1)
+    corner = (np.arange(12)[:, None] * 13 + np.arange(12)).ravel()
+    triangles = np.concatenate(
+        [np.stack([corner, corner + 13, corner + 14], axis=1), np.stack([corner, corner + 14, corner + 1], axis=1)]
+    )
+    values = points[:, 2] + away
+    levels = away + scale * np.array([0.2, 0.5, 0.75])
+    parts = bands(Valued(points, values, triangles), levels)
+
+    def area(part):
+        a, b, c = (part.points[part.triangles[:, k], :2] for k in range(3))
+        one, two = b - a, c - a
+        return np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]).sum() / 2.0
+
+    assert sum(map(area, parts)) == pytest.approx(4.0 * scale * scale, rel=1e-6)
+    slack = 1e-6 * scale
+    for part, low, high in zip(parts, [-np.inf, *levels], [*levels, np.inf], strict=True):
+        assert part.values.min() >= low - slack and part.values.max() <= high + slack
+
+
+def test_a_line_of_a_level_along_sides_has_no_comb():
+    x, y = np.meshgrid(np.linspace(-1, 1, 9), np.linspace(-1, 1, 9), indexing="ij")
+    noise = 1e-16 * np.random.default_rng(2).choice([-1.0, 1.0], x.size)
+    corner = (np.arange(8)[:, None] * 9 + np.arange(8)).ravel()
+    triangles = np.concatenate(
+        [np.stack([corner, corner + 9, corner + 10], axis=1), np.stack([corner, corner + 10, corner + 1], axis=1)]
+    )
+    whole = Valued(np.stack([x.ravel(), y.ravel(), 0.0 * x.ravel()], axis=1), x.ravel() + noise, triangles)
+    assert [len(part.triangles) for part in bands(whole, np.array([0.0]))] == [64, 64]
+
+
+@pytest.mark.parametrize(
+    ("by", "low", "high"),
+    [("z", -1.0, 1.0), ("height", -1.0, 1.0), ("x*x", 0.0, 1.0), ("slope", 0.0, 90.0), (lambda p: p[:, 1], -1.0, 1.0)],
+    ids=str,
+)
+def test_the_bar_has_the_numbers_of_the_scene(by, low, high):
+    scene, bar = coloured(vp.Scene((vp.Item("BALL", Sphere()),)), Colouring(by, steps=6))
+    assert bar.low == pytest.approx(low, abs=0.02 * (high - low))
+    assert bar.high == pytest.approx(high, abs=0.02 * (high - low))
+    assert [item.colour for item in scene.items] == list(bar.colours)
+
+
+def test_mean_curvature_of_a_ball_is_one_over_its_radius():
+    scene, bar = coloured(vp.Scene((vp.Item("BALL", Sphere(2.0)),)), Colouring("curvature", steps=2))
+    assert len(scene.items) <= 2
+    assert 0.4 < bar.low <= bar.high < 0.6
+
+
+@pytest.mark.parametrize("word", ["wrong", "x*", "q + z"])
+def test_what_is_no_number_is_said_in_one_line(word):
+    with pytest.raises(InputError, match="CUBE: colouring by"):
+        coloured(CUBE, Colouring(word))
+
+
+@pytest.mark.parametrize("eye", VIEWS, ids=str)
+def test_the_grids_of_a_box_are_on_the_far_sides(eye):
+    camera = vp.Camera(eye)
+    boxed, reach = with_box(vp.Scene(CUBE.items, box=BoxAxes()), camera)
+    low, high = CUBE.bounds
+    far = np.where(np.array(eye) >= 0.5 * (low + high), low, high)
+    lines = [item.shape for item in boxed.items[1:]]
+    assert lines
+    for line in lines:
+        ends = line.points(np.array([line.start, line.end]))
+        assert (np.abs(ends - far).max(axis=0) < 1e-9).any()
+    assert [label.text for label in boxed.labels if label.text in "xyz"] == ["x", "y", "z"]
+    assert np.allclose(reach[:8].min(axis=0), low) and np.allclose(reach[:8].max(axis=0), high)
+
+
+@pytest.mark.parametrize("eye", VIEWS, ids=str)
+def test_numbers_of_a_box_stand_outside_of_its_picture(eye):
+    from shapely import MultiPoint, Point
+
+    camera = vp.Camera(eye)
+    boxed, reach = with_box(vp.Scene(CUBE.items, box=BoxAxes()), camera)
+    right, up, back = camera.axes
+
+    def image(points):
+        own = np.asarray(points) - np.asarray(eye)
+        return np.stack([own @ right, own @ up], axis=1) / -(own @ back)[:, None]
+
+    outline = MultiPoint(image(reach[:8])).convex_hull
+    for label in boxed.labels:
+        assert not outline.contains(Point(*image([label.at])[0])), label.name
+
+
+def test_all_verbs_have_bar_and_box():
+    scene = vp.Scene(CUBE.items, colouring=Colouring("z", steps=4), box=BoxAxes())
+    page = vp.Page(100, 80, 5)
+    for drawing in (vp.draw(scene, page=page), vp.paint(scene, page=page)):
+        assert (drawing.width_mm, drawing.height_mm) == (100, 80)
+        assert drawing.layers[-1].name == "colour bar"
+        assert any(len(paths) for layer in drawing.layers[:-1] for paths in layer.strokes)
+    image = vp.render(scene, size=(160, 120), samples=1)
+    assert image.pixels.shape == (120, 160, 3)
+    assert len(np.unique(image.pixels[:, 130:].reshape(-1, 3), axis=0)) > 4
+
+
+def test_scene_files_have_words_for_both():
+    text = 'colour_by "x - z" map heat steps 7 called "T" box_axes names "a" "b" "c" size 2\nC box 1 1 1\n'
+    scene = parse_scene(text)
+    assert scene.colouring == Colouring("x - z", "heat", 7, "T")
+    assert scene.box == BoxAxes(("a", "b", "c"), 2.0)
+    again = parse_scene(write_scene(scene))
+    assert (again.colouring, again.box) == (scene.colouring, scene.box)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("colour_by", "expected a word or a formula"),
+        ("colour_by z steps 1", "expected 2 to 100"),
+        ("colour_by z called T", "expected a text in quotes"),
+        ('box_axes names "a" "b" C box 1 1 1', "expected three names"),
+        ("box_axes size -1", "finite and positive"),
+    ],
+)
+def test_mistakes_are_told_with_their_line(text, said):
+    with pytest.raises(InputError, match=said) as error:
+        parse_scene(text)
+    assert error.value.line == 1

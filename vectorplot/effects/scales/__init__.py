@@ -1,0 +1,1 @@
+"""Scenes as charts: colours by numbers with their bar, and boxes with ticks."""

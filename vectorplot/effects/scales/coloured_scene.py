@@ -1,0 +1,133 @@
+"""Scenes in the colours of a map: bodies cut into bands, each of a colour."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.curves.curve import is_curve
+from vectorplot.drawing.pens.pen_rules import PenRule
+from vectorplot.effects.scales.colour_maps import map_colours
+from vectorplot.effects.scales.value_bands import Valued, bands
+from vectorplot.errors import InputError
+from vectorplot.features.facets import Within, facets
+from vectorplot.features.feature_lines.mesh_bending import mesh_bending, smooth_normals
+from vectorplot.features.meshes.mesh_curves import face_triangles
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.io.expressions.expression import parse_expression
+from vectorplot.scene.naming.scales import Colouring
+from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
+from vectorplot.surfaces.surface import is_implicit, is_parametrised
+from vectorplot.tolerances.of_extent import COLOURED_OF_EXTENT
+
+LINE_MM = 0.25
+"""The width of lines between bands."""
+
+WORDS = ("x", "y", "z", "height", "slope", "curvature")
+"""Numbers that every shape has at its points; all else is a formula."""
+
+
+@dataclass(frozen=True)
+class ColourBar:
+    """Which number is which colour: low and high, the numbers at both ends; colours: #rrggbb from low to high; title:
+    what stands above; pens: of the lines between the bands, by the names of these."""
+
+    low: float
+    high: float
+    colours: tuple[str, ...]
+    title: str
+    pens: tuple[PenRule, ...]
+
+
+def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
+    """The scene with a band of every body for each colour, and the bar that explains them.
+
+    Smooth surfaces become triangles within COLOURED_OF_EXTENT of the extent of the scene; their parameter lines, paths
+    and integral curves are left out.
+    Errors: InputError for an unknown map or word, a formula that is none, a scene without bodies, numbers that are not
+    finite anywhere.
+    """
+    colours = map_colours(colouring.colour_map, colouring.steps)
+    size = float(np.linalg.norm(np.ptp(scene.bounds, axis=0)))
+    given = [None if is_curve(item.shape) else _valued(item, colouring, size) for item in scene.items]
+    values = np.concatenate([np.zeros(0), *(one.values for one in given if one is not None)])
+    values = values[np.isfinite(values)]
+    if not len(values):
+        raise InputError(f"colouring by {colouring.title or 'a function'}: nothing in the scene has a finite number")
+    low, high = float(values.min()), float(values.max())
+    levels = np.linspace(low, high, len(colours) + 1)[1:-1] if high > low else np.zeros(0)
+    items: list[Item] = []
+    pens = []
+    for item, whole in zip(scene.items, given, strict=True):
+        if whole is None:
+            items.append(item)
+            continue
+        lines = _kept_lines(item.curves)
+        for k, part in enumerate(bands(whole, levels)):
+            if len(part.triangles):
+                name = f"{item.name} {k + 1}"
+                mesh = Mesh.from_triangles(part.points, part.triangles)
+                group = item.group or item.name
+                band = replace(item, name=name, shape=mesh, colour=colours[k], patterns=(), curves=lines, group=group)
+                items.append(band)
+                pens.append(PenRule(item=name, colour=colours[k]))
+                pens.append(PenRule("boundary", name, width_mm=LINE_MM))
+    bar = ColourBar(low, high, tuple(colours), colouring.title, tuple(pens))
+    return replace(scene, items=tuple(items), colouring=None), bar
+
+
+def _kept_lines(lines: SurfaceLines) -> SurfaceLines:
+    """Those lines that meshes have too."""
+    if not lines:
+        return NO_LINES
+    return replace(lines, columns=0, rows=0, paths=(), integral=(), terrain=())
+
+
+def _valued(item: Item, colouring: Colouring, size: float) -> Valued:
+    """The triangles of an item and the numbers at their corners; what has none has the lowest there is."""
+    shape, normals = item.shape, None
+    if isinstance(shape, Mesh):
+        mesh = shape
+    elif is_parametrised(shape) or is_implicit(shape):
+        found = facets(shape, Within(lambda points: np.full(points.shape[:-1], COLOURED_OF_EXTENT * size)))
+        mesh, normals = found.mesh, found.normals
+    else:
+        mesh = item.mesh
+    if not mesh.face_count:
+        return Valued(mesh.vertices, np.zeros(len(mesh.vertices)), np.zeros((0, 3), dtype=np.intp))
+    faces = face_triangles(mesh)
+    try:
+        values = _numbers(colouring, mesh, faces.triangles, normals)
+    except InputError as error:
+        raise InputError(f"{item.name}: {error.cause}") from None
+    known = np.isfinite(values)
+    least = float(values[known].min()) if known.any() else np.nan
+    return Valued(mesh.vertices, np.where(known, values, least), faces.triangles)
+
+
+def _numbers(colouring: Colouring, mesh: Mesh, triangles: Ints, normals: Floats | None) -> Floats:
+    """(v,) the numbers at the vertices of a mesh; normals (v,3): of the surface it stands for, if they are known."""
+    by, points = colouring.by, mesh.vertices
+    if not isinstance(by, str):
+        values = np.asarray(by(points), dtype=np.float64)
+        if values.shape != (len(points),):
+            raise InputError(f"colouring: the function gives numbers of shape {values.shape} for {len(points)} points")
+        return values
+    if by in ("x", "y", "z", "height"):
+        return np.asarray(points[:, 2 if by == "height" else "xyz".index(by)])
+    if by == "slope":
+        x, y, z = (smooth_normals(points, triangles) if normals is None else normals).T
+        return np.asarray(np.degrees(np.arctan2(np.hypot(x, y), np.abs(z))))
+    if by == "curvature":
+        second = mesh_bending(face_triangles(mesh)).second
+        return np.asarray(-0.5 * (second[:, 0] + second[:, 2]))
+    try:
+        formula = parse_expression(by, ("x", "y", "z"))
+    except InputError as error:
+        raise InputError(f"colouring by {by!r}: expected {', '.join(WORDS)} or a formula; {error.cause}") from None
+    with np.errstate(all="ignore"):
+        found = np.asarray(formula(x=points[:, 0], y=points[:, 1], z=points[:, 2]), dtype=np.float64)
+    return np.asarray(np.broadcast_to(found, (len(points),)))
