@@ -135,6 +135,8 @@ class LineOptions:
         """A scene with the colours and the box that the user asked for. Bad usage for a map of no colours."""
         from vectorplot.scene.naming.scales import BoxAxes, Colouring
 
+        if self.colour_by is None and self.colour_map is None and self.colour_steps is None and not self.box:
+            return scene
         own = scene.colouring
         if self.colour_by is not None:
             own = Colouring(self.colour_by)
