@@ -1,17 +1,20 @@
-"""Lines of smooth surfaces to hatch along: parameter lines so dense that they do for the darkest places."""
+"""Lines of items to hatch along, so dense that they do for the darkest places: parameter lines, and lines that flow."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Paths
+from vectorplot.drawing.hatching.densities import ranks
 from vectorplot.drawing.hatching.followed_lines import FollowedLines
 from vectorplot.geometry.vectors import cross, normalize
+from vectorplot.painting.flowing_lines import flowing_lines, flows, on_page
 from vectorplot.scene.hatching import Hatching, Stippling
+from vectorplot.scene.integral_lines import KnownCurves
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.surface_lines import SurfaceLines
@@ -27,48 +30,96 @@ FEWEST, MOST = 16, 2048
 MOST_SAMPLES = 1 << 20
 """Of one surface, where the distance of neighbouring lines is known."""
 
+SHORTEST = 3.0
+"""Times their distance that strokes are long which flow, at least: shorter ones are specks."""
+
 NEARLY_ALL = 0.98
 """Of the surface; parameter lines may be wider apart on the rest of it, near poles of the parametrisation."""
 
 
 def followed(item: Item, hatching: Hatching | Stippling | None) -> bool:
-    """Whether an item is hatched along parameter lines of its own."""
-    on = isinstance(hatching, Hatching) and hatching.by != "none" and hatching.along == "surface"
-    return on and is_parametrised(item.shape)
+    """Whether an item is hatched along lines of its own."""
+    if not isinstance(hatching, Hatching) or hatching.by == "none" or hatching.along == "page":
+        return False
+    return is_parametrised(item.shape) if hatching.along == "surface" else flows(item, hatching.along)
 
 
 def followed_lines(
-    scene: Scene, how: Sequence[Hatching | Stippling | None], placement: Placement, trace: Callable[[Scene], Paths]
+    scene: Scene,
+    how: Sequence[Hatching | Stippling | None],
+    placement: Placement,
+    trace: Callable[[Scene], Paths],
+    tolerance_mm: float,
 ) -> list[FollowedLines]:
-    """The visible parameter lines to hatch along of each surface, and of each family where they cross.
+    """The visible lines to hatch along of each item that has such, and of each family where they cross.
 
-    how: of every item; trace: the visible lines of a scene in their places, as of draw.
+    how: of every item; trace: the visible lines of a scene in their places, as of draw; tolerance_mm: as of draw.
     """
     found: list[FollowedLines] = []
     for family in (0, 1):
-        spaced: dict[int, tuple[int, Floats, Floats]] = {}
+        spaced: dict[int, SpacedLines] = {}
         items = []
         for number, (item, one) in enumerate(zip(scene.items, how, strict=True)):
             lines: tuple[str, ...] = ()
             if isinstance(one, Hatching) and followed(item, one) and (family == 0 or one.cross):
-                assert is_parametrised(item.shape)
-                count = _count(item.shape, family, one.spacing_mm, placement)
-                spaced[number] = (count, *_samples(item.shape, family, count, placement))
-                item = replace(item, curves=SurfaceLines(columns=count) if family == 0 else SurfaceLines(rows=count))
-                lines = ("parameter",)
+                spaced[number] = _spaced(item, one, family, placement, tolerance_mm)
+                item = replace(item, curves=spaced[number].asked)
+                lines = ("parameter", "integral")
             items.append(replace(item, lines=lines, patterns=()))
         if spaced:
             paths = trace(replace(scene, items=tuple(items)))
             found += [
-                FollowedLines(family, number, paths, points, apart, count, _ends(scene.items[number].shape))
-                for number, (count, points, apart) in spaced.items()
+                FollowedLines(
+                    family,
+                    number,
+                    paths,
+                    own.samples,
+                    own.apart,
+                    own.line,
+                    own.ranks,
+                    _ends(scene, number),
+                    own.shortest_mm,
+                )
+                for number, own in spaced.items()
             ]
     return found
 
 
-def _ends(shape: object) -> Floats:
-    """(3,) the unit normal of the flat ends of a capped body, zero of what is none."""
-    body = capped_quadric_of(shape)
+@dataclass(frozen=True, eq=False)
+class SpacedLines:
+    """Lines to hatch along, as an item asks for them; samples (s,3) on them, apart, line and ranks (s,) as of
+    FollowedLines."""
+
+    asked: SurfaceLines
+    samples: Floats
+    apart: Floats
+    line: Ints
+    ranks: Floats
+    shortest_mm: float = 0.0
+
+
+def _spaced(item: Item, hatching: Hatching, family: int, placement: Placement, tolerance_mm: float) -> SpacedLines:
+    """The lines of a family on an item, so close that they do for the darkest places."""
+    if hatching.along != "surface":
+        flow = flowing_lines(item, hatching.along, family, hatching.spacing_mm, tolerance_mm, placement)
+        asked = SurfaceLines(integral=(KnownCurves(flow.curves),))
+        return SpacedLines(asked, flow.samples, flow.apart, flow.line, flow.ranks, SHORTEST * hatching.spacing_mm)
+    assert is_parametrised(item.shape)
+    count = _count(item.shape, family, hatching.spacing_mm, placement)
+    samples, apart = _samples(item.shape, family, count, placement)
+    asked = SurfaceLines(columns=count) if family == 0 else SurfaceLines(rows=count)
+    return SpacedLines(asked, samples, apart, *_numbered(count, len(samples)))
+
+
+def _numbered(count: int, samples: int) -> tuple[Ints, Floats]:
+    """(s,) the line of each sample, and its rank (s,), of count + 1 lines; the last is the first where they close."""
+    line = np.repeat(np.arange(count + 1), samples // (count + 1))
+    return line, ranks(line % count, count)
+
+
+def _ends(scene: Scene, item: int) -> Floats:
+    """(3,) the unit normal of the flat ends of an item that is a capped body, zero of what is none."""
+    body = capped_quadric_of(scene.items[item].shape)
     return np.zeros(3) if body is None else normalize(cross(body.frame[0], body.frame[1]))
 
 
@@ -91,16 +142,8 @@ def _samples(surface: Surface, family: int, count: int, placement: Placement) ->
     points = surface.points(u, v)
     ways = surface.partials(u, v)
     step = surface.domain.size[family] / count
-    to, along = (_on_page(points, ways[k], placement.page_from_world) for k in (family, 1 - family))
+    to, along = (on_page(points, ways[k], placement.page_from_world) for k in (family, 1 - family))
     length = np.linalg.norm(along, axis=-1)
     with np.errstate(invalid="ignore", divide="ignore"):
         apart = step * np.abs(cross(to, along)) / length
     return points.reshape(-1, 3), np.nan_to_num(apart, nan=0.0, posinf=0.0).ravel()
-
-
-def _on_page(points: Floats, ways: Floats, page_from_world: Floats) -> Floats:
-    """(...,2) by how many mm points of the page move where points (...,3) move along ways (...,3)."""
-    rows = points @ page_from_world[:, :3].T + page_from_world[:, 3]
-    step = ways @ page_from_world[:, :3].T
-    depth = rows[..., 3:]
-    return np.asarray(step[..., :2] / depth - rows[..., :2] * step[..., 3:] / (depth * depth))

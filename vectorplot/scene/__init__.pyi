@@ -1,6 +1,6 @@
 from .added_lines import even_sections, round_sections, with_lines
 from .hatching import Hatching, Stippling
-from .integral_lines import FieldLines, GeodesicLines, GeodesicsBetween, ShortestPaths
+from .integral_lines import FieldLines, GeodesicLines, GeodesicsBetween, KnownCurves, ShortestPaths
 from .naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from .naming.scales import BoxAxes, Colouring
 from .paper import sheet_size
@@ -24,6 +24,7 @@ __all__ = [
     "GeodesicsBetween",
     "Hatching",
     "Item",
+    "KnownCurves",
     "Label",
     "Light",
     "Material",

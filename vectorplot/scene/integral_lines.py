@@ -14,6 +14,8 @@ from vectorplot.errors import InputError
 if TYPE_CHECKING:
     # What runs along fields is loaded when they are traced.
     from vectorplot.features.integral.tangent_fields import TangentField
+    from vectorplot.features.meshes.mesh_curves import MeshCurves
+    from vectorplot.features.parametric.surface_curves import SurfaceCurves
 
 MOST_STARTS = 10_000
 """The largest number of points that curves of one field are asked for through."""
@@ -204,12 +206,40 @@ class GeodesicsBetween:
         return self if self.length is None else replace(self, length=larger * self.length)
 
 
-IntegralLines = FieldLines | GeodesicLines | GeodesicsBetween | ShortestPaths
+@dataclass(frozen=True, eq=False)
+class KnownCurves:
+    """Curves on a surface or a mesh that are known already, and are only to be drawn.
+
+    Parameters
+    ----------
+    curves : SurfaceCurves or MeshCurves
+        On the shape of their item, in world coordinates.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import features, geometry, scene
+    >>> cube = geometry.box((2, 2, 2))
+    >>> found = features.evenly_spaced_mesh_curves(cube, features.SteepestSlope(), 0.5)
+    >>> item = vp.Item("cube", cube, curves=vp.SurfaceLines(integral=(scene.KnownCurves(found),)))
+    >>> len(vp.draw(item, lines="integral").layers) > 0
+    True
+    """
+
+    curves: SurfaceCurves | MeshCurves
+
+    def transformed(self, matrix: Floats, larger: float) -> KnownCurves:
+        """The same curves under a 4x4 matrix acting on columns."""
+        points = self.curves.points @ matrix[:3, :3].T + matrix[:3, 3]
+        return KnownCurves(replace(self.curves, points=points))
+
+
+IntegralLines = FieldLines | GeodesicLines | GeodesicsBetween | ShortestPaths | KnownCurves
 
 
 def check_points(lines: IntegralLines, on: PointsOf) -> None:
     """Nothing, where lines begin at points of the sort of shape they are on. Errors: InputError where not."""
-    if isinstance(lines, GeodesicsBetween):
+    if isinstance(lines, GeodesicsBetween | KnownCurves):
         return
     if isinstance(lines, FieldLines):
         name, rows, width = "field lines", lines.through, on.points

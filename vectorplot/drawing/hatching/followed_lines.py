@@ -8,11 +8,12 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.hatching.densities import covers, ranks
+from vectorplot.drawing.hatching.densities import covers
 from vectorplot.drawing.hatching.toned_regions import TonedRegions
 from vectorplot.drawing.strokes.stroke_paths import chosen
 from vectorplot.geometry import ragged
 from vectorplot.scene.hatching import Hatching
+from vectorplot.tolerances.of_the_page import COINCIDENT_MM
 from vectorplot.words import LineKind
 
 STEP_MM = 0.4
@@ -23,9 +24,10 @@ STEP_MM = 0.4
 class FollowedLines:
     """The visible lines of a family, 0 or 1, on an item.
 
-    paths: straight parts of two points, of this item and others; samples (s,3): points on all lines of the family, one
-    line after the other, and apart (s,): how far in mm the neighbouring lines are from there; count: into how many
-    parts they divide the surface; ends (3,): the unit normal of the flat ends of a capped body, or zero.
+    paths: straight parts of two points, of this item and others; samples (s,3): points on all lines of the family, line
+    (s,): of which, and apart (s,): how far in mm the neighbouring lines are from there; ranks (s,): which of them are
+    drawn first where it becomes darker, from 0 to 1; ends (3,): the unit normal of the flat ends of a capped body, or
+    zero; shortest_mm: strokes are no shorter.
     """
 
     family: int
@@ -33,8 +35,10 @@ class FollowedLines:
     paths: Paths
     samples: Floats
     apart: Floats
-    count: int
+    line: Ints
+    ranks: Floats
     ends: Floats
+    shortest_mm: float = 0.0
 
 
 def dark_parts(lines: FollowedLines, hatching: Hatching, regions: TonedRegions) -> Paths:
@@ -59,22 +63,29 @@ def dark_parts(lines: FollowedLines, hatching: Hatching, regions: TonedRegions) 
     solid = space[of, 0] + share[:, None] * (space[of, 1] - space[of, 0])
     known = np.flatnonzero(np.isfinite(lines.samples).all(axis=1))
     near = known[cKDTree(lines.samples[known]).query(solid)[1]]
-    row = len(lines.samples) // (lines.count + 1)
-    rank = _rank(near // row, of, paths.curve, lines.count)
+    rank = _ranks(lines, near, of, _lines(lines.line[near], of, paths.curve))
     dark = np.ones(len(flat)) if hatching.by == "even" else _darkness(some, flat)
     cover = covers(hatching, dark)[lines.family]
-    excess = lines.apart[near] * cover / hatching.width_mm - rank[of]
-    return _cut(paths, of, share, excess)
+    excess = lines.apart[near] * cover / hatching.width_mm - rank
+    return _long_enough(_cut(paths, of, share, excess), lines.shortest_mm)
 
 
-def _rank(line: Ints, of: Ints, curve: Ints, count: int) -> Floats:
-    """(m,) the ranks of the lines that paths are parts of, by the lines (n,) that points of paths of (n,) are next to:
-    the middle one, of all parts of a curve (m,) where they are known."""
+def _ranks(lines: FollowedLines, near: Ints, of: Ints, line: Ints) -> Floats:
+    """(n,) the ranks of points of paths, of which those samples (n,) are next: on a neighbouring line some are, where
+    lines are close, and have the rank that the line (m,) of their path begins with."""
+    first = np.searchsorted(lines.line, np.arange(int(lines.line[-1]) + 1))
+    own = line[of]
+    return np.where(lines.line[near] == own, lines.ranks[near], lines.ranks[first[own]])
+
+
+def _lines(line: Ints, of: Ints, curve: Ints) -> Ints:
+    """(m,) the lines that paths are parts of, by those (n,) that points of paths of (n,) are next to: the middle one,
+    of all parts of a curve (m,) where they are known."""
     group = np.unique(np.where(curve >= 0, curve, -1 - np.arange(len(curve))), return_inverse=True)[1].ravel()
     order = np.lexsort((line, group[of]))
     sizes = np.bincount(group[of])
     middle = line[order][ragged.starts(sizes) + sizes // 2]
-    return ranks(middle % count, count)[group]
+    return np.asarray(middle[group])
 
 
 def _darkness(regions: TonedRegions, points: Floats) -> Floats:
@@ -128,3 +139,16 @@ def _cut(paths: Paths, of: Ints, share: Floats, excess: Floats) -> Paths:
         directions=np.where(whole[:, None], parts.directions, np.nan),
         handles=np.where(cut[:, None], parts.handles, np.nan),
     )
+
+
+def _long_enough(parts: Paths, shortest_mm: float) -> Paths:
+    """Straight parts without those that follow each other along a curve and are too short together."""
+    if not len(parts) or shortest_mm <= 0.0:
+        return parts
+    ends = parts.points.reshape(-1, 2, 2)
+    new = np.ones(len(parts), dtype=np.bool_)
+    gap = np.linalg.norm(ends[1:, 0] - ends[:-1, 1], axis=1)
+    new[1:] = (parts.curve[1:] != parts.curve[:-1]) | (gap > COINCIDENT_MM)
+    run = np.cumsum(new) - 1
+    length = np.bincount(run, weights=np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
+    return chosen(parts, np.flatnonzero(length[run] >= shortest_mm))

@@ -118,7 +118,7 @@ def _family(regions: TonedRegions, hatching: Hatching, family: int, page_from_wo
     spacing = even_spacings(hatching, np.ones(len(even)) if hatching.by == "even" else even.lowest)[family]
     even, spacing = even.some(np.isfinite(spacing)), spacing[np.isfinite(spacing)]
     if len(even):
-        frame = page if hatching.along == "page" else plane_frame(even, angle, page_from_world)
+        frame = page if hatching.along != "surface" else plane_frame(even, angle, page_from_world)
         parts = scanned(*frame.coordinates(even), even.offsets, even.of, spacing)
         tone = np.unique(spacing, return_inverse=True)[1].ravel()
         found.append(_strokes(even, frame, parts, spacing, tone, page_from_world))

@@ -34,7 +34,7 @@ def read_hatch(words: Words, at: int, owner: str) -> tuple[Hatching, int]:
         elif word == "along":
             given[field] = words.words[at]
             if given[field] not in HATCHED_ALONG:
-                cause = f"hatch along: expected {' or '.join(HATCHED_ALONG)}, got {words.shown(at)}"
+                cause = f"hatch along: expected one of {', '.join(HATCHED_ALONG)}, got {words.shown(at)}"
                 words.fail(at, owner + cause)
             at += 1
         else:

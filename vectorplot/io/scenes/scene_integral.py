@@ -33,6 +33,7 @@ from vectorplot.scene.integral_lines import (
     GeodesicLines,
     GeodesicsBetween,
     IntegralLines,
+    KnownCurves,
     PointsOf,
     ShortestPaths,
 )
@@ -215,6 +216,8 @@ def integral_text(lines: IntegralLines) -> str:
         text = f"geodesics between {' , '.join(_numbers(row) for row in lines.pairs)}"
         text += f" count {lines.most}" * (lines.most != 1)
         return text + ("" if lines.length is None else f" length {float(lines.length)!r}")
+    if isinstance(lines, KnownCurves):
+        raise InputError("curves that are known already have no words in scene files")
     words = _field_text(lines.field)
     if lines.through:
         return f"{words} through {' , '.join(_numbers(row) for row in lines.through)}"

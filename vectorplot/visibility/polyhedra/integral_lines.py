@@ -17,6 +17,7 @@ from vectorplot.scene.integral_lines import (
     GeodesicLines,
     GeodesicsBetween,
     IntegralLines,
+    KnownCurves,
     ShortestPaths,
     check_points,
 )
@@ -42,6 +43,10 @@ def mesh_integral_lines(mesh: Mesh, lines: IntegralLines) -> MeshCurves:
     """
     if isinstance(lines, GeodesicsBetween):
         raise InputError("geodesics between places: for surfaces with parameters u and v only")
+    if isinstance(lines, KnownCurves):
+        if not isinstance(lines.curves, MeshCurves):
+            raise InputError("known curves: those of a surface with parameters u and v, on a polyhedron")
+        return lines.curves
     check_points(lines, ON_MESHES)
     if isinstance(lines, ShortestPaths):
         return mesh_shortest_paths(mesh, *np.hsplit(np.array(lines.ends).reshape(-1, 6), 2))

@@ -19,6 +19,9 @@ from vectorplot.geometry.vectors import norm
 MOST_SAMPLES = 16
 """And so many at most, however near each other its points are."""
 
+GROUP = 1 << 14
+"""So many places of curves are compared with each other at a time."""
+
 
 @dataclass(frozen=True, eq=False)
 class _Placed:
@@ -157,41 +160,84 @@ def _reached(found: _Placed, free: Bools) -> tuple[Ints, Ints]:
 
 def _without_crowds(shape: CombedMesh, found: _Placed, taken: Floats) -> tuple[list[MeshCurves], Floats]:
     """The curves, one after the other, as far as they are not too near what is taken, to those before, and to
-    themselves; and where (k,6) they are."""
+    themselves; and where (k,6) they are.
+
+    Groups of curves are compared with each other, the later ones only as far as those before leave room: where many run
+    together, as water in a valley, they are never compared all at once.
+    """
     from scipy.spatial import cKDTree
 
     apart = shape.apart
-    if not len(found.curve):
-        return [], np.zeros((0, 6))
+    count = len(found.seed)
+    own = [np.zeros((0, 6))]
+    spans = [np.zeros((0, 3), dtype=np.intp)]
     free = np.ones(len(found.curve), dtype=np.bool_)
-    fresh = np.ones(len(found.seed), dtype=np.bool_)
-    if len(taken):
-        away = cKDTree(taken).query(found.where)[0]
-        free = away > NEAREST * apart
-    pairs = cKDTree(found.where).query_pairs(WIDEST * apart, output_type="ndarray")
-    one, two = np.concatenate([pairs, pairs[:, ::-1]]).T
+    if len(taken) and count:
+        free = cKDTree(taken).query(found.where)[0] > NEAREST * apart
+    bounds = np.searchsorted(found.curve, np.arange(count + 1))
+    left = np.arange(count)
+    while len(left):
+        lines, left = np.split(left, [max(1, int(np.searchsorted(np.cumsum(np.diff(bounds)[left]), GROUP)))])
+        kept = _kept(found, lines, free, apart)
+        if not len(kept):
+            continue
+        spans.append(kept)
+        own.append(found.where[ragged.ranges(kept[:, 1], kept[:, 2] - kept[:, 1] + 1)])
+        tree = cKDTree(own[-1])
+        left = left[tree.query(found.where[found.seed[left]], distance_upper_bound=WIDEST * apart)[0] > WIDEST * apart]
+        at = ragged.ranges(bounds[left], bounds[left + 1] - bounds[left])
+        at = at[free[at]]
+        free[at] = tree.query(found.where[at], distance_upper_bound=NEAREST * apart)[0] > NEAREST * apart
+    parts = np.concatenate(spans)
+    if not len(parts):
+        return [], np.zeros((0, 6))
+    return _cut(shape, found, *parts.T), np.concatenate(own)
+
+
+def _kept(found: _Placed, lines: Ints, free: Bools, apart: float) -> Ints:
+    """(s,3) which of some lines to keep, one after the other, and their first and last places. free (p,): places that
+    are not beside others; those that are beside lines that are kept, and lines beside themselves, are free no more."""
+    from scipy.spatial import cKDTree
+
+    first, last = (ends[lines] for ends in _reached(found, free))
+    at = ragged.ranges(first, np.maximum(last - first + 1, 0))
+    pairs = at[cKDTree(found.where[at]).query_pairs(WIDEST * apart, output_type="ndarray")] if len(at) else None
+    one, two = (np.zeros((2, 0), dtype=np.intp)) if pairs is None else np.concatenate([pairs, pairs[:, ::-1]]).T
     near = norm(found.where[one] - found.where[two])
     free &= ~_beside_itself(found, one, two, near, apart)
     by_curve = np.argsort(found.curve[one], kind="stable")
     one, two, near = one[by_curve], two[by_curve], near[by_curve]
     begin = np.searchsorted(found.curve[one], np.arange(len(found.seed) + 1))
+    fresh = np.ones(len(found.seed), dtype=np.bool_)
+    seeds = np.zeros(len(free), dtype=np.bool_)
+    seeds[found.seed] = True
+    bounds = np.searchsorted(found.curve, np.arange(len(found.seed) + 1))
     spans = []
-    for line in range(len(found.seed)):
-        first, last = (int(x[line]) for x in _reached(found, free)) if fresh[line] else (0, -1)
-        if last < first or found.along[last] - found.along[first] < SHORTEST * apart:
+    for line in lines.tolist():
+        if not fresh[line]:
             continue
-        spans.append((line, first, last))
+        low, high = _span(free[bounds[line] : bounds[line + 1]], int(found.seed[line] - bounds[line]))
+        low, high = low + int(bounds[line]), high + int(bounds[line])
+        if high < low or found.along[high] - found.along[low] < SHORTEST * apart:
+            continue
+        spans.append((line, low, high))
         own = slice(begin[line], begin[line + 1])
-        inside = (one[own] >= first) & (one[own] <= last) & (found.curve[two[own]] != line)
+        inside = (one[own] >= low) & (one[own] <= high) & (found.curve[two[own]] != line)
         others, far = two[own][inside], near[own][inside]
         free[others[far <= NEAREST * apart]] = False
-        seeds = np.zeros(len(free), dtype=np.bool_)
-        seeds[found.seed] = True
         fresh[found.curve[others[seeds[others]]]] = False
-    if not spans:
-        return [], np.zeros((0, 6))
-    parts = np.array(spans)
-    return _cut(shape, found, *parts.T), found.where[ragged.ranges(parts[:, 1], parts[:, 2] - parts[:, 1] + 1)]
+    return np.array(spans, dtype=np.intp).reshape(-1, 3)
+
+
+def _span(free: Bools, seed: int) -> tuple[int, int]:
+    """The first and the last place that are reached from one over free ones; none where it is not free."""
+    if not free[seed]:
+        return seed, seed - 1
+    shut = np.flatnonzero(~free)
+    after = int(np.searchsorted(shut, seed))
+    low = int(shut[after - 1]) + 1 if after else 0
+    high = int(shut[after]) - 1 if after < len(shut) else len(free) - 1
+    return low, high
 
 
 def _beside_itself(found: _Placed, one: Ints, two: Ints, near: Floats, apart: float) -> Bools:

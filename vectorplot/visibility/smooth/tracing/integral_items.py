@@ -19,6 +19,7 @@ from vectorplot.scene.integral_lines import (
     GeodesicLines,
     GeodesicsBetween,
     IntegralLines,
+    KnownCurves,
     ShortestPaths,
     check_points,
 )
@@ -56,6 +57,10 @@ def integral_lines(surface: Surface, lines: IntegralLines, tracing: Tracing) -> 
     """
     if isinstance(lines, ShortestPaths):
         raise InputError("shortest paths are for polyhedra only")
+    if isinstance(lines, KnownCurves):
+        if not isinstance(lines.curves, SurfaceCurves):
+            raise InputError("known curves: those of a mesh, on a surface with parameters u and v")
+        return lines.curves
     check_points(lines, ON_SURFACES)
     if isinstance(lines, GeodesicLines):
         rows = np.array(lines.starts).reshape(-1, 3)

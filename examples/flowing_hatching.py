@@ -1,0 +1,33 @@
+"""Strokes that flow: an ellipsoid hatched along its lines of curvature, a catenoid along its asymptotic lines.
+
+The lines are evenly apart on the bodies; each stroke is as long as it is dark enough for it. On a minimal surface the
+two families of asymptotic lines cross at right angles, and run midway between the lines of curvature.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import vectorplot as vp
+from vectorplot.surfaces import Ellipsoid, helicoid_to_catenoid
+
+
+def main(folder: Path) -> None:
+    body = vp.Item("ELLIPSOID", Ellipsoid((3.0, 2.0, 1.4)), lines=("contour",))
+    combed = vp.Hatching("tone", spacing_mm=1.2, width_mm=0.4, along="curvature")
+    camera = vp.Camera(eye=(9.0, -14.0, 9.0), fov_deg=24)
+    drawing = vp.draw(vp.Scene((body,)), camera, page=vp.Page(130, 86, 5), hatch=combed)
+    vp.save(drawing, folder / "flowing_hatching_ellipsoid.svg")
+
+    soap = vp.Item(
+        "CATENOID", helicoid_to_catenoid(np.pi / 2, width=1.2, start=-np.pi, end=np.pi), lines=("contour", "boundary")
+    )
+    woven = vp.Hatching("tone", spacing_mm=1.2, width_mm=0.3, along="asymptotic", cross=True)
+    camera = vp.Camera(eye=(6.0, -13.0, 8.0), fov_deg=24)
+    drawing = vp.draw(vp.Scene((soap,)), camera, page=vp.Page(110, 100, 5), hatch=woven)
+    vp.save(drawing, folder / "flowing_hatching_catenoid.svg")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1] if len(sys.argv) > 1 else "docs/gallery"))

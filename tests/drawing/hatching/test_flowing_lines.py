@@ -1,0 +1,126 @@
+"""Hatching that flows: along its field, evenly apart, as dark as the light leaves it."""
+
+from __future__ import annotations
+
+import io
+
+import cairo
+import numpy as np
+import pytest
+
+import vectorplot as vp
+from vectorplot import features
+from vectorplot.backends.cairo.surfaces import png_bytes
+from vectorplot.drawing.hatching.line_ranks import place_ranks
+from vectorplot.geometry import box
+from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.scene import terrain_mesh
+from vectorplot.surfaces import Domain, Sphere, graph, terrain
+
+SUN = vp.Light((2.0, -3.0, 4.0), parallel=True, intensity=1.0)
+CAMERA = vp.Camera((3.0, -6.0, 3.0), parallel=True, height=2.2)
+PAGE = vp.Page(66.0, 66.0, 0.0)
+
+
+def strokes(drawing):
+    return [
+        paths.points3d[paths.offsets[k] : paths.offsets[k + 1]]
+        for layer in drawing.layers
+        if layer.name.startswith("hatch")
+        for paths in layer.strokes
+        for k in range(len(paths))
+    ]
+
+
+def test_the_first_lines_of_parallel_ones_are_evenly_apart_and_so_are_all():
+    lines = np.arange(64)
+    x = np.repeat(lines, 30).astype(float)
+    where = np.stack([x, np.tile(np.arange(30.0), 64)], axis=1)
+    ranks = place_ranks(where, np.repeat(lines, 30), np.ones(64 * 30), 1.0, 64.0 * 30.0)[::30]
+    for share in (0.125, 0.25, 0.5, 0.75, 1.0):
+        drawn = lines[ranks < share]
+        assert len(drawn) == pytest.approx(64 * share, abs=4 + 64 * share * 0.12)
+        assert np.diff(drawn).max() <= 2.0 / share, "no gap is wider than two of them"
+
+
+def test_where_lines_run_together_only_some_go_on():
+    angles = np.linspace(-0.5, 0.5, 41)
+    far = np.linspace(1.0, 41.0, 81)
+    where = np.stack([np.outer(np.sin(angles), far), np.outer(np.cos(angles), far)], axis=2).reshape(-1, 2)
+    ranks = place_ranks(where, np.repeat(np.arange(41), 81), np.full(41 * 81, 0.5), 1.0, 0.5 * 40.0**2)
+    ranks = ranks.reshape(41, 81)
+    counts = (ranks < 1.0).sum(axis=0)
+    assert counts[-1] >= 38
+    # On an arc of radius 11 there is room for 11 lines, and some that are a little nearer.
+    assert 9 <= counts[20] <= 18
+    assert (np.diff(counts) >= -3).all()
+
+
+def test_no_lines_have_no_ranks():
+    assert not len(place_ranks(np.zeros((0, 6)), np.zeros(0, dtype=int), np.zeros(0), 1.0, 1.0))
+
+
+@pytest.mark.parametrize("along", ["slope", "level"])
+def test_strokes_follow_their_field_and_are_long_enough(along):
+    hill = vp.Item("HILL", graph(lambda x, y: 0.6 * x * x + 0.3 * y, Domain(-1, 1, -1, 1)))
+    hatch = vp.Hatching("even", spacing_mm=2.0, along=along)
+    drawing = vp.draw(vp.Scene((hill,)), "top", page="80x80", lines="none", hatch=hatch, curves="polyline")
+    found = strokes(drawing)
+    assert len(found) > 15
+    for line in found:
+        way = np.diff(line, axis=0)
+        middle = 0.5 * (line[1:] + line[:-1])
+        up = np.stack([1.2 * middle[:, 0], np.full(len(middle), 0.3)], axis=1)
+        turned = up[:, ::-1] * (-1.0, 1.0) if along == "level" else up
+        off = way[:, 0] * turned[:, 1] - way[:, 1] * turned[:, 0]
+        assert np.abs(off).max() < 3e-3 * np.linalg.norm(turned, axis=1).max()
+        assert np.linalg.norm(way, axis=1).sum() * 30.0 > 5.9
+
+
+def test_a_ball_combed_along_its_meridians_is_as_dark_as_the_light_leaves_it():
+    ball = vp.Scene((vp.Item("ball", Sphere(1.0)),), (SUN,))
+    hatch = vp.Hatching("tone", spacing_mm=1.0, width_mm=0.3, along="slope")
+    drawing = vp.draw(ball, CAMERA, page=PAGE, fit=False, lines="none", hatch=hatch, curves="polyline")
+    surface = cairo.ImageSurface.create_from_png(io.BytesIO(png_bytes(drawing, 6.0 * 25.4)))
+    size = surface.get_height()
+    pixels = np.frombuffer(surface.get_data(), dtype=np.uint8).reshape(size, surface.get_width(), 4)
+    ink = 1.0 - pixels[..., 0].ravel() / 255.0
+    rows, columns = np.indices((size, size))
+    x, y = ((np.stack([columns, size - rows]) * 66.0 / size).reshape(2, -1) - 33.0) / 30.0
+    r = np.hypot(x, y)
+    right, up, back = CAMERA.axes
+    normal = x[:, None] * right + y[:, None] * up + np.sqrt(np.maximum(1.0 - r * r, 0.0))[:, None] * back
+    cosine = normal @ np.array(SUN.position) / np.linalg.norm(SUN.position)
+    wanted = 0.8 * (1.0 - np.where(cosine > 0.0, cosine, -0.3 * cosine)) * hatch.darkest
+    inside = r < 0.97
+    assert ink[inside].mean() == pytest.approx(wanted[inside].mean(), rel=0.1)
+    for quarter in (x < 0, x > 0, y < 0, y > 0):
+        assert ink[inside & quarter].mean() == pytest.approx(wanted[inside & quarter].mean(), rel=0.2, abs=0.01)
+
+
+def test_terrains_are_hatched_as_water_runs_and_what_has_no_lines_along_the_page():
+    x, y = np.meshgrid(np.linspace(0, 6, 16), np.linspace(0, 4, 11), indexing="ij")
+    land = terrain_mesh(terrain(np.sin(x) * np.cos(y), x=(0, 6), y=(0, 4)))
+    hatch = vp.Hatching("even", spacing_mm=2.0, along="slope")
+    drawing = vp.draw(vp.Scene((vp.Item("LAND", land),)), "top", page="80x80", lines="none", hatch=hatch)
+    found = strokes(drawing)
+    rises = [np.diff(line[:, 2]) for line in found]
+    # Strokes that meet in a valley are one.
+    assert sum((rise >= -1e-9).all() or (rise <= 1e-9).all() for rise in rises) > 0.8 * len(found) > 10
+    cubes = [vp.Item("A", box((2, 2, 2)), hatch=vp.Hatching("even", along=along)) for along in ("curvature", "page")]
+    flowing, plain = (strokes(vp.draw(vp.Scene((cube,)), page="60x60", lines="none")) for cube in cubes)
+    assert len(flowing) == len(plain) > 10
+
+
+def test_many_lines_that_run_together_are_compared_with_few():
+    x, y = np.meshgrid(np.linspace(0, 6, 19), np.linspace(0, 4, 13), indexing="ij")
+    land = terrain_mesh(terrain(0.5 * np.abs(y - 2.0) + 0.2 * x, x=(0, 6), y=(0, 4)))
+    curves = features.evenly_spaced_mesh_curves(land, features.SteepestSlope(), 0.12)
+    middle = np.array([curves[k][len(curves[k]) // 2] for k in range(len(curves))])
+    assert len(curves) > 30
+    assert (np.abs(middle[:, 1] - 2.0) < 1e-9).sum() <= 2, "water in a valley is one line"
+
+
+def test_scene_files_say_it_too():
+    scene = parse_scene("A gray box 1 1 1 hatch tone along slope spacing 2\n")
+    assert scene.items[0].hatch == vp.Hatching("tone", along="slope", spacing_mm=2.0)

@@ -1,0 +1,102 @@
+"""From which darkness on lines are drawn, so that those that are drawn are evenly apart."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
+
+MOST_PLACES = 24
+"""Places on one line at which it is compared with others to find the order of lines, at most."""
+
+GROWTH = 1.4
+"""Lines are compared with those before them in groups, each larger than the last one by this factor."""
+
+NEIGHBOURS = 12
+"""So many places are looked at for one of a line before it in its own group."""
+
+GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
+
+SMOOTHED = 9
+"""Along so many places of a line ranks are averaged: else a line would be dashed where two others end beside it."""
+
+
+def place_ranks(where: Floats, lines: Ints, lengths: Floats, apart: float, area: float) -> Floats:
+    """(s,) the ranks of places where (s,d) on lines (s,), which follow each other: what is drawn where the part x of
+    all lines, apart from each other, is asked for is what has a rank below x. lengths (s,): of lines, for which each
+    place stands; area: that the lines cover.
+
+    Lines come in an order: each is the one that is farthest from all before. A place that is r from the lines before
+    its own comes between a half of apart / r and the whole of it, spread evenly: where lines run together only some go
+    on. Ranks are such that on the whole a part x of the area is covered by what has a rank below x.
+    Source: Gonzalez, Clustering to minimize the maximum intercluster distance (1985), with lines for points.
+    """
+    if not len(lines):
+        return np.zeros(0)
+    sizes = np.bincount(lines)
+    place = np.argsort(_farthest_first(where, ragged.starts(sizes), sizes))
+    turn = place[lines]
+    away = _from_those_before(where, turn)
+    spread = 0.5 + 0.5 * np.mod(GOLDEN * turn, 1.0)
+    comes = _averaged(spread * apart / np.maximum(away, np.nextafter(0.0, 1.0)), lines)
+    order = np.argsort(comes, kind="stable")
+    covered = np.cumsum(lengths[order]) - 0.5 * lengths[order]
+    result = np.empty(len(lines))
+    result[order] = covered * apart / area
+    return result
+
+
+def _farthest_first(where: Floats, starts: Ints, sizes: Ints) -> Ints:
+    """(n,) the lines in their order: that with the most places first, then always the one whose places are farthest
+    from all lines before, on average."""
+    from scipy.spatial import cKDTree
+
+    count = len(sizes)
+    taken = np.minimum(sizes, MOST_PLACES)
+    of = ragged.owner(taken)
+    share = ragged.place(taken) / np.maximum(taken - 1, 1)[of]
+    some = where[starts[of] + np.rint(share * (sizes[of] - 1)).astype(np.intp)]
+    first = ragged.starts(taken)
+    away, left = np.full(len(some), np.inf), np.ones(count, dtype=np.bool_)
+    order = np.zeros(count, dtype=np.intp)
+    line = int(np.argmax(sizes))
+    for turn in range(count):
+        order[turn] = line
+        left[line] = False
+        rest = left[of]
+        own = some[first[line] : first[line] + taken[line]]
+        away[rest] = np.minimum(away[rest], cKDTree(own).query(some[rest])[0])
+        mean = np.add.reduceat(np.where(rest, away, 0.0), first) / taken
+        line = int(np.argmax(np.where(left, mean, -1.0)))
+    return order
+
+
+def _from_those_before(where: Floats, turn: Ints) -> Floats:
+    """(s,) how far places are from the lines that came before theirs, by whose turn (s,) they came."""
+    from scipy.spatial import cKDTree
+
+    away = np.full(len(where), np.inf)
+    begin, count = 1, int(turn.max()) + 1
+    while begin < count:
+        end = max(begin + 1, int(GROWTH * begin))
+        own = np.flatnonzero((turn >= begin) & (turn < end))
+        away[own] = cKDTree(where[turn < begin]).query(where[own])[0]
+        if end > begin + 1 and len(own):
+            far, which = cKDTree(where[own]).query(where[own], min(NEIGHBOURS, len(own)))
+            far = np.where(turn[own][which] < turn[own][:, None], far, np.inf)
+            away[own] = np.minimum(away[own], far.min(axis=1))
+        begin = end
+    return away
+
+
+def _averaged(values: Floats, lines: Ints) -> Floats:
+    """(s,) means of values over neighbouring places of a line."""
+    total, count = np.zeros(len(values)), np.zeros(len(values))
+    number = np.arange(len(values))
+    for step in range(-(SMOOTHED // 2), SMOOTHED // 2 + 1):
+        other = np.clip(number + step, 0, len(values) - 1)
+        same = lines[other] == lines
+        total += np.where(same, values[other], 0.0)
+        count += same
+    return np.asarray(total / count)

@@ -1,0 +1,168 @@
+"""Lines that flow over surfaces and meshes, evenly spaced, to hatch along."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.drawing.hatching.line_ranks import place_ranks
+from vectorplot.errors import InputError
+from vectorplot.features.integral.charts import charts
+from vectorplot.features.integral.curvature_fields import AsymptoticDirections, PrincipalDirections
+from vectorplot.features.integral.on_meshes.mesh_evenly_spaced import evenly_spaced_mesh_curves
+from vectorplot.features.integral.sites import Sites
+from vectorplot.features.integral.spacing.evenly_spaced import MOST_LINES, evenly_spaced_curves
+from vectorplot.features.integral.tangent_fields import SteepestSlope, TangentField, TurnedField
+from vectorplot.features.meshes.mesh_curves import MeshCurves
+from vectorplot.features.parametric.curve_tracing import Tracing, extent
+from vectorplot.features.parametric.surface_curves import SurfaceCurves
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.polylines import closed_round
+from vectorplot.geometry.vectors import cross, norm
+from vectorplot.scene.placement import Placement
+from vectorplot.scene.scene import Item
+from vectorplot.surfaces.surface import Surface, is_parametrised
+
+SLOPES: tuple[TangentField, TangentField] = (SteepestSlope(), TurnedField(SteepestSlope(), 0.5 * np.pi))
+
+FIELDS: dict[str, tuple[TangentField, TangentField]] = {
+    "slope": SLOPES,
+    "level": SLOPES[::-1],
+    "curvature": (PrincipalDirections(1), PrincipalDirections(2)),
+    "asymptotic": (AsymptoticDirections(1), AsymptoticDirections(2)),
+}
+"""What strokes follow, and those that cross them, by the word for it."""
+
+ON_MESHES = ("slope", "level")
+"""Those of them that meshes have."""
+
+ROUGH = 64
+"""Samples along each parameter, to find how large a surface comes out on the page."""
+
+NEARLY_ALL = 0.98
+"""Of a surface; where it comes out larger yet, lines may be wider apart."""
+
+SAMPLES = 2.5
+"""So often within the distance of neighbours one looks along a line how far they are apart on the page."""
+
+SIDES = 4.0
+"""Times the distance of neighbours that normals are long where distances are measured: the two sides of a thin shape do
+not keep each other's lines away."""
+
+FEWER = 0.999
+"""Of the most lines that curves are evenly spaced in."""
+
+
+@dataclass(frozen=True, eq=False)
+class FlowingLines:
+    """Curves that cover a shape evenly; samples (s,3) on them, line (s,): of which, apart (s,): how far in mm their
+    neighbours are on the page where they are evenly apart; ranks (s,): which of them are drawn first."""
+
+    curves: SurfaceCurves | MeshCurves
+    samples: Floats
+    line: Ints
+    apart: Floats
+    ranks: Floats
+
+
+def flows(item: Item, along: str) -> bool:
+    """Whether there are such lines on the shape of an item."""
+    if isinstance(item.shape, Mesh):
+        return along in ON_MESHES and bool(item.shape.face_count)
+    return along in FIELDS and is_parametrised(item.shape)
+
+
+def flowing_lines(
+    item: Item, along: str, family: int, spacing_mm: float, tolerance_mm: float, placement: Placement
+) -> FlowingLines:
+    """The lines of a family on an item, so close that they do for the darkest places.
+
+    Errors: InputError, with the item's name, as of evenly_spaced_curves.
+    """
+    field = FIELDS[along][family]
+    shape = item.shape
+    try:
+        if isinstance(shape, Mesh):
+            points, area = shape.vertices, 0.5 * float(norm(shape.face_normals).sum())
+            whole = float(np.ptp(shape.bounds, axis=0).max())
+        else:
+            assert is_parametrised(shape)
+            (points, area), whole = _all_over(shape, field), extent(shape)[0]
+        largest = _largest(points, placement)
+        apart = max(spacing_mm / largest, whole / (FEWER * MOST_LINES))
+        curves = (
+            evenly_spaced_mesh_curves(shape, field, apart)
+            if isinstance(shape, Mesh)
+            else evenly_spaced_curves(shape, field, apart, tracing=Tracing(tolerance=tolerance_mm / largest))
+        )
+    except InputError as error:
+        raise InputError(f"{item.name}: hatching along {along}: {error.cause}") from None
+    return _sampled(item, curves, area, apart, placement)
+
+
+def _all_over(surface: Surface, field: TangentField) -> tuple[Floats, float]:
+    """(n,3) points all over a surface, and how large it is where a field has directions."""
+    u, v = surface.domain.grid(ROUGH, ROUGH)
+    middles = np.meshgrid(0.5 * (u[1:] + u[:-1]), 0.5 * (v[1:] + v[:-1]), indexing="ij")
+    sites = Sites(surface, *(each.ravel() for each in middles))
+    known = np.isfinite(field.tangents(sites)[0]).all(axis=1)
+    one, two, _ = sites.planes
+    cells = np.nan_to_num(norm(cross(one, two))) * known
+    size = float(cells.sum() * (u[1] - u[0]) * (v[1] - v[0]))
+    return sites.points[np.isfinite(sites.points).all(axis=1)], size
+
+
+def _largest(points: Floats, placement: Placement) -> float:
+    """How many mm a unit of the world is on the page, where it is largest on nearly all of a shape."""
+    ways = np.stack([on_page(points, axis, placement.page_from_world) for axis in np.eye(3)], axis=-1)
+    size = np.linalg.norm(ways, ord=2, axis=(-2, -1))
+    size = size[np.isfinite(size)]
+    return float(np.quantile(size, NEARLY_ALL)) if len(size) else 1.0
+
+
+def _sampled(
+    item: Item, curves: SurfaceCurves | MeshCurves, area: float, apart: float, placement: Placement
+) -> FlowingLines:
+    """Curves with samples so close that the one next to a point of a curve is on that curve."""
+    rounds = closed_round(curves)
+    points, offsets = curves.points[rounds.index], rounds.offsets
+    steps = norm(np.diff(points, axis=0, append=points[:1])) if len(points) else np.zeros(0)
+    steps[offsets[1:] - 1] = 0.0
+    count = np.maximum(np.ceil(SAMPLES * steps / apart), 1.0).astype(np.intp)
+    count[offsets[1:] - 1] = 0
+    at, share = ragged.owner(count), ragged.place(count) / count[ragged.owner(count)]
+    way = points[at + 1] - points[at]
+    samples = points[at] + share[:, None] * way
+    line = ragged.owner(np.diff(offsets))[at]
+    normals = _normals(item, curves, at)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        aside = cross(normals, way / norm(way)[:, None])
+        along, across = (on_page(samples, each, placement.page_from_world) for each in (way, aside))
+        wide = apart * np.abs(along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]) / np.linalg.norm(along, axis=1)
+    wide = np.nan_to_num(wide, nan=0.0, posinf=0.0)
+    where = np.concatenate([samples, SIDES * apart * np.nan_to_num(normals)], axis=1)
+    return FlowingLines(curves, samples, line, wide, place_ranks(where, line, steps[at] / count[at], apart, area))
+
+
+def _normals(item: Item, curves: SurfaceCurves | MeshCurves, at: Ints) -> Floats:
+    """(s,3) unit normals at points of curves that are led round, by their numbers (s,)."""
+    rounds = closed_round(curves)
+    index = rounds.index
+    if isinstance(curves, MeshCurves):
+        assert isinstance(item.shape, Mesh)
+        normals = item.shape.face_normals[np.maximum(curves.faces[index[at]], 0)]
+        return normals / norm(normals)[:, None]
+    assert is_parametrised(item.shape)
+    places = np.stack([curves.u[index[at]], curves.v[index[at]]], axis=1)
+    return Sites(item.shape, *charts(item.shape).inside(places).T).normals
+
+
+def on_page(points: Floats, ways: Floats, page_from_world: Floats) -> Floats:
+    """(...,2) by how many mm points of the page move where points (...,3) move along ways (...,3)."""
+    rows = points @ page_from_world[:, :3].T + page_from_world[:, 3]
+    step = ways @ page_from_world[:, :3].T
+    depth = rows[..., 3:]
+    return np.asarray(step[..., :2] / depth - rows[..., :2] * step[..., 3:] / (depth * depth))
