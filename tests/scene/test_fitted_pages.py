@@ -11,6 +11,7 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import Fills
 from vectorplot.errors import InputError
 from vectorplot.geometry.solids import box
+from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.scene.fitted_pages import fitted_page, page_of_width
 from vectorplot.scene.placement import fitted_picture
 from vectorplot.scene.scene import Page
@@ -144,3 +145,36 @@ def test_the_options_are_those_of_python(verb, tmp_path, capsys):
     assert "--page SIZE and --width exclude each other" in capsys.readouterr().err
     assert run([*command, "--width", "80", "--no-fit"]) == 1
     assert capsys.readouterr().err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("page fit", {"page": "fit"}),
+        ("page A5 landscape fit margin 3", {"page": fitted_page(vp.Page(210, 148, 3))}),
+        ("page width 80mm", {"width": "80mm"}),
+        ("page width 3in margin 4", {"page": vp.Page(margin_mm=4), "width": "3in"}),
+    ],
+)
+def test_pages_of_scene_files_are_those_of_the_options(said, told, tmp_path):
+    text = "B gray box solid 3 2 1\n"
+    (tmp_path / "a.scene").write_text(f"{said}\n{text}")
+    (tmp_path / "b.scene").write_text(text)
+    one = vp.draw(tmp_path / "a.scene", "iso")
+    other = vp.draw(tmp_path / "b.scene", "iso", **told)
+    assert (one.width_mm, one.height_mm) == (other.width_mm, other.height_mm)
+    # Files that are written say the same.
+    vp.save(vp.read(tmp_path / "a.scene"), tmp_path / "c.scene")
+    again = vp.draw(tmp_path / "c.scene", "iso")
+    assert (again.width_mm, again.height_mm) == pytest.approx((one.width_mm, one.height_mm))
+    assert run(["draw", str(tmp_path / "a.scene"), "--view", "iso", "-o", str(tmp_path / "a.svg")]) == 0
+    assert f'width="{one.width_mm:.6g}' in (tmp_path / "a.svg").read_text()
+
+
+def test_a_page_of_a_width_is_not_cut_and_sheets_may_lie_on_their_side(tmp_path):
+    with pytest.raises(vp.InputError, match="exclude each other"):
+        parse_scene("page width 80mm fit\n")
+    box = tmp_path / "b.scene"
+    box.write_text("B gray box solid 3 2 1\n")
+    assert run(["draw", str(box), "--page", "A5 landscape", "-o", str(tmp_path / "a.svg")]) == 0
+    assert 'viewBox="0 0 210 148"' in (tmp_path / "a.svg").read_text()

@@ -102,13 +102,15 @@ def length(text: str) -> float:
 
 
 def page_size(text: str) -> tuple[float, float] | str:
-    """Width and height in mm of a named page or of WIDTHxHEIGHT, or the word FIT."""
+    """Width and height in mm of a named page or of WIDTHxHEIGHT, perhaps landscape, or the word FIT."""
     from vectorplot.scene.paper import FIT, sheet_size
 
     if text.strip().lower() == FIT:
         return FIT
+    sheet, _, way = text.strip().partition(" ")
     try:
-        return sheet_size(text)
+        width, height = sheet_size(sheet if way.strip().lower() == "landscape" else text)
+        return (max(width, height), min(width, height)) if way else (width, height)
     except InputError as error:
         raise click.BadParameter(str(error)) from None
 

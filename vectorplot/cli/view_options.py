@@ -149,7 +149,7 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
 def page_from(options: PageOptions, scene: Scene) -> Page:
     """The page of the scene (or A4) with the user's size, margin and orientation; bad usage if nothing is left."""
     from vectorplot.errors import InputError
-    from vectorplot.scene.fitted_pages import fitted_page
+    from vectorplot.scene.fitted_pages import FittedPage, PageOfWidth, fitted_page, page_of_width
     from vectorplot.scene.scene import Page
 
     base = chosen(scene.page, Page())
@@ -160,4 +160,7 @@ def page_from(options: PageOptions, scene: Scene) -> Page:
     except InputError as error:
         raise click.UsageError(str(error)) from None
     page = page.landscape if options.landscape else page
-    return fitted_page(page) if isinstance(options.page, str) else page
+    if options.page is None and isinstance(base, PageOfWidth):
+        return page_of_width(page, base.width_mm)
+    fitted = isinstance(options.page, str) or (options.page is None and isinstance(base, FittedPage))
+    return fitted_page(page) if fitted else page

@@ -8,6 +8,7 @@ from typing import Any
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.io.scenes.scene_words import Words
+from vectorplot.scene.fitted_pages import fitted_page, page_of_width
 from vectorplot.scene.naming.labels import (
     HIDDEN,
     MARKS,
@@ -20,7 +21,7 @@ from vectorplot.scene.naming.labels import (
     capital_height,
 )
 from vectorplot.scene.naming.scales import BoxAxes, Colouring
-from vectorplot.scene.paper import sheet_size
+from vectorplot.scene.paper import FIT, length_mm, sheet_size
 from vectorplot.scene.scene import Light, Page
 from vectorplot.words import COLOURS, is_colour, nearest
 
@@ -116,7 +117,7 @@ def _light_colour(words: Words, at: int, owner: str) -> tuple[str, int]:
     return word, at + 1
 
 
-_PAGE_WORDS = ("landscape", "margin")
+_PAGE_WORDS = ("landscape", "margin", FIT)
 
 
 def read_page(words: Words, at: int) -> tuple[Page, int]:
@@ -125,19 +126,28 @@ def read_page(words: Words, at: int) -> tuple[Page, int]:
     if not words.words[at + 1]:
         words.fail(at + 1, "page: expected a size, got the end of the file")
     try:
-        width, height = sheet_size(words.words[at + 1])
-        at += 2
+        first, wide = words.words[at + 1].lower(), None
+        sheet = Page() if first in (FIT, "width") else Page(*sheet_size(first))
+        if first == "width":
+            wide = length_mm(words.words[at + 2])
+        at += 1 if first == FIT else 3 if first == "width" else 2
         margin: float | None = None
-        landscape = False
+        landscape = fitted = False
         while (word := words.words[at]) in _PAGE_WORDS:
             landscape |= word == "landscape"
+            fitted |= word == FIT
             at += 1
             if word == "margin":
                 margin = words.number(at, "page: ", word)
                 at += 1
         _check_spelling(words, start, at, _PAGE_WORDS)
-        page = Page(width, height) if margin is None else Page(width, height, margin)
-        return (page.landscape if landscape else page), at
+        page = sheet if margin is None else Page(sheet.width_mm, sheet.height_mm, margin)
+        page = page.landscape if landscape else page
+        if wide is not None:
+            if fitted:
+                words.fail(start, "page: a width and fit exclude each other")
+            return page_of_width(page, wide), at
+        return (fitted_page(page) if fitted else page), at
     except InputError as error:
         if error.file is not None:
             raise

@@ -15,6 +15,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.scenes.reserved_words import RESERVED
 from vectorplot.io.scenes.scene_hatching import hatch_text
 from vectorplot.io.scenes.scene_words import bare_word
+from vectorplot.scene.fitted_pages import FittedPage, PageOfWidth
 from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from vectorplot.scene.naming.scales import Colouring
 from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
@@ -102,7 +103,10 @@ def _list(points: Floats) -> str:
 
 
 def _page(page: Page) -> str:
-    return f"page {page.width_mm!r}x{page.height_mm!r} margin {page.margin_mm!r}"
+    if isinstance(page, PageOfWidth):
+        return f"page width {page.width_mm!r} margin {page.margin_mm!r}"
+    fit = " fit" if isinstance(page, FittedPage) else ""
+    return f"page {page.width_mm!r}x{page.height_mm!r}{fit} margin {page.margin_mm!r}"
 
 
 def _camera(camera: Camera) -> str:
