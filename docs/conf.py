@@ -37,6 +37,7 @@ CONTENTS = {
         "first-drawing",
         "for_plotters",
         "for_latex",
+        "workshop",
         "for_notebooks",
         "for_tests",
         "how-to",

@@ -11,6 +11,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.cli.verbs import vectorplot
 from vectorplot.geometry import box
+from vectorplot.technical.round_edges import round_edges
 
 BRICK = vp.Item("brick", box((40, 20, 10)))
 
@@ -23,7 +24,7 @@ def strokes_of(drawing, name):
     """The polylines of a layer, each with the name of its item."""
     found = []
     for paths in layer(drawing, name).strokes:
-        parts = np.split(paths.points, paths.offsets[1:-1])
+        parts = np.split(paths.points, paths.offsets[1:-1])[: len(paths)]
         found += [
             (drawing.items[k] if k >= 0 else "", part) for k, part in zip(paths.item.tolist(), parts, strict=True)
         ]
@@ -119,3 +120,18 @@ def test_the_command_writes_every_format(suffix, tmp_path):
     told = ["sheet", str(scene), "-o", str(tmp_path / f"s.{suffix}"), "--scale", "1:1", "--frame", "--dimensions"]
     vectorplot(told, standalone_mode=False)
     assert (tmp_path / f"s.{suffix}").stat().st_size > 1000
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e5])
+def test_round_edges_of_a_mesh_get_their_centre_lines(size):
+    """A shaft along x: two circles on one axis, one centre line and one mark."""
+    turn = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    rings = [np.column_stack([np.full(24, x), 5 + r * np.cos(turn), 5 + r * np.sin(turn)]) for x, r in ((0, 3), (9, 3))]
+    faces = [(k, (k + 1) % 24, 24 + (k + 1) % 24, 24 + k) for k in range(24)]
+    shaft = vp.Mesh.from_polygons(np.concatenate(rings) * size, [*faces, range(23, -1, -1), range(24, 48)])
+    edges = round_edges(shaft, 25.0)
+    assert [edge.axis for edge in edges] == [0, 0] and np.allclose([edge.radius for edge in edges], 3 * size)
+    assert not round_edges(box((1, 2, 3)), 25.0)
+    sheet = vp.technical_sheet(shaft, centre_lines=True, views="front,top,left")
+    lines = {name for name, _ in strokes_of(sheet, "centre")}
+    assert lines == {"centre line", "centre mark", "centre mark 2"}

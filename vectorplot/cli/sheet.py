@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     ),
     click.option("--page", default="A3", metavar="SIZE", help="A0 to A6, letter, ... or WIDTHxHEIGHT in mm."),
     click.option("--dimensions", is_flag=True, help="How long the part is along x, y and z."),
+    click.option("--centre-lines", is_flag=True, help="Of bores, shafts and other round edges of meshes."),
     click.option("--frame", is_flag=True, help="A border with centring marks and zones."),
     click.option("--title", default="", metavar="TEXT", show_default=False, help="Letters in the title block."),
     click.option("--author", default="", metavar="TEXT", show_default=False, help="Who has drawn it."),

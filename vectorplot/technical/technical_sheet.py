@@ -18,6 +18,7 @@ from vectorplot.drawing.sheets.sheet import Sheet
 from vectorplot.drawing.sheets.title_block import BLOCK_MM, TitleBlock
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
 from vectorplot.plan import StageReport
 from vectorplot.scene.naming.joined_scenes import together
@@ -32,6 +33,7 @@ from vectorplot.technical.annotations import (
     without_annotations,
 )
 from vectorplot.technical.arranged_views import Arrangement, SheetView, cells_of
+from vectorplot.technical.round_edges import centre_lines_of, round_edges
 from vectorplot.words import check_word, unknown
 
 LINES = "contour,boundary,crease,intersection,curve"
@@ -62,26 +64,31 @@ class _Part:
 
     def notes(self) -> list[list[Annotation]]:
         """The annotations of each view; a pictorial one has none."""
-        flat = [number for number, name in enumerate(self.names) if name != "iso"]
+        flat = [camera for name, camera in zip(self.names, self.cameras, strict=True) if name != "iso"]
         extent = float(np.ptp(self.bounds, axis=0).max())
-        found = iter(views_of(self.annotations, [self.cameras[number] for number in flat], extent))
+        found = iter(views_of(self.annotations, flat, extent))
         return [[] if name == "iso" else next(found) for name in self.names]
 
     def views(self, first_angle: bool) -> tuple[SheetView, ...]:
         """Where each view stands, and how far it reaches."""
         cells = cells_of(self.names, (), first_angle)
+        named = list(zip(self.names, self.cameras, strict=True))
         middle, half = self.bounds.mean(axis=0), 0.5 * np.ptp(self.bounds, axis=0)
         found = []
-        for name, camera, notes in zip(self.names, self.cameras, self.notes(), strict=True):
+        for (name, camera), notes in zip(named, self.notes(), strict=True):
             across = camera.axes[:2]
             world = np.tile(np.abs(across) @ half, (2, 1))
             beside = [(one.points - middle) @ across.T for one in notes]
             for places in beside:
                 world = np.maximum(world, [-places.min(axis=0), places.max(axis=0)])
-            mm = np.full((2, 2), TEXT_MM if beside else 0.0)
-            rooms = [one.room_mm(camera) for one in self.overall if one.view == name]
-            found.append(SheetView(name, camera, cells[name], world, np.max([mm, *rooms], axis=0)))
+            mm = np.maximum(TEXT_MM if beside else 0.0, self.overall_room_mm(name, camera))
+            found.append(SheetView(name, camera, cells[name], world, mm))
         return tuple(found)
+
+    def overall_room_mm(self, name: str, camera: Camera) -> Floats:
+        """(2,2) what the dimensions of the whole part need around it in a view."""
+        rooms = [one.room_mm(camera) for one in self.overall if one.view == name]
+        return np.asarray(np.max([np.zeros((2, 2)), *rooms], axis=0))
 
 
 def technical_sheet(
@@ -92,6 +99,7 @@ def technical_sheet(
     angle: Literal["first", "third"] = "first",
     page: Page | str = "A3",
     dimensions: bool = False,
+    centre_lines: bool = False,
     frame: bool = False,
     title: str = "",
     author: str = "",
@@ -120,6 +128,8 @@ def technical_sheet(
         room.
     dimensions : bool
         How long the whole part is along x, y and z, each in one view.
+    centre_lines : bool
+        Of bores, shafts and whatever else has edges in circles across x, y or z, polyhedra only.
     frame : bool
         The border of the drawing space, with centring marks and zones, and a wider margin at the left.
     title, author, date, sheet : str
@@ -137,8 +147,9 @@ def technical_sheet(
     Raises
     ------
     InputError
-        As of draw; for views that are unknown, twice or none; for a scale that is too large for the page, with the
-        largest that fits; for a page without room, and a title without room in its block.
+        As of draw; for views that are unknown, twice or none; for a
+        scale that is too large for the page, with the largest that fits; for a page without room, and a title without
+        room in its block.
 
     Notes
     -----
@@ -160,7 +171,10 @@ def technical_sheet(
     names = _view_names(views)
     check_word("angle", angle, ("first", "third"))
     asked = None if scale == "fit" else DrawingScale.of(scale)
-    solid, annotations = without_annotations(scene_of(scene))
+    given = scene_of(scene)
+    if centre_lines:
+        given = together([given, *_centre_lines(given, crease_angle_deg)])
+    solid, annotations = without_annotations(given)
     cameras = tuple(camera_of(name, solid) for name in names)
     overall = overall_dimensions(names, solid.bounds) if dimensions else ()
     part = _Part(solid, annotations, names, cameras, overall)
@@ -193,6 +207,13 @@ def technical_sheet(
         done = done.place(drawn, x - 0.5 * width, y - 0.5 * height)
     borders = (*(frame_layers(paper) if frame else ()), *block)
     return done.place(Drawing(paper.width_mm, paper.height_mm, borders, ()), 0.0, 0.0).drawing()
+
+
+def _centre_lines(scene: Scene, crease_angle_deg: float) -> tuple[Scene, ...]:
+    """Those of the round edges of all polyhedra."""
+    meshes = [item.shape for item in scene.items if isinstance(item.shape, Mesh)]
+    edges = [edge for mesh in meshes for edge in round_edges(mesh, crease_angle_deg)]
+    return centre_lines_of(edges, float(np.ptp(scene.bounds, axis=0).max())) if edges else ()
 
 
 def _view_names(views: str | Iterable[str]) -> tuple[str, ...]:

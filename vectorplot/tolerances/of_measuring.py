@@ -45,5 +45,9 @@ VERTEX_NOISE_OF_EXTENT = 1e-10
 SMALLEST_ZERO = 1e-16
 """The smallest part of half the extent that is tried as what counts as zero: less than rounding."""
 
+ROUND_OF_RADIUS = 1e-3
+"""A ring of edges whose vertices are off a circle by no more than this part of its radius is one: files of single
+precision and the rounding of programs that make them are finer, polygons that are not meant round far coarser."""
+
 PLAIN_NUMBER = 1e-3
 """Smaller numbers stand at an axis as powers of ten."""

@@ -53,7 +53,7 @@ class Sheet:
     >>> one = vp.draw(triangle, "top", page="60x60")
     >>> sheet = vp.Sheet("A5 landscape").place(one, 10, 10).place(one, 110, 10, scale=1.5)
     >>> sheet.drawing()
-    <Drawing '': 210x148 mm, marks: visible 0, contour 2>
+    <Drawing '': 210x148 mm, marks: contour 2>
     """
 
     page: Page | str = "A4"
@@ -108,9 +108,10 @@ class Sheet:
         Returns
         -------
         Drawing
-            Layers of one name and pen are one, where the first of them is; items of one name are one. Strokes, curves
-            and fills are those of the drawings, moved and scaled, pens as wide as they were; points3d are those of the
-            world still, and page_from_world is the identity, as the drawings need not look at the world alike.
+            Layers of one name and pen are one, where the first of them is, and there are no empty ones; items of one
+            name are one. Strokes, curves and fills are those of the drawings, moved and scaled, pens as wide as they
+            were; points3d are those of the world still, and page_from_world is the identity, as the drawings need not
+            look at the world alike.
 
         Notes
         -----
@@ -128,7 +129,8 @@ class Sheet:
                 marks = merged.setdefault((layer.name, layer.pen, layer.plotted), [])
                 marks.extend(_moved(mark, placed, of_item, taken) for mark in layer.marks)
                 curves = max((curves, *(taken + int(paths.curve.max(initial=-1)) + 1 for paths in layer.strokes)))
-        layers = tuple(Layer(name, pen, tuple(marks), plotted) for (name, pen, plotted), marks in merged.items())
+        drawn = {key: tuple(mark for mark in marks if len(mark)) for key, marks in merged.items()}
+        layers = tuple(Layer(name, pen, marks, plotted) for (name, pen, plotted), marks in drawn.items() if marks)
         page = page_of(self.page, Scene(()))
         return Drawing(page.width_mm, page.height_mm, layers, names, self.title)
 

@@ -22,8 +22,8 @@ BEYOND, SHORT = 0.15, 0.05
 """How far extension lines go on beyond the dimension line, and how far from the thing they begin, as parts of the way
 between, where nothing is said."""
 
-CROSS = 1.2
-"""Centre marks reach so far beyond the circle, in radii."""
+CROSS = 0.2
+"""Centre marks reach so far beyond the circle, in radii, where nothing is said."""
 
 
 def dimension(
@@ -288,7 +288,9 @@ def centre_line(start: ArrayLike, end: ArrayLike, *, name: str = "centre line") 
     return Scene((Item(name, Line.through(*ends), "black", lines=("centre",), group=f"{name} {_place(ends[0])}"),))
 
 
-def centre_mark(centre: ArrayLike, radius: float, axis: ArrayLike = (0.0, 0.0, 1.0)) -> Scene:
+def centre_mark(
+    centre: ArrayLike, radius: float, axis: ArrayLike = (0.0, 0.0, 1.0), *, beyond: float | None = None
+) -> Scene:
     """The centre lines of a circle: two that cross in its centre at right angles, and reach a little beyond it.
 
     Parameters
@@ -299,6 +301,8 @@ def centre_mark(centre: ArrayLike, radius: float, axis: ArrayLike = (0.0, 0.0, 1
         Of the circle.
     axis : (3,) array_like of float
         At right angles to the circle.
+    beyond : float, optional
+        How far the lines go on beyond the circle, in world units; where None 0.2 times the radius.
 
     Returns
     -------
@@ -309,7 +313,7 @@ def centre_mark(centre: ArrayLike, radius: float, axis: ArrayLike = (0.0, 0.0, 1
     Raises
     ------
     InputError
-        For a radius that is not positive, and an axis without length.
+        For a radius that is not positive, a length beyond that is negative, and an axis without length.
 
     Examples
     --------
@@ -320,10 +324,13 @@ def centre_mark(centre: ArrayLike, radius: float, axis: ArrayLike = (0.0, 0.0, 1
     middle, along = vector("centre_mark: centre", centre), vector("centre_mark: axis", axis)
     if not 0.0 < radius < np.inf or not np.any(along):
         raise InputError("centre_mark: a positive radius and an axis are needed")
+    reach = radius + (CROSS * radius if beyond is None else beyond)
+    if not radius <= reach < np.inf:
+        raise InputError("centre_mark: expected a length of 0 or more beyond the circle")
     along = normalize(along)
     # The coordinate axis that is farthest from it: for circles about one of these, one of the others.
     first = normalize(cross(along, np.eye(3)[int(np.argmin(np.abs(along)))]))
-    both = [centre_line(middle - way, middle + way) for way in CROSS * radius * np.array([first, cross(along, first)])]
+    both = [centre_line(middle - way, middle + way) for way in reach * np.array([first, cross(along, first)])]
     group = f"centre mark {_place(middle)} {_place(along)} {radius:g}"
     marks = zip(("centre mark", "centre mark 2"), both, strict=True)
     return Scene(tuple(Item(name, one.items[0].shape, "black", lines=("centre",), group=group) for name, one in marks))
