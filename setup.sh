@@ -150,8 +150,8 @@ if [ "$goal" = test ]; then
     mypy >"$found" 2>&1 &
     types=$!
     tests=0
-    # Files stay whole: their tests share what they look at.
-    python -m pytest --numprocesses auto --dist loadfile "$@" || tests=$?
+    # Files stay whole: their tests share what they look at. The longest ones come first, as tests/conftest.py says.
+    python -m pytest --numprocesses auto --dist loadfile --no-loadscope-reorder "$@" || tests=$?
     wait "$types" || { cat "$found" >&2; status=1; }
     rm -f "$found"
     [ "$tests" = 0 ] || status=$tests

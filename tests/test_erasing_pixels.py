@@ -68,6 +68,7 @@ def cameras(scene: Scene) -> list[Camera]:
 @pytest.mark.capability("G7.1-screen-hl")
 @pytest.mark.hard(20, 21)
 @pytest.mark.filterwarnings("ignore::vectorplot.errors.InputWarning")
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("path", scenes_to_try(), ids=lambda path: path.stem)
 def test_what_painting_leaves_of_the_lines_are_the_exact_lines(path: Path) -> None:
     scene = vp.read(path)

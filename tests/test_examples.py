@@ -353,6 +353,7 @@ def test_what_the_book_and_the_examples_are_known_for_is_there():
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("path", scenes_to_try(), ids=lambda path: path.stem)
 def test_rays_confirm_every_scene(path):
     read = vp.read(path)

@@ -52,6 +52,7 @@ def drawing_of(name: str, view: int) -> Drawing:
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("name", MIXED)
 def test_points_are_on_their_surfaces_whatever_cuts_the_curves(name: str) -> None:
     assert assert_exact(drawing_of(name, 0), MIXED[name]) > 50

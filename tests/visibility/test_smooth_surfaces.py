@@ -188,6 +188,7 @@ def test_what_does_not_occlude_hides_nothing() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("name", [*SINGLE, *MIXED])
 def test_counts_are_of_items(name: str) -> None:
     most = sum(item.hides for item in SCENES[name].items)

@@ -86,7 +86,8 @@ def _bytes(page: PageMarks) -> bytes:
     document.classes.classes = dict(sorted(document.classes.classes.items()))
     text = io.StringIO()
     document.write(text)
-    return document.encode(text.getvalue())
+    data: bytes = document.encode(text.getvalue())
+    return data
 
 
 @contextmanager
