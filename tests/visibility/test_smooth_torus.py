@@ -71,7 +71,8 @@ def test_as_many_runs_as_in_closed_form_from_all_directions(part: int) -> None:
     torus, count = Torus(3.0, 1.0), 0
     scene = lit(ring(3.0, 1.0, 8, 6, COSINES[1::3]))
     lines = [*parameter_lines(8, 6), *isophotes_of(np.array(LIGHT), COSINES[1::3])]
-    for camera in list(views(scene, DIRECTIONS, seed=1))[part::4]:
+    cameras = list(views(scene, DIRECTIONS, seed=1))[part::4]
+    for camera in cameras:
         # Closed forms of the contour from an eye beside the ring would need other parameters.
         beside = not camera.parallel and abs(camera.eye[2]) <= torus.minor
         curves = lines if beside else [*lines, *contour_of(torus, camera)]
@@ -83,4 +84,4 @@ def test_as_many_runs_as_in_closed_form_from_all_directions(part: int) -> None:
             faults = faults_of(torus, camera, curve, got, true)
             assert not faults, f"{faults[0]}, {camera}"
             count += sum(run.visible for run in true)
-    assert count > 50
+    assert count > 13 * len(cameras)
