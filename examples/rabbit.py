@@ -38,7 +38,7 @@ def thickness(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
 
 def main(folder: Path) -> None:
     soft = implicit_of_function(thickness, np.array([(-2.0, -1.4, -0.4), (2.2, 1.4, 4.0)]))
-    rabbit = vp.Scene((vp.Item("RABBIT", polygonized(soft, 72)),), title="A rabbit")
+    rabbit = vp.Scene((vp.Item("RABBIT", polygonized(soft, 140)),), title="A rabbit")
     lined = with_lines(rabbit, sections=round_sections(rabbit, count=40))
     drawing = vp.draw(
         lined,
