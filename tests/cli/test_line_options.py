@@ -101,3 +101,17 @@ def test_terrains_draw_isophotes_too_though_they_have_kinds_of_their_own():
     (item,) = scenes.with_lines(hill, isophotes=(0.5,)).items
     assert item.lines == (*hill.items[0].lines, "isophote")
     assert item.curves.sections == hill.items[0].curves.sections
+
+
+def test_level_lines_of_a_terrain_are_replaced_and_other_sections_stay(tmp_path):
+    heights = tmp_path / "hill.asc"
+    heights.write_text("ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n0 1 0\n1 3 1\n0 1 0\n")
+    words = Told.of(
+        draw.make_context("draw", [str(heights), "-o", "x.svg", "--levels", "z=0.55", "--sections", "x,2"]).params
+    )
+    (item,) = words.with_lines(read(str(heights)))[0].items
+    assert sorted(d for section in item.curves.sections if section.normal[2] for d in section.offsets) == [0.55]
+    assert sum(len(section.offsets) for section in item.curves.sections if section.normal[0]) == 2
+    tilted = Told.of(draw.make_context("draw", [str(heights), "-o", "x.svg", "--levels", "x,3"]).params)
+    (other,) = tilted.with_lines(read(str(heights)))[0].items
+    assert any(section.normal[2] and section.index for section in other.curves.sections)

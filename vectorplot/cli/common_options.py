@@ -139,13 +139,15 @@ class Told:
 
     def with_lines(self, scene: Scene) -> tuple[Scene, dict[str, Any]]:
         """A scene with the lines that the user asked for, and the keywords of the verb's function, which draws them."""
-        from vectorplot.scene.added_lines import line_kinds, with_lines
+        from vectorplot.scene.added_lines import line_kinds, with_lines, without_level_lines
 
         keywords = self.keywords(scene)
         charted = self.added.with_chart(scene)
         added = self.added.of_scene(scene)
         if keywords.get("lines") is not None:
             keywords["lines"] = tuple(dict.fromkeys((*keywords["lines"], *line_kinds(added))))
+        if self.added.levels is not None:
+            charted = without_level_lines(charted, self.added.levels.normal)
         return with_lines(charted, sections=added.sections, isophotes=added.isophotes, detail=added.detail), keywords
 
 

@@ -1,4 +1,4 @@
-from .added_lines import even_sections, round_sections, with_lines
+from .added_lines import even_sections, round_sections, with_lines, without_level_lines
 from .hatching import Hatching, Stippling
 from .integral_lines import FieldLines, GeodesicLines, GeodesicsBetween, KnownCurves, ShortestPaths
 from .naming.labels import Along, AtVertex, Label, OnCurve, OnPage
@@ -58,4 +58,5 @@ __all__ = [
     "terrain_scene",
     "tinted",
     "with_lines",
+    "without_level_lines",
 ]

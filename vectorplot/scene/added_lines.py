@@ -67,6 +67,46 @@ def with_lines(
     return replace(scene, items=tuple(item if is_curve(item.shape) else _with(item, added) for item in scene.items))
 
 
+def without_level_lines(scene: Scene, normal: Vector = (0.0, 0.0, 1.0)) -> Scene:
+    """The scene without the level lines that its items ask for, for others in their place.
+
+    Parameters
+    ----------
+    scene : Scene
+        Such as that of a terrain.
+    normal : (float, float, float)
+        What heights are measured along, of any length but zero.
+
+    Returns
+    -------
+    Scene
+        Level lines are sections with index lines among them; other sections, and those between slices, stay.
+
+    Raises
+    ------
+    InputError
+        For a normal without length.
+
+    Examples
+    --------
+    >>> from vectorplot import scene
+    >>> hill = scene.terrain_scene([[0, 1, 0], [1, 9, 1], [0, 1, 0]])
+    >>> len(hill.items[0].curves.sections), len(scene.without_level_lines(hill).items[0].curves.sections)
+    (2, 0)
+    """
+    up = Section(normal, ()).normal
+    return replace(scene, items=tuple(_without_levels(item, up) for item in scene.items))
+
+
+def _without_levels(item: Item, up: Vector) -> Item:
+    ways = (up, (-up[0], -up[1], -up[2]))
+    levels = [section for section in item.curves.sections if section.normal in ways and not section.slices]
+    if not any(section.index for section in levels):
+        return item
+    kept = tuple(section for section in item.curves.sections if section not in levels)
+    return replace(item, curves=replace(item.curves, sections=kept))
+
+
 def _with(item: Item, added: SurfaceLines) -> Item:
     own = item.curves
     reaching = tuple(one for section in added.sections if (one := _reaching(section, item)).offsets)

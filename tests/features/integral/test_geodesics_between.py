@@ -97,3 +97,18 @@ def test_what_is_wrong_is_told(places, words, cause):
 
 def test_there_is_none_where_none_is_short_enough_or_a_border_is_in_the_way():
     assert len(geodesics_between(Sphere(), (0.0, 0.0), (1.0, 0.0), longest=0.9)) == 0
+
+
+def test_a_long_limit_costs_no_more_where_there_are_enough_shorter_ones():
+    torus = Torus(3.0, 1.0)
+    short, far = (geodesics_between(torus, (0.1, 0.2), (2.0, 1.0), longest=longest) for longest in (20.0, 700.0))
+    assert far.levels.tolist() == pytest.approx(short.levels.tolist(), rel=1e-9)
+    with pytest.raises(InputError, match=r"a length of 1e\+09 on a surface of .*: expected at most"):
+        geodesics_between(torus, (0.1, 0.2), (2.0, 1.0), longest=1e9)
+
+
+def test_a_place_outside_is_told_by_its_name():
+    tube = Cylinder(1.0, 0.0, 3.0)
+    for start, end, what in (((0.0, 5.0), (1.0, 1.0), "start v = 5"), ((0.0, 1.0), (1.0, -2.0), "end v = -2")):
+        with pytest.raises(InputError, match=f"geodesics between two places: {what}, expected 0 to 3"):
+            geodesics_between(tube, start, end)

@@ -52,7 +52,10 @@ FARTHEST = 0.1
 """The angle by which one of them turns a geodesic at most."""
 
 NEARER = (1 / 6, 1 / 2, 1.0)
-"""Parts of the length within which geodesics are looked for, one after the other."""
+"""Parts of the usual length within which geodesics are looked for, one after the other; then longer ones."""
+
+MOST_EXTENTS = 100.0
+"""Times the extent of the surface that geodesics may be long: longer ones take minutes, and most of them are missed."""
 
 EIGHT_DIGITS = Accuracy(INTEGRATED_TO_MEET)
 """How well they are integrated where nothing else is said."""
@@ -108,7 +111,7 @@ def geodesics_between(
     ------
     InputError
         For places that are not finite pairs within the domain, or one place; for a start without a tangent plane; for a
-        length or a number that is not positive.
+        length or a number that is not positive, and more than a hundred times the extent of the surface.
 
     Notes
     -----
@@ -130,10 +133,20 @@ def geodesics_between(
     if most is not None and most < 1:
         raise InputError(f"geodesics between two places: {most} of them, expected 1 or more")
     size, large = extent(surface)
-    places = np.concatenate([starts_of(surface, start), starts_of(surface, end)])
+    places = np.concatenate(
+        [
+            starts_of(surface, at, f"geodesics between two places: {what}")
+            for at, what in ((start, "start"), (end, "end"))
+        ]
+    )
     if len(places) != 2:
         raise InputError("geodesics between two places: expected one start and one end")
     limit = LONGEST * size if longest is None else positive("geodesics between two places: length", longest)
+    if limit > MOST_EXTENTS * size:
+        raise InputError(
+            f"geodesics between two places: a length of {limit:g} on a surface of {size:g}: expected at most "
+            f"{MOST_EXTENTS * size:g}"
+        )
     chart = charts(surface)
     points = surface.points(*chart.within(places).T)
     if not norm(points[1] - points[0]) > ONE_GEODESIC_OF_EXTENT * size:
@@ -144,10 +157,8 @@ def geodesics_between(
     if at_pole or not np.isfinite(shooting.frame).all():
         raise InputError("geodesics between two places: the surface has no tangent plane where they start")
     # Those that are short are shorter than all others: where these are enough the others are not looked for.
-    for reach in (1.0,) if most is None else NEARER:
-        roughly, _ = shooting.met(
-            shooting.passing(reach * limit), (1.0 + LENGTH_ROUGHLY) * reach * limit, ROUGH, ROUGH.error
-        )
+    for reach in (limit,) if most is None else _reaches(limit, LONGEST * size):
+        roughly, _ = shooting.met(shooting.passing(reach), (1.0 + LENGTH_ROUGHLY) * reach, ROUGH, ROUGH.error)
         if most is not None and len(roughly.length) >= most:
             break
     # Which are the shortest is known but for the error of these.
@@ -165,6 +176,16 @@ def geodesics_between(
     return replace(
         curves, levels=found.length[order][curves.levels.astype(np.intp)], doubts=curves.doubts + doubts * conjugate
     )
+
+
+def _reaches(limit: float, usual: float) -> list[float]:
+    """Lengths within which geodesics are looked for, one after the other: parts of the usual one, then twice as long
+    each time, up to the limit."""
+    base = min(limit, usual)
+    found = [part * base for part in NEARER]
+    while found[-1] < limit:
+        found.append(min(2.0 * found[-1], limit))
+    return found
 
 
 @dataclass(frozen=True, eq=False)

@@ -202,7 +202,7 @@ def courses_from(
     )
 
 
-def starts_of(surface: Surface, starts: ArrayLike) -> Floats:
+def starts_of(surface: Surface, starts: ArrayLike, what: str = "integral curves: start") -> Floats:
     """(k,2) the parameters that curves are to begin with. Errors: InputError as of `integral_curves`."""
     at = np.atleast_2d(np.asarray(starts, dtype=np.float64))
     d = surface.domain
@@ -217,7 +217,7 @@ def starts_of(surface: Surface, starts: ArrayLike) -> Floats:
         bad = (at[:, axis] < low - slack) | (at[:, axis] > high + slack)
         if not closed and bad.any():
             value = at[np.argmax(bad), axis]
-            raise InputError(f"integral curves: start {name} = {value:g}, expected {low:g} to {high:g}")
+            raise InputError(f"{what} {name} = {value:g}, expected {low:g} to {high:g}")
     return at
 
 
