@@ -114,7 +114,11 @@ def _fitted(
     trace = np.maximum(np.einsum("nii->n", matrix), LEAST_DIVISOR)
     matrix += SETTLED_FIT * trace[:, None, None] * np.eye(UNKNOWN)
     found = np.linalg.solve(matrix, right)[:, :, 0]
-    return np.asarray(found / np.maximum(usual, LEAST_DIVISOR)[:, None] ** np.array([1, 1, 1, 2, 2, 2, 2]))
+    usual = np.maximum(usual, LEAST_DIVISOR)[:, None]
+    # One division after the other: of a vertex without neighbours the square would be zero.
+    found /= usual
+    found[:, 3:] /= usual
+    return np.asarray(found)
 
 
 def _neighbours(count: int, triangles: Ints) -> tuple[Ints, Ints]:
