@@ -4,6 +4,7 @@ from .drawing.drawing import Drawing, Layer, Paths, Pen
 from .drawing.pens.styles import Style
 from .drawing.sheets.contact_sheets import contact_sheet
 from .drawing.sheets.sheet import Sheet
+from .effects.cutting.cut_scenes import cut
 from .errors import InputError, InputWarning
 from .geometry.cameras.camera import Camera
 from .geometry.cameras.panorama import Panorama
@@ -14,6 +15,7 @@ from .panorama import panorama
 from .read import read
 from .render import render
 from .save import save, save_for_latex
+from .scene.cuts.exploded import exploded
 from .scene.hatching import Hatching, Stippling
 from .scene.naming.annotations import arrow, axes
 from .scene.naming.dimensions import angle, centre_line, centre_mark, diameter, dimension, leader, radius
@@ -65,9 +67,11 @@ __all__ = [
     "centre_line",
     "centre_mark",
     "contact_sheet",
+    "cut",
     "diameter",
     "dimension",
     "draw",
+    "exploded",
     "graph",
     "leader",
     "paint",

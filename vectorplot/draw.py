@@ -39,6 +39,7 @@ from vectorplot.scene.seamless_scene import without_seams
 from vectorplot.scene.unbounded_items import tell_what_is_cut_off
 from vectorplot.scene.view import View, look, view_of
 from vectorplot.tolerances.of_extent import FINEST_CHORD_OF_EXTENT
+from vectorplot.visibility.cut_edges import with_kinds_of_cuts
 from vectorplot.visibility.framing import frame_of, in_frame
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility, counted_parts, visible_parts, with_whole_lines
 from vectorplot.visibility.polyhedra.lines import (
@@ -230,14 +231,14 @@ def draw(
     anchors, scene = label_anchors(given), without_seams(given)
     tell_what_is_cut_off(scene)
     camera = camera_of(camera, scene)
+    scene = seen_part(scene, camera, explain, progress)
     sheet, strip = left_of_bar(page_of(page, scene, width, fit), bar)
     smooth = curves == "bezier" and any(not isinstance(item.shape, Mesh) for item in scene.items)
     planned = plan_draw(scene, kinds, hidden, halo_mm, shown)
     if shown == "plain":
         planned = plan_hatching(scene, hatch, planned)
     stages = with_accuracy(planned, accuracy_of_draw(tolerance_mm, smooth))
-    walk = Walk((*plan_cuts(camera), *stages), explain, progress, threads)
-    scene = seen_part(walk, scene, camera)
+    walk = Walk(stages, explain, progress, threads)
     view = walk.run("look", look, scene, camera)
     faces = walk.run("faces", project_faces, view)
     solid = solid_items(view, faces)
@@ -363,13 +364,23 @@ def beside_bar(
     return with_colour_bar(drawing, bar, strip, shade, longest_mm)
 
 
-def seen_part(walk: Walk, scene: Scene, camera: Camera) -> Scene:
-    """What the camera's near and far plane leave of a scene."""
-    if not walk.calls_for("cuts"):
-        return scene
-    from vectorplot.effects.cuts import between_planes
+def seen_part(
+    scene: Scene,
+    camera: Camera,
+    explain: Callable[[StageReport], None] | None,
+    progress: Callable[[str, float], None] | None,
+) -> Scene:
+    """What cuts, and the camera's near and far plane, leave of a scene."""
+    walk = Walk(plan_cuts(scene, camera), explain, progress)
+    if walk.calls_for("cuts"):
+        from vectorplot.effects.cutting.cut_scenes import cut_scene
 
-    return walk.run("cuts", between_planes, scene, camera)
+        scene = walk.run("cuts", cut_scene, scene, camera)
+    if walk.calls_for("near and far"):
+        from vectorplot.effects.cuts import between_planes
+
+        scene = walk.run("near and far", between_planes, scene, camera)
+    return scene
 
 
 def with_smooth_surfaces(scene: Scene, view: View, faces: ProjectedFaces | None) -> tuple[View, ProjectedFaces]:
@@ -434,7 +445,7 @@ def _straight_lines(
         found.append(walk.run("patterns", pattern_lines, scene, view, kinds))
     if walk.calls_for("lines on meshes"):
         found.append(walk.run("lines on meshes", mesh_curve_lines, scene, view, kinds, crease_angle_deg))
-    return with_shared_kinds(view, joined_lines(found))
+    return with_kinds_of_cuts(scene, view, with_shared_kinds(view, joined_lines(found)), kinds)
 
 
 def titled(
@@ -573,11 +584,12 @@ def _lines_and_chords(
     traced = walk.run("curves", _all_curves, scene, view, sheets, forms, kinds, tolerance, budget, done)
     if not sheets or not walk.calls_for("smooth surfaces"):
         _say(traced.doubts)
-        return whole_lines_and_chords(view, traced, lines)
+        return with_kinds_of_cuts(scene, view, whole_lines_and_chords(view, traced, lines), kinds)
     done = walk.fraction("smooth surfaces")
     cut, unsure = walk.run("smooth surfaces", cut_lines_and_chords, view, traced, lines, tolerance, budget, done)
     _say([*traced.doubts, *((scene.items[item].name, text) for item, text in unsure)])
     cut = replace(cut, behind=np.where(cut.kind == LineKind.CENTRE, 0, cut.behind))
+    cut = with_kinds_of_cuts(scene, view, cut, kinds)
     return cut if not walk.calls_for("visible lines") else cut.some(cut.behind == 0)
 
 

@@ -26,7 +26,7 @@ from vectorplot.painting.ordered_faces import ordered_faces, seen_on_page
 from vectorplot.painting.painted_paper import background as background_of
 from vectorplot.painting.painted_paper import paper
 from vectorplot.painting.ruler import PEN, Ruler
-from vectorplot.plan import StageReport, Walk, accuracy_of_paint, plan_cuts, plan_paint, with_accuracy
+from vectorplot.plan import StageReport, Walk, accuracy_of_paint, plan_paint, with_accuracy
 from vectorplot.scene.fitted_pages import FittedPage
 from vectorplot.scene.naming.annotations import annotation_points
 from vectorplot.scene.naming.label_anchors import label_anchors
@@ -167,11 +167,11 @@ def paint(
     scene = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
     tell_what_is_cut_off(scene)
     camera = camera_of(camera, scene)
+    scene = seen_part(scene, camera, explain, progress)
     sheet, strip = left_of_bar(page_of(page, scene, width, fit), bar)
     kinds = line_kinds(lines)
     stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
-    walk = Walk((*plan_cuts(camera), *stages), explain, progress, threads)
-    scene = seen_part(walk, scene, camera)
+    walk = Walk(stages, explain, progress, threads)
     projection = projection_of(camera, scene.bounds)
     # Lines belong to each item, polygons to what is seen.
     shown = scene if kinds or fills == "erasing" else without_twins(scene)

@@ -95,10 +95,12 @@ def accuracy_of_render(facet_pixels: float, shadows: str, texels: int) -> dict[s
     return said
 
 
-def plan_cuts(camera: Camera) -> tuple[Stage, ...]:
-    """The stage before all others where the camera has a near or a far plane."""
+def plan_cuts(scene: Scene, camera: Camera) -> tuple[Stage, ...]:
+    """The stages before all others where a scene is cut, or the camera has a near or a far plane."""
     given = [f"{name} {depth:g}" for name, depth in (("near", camera.near), ("far", camera.far)) if depth is not None]
-    return (Stage("cuts", f"the camera has {' and '.join(given)}"),) if given else ()
+    number = len(scene.cuts)
+    cuts = (Stage("cuts", f"the scene has {number} cut{'s' if number > 1 else ''}"),) if number else ()
+    return (*cuts, *((Stage("near and far", f"the camera has {' and '.join(given)}"),) if given else ()))
 
 
 def plan_draw(

@@ -27,7 +27,6 @@ from vectorplot.plan import (
     casts_shadow,
     chosen_shadows,
     dims_light,
-    plan_cuts,
     plan_render,
     with_accuracy,
 )
@@ -224,12 +223,12 @@ def render(
     _check_lights(scene.lights)
     tell_what_is_cut_off(scene)
     camera = camera_of(camera, scene)
+    scene = seen_part(scene, camera, explain, progress)
     how, why = chosen_shadows(scene, camera, size, fit) if shadows == "auto" else (shadows, "")
     said = accuracy_of_render(FACET_PIXELS, how, shadow_size)
     stages = with_accuracy(plan_render(scene, how, bool(kinds), why), said)
-    walk = Walk((*plan_cuts(camera), *stages), explain, progress, threads)
+    walk = Walk(stages, explain, progress, threads)
     _tell_what_is_missing(walk, scene, kinds)
-    scene = seen_part(walk, scene, camera)
     fine = (size[0] * samples, size[1] * samples)
     projection = projection_of(camera, scene.bounds)
     facets = FacetedScene(scene, (None,) * len(scene.items))

@@ -61,6 +61,12 @@ class LineKind(IntEnum):
     """A line along which a shape bends inwards more than to both of its sides."""
     APPARENT = 18
     """A line along which normals turn faster, as seen, than to both of its sides: an apparent ridge."""
+    CUT = 19
+    """An edge of what is left at a cut."""
+    GHOST = 20
+    """An outline of what was cut away."""
+    TRACE = 21
+    """A line along which parts were moved apart."""
 
     @property
     def word(self) -> str:
@@ -97,7 +103,9 @@ class LineKind(IntEnum):
         return cls[word.upper()]
 
 
-LINE_WORDS = tuple(kind.word for kind in LineKind if kind not in (LineKind.HATCH, LineKind.LABEL, LineKind.CENTRE))
+_OWN_ONLY = (LineKind.LABEL, LineKind.CENTRE, LineKind.GHOST, LineKind.TRACE)
+
+LINE_WORDS = tuple(kind.word for kind in LineKind if kind not in (LineKind.HATCH, *_OWN_ONLY))
 """The kinds of lines that one can ask for, as they are spelled."""
 
 
@@ -113,8 +121,9 @@ WIRES = tuple(word for word in _USUAL if word != LineKind.INTERSECTION.word)
 """Those of a wireframe: every edge, and no line in which things pierce each other."""
 
 
-OWN_LINE_WORDS = (*LINE_WORDS, LineKind.LABEL.word, LineKind.CENTRE.word)
-"""The kinds of lines that an item may have of its own: a curve may be drawn as a leader is, or as a centre line."""
+OWN_LINE_WORDS = (*LINE_WORDS, *(kind.word for kind in _OWN_ONLY))
+"""The kinds of lines that an item may have of its own: a curve may be drawn as a leader is, as a centre line, or as the
+trace of what was moved, and all of a thing as the ghost of what was cut away."""
 
 
 def line_words(words: str | Iterable[str], known: tuple[str, ...] = LINE_WORDS) -> tuple[str, ...]:

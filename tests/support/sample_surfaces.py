@@ -29,7 +29,7 @@ from vectorplot.surfaces.graphs import graph, graph_over_disc
 from vectorplot.surfaces.splines.landscape import landscape
 from vectorplot.surfaces.splines.spline_surface import nurbs_surface, spline_surface
 from vectorplot.surfaces.surface import Domain, hessians, is_parametrised
-from vectorplot.surfaces.trimmed import TrimmedSurface
+from vectorplot.surfaces.trims.trimmed import TrimmedSurface
 
 
 def one(text):

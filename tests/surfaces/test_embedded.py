@@ -19,7 +19,7 @@ from vectorplot.surfaces.function import surface_of_function
 from vectorplot.surfaces.inversion import InvertedSurface
 from vectorplot.surfaces.placed import PlacedSurface
 from vectorplot.surfaces.surface import Domain, Surface
-from vectorplot.surfaces.trimmed import TrimmedSurface
+from vectorplot.surfaces.trims.trimmed import TrimmedSurface
 
 FAR = np.array([[0.0, 2.0, 0.1], [-1.0, 0.3, 0.0], [0.2, 0.0, 1.5]])
 

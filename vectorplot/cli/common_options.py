@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from vectorplot.cli.cut_options import CUT_OPTIONS, CutOptions
 from vectorplot.cli.line_options import LINE_OPTIONS, LineOptions
 from vectorplot.cli.options import KINDS, at_least, between, format_of, kinds, light
 from vectorplot.cli.picture import Source, make_picture
@@ -109,8 +110,8 @@ def shadows_option(ways: Sequence[str], meaning: str) -> Option:
 
 @dataclass(frozen=True)
 class Told:
-    """What the user told a verb: camera, page (None: pictures of pixels have none), lines on all that is shown, and all
-    else.
+    """What the user told a verb: camera, page (None: pictures of pixels have none), lines on all that is shown, cuts
+    through it, and all else.
 
     rest: values by the keywords of the function of the package that has the verb's name.
     """
@@ -118,16 +119,19 @@ class Told:
     camera: CameraOptions
     page: PageOptions | None
     added: LineOptions
+    cuts: CutOptions
     rest: Mapping[str, Any]
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> Told:
         """What the options of a command say. Bad usage for options that contradict each other."""
-        taken = {field.name for group in (CameraOptions, PageOptions, LineOptions) for field in fields(group)}
+        groups = (CameraOptions, PageOptions, LineOptions, CutOptions)
+        taken = {field.name for group in groups for field in fields(group)}
         return cls(
             CameraOptions.of(options),
             PageOptions.of(options) if "page" in options else None,
             LineOptions.of(options),
+            CutOptions.of(options),
             {name: value for name, value in options.items() if name not in taken},
         )
 
@@ -138,9 +142,11 @@ class Told:
         return {"camera": camera, **page, **self.rest}
 
     def with_lines(self, scene: Scene) -> tuple[Scene, dict[str, Any]]:
-        """A scene with the lines that the user asked for, and the keywords of the verb's function, which draws them."""
+        """A scene with the lines and the cuts that the user asked for, and the keywords of the verb's function, which
+        draws them."""
         from vectorplot.scene.added_lines import line_kinds, with_lines, without_level_lines
 
+        scene = self.cuts.of_scene(scene)
         keywords = self.keywords(scene)
         charted = self.added.with_chart(scene)
         added = self.added.of_scene(scene)
@@ -184,6 +190,7 @@ def picture_verb(
             *CAMERA_OPTIONS,
             *options,
             *LINE_OPTIONS,
+            *CUT_OPTIONS,
             BUDGET,
             JOBS,
             EXPLAIN,

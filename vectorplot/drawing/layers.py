@@ -32,6 +32,9 @@ PENS = {
     "ridge": Pen(0.25, BLACK),
     "valley": Pen(0.25, BLACK),
     "apparent": Pen(0.35, BLACK),
+    "cut": Pen(0.7, BLACK),
+    "ghost": Pen(0.13, BLACK),
+    "trace": Pen(0.13, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -55,6 +58,9 @@ KIND_LAYER = {
     LineKind.RIDGE: "ridge",
     LineKind.VALLEY: "valley",
     LineKind.APPARENT: "apparent",
+    LineKind.CUT: "cut",
+    LineKind.GHOST: "ghost",
+    LineKind.TRACE: "trace",
 }
 
 COLOURS = {

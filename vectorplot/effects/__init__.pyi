@@ -1,4 +1,5 @@
 from .cuts import between_planes
+from .cutting.cut_scenes import cut_scene
 from .decals.decal_polygons import Decals
 from .glass.refraction import angle_of_refraction, inverse_refraction, plate_shift, refracted, seen_in_surface
 from .halos import halo
@@ -8,6 +9,7 @@ __all__ = [
     "Decals",
     "angle_of_refraction",
     "between_planes",
+    "cut_scene",
     "halo",
     "inverse_refraction",
     "plate_shift",

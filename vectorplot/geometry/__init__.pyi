@@ -45,6 +45,7 @@ from .convex.separating_planes import (
     separations_after_moves,
     spheres_power,
 )
+from .cuts.half_spaces import HalfSpaces
 from .mesh import Mesh
 from .outline import Branches, contour_branches, contour_edges, spatial_hull
 from .regions import polygons_of
@@ -97,6 +98,7 @@ __all__ = [
     "CoordinateSystem",
     "EdgeUses",
     "FaceRecords",
+    "HalfSpaces",
     "Mending",
     "Mesh",
     "MeshReport",

@@ -1,4 +1,5 @@
 from .added_lines import even_sections, round_sections, with_lines, without_level_lines
+from .cuts.cut import Cut, CutPlane
 from .hatching import Hatching, Stippling
 from .integral_lines import FieldLines, GeodesicLines, GeodesicsBetween, KnownCurves, ShortestPaths
 from .naming.labels import Along, AtVertex, Label, OnCurve, OnPage
@@ -19,6 +20,8 @@ __all__ = [
     "AtVertex",
     "BoxAxes",
     "Colouring",
+    "Cut",
+    "CutPlane",
     "FieldLines",
     "GeodesicLines",
     "GeodesicsBetween",

@@ -12,8 +12,10 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.cuts.half_spaces import HalfSpaces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.motions.movable import Movable
+from vectorplot.scene.cuts.cut import Cut
 from vectorplot.scene.extent import in_range, smooth_bounds
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.naming.labels import Label
@@ -199,6 +201,10 @@ class Item(Movable["Item"]):
         How its faces are hatched (None: as the drawing asks for).
     place : (str, int), optional
         The file and the line, from 1, where it is described, for messages about it.
+    cut_by : tuple of HalfSpaces
+        What was cut away of it; its borders on them are edges of cuts.
+    is_cut_face : bool
+        It is what a cut shows of another item: its sections are hatches, and it meets others only where that one does.
 
     Raises
     ------
@@ -225,6 +231,8 @@ class Item(Movable["Item"]):
     group: str = ""
     hatch: Hatching | None = None
     place: tuple[str, int] | None = None
+    cut_by: tuple[HalfSpaces, ...] = ()
+    is_cut_face: bool = False
 
     def __post_init__(self) -> None:
         check_colour(self.colour, f"{self.name}: ")
@@ -263,7 +271,9 @@ class Item(Movable["Item"]):
         larger = linear_growth(m)
         patterns = tuple(replace(one, points=larger * one.points) for one in self.patterns) if larger != 1.0 else None
         curves = self.curves.transformed(m) if self.curves else self.curves
-        return replace(self, shape=shape, curves=curves, patterns=self.patterns if patterns is None else patterns)
+        cut_by = tuple(region.transformed(m) for region in self.cut_by)
+        patterns = self.patterns if patterns is None else patterns
+        return replace(self, shape=shape, curves=curves, patterns=patterns, cut_by=cut_by)
 
     @property
     def hides(self) -> bool:
@@ -376,6 +386,8 @@ class Scene(Movable["Scene"]):
         Colours of all bodies by a number, and the bar that explains them.
     box : BoxAxes, optional
         A box with ticks around all items.
+    cuts : tuple of Cut
+        What is cut away where the scene is drawn, painted or rendered.
 
     Raises
     ------
@@ -402,6 +414,7 @@ class Scene(Movable["Scene"]):
     labels: tuple[Label, ...] = ()
     colouring: Colouring | None = None
     box: BoxAxes | None = None
+    cuts: tuple[Cut, ...] = ()
 
     def __post_init__(self) -> None:
         if self.background is not None:
@@ -411,7 +424,7 @@ class Scene(Movable["Scene"]):
         return len(self.items)
 
     def transformed(self, matrix: ArrayLike) -> Scene:
-        """The scene with its items and labels under a 4x4 matrix acting on columns; lights, camera and page stay.
+        """The scene with its items, labels and cuts under a 4x4 matrix acting on columns; lights, camera and page stay.
 
         Parameters
         ----------
@@ -436,7 +449,8 @@ class Scene(Movable["Scene"]):
         [[0.0, 0.0, 0.0], [1.0, 0.0, 1.0]]
         """
         labels = tuple(label.transformed(matrix) for label in self.labels)
-        return replace(self, items=tuple(item.transformed(matrix) for item in self.items), labels=labels)
+        cuts = tuple(cut.transformed(matrix) for cut in self.cuts)
+        return replace(self, items=tuple(item.transformed(matrix) for item in self.items), labels=labels, cuts=cuts)
 
     def __repr__(self) -> str:
         return f"<Scene {self.title!r}: {len(self.items)} items, {len(self.lights)} lights>"

@@ -42,11 +42,13 @@ from .terrains.terrain import (
     terrain_of_points,
     thinned_terrain,
 )
-from .trimmed import TrimmedSurface
+from .trims.cut_surface import CutSurface
+from .trims.trimmed import TrimmedSurface
 
 __all__ = [
     "Capped",
     "Cone",
+    "CutSurface",
     "Cylinder",
     "Disc",
     "Domain",

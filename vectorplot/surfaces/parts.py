@@ -13,7 +13,8 @@ from vectorplot.surfaces.families.capped import Capped
 from vectorplot.surfaces.over_domain import OverDomain
 from vectorplot.surfaces.placed import PlacedSurface
 from vectorplot.surfaces.surface import Surface
-from vectorplot.surfaces.trimmed import TrimmedSurface
+from vectorplot.surfaces.trims.cut_surface import CutSurface
+from vectorplot.surfaces.trims.trimmed import TrimmedSurface
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 MOST_ROUNDS = 16
@@ -47,6 +48,10 @@ def smooth_parts(surface: Surface) -> tuple[SmoothPart, ...]:
                 SmoothPart(PlacedSurface(part.surface, surface.matrix, surface.shift), part.creases, part.is_cap)
                 for part in inner
             )
+    if isinstance(surface, CutSurface):
+        inner = smooth_parts(surface.surface)
+        if len(inner) > 1:
+            return tuple(replace(part, surface=replace(surface, surface=part.surface)) for part in inner)
     if isinstance(surface, TrimmedSurface):
         inner = smooth_parts(surface.surface)
         if len(inner) > 1:

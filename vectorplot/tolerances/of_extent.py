@@ -9,6 +9,17 @@ ZERO_OF_EXTENT = 1e-9
 """A distance below this part of the extent of what is looked at counts as zero: a million times the rounding of
 coordinates, and a thousandth of the finest detail that anything can show."""
 
+CUT_EDGE_OF_EXTENT = 1e-7
+"""A border with both ends no farther from the plane of a cut is an edge of the cut: rims of smooth surfaces are found
+to about a hundredth of this, and nothing that can be told from them by eye is nearer."""
+
+CUT_FACE_CHORD_OF_EXTENT = 1e-5
+"""The faces of cuts through smooth surfaces end at chords no farther than this part of the surface's extent from the
+true section: two thousandths of a millimetre on usual pages. Their edges are drawn from the section."""
+
+SECTION_ENDS_OF_EXTENT = 1e-7
+"""Ends of sections of neighbouring parts of a surface that are no farther apart are one point."""
+
 SAME_PLANE_OF_EXTENT = 1e-6
 """Hatched faces with one normal whose heights agree when rounded to so much lie in one plane, and share their lines."""
 

@@ -28,7 +28,7 @@ from vectorplot.surfaces.implicit_function import implicit_of_function
 from vectorplot.surfaces.inversion import InvertedSurface
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import Domain
-from vectorplot.surfaces.trimmed import TrimmedSurface
+from vectorplot.surfaces.trims.trimmed import TrimmedSurface
 from vectorplot.testing.shapes import box
 
 number = st.floats(-1e6, 1e6)

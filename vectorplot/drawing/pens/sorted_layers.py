@@ -24,6 +24,9 @@ from vectorplot.words import LineKind, check_word, unknown
 
 _HATCH = KIND_LAYER[LineKind.HATCH]
 
+CUT_HATCH = "cut hatch"
+"""The layer of hatches of cuts where other faces are hatched too."""
+
 LAYER_WORDS = ("kind", "object", "colour")
 """What strokes that share a layer may have in common."""
 
@@ -65,7 +68,11 @@ def sorted_layers(
     if words == ("kind",):
         # Hatching has its number among the kinds.
         hatched = [strokes for layer in hatches for strokes in layer.strokes]
-        found = tuple(one for one in layers_by_kind(concatenated((paths, *hatched))) if one.name != _HATCH)
+        found = layers_by_kind(concatenated((paths, *hatched)))
+        if hatched:
+            own = [one for one in layers_by_kind(paths) if one.name == _HATCH and len(one.strokes[0])]
+            lines = [replace(one, name=CUT_HATCH) for one in own]
+            found = (*(one for one in found if one.name != _HATCH), *lines)
     elif words == ("object",):
         found = layers_by_object(paths, items)
     elif words == ("colour",):

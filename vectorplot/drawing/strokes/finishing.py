@@ -111,8 +111,8 @@ def _drawn(paths: Paths, pen: Pen, hidden: str, world: Floats, thinned: bool) ->
         long = thinned_ends(long, pen.width_mm, world)
     if pen.dash_mm is not None:
         return dashed(long, *pen.dash_mm, world) if any(pen.dash_mm) else long
-    centre = long.kind == int(LineKind.CENTRE)
-    behind = (long.hidden_by > 0) & (hidden == "dashed") & ~centre
+    centre = np.isin(long.kind, (LineKind.CENTRE, LineKind.TRACE))
+    behind = (((long.hidden_by > 0) & (hidden == "dashed")) | (long.kind == int(LineKind.GHOST))) & ~centre
     parts = [chosen(long, ~(behind | centre))]
     if behind.any():
         parts.append(dashed(chosen(long, behind), *DASH_MM, world))

@@ -54,7 +54,7 @@ from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.families.translation import translation_surface
 from vectorplot.surfaces.graph_regions import Disc
 from vectorplot.surfaces.surface import Domain, Surface
-from vectorplot.surfaces.trimmed import TrimmedSurface
+from vectorplot.surfaces.trims.trimmed import TrimmedSurface
 from vectorplot.tolerances.of_numbers import ROUNDING
 
 Pair = tuple[float, float]

@@ -22,6 +22,7 @@ from vectorplot.io.scenes.scene_statements import (
     read_box_axes,
     read_camera,
     read_colouring,
+    read_cut,
     read_label,
     read_light,
     read_page,
@@ -199,7 +200,7 @@ class _Reader(ItemReader):
             raise InputError(error.cause, file=self.source.name) from None
 
     def statement(self, word: str) -> None:
-        """camera, light, page, background, title or label, and what follows it."""
+        """camera, light, page, background, title, label or cut, and what follows it."""
         if word in _MANIFOLD:
             _MANIFOLD[word](self)
             return
@@ -207,7 +208,7 @@ class _Reader(ItemReader):
             annotation, self.at = read_annotation(self.source, self.at)
             self.annotations.append(annotation)
             return
-        if word in self.set and word not in ("light", "label"):
+        if word in self.set and word not in ("light", "label", "cut"):
             self.fail(f"a second '{word}'")
         self.set.add(word)
         source, now = self.source, self.settings
@@ -221,6 +222,9 @@ class _Reader(ItemReader):
             start = self.at
             label, self.at = read_label(source, self.at)
             self.labels.append((start, label))
+        elif word == "cut":
+            cut, self.at = read_cut(source, self.at)
+            self.settings = replace(now, cuts=(*now.cuts, cut))
         elif word == "page":
             page, self.at = read_page(source, self.at)
             self.settings = replace(now, page=page)

@@ -1,4 +1,4 @@
-"""What a scene file says about the scene as a whole: camera, lights, page, labels, colours by numbers, a box."""
+"""What a scene file says about the scene as a whole: camera, lights, page, labels, cuts, colours by numbers, a box."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.io.scenes.scene_words import Words
+from vectorplot.scene.cuts.cut import AWAY, Cut
 from vectorplot.scene.fitted_pages import fitted_page, page_of_width
 from vectorplot.scene.naming.labels import (
     HIDDEN,
@@ -83,7 +84,7 @@ def read_light(words: Words, at: int) -> tuple[Light, int]:
     colour, fading = "white", False
     while (word := words.words[at]) in _LIGHT_WORDS:
         if word == "colour":
-            colour, at = _light_colour(words, at + 1, owner)
+            colour, at = _known_colour(words, at + 1, owner)
             continue
         if word == "fading":
             fading, at = True, at + 1
@@ -108,7 +109,7 @@ def read_light(words: Words, at: int) -> tuple[Light, int]:
     return Light(place, parallel, intensity, name, colour, fading), at
 
 
-def _light_colour(words: Words, at: int, owner: str) -> tuple[str, int]:
+def _known_colour(words: Words, at: int, owner: str) -> tuple[str, int]:
     """The colour at a word, a known one or one in quotes, and the word behind it."""
     word = words.string(at)
     if not is_colour(word):
@@ -200,6 +201,30 @@ def read_label(words: Words, at: int) -> tuple[Label, int]:
         words.fail(at, f"{owner}expected {', '.join(_LABEL_ANCHORS)}, got {words.shown(at)}")
     try:
         return Label(text, anchor, name, **given), at
+    except InputError as error:
+        words.fail(start, error.cause)
+
+
+_CUT_WORDS = (*AWAY, "colour")
+
+
+def read_cut(words: Words, at: int) -> tuple[Cut, int]:
+    """The cut that the words from ``cut`` on describe, and the word behind them."""
+    start = at
+    at += 1
+    if not words.words[at].startswith('"'):
+        words.fail(at, f'cut: expected conditions in quotes, such as "y = 0", got {words.shown(at)}')
+    text = words.string(at)
+    at += 1
+    away, colour = "gone", None
+    while (word := words.words[at]) in _CUT_WORDS:
+        if word == "colour":
+            colour, at = _known_colour(words, at + 1, "cut: ")
+        else:
+            away, at = word, at + 1
+    _check_spelling(words, start, at, _CUT_WORDS)
+    try:
+        return Cut.of(text, away, colour), at
     except InputError as error:
         words.fail(start, error.cause)
 

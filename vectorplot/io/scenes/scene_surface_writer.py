@@ -43,7 +43,7 @@ from vectorplot.surfaces.inversion import InvertedSurface
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.splines.spline_surface import SplineSurface
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
-from vectorplot.surfaces.trimmed import TrimmedSurface
+from vectorplot.surfaces.trims.trimmed import TrimmedSurface
 
 
 def surface_text(shape: Surface | ImplicitSurface) -> str:

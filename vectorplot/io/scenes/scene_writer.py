@@ -15,6 +15,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.scenes.reserved_words import RESERVED
 from vectorplot.io.scenes.scene_hatching import hatch_text
 from vectorplot.io.scenes.scene_words import bare_word
+from vectorplot.scene.cuts.cut import Cut
 from vectorplot.scene.fitted_pages import FittedPage, PageOfWidth
 from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from vectorplot.scene.naming.scales import Colouring
@@ -75,6 +76,7 @@ def write_scene(scene: Scene) -> str:
     blocks.extend(_light(light) for light in scene.lights)
     blocks.extend(_item(item, scene.lights) for item in scene.items)
     blocks.extend(map(_label, scene.labels))
+    blocks.extend(map(_cut, scene.cuts))
     return "".join(block + "\n" for block in blocks)
 
 
@@ -132,6 +134,15 @@ def _light(light: Light) -> str:
     if light.fading:
         words.append("fading")
     return " ".join(words)
+
+
+def _cut(cut: Cut) -> str:
+    conditions = []
+    for plane in cut.planes:
+        terms = [f"{factor:+.17g}{axis}" for factor, axis in zip(plane.normal, "xyz", strict=True) if factor]
+        conditions.append(f"{' '.join(terms)} {'=' if plane.to_eye else '>'} {plane.offset!r}")
+    words = ["cut", dumps(", ".join(conditions)), *([cut.away] if cut.away != "gone" else [])]
+    return " ".join([*words, *([f"colour {_colour(cut.colour)}"] if cut.colour else [])])
 
 
 def _label(label: Label) -> str:

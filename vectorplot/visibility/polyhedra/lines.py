@@ -185,8 +185,12 @@ def wanted_kinds(scene: Scene, kinds: frozenset[LineKind]) -> list[tuple[frozens
 
 
 def kinds_of(item: Item, kinds: frozenset[LineKind]) -> frozenset[LineKind]:
-    """The kinds to draw on an item: its own, or else those asked for."""
-    return kinds if item.lines is None else frozenset(map(LineKind.from_word, item.lines))
+    """The kinds to look for on an item: its own, or else those asked for, and those that edges of cuts and ghosts are
+    before they are told from others."""
+    own = kinds if item.lines is None else frozenset(map(LineKind.from_word, item.lines))
+    if LineKind.GHOST in own:
+        own |= {LineKind.CONTOUR, LineKind.BOUNDARY, LineKind.CREASE}
+    return own | {LineKind.BOUNDARY} if item.cut_by and LineKind.CUT in own else own
 
 
 def edge_lines(
@@ -265,7 +269,8 @@ def intersection_lines(
     """
     wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
     part = _parts(scene, view, solid)
-    asked, which = _faces(view, faces), np.flatnonzero(~_beyond_two(first_twins(view))[view.face_item])
+    faced = np.array([item.is_cut_face for item in scene.items], dtype=np.bool_)
+    asked, which = _faces(view, faces), np.flatnonzero(~(_beyond_two(first_twins(view)) | faced)[view.face_item])
     if len(which) < view.face_count:
         asked = _some_faces(asked, which)
     met = face_intersections(asked, part[which], view.tolerance)

@@ -73,7 +73,7 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
             parts.append(part)
     boxes = [_box(sheet.vertices) for sheet in sheets]
     for other, item in enumerate(scene.items):
-        if not isinstance(item.shape, Mesh) or not item.shape.face_count:
+        if not isinstance(item.shape, Mesh) or not item.shape.face_count or item.is_cut_face:
             continue
         mesh = Mesh(view.points_of(item.shape.vertices).T, item.shape.corners, item.shape.offsets, item.shape.present)
         box = _box(mesh.vertices)

@@ -107,7 +107,7 @@ def traced_scene(
     met = meetings(scene, view, sheets, wants, tracing)
     doubts += met.doubts
     for number, item in enumerate(scene.items):
-        wanted = kinds_of(item, kinds) & {LineKind.CURVE, LineKind.LABEL, LineKind.CENTRE}
+        wanted = kinds_of(item, kinds) & {LineKind.CURVE, LineKind.LABEL, LineKind.CENTRE, LineKind.TRACE}
         if is_curve(item.shape) and wanted:
             drawn.append(space_curve(view, item.shape, number, sheets, tracing, min(wanted)))
     all_sheets = Sheets(sheets)

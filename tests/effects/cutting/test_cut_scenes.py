@@ -1,0 +1,187 @@
+"""Scenes that are cut: what is drawn is what rays see of the true cut bodies, in every verb, from files too."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import vectorplot as vp
+from vectorplot.cli.main import run
+from vectorplot.effects import cut_scene
+from vectorplot.geometry import box, prism
+from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.scene import Cut
+from vectorplot.surfaces import Ellipsoid, Sphere, Torus, rod
+from vectorplot.testing.shapes import without
+
+EYE = np.array([7.0, -11.0, 6.0])
+CAMERA = vp.Camera(tuple(EYE), (0.0, 0.0, 0.0))
+
+
+def strokes(drawing: vp.Drawing, *names: str) -> np.ndarray:
+    """(n,3) points along the strokes of some layers, of all where none is named."""
+    found = [np.zeros((0, 3))]
+    for layer in drawing.layers:
+        for one in layer.strokes if not names or layer.name in names else ():
+            for k in range(len(one)):
+                points = one.points3d[one.offsets[k] : one.offsets[k + 1]]
+                points = np.concatenate([points, points[:1]]) if one.closed[k] else points
+                part = np.linspace(0.05, 0.95, 7)[:, None, None]
+                found.append((points[:-1] + part * (points[1:] - points[:-1])).reshape(-1, 3))
+    return np.concatenate(found)
+
+
+def lengths(drawing: vp.Drawing, leave_out: tuple[str, ...] = ("hatch",)) -> float:
+    total = 0.0
+    for layer in drawing.layers:
+        for one in layer.strokes if layer.name not in leave_out else ():
+            for k in range(len(one)):
+                points = one.points[one.offsets[k] : one.offsets[k + 1]]
+                total += float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+                total += float(np.linalg.norm(points[-1] - points[0])) if one.closed[k] else 0.0
+    return total
+
+
+def test_a_corner_cut_out_of_a_box_draws_the_lines_of_the_body_that_is_left():
+    cut = vp.cut(vp.Scene((vp.Item("B", box((4, 4, 2))),)), "x > 2, y < 1")
+    elbow = prism([(0, 0, 0), (2, 0, 0), (2, 1, 0), (4, 1, 0), (4, 4, 0), (0, 4, 0)], (0, 0, 2))
+    kinds = "contour,boundary,crease,cut"
+    page = vp.Page(100, 80)
+    one = vp.draw(cut, CAMERA, page=page, lines=kinds, curves="polyline")
+    two = vp.draw(vp.Scene((vp.Item("E", elbow),)), CAMERA, page=page, lines=kinds, curves="polyline")
+    assert lengths(one) == pytest.approx(lengths(two), abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("shape", "scale"), [(Sphere(2.0), 1e-6), (Sphere(2.0), 1e6), (Ellipsoid((2.0, 1.5, 1.0)), 1.0)]
+)
+def test_what_is_drawn_of_a_cut_ball_is_what_rays_see(shape, scale):
+    axes = np.array([2.0, 2.0, 2.0]) if isinstance(shape, Sphere) else np.array([2.0, 1.5, 1.0])
+    normal, offset = np.array([2.0, -1.0, 2.0]) / 3.0, 0.4
+    item = vp.Item("ball", shape).scaled(scale)
+    cut = vp.cut(vp.Scene((item,)), f"2x - y + 2z > {3.0 * offset * scale!r}")
+    camera = vp.Camera(tuple(scale * EYE), (0.0, 0.0, 0.0))
+    drawing = vp.draw(cut, camera, page=vp.Page(100, 80), curves="polyline", tolerance_mm=0.002)
+    points = strokes(drawing) / scale
+    assert {"contour", "cut", "hatch"} <= {layer.name for layer in drawing.layers if len(layer.strokes[0])}
+    # Where the ray enters the ball and the half space: both are convex, and so is what they have in common.
+    way = points - EYE
+    a, b = ((way / axes) ** 2).sum(axis=1), (way / axes) @ (EYE / axes)
+    root = np.sqrt(np.maximum(b * b - a * (((EYE / axes) ** 2).sum() - 1.0), 0.0))
+    slope, height = way @ normal, float(EYE @ normal) - offset
+    plane = np.where(slope < 0.0, -height / slope, -np.inf)
+    enter = np.maximum((-b - root) / a, plane)
+    assert (enter > 1.0 - 2e-3).all()
+    on_ball, on_plane = np.abs(((points / axes) ** 2).sum(axis=1) - 1.0) < 1e-3, np.abs(points @ normal - offset) < 1e-6
+    assert (on_ball | on_plane).all() and (points @ normal < offset + 1e-6).all()
+    hatch = strokes(drawing, "hatch") / scale
+    assert (np.abs(hatch @ normal - offset) < 1e-9).all() and (((hatch / axes) ** 2).sum(axis=1) < 1.0 + 1e-4).all()
+
+
+@pytest.mark.parametrize(
+    ("shape", "text", "area"),
+    [
+        (Sphere(2.0), "z > 1", 3.0 * np.pi),
+        (Torus(3.0, 1.0), "y = 0", 2.0 * np.pi),
+        (Torus(3.0, 1.0), "z > 0", 12.0 * np.pi),
+        (rod((0, 0, 0), (0, 0, 4), 1.0), "y < 0", 8.0),
+        (box((2, 2, 2)), "x + y < 2", 4.0 * np.sqrt(2.0)),
+    ],
+)
+def test_faces_of_cuts_have_the_area_of_the_true_section(shape, text, area):
+    after = cut_scene(vp.cut(vp.Scene((vp.Item("S", shape),)), text), CAMERA)
+    found = sum(float(np.linalg.norm(i.mesh.area_vectors, axis=1).sum()) for i in after.items if i.is_cut_face)
+    # Area vectors are twice as long.
+    assert found / 2.0 == pytest.approx(area, rel=2e-4) or found == pytest.approx(area, rel=2e-4)
+
+
+def test_parts_that_touch_are_hatched_otherwise_and_parts_in_parts_are_cut_out():
+    items = [vp.Item(f"P{k}", box((1, 1, 1)).moved(k, 0, 0)) for k in range(4)]
+    items += [vp.Item("inner", box((0.5, 1, 0.5)).moved(0.25, 0, 0.25))]
+    after = cut_scene(vp.cut(vp.Scene(tuple(items)), "y < 0.5"), CAMERA)
+    faces = {item.name: item for item in after.items if item.is_cut_face}
+    ways = {name: item.curves.sections[0].normal for name, item in faces.items()}
+    for one, other in [("P0", "P1"), ("P1", "P2"), ("P2", "P3"), ("P0", "inner")]:
+        spacings = [np.diff(faces[f"{name} cut"].curves.sections[0].offsets)[0] for name in (one, other)]
+        turned = not np.allclose(ways[f"{one} cut"], ways[f"{other} cut"])
+        assert turned or spacings[0] != pytest.approx(spacings[1])
+    whole, left = (float(np.linalg.norm(faces[n].mesh.area_vectors.sum(axis=0))) for n in ("P1 cut", "P0 cut"))
+    assert left == pytest.approx(0.75 * whole)
+
+
+def test_open_meshes_have_no_faces_and_one_line_says_so():
+    scene = vp.Scene((vp.Item("open", without(box((2, 2, 2)), 5)),))
+    with pytest.warns(vp.InputWarning, match="open: open where cut") as told:
+        after = cut_scene(vp.cut(scene, "x > 1"), CAMERA)
+    assert len(told) == 1 and len(after.items) == 1
+
+
+@pytest.mark.parametrize("verb", ["draw", "paint", "render"])
+def test_every_verb_cuts_and_files_say_the_same(verb):
+    text = 'camera eye 7 -11 6 target 0 0 0\nA red box 2 2 2 solid\ncut "x > 1, y = 1" colour blue'
+    scene = parse_scene(text)
+    assert scene.cuts == (Cut.of("x > 1, y = 1", colour="blue"),)
+    assert parse_scene(write_scene(scene)).cuts == scene.cuts
+    plain = vp.cut(parse_scene(text.rpartition("\n")[0]), "x > 1, y = 1", colour="blue")
+    size = {"size": (60, 40), "samples": 1} if verb == "render" else {}
+    one, two = (getattr(vp, verb)(each, **size) for each in (scene, plain))
+    if verb == "render":
+        assert np.array_equal(one.pixels, two.pixels)
+    else:
+        assert len(one.layers) == len(two.layers)
+        assert [i for i in one.items] == ["A", "A cut", "A cut 2"]
+
+
+@pytest.mark.parametrize("away", ["ghost", "moved"])
+def test_what_is_cut_away_is_a_ghost_or_moved(away):
+    after = cut_scene(vp.cut(vp.Scene((vp.Item("A", box((2, 2, 2))),)), "x > 1", away), CAMERA)
+    other = next(item for item in after.items if item.name == f"A {away}")
+    assert np.ptp(other.mesh.bounds, axis=0).tolist() == [1.0, 2.0, 2.0]
+    assert other.mesh.bounds[0].tolist() == ([1.0, 0.0, 0.0] if away == "ghost" else [2.0, 0.0, 0.0])
+    drawing = vp.draw(replace_cuts(away), CAMERA)
+    assert ("ghost" in [layer.name for layer in drawing.layers if len(layer.strokes[0])]) == (away == "ghost")
+
+
+def replace_cuts(away: str) -> vp.Scene:
+    return vp.cut(vp.Scene((vp.Item("A", box((2, 2, 2))),)), "x > 1", away)
+
+
+@pytest.mark.parametrize(
+    ("text", "cause"),
+    [
+        ("y", "expected conditions"),
+        ("3 < 4", "without x, y or z"),
+        ("q = 1", "is not a sum"),
+        ("", "expected conditions"),
+    ],
+)
+def test_what_is_no_condition_is_told_in_a_line(text, cause):
+    with pytest.raises(vp.InputError, match=cause):
+        Cut.of(text)
+
+
+def test_a_plane_that_is_seen_edge_on_has_no_side():
+    scene = vp.cut(vp.Scene((vp.Item("A", box((2, 2, 2))),)), "x = 1")
+    with pytest.raises(vp.InputError, match="edge-on"):
+        cut_scene(scene, "front")
+
+
+def test_the_command_cuts_and_explodes(tmp_path):
+    (tmp_path / "a.scene").write_text("A red box 2 2 2 solid\nB blue box 1 1 1 solid translation 0 0 2")
+    out = tmp_path / "a.json"
+    assert run(["draw", str(tmp_path / "a.scene"), "--cut", "y=1", "--explode", "z,1.5", "-o", str(out)]) == 0
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        text = out.read_text()
+    assert '"kind": "cut"' in text and '"kind": "trace"' in text
+
+
+def test_exploded_parts_keep_their_order_and_their_room():
+    items = [vp.Item(name, box((1, 1, 1)).moved(0, 0, z)) for name, z in (("c", 5), ("a", 0), ("b", 0.5))]
+    apart = vp.exploded(vp.Scene(tuple(items)), "z", 1.25)
+    lows = {item.name: float(item.mesh.bounds[0, 2]) for item in apart.items if item.mesh.face_count}
+    assert lows == {"a": 0.0, "b": 1.25, "c": 5.75}
+    assert [item.name for item in apart.items[3:]] == ["b trace"]
+    with pytest.raises(vp.InputError, match="a factor"):
+        vp.exploded(vp.Scene(tuple(items)), "z", 0.5)

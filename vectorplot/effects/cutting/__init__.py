@@ -1,0 +1,1 @@
+"""Scenes that are cut, with the faces that show, hatched."""

@@ -1,0 +1,255 @@
+"""Scenes that are cut: bodies without what is taken away of them, with the faces that show then."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from vectorplot.curves.curve import is_curve
+from vectorplot.effects.cutting.hatches import WAYS, Way, hatch_section, ways_of_parts, without_overlaps
+from vectorplot.effects.cutting.sections import Body
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.cuts.divided_meshes import divided_mesh
+from vectorplot.geometry.cuts.half_spaces import HalfSpaces, nothing_beside
+from vectorplot.geometry.cuts.section_faces import PlaneFrame, mesh_of_regions
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.cuts.cut import Cut
+from vectorplot.scene.hatching import Hatching
+from vectorplot.scene.point_of_view import camera_of
+from vectorplot.scene.scene import Item, Material, Scene
+from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
+from vectorplot.surfaces.surface import is_parametrised
+from vectorplot.surfaces.trims.cut_surface import CutSurface
+from vectorplot.tolerances.of_angles import EDGE_ON_SINE
+
+MOVED = 0.5
+"""Part of the scene's extent by which what is taken away is moved."""
+
+
+def cut(scene: Scene, cuts: Cut | str | Iterable[Cut | str], away: str = "gone", colour: str | None = None) -> Scene:
+    """The scene with cuts that are made where it is drawn, painted or rendered.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is cut; cuts that it has stay.
+    cuts : Cut or str, or several
+        Texts as of `Cut.of`: y = 0, x + 2y > 3, or several conditions with commas between them.
+    away : {"gone", "ghost", "moved"}
+        What becomes of what texts take away.
+    colour : str, optional
+        Of the faces at cuts that are texts.
+
+    Returns
+    -------
+    Scene
+        With the same items.
+
+    Raises
+    ------
+    InputError
+        For texts that are no conditions, unknown words and colours.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> half = vp.cut(vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),)), "y = 1")
+    >>> len(half.cuts), half.cuts[0].away
+    (1, 'gone')
+    """
+    several = [cuts] if isinstance(cuts, Cut | str) else list(cuts)
+    found = tuple(cut if isinstance(cut, Cut) else Cut.of(cut, away, colour) for cut in several)
+    return replace(scene, cuts=scene.cuts + found)
+
+
+def cut_scene(scene: Scene, camera: Camera | str | None = None) -> Scene:
+    """The scene after its cuts: what is left of its items, then the faces that show, and what was taken away.
+
+    Parameters
+    ----------
+    scene : Scene
+        With its cuts.
+    camera : Camera or str, optional
+        Tells on which side the eye is; where None that of the scene, else default_camera.
+
+    Returns
+    -------
+    Scene
+        Without cuts. Its first items are those of the scene, in their order, with what is left of them. Each closed
+        body that was cut has an item of its cut faces, called NAME cut, of plane faces, and a number behind that for
+        each further plane, hatched otherwise than those it touches; then come ghosts and parts that were moved away.
+
+    Raises
+    ------
+    InputError
+        For a plane with = that is seen edge-on, and for a surface without a finite point.
+
+    Warns
+    -----
+    InputWarning
+        For bodies that are open, whose cut faces are unknown, and for what cannot be cut.
+
+    Notes
+    -----
+    Parametrised surfaces stay what they are: what is cut away is a hole. The faces of cuts through them have chords of
+    the true section as their border, that are off by a hundred-thousandth of its extent.
+
+    Degenerate: a face in the plane of a cut belongs to the side where its body is.
+
+    Source: ISO 128-50 (hatching of sections).
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import effects, geometry
+    >>> cube = vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),))
+    >>> half = effects.cut_scene(vp.cut(cube, "y < 1"))
+    >>> [item.name for item in half.items], half.items[1].shape.bounds.tolist()
+    (['cube', 'cube cut'], [[0.0, 1.0, 0.0], [2.0, 1.0, 2.0]])
+    """
+    if not scene.cuts:
+        return scene
+    seen = camera_of(camera, scene)
+    regions = [cut.region(seen) for cut in scene.cuts]
+    bodies = [Body(item) for item in scene.items]
+    kept = [_kept(body, regions) for body in bodies]
+    _tell([body.item.name for body in bodies if any(map(body.is_met_by, regions)) and _shows_open(body)])
+    added = _faces_of_cuts(scene, bodies, regions)
+    for number, (cut, region) in enumerate(zip(scene.cuts, regions, strict=True)):
+        if cut.away != "gone":
+            added += _away(scene, cut, bodies, region, regions[:number])
+    return replace(scene, items=(*kept, *added), cuts=())
+
+
+def _shows_open(body: Body) -> bool:
+    return not is_curve(body.item.shape) and body.is_open
+
+
+def _tell(names: list[str]) -> None:
+    if names:
+        named = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+        warnings.warn(f"{named}: open where cut, for there is no inside of what does not close", InputWarning, 4)
+
+
+def _kept(body: Body, regions: list[HalfSpaces]) -> Item:
+    """What is left of an item outside of regions."""
+    item = body.item
+    met = [region for region in regions if body.is_met_by(region)]
+    if not met:
+        return item
+    lines = item.lines if item.lines is None or "cut" in item.lines else (*item.lines, "cut")
+    if isinstance(item.shape, Mesh):
+        mesh, place = item.shape, np.arange(item.shape.face_count)
+        for region in met:
+            divided = divided_mesh(mesh, region)
+            mesh, place = divided.outside, np.where(place >= 0, np.append(divided.place, -1)[place], -1)
+        kept = tuple(replace(p, face=int(place[p.face])) for p in item.patterns if place[p.face] >= 0)
+        return replace(item, shape=mesh, patterns=kept, lines=lines, cut_by=tuple(met))
+    if not is_parametrised(item.shape):
+        text = f"{item.name}: curves and implicit surfaces are not cut; make surfaces meshes first"
+        warnings.warn(text, InputWarning, stacklevel=5)
+        return item
+    return replace(item, shape=_outside(CutSurface(item.shape, tuple(met))), lines=lines, cut_by=tuple(met))
+
+
+def _outside(surface: CutSurface) -> CutSurface | Mesh:
+    """The surface; a mesh without faces where nothing is left of it."""
+    u, v = np.meshgrid(*surface.domain.grid(64, 64), indexing="ij")
+    with np.errstate(all="ignore"):
+        left = np.isfinite(surface.points(u, v)).any()
+    return surface if left else Mesh(np.zeros((0, 3)), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
+
+
+def _faces_of_cuts(scene: Scene, bodies: list[Body], regions: list[HalfSpaces]) -> list[Item]:
+    """An item of cut faces for each body that has such."""
+    planes = [(one, side) for one, region in enumerate(regions) for side in range(len(region.normals))]
+    frames = [PlaneFrame.of(regions[one], side, scene.bounds.mean(axis=0)) for one, side in planes]
+    faces: list[list[Any]] = []
+    for frame, (one, side) in zip(frames, planes, strict=True):
+        others = regions[:one] + regions[one + 1 :]
+        areas = [body.face(frame, regions[one], side, others, None) for body in bodies]
+        faces.append(without_overlaps(areas))
+    if not faces:
+        return []
+    faced = [k for k in range(len(bodies)) if any(not areas[k].is_empty for areas in faces)]
+    ways = ways_of_parts([[areas[k] for k in faced] for areas in faces], nothing_beside(scene.bounds))
+    extent = float(np.ptp(scene.bounds, axis=0).max())
+    result = []
+    for k, way in zip(faced, ways, strict=True):
+        shown = [n for n, areas in enumerate(faces) if not areas[k].is_empty]
+        for count, n in enumerate(shown):
+            name = f"{bodies[k].item.name} cut" + (f" {count + 1}" if count else "")
+            colour = scene.cuts[planes[n][0]].colour
+            for face in _face_items(bodies[k].item, name, frames[n], faces[n][k], colour, way, extent):
+                result.append(replace(face, cut_by=tuple(regions)))
+    return result
+
+
+def _face_items(
+    item: Item, name: str, frame: PlaneFrame, area: Any, colour: str | None, way: Way, extent: float
+) -> list[Item]:
+    """Cut faces in a plane as an item, if there are any: their edges are lines of the body."""
+    mesh = mesh_of_regions([(frame, area)])
+    if not mesh.face_count:
+        return []
+    section = hatch_section(frame, mesh.vertices, way, extent)
+    lines, curves = ("section", "cut"), SurfaceLines(sections=(section,))
+    face = Item(
+        name, mesh, colour or item.colour, item.material, (), lines, item.occludes, curves, item.group, Hatching("none")
+    )
+    return [replace(face, is_cut_face=True)]
+
+
+def _away(scene: Scene, cut: Cut, bodies: list[Body], region: HalfSpaces, before: list[HalfSpaces]) -> list[Item]:
+    """What a cut takes away that no cut before it did: ghosts, or moved parts with their faces."""
+    shift = _shift(scene, cut, region)
+    result = []
+    for body in bodies:
+        item = body.item
+        if not body.is_met_by(region):
+            continue
+        met = [other for other in before if body.is_met_by(other)]
+        regions = (*met, region)
+        if isinstance(item.shape, Mesh):
+            mesh = item.shape
+            for other in met:
+                mesh = divided_mesh(mesh, other).outside
+            part: Mesh | CutSurface = divided_mesh(mesh, region).inside
+        elif is_parametrised(item.shape):
+            part = _outside(CutSurface(item.shape, tuple(met), region))
+        else:
+            continue
+        if isinstance(part, Mesh) and not part.face_count:
+            continue
+        if cut.away == "ghost":
+            clear = Material("transparent", 0.0)
+            name = f"{item.name} ghost"
+            ghost = Item(name, part, item.colour, clear, lines=("ghost",), occludes=False, cut_by=regions)
+            result.append(replace(ghost, hatch=Hatching("none")))
+            continue
+        moved = replace(item, name=f"{item.name} moved", shape=part, patterns=(), cut_by=regions)
+        result.append(moved.moved(*shift))
+        for side in range(len(region.normals)):
+            frame = PlaneFrame.of(region, side, scene.bounds.mean(axis=0))
+            area = body.face(frame, region, side, met, None)
+            name = f"{item.name} moved cut" + (f" {side + 1}" if side else "")
+            for face in _face_items(item, name, frame, area, cut.colour, WAYS[0], 1.0):
+                shown = replace(face, shape=face.mesh.reversed(), lines=(), curves=NO_LINES)
+                result.append(shown.moved(*shift))
+    return result
+
+
+def _shift(scene: Scene, cut: Cut, region: HalfSpaces) -> tuple[float, float, float]:
+    """How far what a cut takes away is moved: along its normals."""
+    way = np.array(region.normals).sum(axis=0)
+    length = float(np.linalg.norm(way))
+    if cut.away == "moved" and length <= EDGE_ON_SINE:
+        raise InputError("cut: what lies between parallel planes cannot be moved along their normals")
+    x, y, z = (way * (MOVED * float(np.ptp(scene.bounds, axis=0).max()) / max(length, EDGE_ON_SINE))).tolist()
+    return x, y, z

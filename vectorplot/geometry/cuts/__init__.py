@@ -1,0 +1,1 @@
+"""Bodies that are cut: half spaces, divided meshes, the faces of sections."""

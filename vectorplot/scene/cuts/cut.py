@@ -1,0 +1,219 @@
+"""A cut through a scene: where it is, and what becomes of what lies before it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.cuts.half_spaces import HalfSpaces
+from vectorplot.tolerances.of_angles import EDGE_ON_SINE
+from vectorplot.words import check_colour, check_word
+
+AWAY = ("gone", "ghost", "moved")
+"""What becomes of what lies before a cut."""
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class CutPlane:
+    """A plane of a cut.
+
+    Parameters
+    ----------
+    normal : (float, float, float)
+        Of length 1; what it leads to is taken away, unless the eye says it.
+    offset : float
+        normal . p of the points of the plane.
+    to_eye : bool
+        What is on the side of the eye is taken away.
+
+    Examples
+    --------
+    >>> from vectorplot.scene import Cut
+    >>> Cut.of("z > 2").planes[0]
+    CutPlane(normal=(0.0, 0.0, 1.0), offset=2.0, to_eye=False)
+    """
+
+    normal: Vector
+    offset: float
+    to_eye: bool = False
+
+
+@dataclass(frozen=True)
+class Cut:
+    """What is taken away of a scene: what lies before all of some planes at once.
+
+    Parameters
+    ----------
+    planes : tuple of CutPlane
+        At least one.
+    away : {"gone", "ghost", "moved"}
+        What is taken away is not there; or has thin dashed outlines; or is moved along the normals.
+    colour : str, optional
+        Of the cut faces; those of their bodies where None.
+
+    Raises
+    ------
+    InputError
+        For no planes, unknown words and colours.
+
+    Examples
+    --------
+    >>> from vectorplot.scene import Cut
+    >>> len(Cut.of("x > 0, y < 1").planes), Cut.of("y = 0").planes[0].to_eye
+    (2, True)
+    """
+
+    planes: tuple[CutPlane, ...]
+    away: str = "gone"
+    colour: str | None = None
+
+    def __post_init__(self) -> None:
+        if not self.planes:
+            raise InputError("cut: no plane")
+        check_word("cut away", self.away, AWAY)
+        if self.colour is not None:
+            check_colour(self.colour, "cut: ")
+
+    @classmethod
+    def of(cls, text: str, away: str = "gone", colour: str | None = None) -> Cut:
+        """The cut that a text spells.
+
+        Parameters
+        ----------
+        text : str
+            Conditions with commas between them, such as y = 0, x + 2y - z > 3 or 0 < x < 2: what all of them hold for
+            is taken away; of a plane with = what is on the side of the eye.
+        away, colour : str
+            As of Cut.
+
+        Returns
+        -------
+        Cut
+            With a plane for each sign.
+
+        Raises
+        ------
+        InputError
+            For what is no condition, and for one without x, y or z.
+
+        Examples
+        --------
+        >>> from vectorplot.scene import Cut
+        >>> [plane.offset for plane in Cut.of("0 < x < 2").planes]
+        [0.0, -2.0]
+        """
+        planes = [plane for condition in text.split(",") for plane in _planes(condition, text)]
+        return cls(tuple(planes), away, colour)
+
+    def region(self, camera: Camera) -> HalfSpaces:
+        """What is taken away, as a camera sees it.
+
+        Parameters
+        ----------
+        camera : Camera
+            Tells on which side of planes with = the eye is.
+
+        Returns
+        -------
+        HalfSpaces
+            The region.
+
+        Raises
+        ------
+        InputError
+            Where a plane with = is seen edge-on.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> from vectorplot.scene import Cut
+        >>> Cut.of("y = 0").region(vp.Camera((0, -5, 1))).normals
+        ((-0.0, -1.0, -0.0),)
+        """
+        normals, offsets = [], []
+        for plane in self.planes:
+            sign = _side_of_eye(plane, camera) if plane.to_eye else 1.0
+            x, y, z = plane.normal
+            normals.append((sign * x, sign * y, sign * z))
+            offsets.append(sign * plane.offset)
+        return HalfSpaces(tuple(normals), tuple(offsets))
+
+    def transformed(self, matrix: ArrayLike) -> Cut:
+        """The cut under a 4x4 matrix acting on columns.
+
+        Parameters
+        ----------
+        matrix : (4, 4) array_like of float
+            Rows 0 to 2: rotation, scale and translation.
+
+        Returns
+        -------
+        Cut
+            In the moved planes.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from vectorplot.scene import Cut
+        >>> Cut.of("z > 2").transformed(np.diag([1.0, 1.0, 3.0, 1.0])).planes[0].offset
+        6.0
+        """
+        found = HalfSpaces(tuple(p.normal for p in self.planes), tuple(p.offset for p in self.planes))
+        moved = found.transformed(np.asarray(matrix, dtype=np.float64))
+        planes = zip(self.planes, moved.normals, moved.offsets, strict=True)
+        return replace(self, planes=tuple(CutPlane(normal, d, plane.to_eye) for plane, normal, d in planes))
+
+
+def _side_of_eye(plane: CutPlane, camera: Camera) -> float:
+    """1 where the eye is on the side to which the normal leads, -1 on the other."""
+    normal = np.array(plane.normal)
+    foot = plane.offset * normal
+    way = camera.axes[2] if camera.parallel else np.asarray(camera.eye) - foot
+    height = float(way @ normal)
+    if abs(height) <= EDGE_ON_SINE * float(np.linalg.norm(way)):
+        x, y, z = plane.normal
+        raise InputError(f"cut: the plane {x:g}x + {y:g}y + {z:g}z = {plane.offset:g} is seen edge-on: say < or >")
+    return float(np.sign(height))
+
+
+_SIGN = re.compile(r"<=|>=|<|>|=")
+_TERM = re.compile(r"([+-]?)\s*(\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)?\s*\*?\s*([xyz]?)\s*")
+
+
+def _planes(condition: str, text: str) -> list[CutPlane]:
+    """The planes of a condition: one for each of its signs."""
+    signs = [sign.replace("<=", "<").replace(">=", ">") for sign in _SIGN.findall(condition)]
+    sides = [_linear(side, text) for side in _SIGN.split(condition)]
+    if not 1 <= len(signs) <= 2 or (len(signs) == 2 and (signs[0] != signs[1] or signs[0] == "=")):
+        raise InputError(f"cut {text!r}: expected conditions such as y = 0, x + 2y > 3 or 0 < x < 2")
+    found = []
+    for sign, left, right in zip(signs, sides, sides[1:], strict=False):
+        # Larger less smaller: positive in what is taken away.
+        a, b, c, d = ((left - right) if sign != "<" else (right - left)).tolist()
+        length = float(np.hypot(np.hypot(a, b), c))
+        if not 0.0 < length < np.inf:
+            raise InputError(f"cut {text!r}: a condition without x, y or z")
+        found.append(CutPlane((a / length, b / length, c / length), -d / length + 0.0, sign == "="))
+    return found
+
+
+def _linear(side: str, text: str) -> np.ndarray:
+    """(4,) what x, y, z and 1 are multiplied by in one side of a condition."""
+    result, at, side = np.zeros(4), 0, side.strip()
+    while at < len(side):
+        term = _TERM.match(side, at)
+        sign, number, axis = term.groups() if term else ("", None, "")
+        if term is None or not (number or axis) or (at > 0 and not sign):
+            raise InputError(f"cut {text!r}: {side[at:]!r} is not a sum of numbers, x, y and z")
+        result["xyz".find(axis) if axis else 3] += float(sign + "1") * float(number or 1.0)
+        at = term.end()
+    if not side or not np.isfinite(result).all():
+        raise InputError(f"cut {text!r}: expected conditions such as y = 0, x + 2y > 3 or 0 < x < 2")
+    return result

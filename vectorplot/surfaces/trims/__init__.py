@@ -1,0 +1,1 @@
+"""Parts of surfaces: over smaller ranges of their parameters, and what planes leave of them."""
