@@ -18,6 +18,7 @@ from vectorplot.shading.light.palettes import PALETTE_LIMITS, PLAIN, palette
 from vectorplot.words import (
     COLOURS,
     DRAWN,
+    FEATURE_KINDS,
     LINE_WORDS,
     MATERIALS,
     PALETTES,
@@ -77,7 +78,7 @@ def test_colours_are_the_same_in_python_in_files_and_in_all_verbs():
         lambda: vp.Item("A", SHAPE, "Blue"),
         lambda: vp.Item("A", SHAPE, "#12345"),
         lambda: vp.Item("A", SHAPE, None),
-        lambda: vp.Item("A", SHAPE, lines=("ridge",)),
+        lambda: vp.Item("A", SHAPE, lines=("ridges",)),
         lambda: vp.Pattern("P", "salmon", 0, np.zeros((3, 2))),
         lambda: vp.Light((0, 0, 1), colour="salmon"),
         lambda: vp.Light((0, 0, 1), intensity=1.5),
@@ -115,7 +116,9 @@ def test_kinds_come_once_and_none_is_none():
     assert line_words("crease, Contour,crease") == ("crease", "contour")
     assert line_words("none") == line_words(("none",)) == line_words(()) == ()
     kinds = {kind.word for kind in LineKind}
-    assert set(DRAWN) == set(LINE_WORDS) - {"edges"} and set(LINE_WORDS) == kinds - {"hatch", "label"}
+    features = {kind.word for kind in FEATURE_KINDS}
+    assert set(DRAWN) == set(LINE_WORDS) - {"edges"} - features
+    assert set(LINE_WORDS) == kinds - {"hatch", "label", "centre", "ghost", "trace"}
 
 
 @pytest.mark.parametrize(
