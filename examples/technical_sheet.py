@@ -1,4 +1,4 @@
-"""A technical sheet of a flange from an STL file: views in line, dimensions, centre lines, a title block.
+"""A technical sheet of a flange from an STL file: views in line, a section, dimensions, centre lines, a title block.
 
 The flange is made here too, of prisms above areas with holes, and written as other programs write theirs.
 """
@@ -70,7 +70,7 @@ def main(folder: Path) -> None:
     ]
     sheet = vp.technical_sheet(
         [part, *sizes],
-        **{"scale": "1:1", "page": "A3", "dimensions": True, "centre_lines": True, "frame": True},
+        **{"section": "y=0", "scale": "1:1", "page": "A3", "dimensions": True, "centre_lines": True, "frame": True},
         **{"title": "Flange", "author": "vectorplot", "date": "2026-11-22", "sheet": "1/1"},
     )
     vp.save(sheet, folder / "technical_sheet.svg")

@@ -122,6 +122,41 @@ def test_the_command_writes_every_format(suffix, tmp_path):
     assert (tmp_path / f"s.{suffix}").stat().st_size > 1000
 
 
+def test_a_section_has_its_line_its_letters_and_its_hatches():
+    sheet = vp.technical_sheet(BRICK, views="front,top", section="y=12", scale="1:1")
+    *views, seen = outlines(sheet)
+    assert np.allclose(np.ptp(seen, axis=0), (40, 10))
+    hatches = np.concatenate([points for _, points in strokes_of(sheet, "hatch")]).reshape(-1, 2, 2)
+    ways = np.diff(hatches, axis=1)[:, 0]
+    assert len(ways) > 10 and np.allclose(np.abs(ways[:, 0]), np.abs(ways[:, 1]))
+    assert (hatches >= seen[0] - 1e-6).all() and (hatches <= seen[1] + 1e-6).all()
+    front, top = sorted(views, key=lambda one: float(one[1, 1] - one[0, 1]))
+    line = np.concatenate([points for _, points in strokes_of(sheet, "cutting line")])
+    # 12 from the front side, which is below in the view from above.
+    assert np.allclose(line[:, 1], top[0, 1] + 12.0)
+    assert line[:, 0].min() < top[0, 0] and line[:, 0].max() > top[1, 0]
+    assert np.allclose(seen[:, 1], front[:, 1])
+
+
+@pytest.mark.parametrize(
+    ("section", "cause"),
+    [("y=99", "beside the part, where y is 0 to 20"), ("w=1", "expected x, y or z"), ("y", "such as")],
+)
+def test_sections_that_are_none(section, cause):
+    with pytest.raises(vp.InputError, match=cause):
+        vp.technical_sheet(BRICK, section=section)
+
+
+@pytest.mark.parametrize("angle", ["first", "third"])
+def test_sections_of_every_axis_stand_apart_from_all_views(angle):
+    sheet = vp.technical_sheet(BRICK, section=["x=20", "y=10", "z=5"], angle=angle, dimensions=True, frame=True)
+    names = {layer.name: layer for layer in sheet.layers}
+    assert {"cutting line", "cutting ends", "hatch"} <= set(names)
+    assert sum(len(paths) for paths in names["cutting ends"].strokes) == 6
+    points = np.concatenate([points for name in ("hatch", "contour") for _, points in strokes_of(sheet, name)])
+    assert (points > 20).all() and (points < (400, 287)).all()
+
+
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e5])
 def test_round_edges_of_a_mesh_get_their_centre_lines(size):
     """A shaft along x: two circles on one axis, one centre line and one mark."""

@@ -47,6 +47,7 @@ if TYPE_CHECKING:
         help="Views opposite to the side they are seen from, or on it.",
     ),
     click.option("--page", default="A3", metavar="SIZE", help="A0 to A6, letter, ... or WIDTHxHEIGHT in mm."),
+    click.option("--section", multiple=True, metavar="AXIS=PLACE", help="A section view, as y=12; repeat it for more."),
     click.option("--dimensions", is_flag=True, help="How long the part is along x, y and z."),
     click.option("--centre-lines", is_flag=True, help="Of bores, shafts and other round edges of meshes."),
     click.option("--frame", is_flag=True, help="A border with centring marks and zones."),

@@ -11,11 +11,12 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.draw import draw
-from vectorplot.drawing.drawing import Drawing
+from vectorplot.drawing.drawing import Drawing, Layer
 from vectorplot.drawing.sheets.drawing_frames import drawing_space, frame_layers
 from vectorplot.drawing.sheets.drawing_scales import DrawingScale
 from vectorplot.drawing.sheets.sheet import Sheet
 from vectorplot.drawing.sheets.title_block import BLOCK_MM, TitleBlock
+from vectorplot.effects.cutting.cut_scenes import cut, cut_scene
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.geometry.mesh import Mesh
@@ -34,12 +35,14 @@ from vectorplot.technical.annotations import (
 )
 from vectorplot.technical.arranged_views import Arrangement, SheetView, cells_of
 from vectorplot.technical.round_edges import centre_lines_of, round_edges
+from vectorplot.technical.sections import ROOM_MM, SheetSection, sections_of
+from vectorplot.tolerances.of_extent import SAME_PLANE_OF_EXTENT
 from vectorplot.words import check_word, unknown
 
-LINES = "contour,boundary,crease,intersection,curve"
+LINES = "contour,boundary,crease,intersection,curve,cut"
 """The kinds of lines of a technical drawing."""
 
-PENS = "contour=0.5,boundary=0.5,crease=0.5,intersection=0.5,curve=0.5,hidden=0.25"
+PENS = "contour=0.5,boundary=0.5,crease=0.5,intersection=0.5,curve=0.5,cut=0.5,hidden=0.25"
 """Visible lines are wide, hidden ones narrow, as ISO 128-24 has it."""
 
 DASHES = "hidden=3,1"
@@ -57,22 +60,33 @@ class _Part:
     names: tuple[str, ...]
     cameras: tuple[Camera, ...]
     overall: tuple[OverallDimension, ...]
+    sections: tuple[SheetSection, ...]
 
     @property
     def bounds(self) -> Floats:
         return self.scene.bounds
 
     def notes(self) -> list[list[Annotation]]:
-        """The annotations of each view; a pictorial one has none."""
+        """The annotations of each view, and centre lines of each section; a pictorial view has none."""
         flat = [camera for name, camera in zip(self.names, self.cameras, strict=True) if name != "iso"]
         extent = float(np.ptp(self.bounds, axis=0).max())
         found = iter(views_of(self.annotations, flat, extent))
-        return [[] if name == "iso" else next(found) for name in self.names]
+        cut = [self.centre_lines_in(section, extent) for section in self.sections]
+        return [*([] if name == "iso" else next(found) for name in self.names), *cut]
+
+    def centre_lines_in(self, section: SheetSection, extent: float) -> list[Annotation]:
+        """The centre lines that a section shows: those in its plane, and the marks of circles along it."""
+        camera = camera_of(section.like, self.scene)
+        square = [one for one in self.annotations if one.is_centre and one.is_square_to(camera, extent)]
+        off = [float(np.abs(one.points[:, section.axis] - section.offset).max()) for one in square]
+        zero = SAME_PLANE_OF_EXTENT * extent
+        return [one for one, far in zip(square, off, strict=True) if len(one.scene) > 1 or far <= zero]
 
     def views(self, first_angle: bool) -> tuple[SheetView, ...]:
         """Where each view stands, and how far it reaches."""
-        cells = cells_of(self.names, (), first_angle)
+        cells = cells_of(self.names, [section.like for section in self.sections], first_angle)
         named = list(zip(self.names, self.cameras, strict=True))
+        named += [(section.letter, camera_of(section.like, self.scene)) for section in self.sections]
         middle, half = self.bounds.mean(axis=0), 0.5 * np.ptp(self.bounds, axis=0)
         found = []
         for (name, camera), notes in zip(named, self.notes(), strict=True):
@@ -81,14 +95,37 @@ class _Part:
             beside = [(one.points - middle) @ across.T for one in notes]
             for places in beside:
                 world = np.maximum(world, [-places.min(axis=0), places.max(axis=0)])
+            # Cutting lines end outside of dimensions.
             mm = np.maximum(TEXT_MM if beside else 0.0, self.overall_room_mm(name, camera))
-            found.append(SheetView(name, camera, cells[name], world, mm))
+            rooms = [one.line_room_mm(camera) for one in self.sections if one.told_in(self.names) == name]
+            rooms += [np.array([(0.0, 0.0), (0.0, ROOM_MM)]) for one in self.sections if one.letter == name]
+            found.append(SheetView(name, camera, cells[name], world, mm + np.max([np.zeros((2, 2)), *rooms], axis=0)))
         return tuple(found)
 
     def overall_room_mm(self, name: str, camera: Camera) -> Floats:
         """(2,2) what the dimensions of the whole part need around it in a view."""
         rooms = [one.room_mm(camera) for one in self.overall if one.view == name]
         return np.asarray(np.max([np.zeros((2, 2)), *rooms], axis=0))
+
+    def shown(self, view: SheetView) -> Scene:
+        """What a view shows: the part, or what a section leaves of it."""
+        cuts = [section.condition for section in self.sections if section.letter == view.name]
+        return cut_scene(cut(self.scene, cuts), view.camera) if cuts else self.scene
+
+    def around_sections(self, arranged: Arrangement, factor: float) -> tuple[Layer, ...]:
+        """The lines of sections in other views, and their names."""
+        views = {view.name: (view, place) for view, place in zip(arranged.views, arranged.middles(factor), strict=True)}
+        found: list[Layer] = []
+        for section in self.sections:
+            view, (x, y) = views[section.letter]
+            top = factor * float(view.world[1, 1])
+            found.append(section.name_layer((x, y + top)))
+            name = section.told_in(self.names)
+            if name is not None:
+                other, place = views[name]
+                room = self.overall_room_mm(name, other.camera)
+                found += section.line_layers(other.camera, view.camera, self.bounds, place, factor, room)
+        return tuple(found)
 
 
 def technical_sheet(
@@ -98,6 +135,7 @@ def technical_sheet(
     scale: str = "fit",
     angle: Literal["first", "third"] = "first",
     page: Page | str = "A3",
+    section: str | Iterable[str] = (),
     dimensions: bool = False,
     centre_lines: bool = False,
     frame: bool = False,
@@ -126,6 +164,10 @@ def technical_sheet(
     page : Page or str
         Or its name or size, such as "A3" or "200x150"; one that is named lies on the side that gives the views more
         room.
+    section : str or iterable of str
+        Planes such as y=12, each of which gives a view of the part without what lies before the plane, like the main
+        view of that direction: A-A, B-B, and so on. Cut faces are hatched; in a view that sees the plane edge-on a line
+        with arrows shows where it is.
     dimensions : bool
         How long the whole part is along x, y and z, each in one view.
     centre_lines : bool
@@ -147,7 +189,7 @@ def technical_sheet(
     Raises
     ------
     InputError
-        As of draw; for views that are unknown, twice or none; for a
+        As of draw; for views that are unknown, twice or none; for sections that are none, or beside the part; for a
         scale that is too large for the page, with the largest that fits; for a page without room, and a title without
         room in its block.
 
@@ -177,7 +219,8 @@ def technical_sheet(
     solid, annotations = without_annotations(given)
     cameras = tuple(camera_of(name, solid) for name in names)
     overall = overall_dimensions(names, solid.bounds) if dimensions else ()
-    part = _Part(solid, annotations, names, cameras, overall)
+    sections = sections_of(section, names, solid.bounds)
+    part = _Part(solid, annotations, names, cameras, overall, sections)
     paper, arranged = _roomiest(page, part.views(angle == "first"), frame)
     chosen = _scale(asked, arranged, paper)
     factor = chosen.factor
@@ -192,12 +235,12 @@ def technical_sheet(
         ]
         width, height = (2.0 * (view.reach_mm(factor).max(axis=0) + BORDER_MM)).tolist()
         drawn = draw(
-            together([part.scene, *added]),
+            together([part.shown(view), *added]),
             replace(view.camera, height=height / factor),
             page=Page(width, height, 0.0),
             fit=False,
             lines=LINES,
-            hidden="none" if view.name == "iso" else "dashed",
+            hidden="dashed" if view.name in names and view.name != "iso" else "none",
             pens=PENS,
             dashes=DASHES,
             crease_angle_deg=crease_angle_deg,
@@ -205,8 +248,9 @@ def technical_sheet(
             explain=explain,
         )
         done = done.place(drawn, x - 0.5 * width, y - 0.5 * height)
+    around = part.around_sections(arranged, factor)
     borders = (*(frame_layers(paper) if frame else ()), *block)
-    return done.place(Drawing(paper.width_mm, paper.height_mm, borders, ()), 0.0, 0.0).drawing()
+    return done.place(Drawing(paper.width_mm, paper.height_mm, (*around, *borders), ()), 0.0, 0.0).drawing()
 
 
 def _centre_lines(scene: Scene, crease_angle_deg: float) -> tuple[Scene, ...]:
