@@ -37,9 +37,9 @@ def outlines(drawing):
     return boxes[np.argsort(boxes[:, 0, 0])]
 
 
-@pytest.mark.parametrize(("angle", "way"), [("first", -1), ("third", 1)])
-def test_views_stand_in_line_at_the_scale(angle, way):
-    sheet = vp.technical_sheet(BRICK, views="front,top,left", scale="2:1", angle=angle)
+@pytest.mark.parametrize(("projection", "way"), [("first", -1), ("third", 1)])
+def test_views_stand_in_line_at_the_scale(projection, way):
+    sheet = vp.technical_sheet(BRICK, views="front,top,left", scale="2:1", projection=projection)
     boxes = {tuple(np.round(np.ptp(one, axis=0), 6).tolist()): one for one in outlines(sheet)}
     front, top, left = boxes[80.0, 20.0], boxes[80.0, 40.0], boxes[40.0, 20.0]
     assert np.allclose(front[:, 0], top[:, 0]) and np.allclose(front[:, 1], left[:, 1])
@@ -102,7 +102,7 @@ def test_a_scenes_own_dimensions_are_in_the_view_that_is_square_to_them():
 
 
 def test_a_frame_has_zones_and_the_block_its_words(tmp_path):
-    plain, framed = (vp.technical_sheet(BRICK, frame=frame, title="Brick", angle="third") for frame in (False, True))
+    plain, framed = (vp.technical_sheet(BRICK, frame=frame, title="Brick", projection="third") for frame in (False, True))
     assert layer(framed, "rules").strokes[0].points.min() == 5.0
     assert layer(plain, "frame").strokes[0].points[:, 0].max() == plain.width_mm - 10.0
     with pytest.raises(vp.InputError, match="margin"):
@@ -147,9 +147,9 @@ def test_sections_that_are_none(section, cause):
         vp.technical_sheet(BRICK, section=section)
 
 
-@pytest.mark.parametrize("angle", ["first", "third"])
-def test_sections_of_every_axis_stand_apart_from_all_views(angle):
-    sheet = vp.technical_sheet(BRICK, section=["x=20", "y=10", "z=5"], angle=angle, dimensions=True, frame=True)
+@pytest.mark.parametrize("projection", ["first", "third"])
+def test_sections_of_every_axis_stand_apart_from_all_views(projection):
+    sheet = vp.technical_sheet(BRICK, section=["x=20", "y=10", "z=5"], projection=projection, dimensions=True, frame=True)
     names = {layer.name: layer for layer in sheet.layers}
     assert {"cutting line", "cutting ends", "hatch"} <= set(names)
     assert sum(len(paths) for paths in names["cutting ends"].strokes) == 6

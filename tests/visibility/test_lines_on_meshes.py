@@ -22,7 +22,7 @@ from vectorplot.surfaces.families.quadric import implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus
 from vectorplot.testing import assert_drawing_is_right, curves_in_space
 from vectorplot.testing.shapes import box
-from vectorplot.words import LineKind
+from vectorplot.words import FEATURE_KINDS, LineKind
 
 CUBE = box((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0))
 LEVELS = SurfaceLines(sections=(Section((0.0, 0.0, 1.0), (-0.5, 0.25)),))
@@ -82,7 +82,9 @@ def test_lines_on_meshes_as_rays_see_them(lamp: Light) -> None:
 
 
 def test_the_stage_runs_only_where_it_is_called_for() -> None:
-    def stages(*items: Item, kinds: tuple[LineKind, ...] = tuple(LineKind)) -> set[str]:
+    usual = tuple(kind for kind in LineKind if kind not in FEATURE_KINDS)
+
+    def stages(*items: Item, kinds: tuple[LineKind, ...] = usual) -> set[str]:
         return {stage.name for stage in plan_draw(Scene(items), frozenset(kinds), "none", 0.0)}
 
     assert "lines on meshes" in stages(Item("cube", CUBE, curves=LEVELS))
@@ -90,6 +92,7 @@ def test_the_stage_runs_only_where_it_is_called_for() -> None:
     assert "lines on meshes" not in stages(Item("cube", CUBE, curves=SurfaceLines(3, 3)))
     assert "lines on meshes" not in stages(Item("ball", Sphere(1.0), curves=LEVELS))
     assert "lines on meshes" not in stages(Item("cube", CUBE, curves=LEVELS), kinds=(LineKind.CONTOUR,))
+    assert "lines on meshes" in stages(Item("cube", CUBE), kinds=(LineKind.RIDGE,))
 
 
 def test_a_light_that_is_not_there_is_an_error() -> None:

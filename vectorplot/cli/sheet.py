@@ -41,7 +41,7 @@ if TYPE_CHECKING:
         help="Mm on paper for units of the part; fit: the largest of ISO 5455.",
     ),
     click.option(
-        "--angle",
+        "--projection",
         type=click.Choice(["first", "third"]),
         default="first",
         help="Views opposite to the side they are seen from, or on it.",

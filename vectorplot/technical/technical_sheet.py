@@ -133,7 +133,7 @@ def technical_sheet(
     *,
     views: str | Iterable[str] = "front,top,left,iso",
     scale: str = "fit",
-    angle: Literal["first", "third"] = "first",
+    projection: Literal["first", "third"] = "first",
     page: Page | str = "A3",
     section: str | Iterable[str] = (),
     dimensions: bool = False,
@@ -159,8 +159,8 @@ def technical_sheet(
         and dimensions.
     scale : str
         Lengths on paper to lengths of the part, such as 1:2; fit: the largest of ISO 5455 that fits.
-    angle : {"first", "third"}
-        Whether a view stands opposite to the side it is seen from, as in Europe, or on that side, as in America.
+    projection : {"first", "third"}
+        First or third angle: whether a view stands opposite to the side it is seen from, as in Europe, or on that side, as in America.
     page : Page or str
         Or its name or size, such as "A3" or "200x150"; one that is named lies on the side that gives the views more
         room.
@@ -211,7 +211,7 @@ def technical_sheet(
     (297.0, 210.0, 'Corner, 1:1')
     """
     names = _view_names(views)
-    check_word("angle", angle, ("first", "third"))
+    check_word("projection", projection, ("first", "third"))
     asked = None if scale == "fit" else DrawingScale.of(scale)
     given = scene_of(scene)
     if centre_lines:
@@ -221,11 +221,11 @@ def technical_sheet(
     overall = overall_dimensions(names, solid.bounds) if dimensions else ()
     sections = sections_of(section, names, solid.bounds)
     part = _Part(solid, annotations, names, cameras, overall, sections)
-    paper, arranged = _roomiest(page, part.views(angle == "first"), frame)
+    paper, arranged = _roomiest(page, part.views(projection == "first"), frame)
     chosen = _scale(asked, arranged, paper)
     factor = chosen.factor
     name = page.strip().split()[0].upper() if isinstance(page, str) else f"{paper.width_mm:g}x{paper.height_mm:g}"
-    block = TitleBlock(title, author, date, sheet, str(chosen), name, angle).layers(drawing_space(paper, frame))
+    block = TitleBlock(title, author, date, sheet, str(chosen), name, projection).layers(drawing_space(paper, frame))
     done = Sheet(paper, f"{title}, {chosen}" if title else str(chosen))
     notes = part.notes()
     for number, (view, (x, y)) in enumerate(zip(arranged.views, arranged.middles(factor), strict=True)):
