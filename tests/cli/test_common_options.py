@@ -107,7 +107,10 @@ def test_options_are_the_keywords_of_python_with_the_same_defaults(verb, functio
     if verb is draw:
         hatch, others = hatching_from(told.rest)
         # A place to look all round from is the function `panorama`.
-        given = {"hatch": hatch, **{name: value for name, value in others.items() if name not in ("panorama", "strips")}}
+        given = {
+            "hatch": hatch,
+            **{name: value for name, value in others.items() if name not in ("panorama", "strips")},
+        }
     rest = {turned.get(name, name): value for name, value in given.items()}
     assert set(rest) == set(keywords) - {"scene", "camera", "page", "progress", "explain"}
     for name in set(rest) - set(turned.values()):

@@ -102,7 +102,9 @@ def test_a_scenes_own_dimensions_are_in_the_view_that_is_square_to_them():
 
 
 def test_a_frame_has_zones_and_the_block_its_words(tmp_path):
-    plain, framed = (vp.technical_sheet(BRICK, frame=frame, title="Brick", projection="third") for frame in (False, True))
+    plain, framed = (
+        vp.technical_sheet(BRICK, frame=frame, title="Brick", projection="third") for frame in (False, True)
+    )
     assert layer(framed, "rules").strokes[0].points.min() == 5.0
     assert layer(plain, "frame").strokes[0].points[:, 0].max() == plain.width_mm - 10.0
     with pytest.raises(vp.InputError, match="margin"):
@@ -149,7 +151,9 @@ def test_sections_that_are_none(section, cause):
 
 @pytest.mark.parametrize("projection", ["first", "third"])
 def test_sections_of_every_axis_stand_apart_from_all_views(projection):
-    sheet = vp.technical_sheet(BRICK, section=["x=20", "y=10", "z=5"], projection=projection, dimensions=True, frame=True)
+    sheet = vp.technical_sheet(
+        BRICK, section=["x=20", "y=10", "z=5"], projection=projection, dimensions=True, frame=True
+    )
     names = {layer.name: layer for layer in sheet.layers}
     assert {"cutting line", "cutting ends", "hatch"} <= set(names)
     assert sum(len(paths) for paths in names["cutting ends"].strokes) == 6

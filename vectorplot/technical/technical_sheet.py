@@ -160,7 +160,8 @@ def technical_sheet(
     scale : str
         Lengths on paper to lengths of the part, such as 1:2; fit: the largest of ISO 5455 that fits.
     projection : {"first", "third"}
-        First or third angle: whether a view stands opposite to the side it is seen from, as in Europe, or on that side, as in America.
+        First or third angle: whether a view stands opposite to the side it is seen from, as in Europe, or on that
+        side, as in America.
     page : Page or str
         Or its name or size, such as "A3" or "200x150"; one that is named lies on the side that gives the views more
         room.
