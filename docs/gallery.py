@@ -26,7 +26,7 @@ LOOK_AT = {
     "box": "A hollow box has no bottom and no top; `+bottom` closes it below. The back walls are seen inside.",
     "capped": "Flat ends make bodies of cylinders, cones and balls; their rims and contours are arcs in closed form.",
     "cone": "A meridian with its upper end on the axis: all faces meet in a single vertex. `edges` shows them.",
-    "conic_section": "A cone, a plane that cuts it in an ellipse, their names, axis and height: a figure for a textbook.",
+    "conic_section": "A cone cut in an ellipse, with names, axis and height: a figure for a textbook.",
     "cubes": "They have their centre in common; edges stop where one cube enters the other, and the section is drawn.",
     "curves": "Curves in space, some of them on surfaces that hide half of them: a course, a knot, borders of holes.",
     "curvature_lines": "They cross at right angles, close, and bend round the umbilics, of which one is in front.",
