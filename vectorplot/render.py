@@ -11,7 +11,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.draw import chart_of, labels_in_place, lines_in_place, seen_part, with_smooth_surfaces
-from vectorplot.drawing.strokes.finishing import centre_lines_dashed
+from vectorplot.drawing.strokes.finishing import chain_lines_dashed
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.facets import Within
 from vectorplot.geometry.budget import budget_of
@@ -258,7 +258,7 @@ def render(
     if walk.calls_for("lines"):
         how_far = walk.fraction("lines")
         found = walk.run("lines", _lines, scene, placement, view, crease_angle_deg, budget, kinds, how_far)
-        found = centre_lines_dashed(found, placement.page_from_world, samples * PIXELS_PER_MM)
+        found = chain_lines_dashed(found, placement.page_from_world, samples * PIXELS_PER_MM)
     if walk.calls_for("labels"):
         beside = (scene, placement, view, crease_angle_deg, budget)
         found, labels = walk.run("labels", _with_labels, anchors, found, samples, *beside)

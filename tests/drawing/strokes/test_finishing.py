@@ -10,6 +10,7 @@ from support.sample_paths import length_mm, polylines
 from vectorplot.drawing.drawing import Layer, Pen
 from vectorplot.drawing.strokes import finishing
 from vectorplot.drawing.strokes.finishing import inked
+from vectorplot.words import LineKind
 
 
 def layers(count):
@@ -38,6 +39,21 @@ def test_hidden_strokes_are_dashed_in_their_layers(count):
     )
     for layer in inked(hidden, "dashed", np.eye(4)):
         assert len(layer.strokes[0]) > 1 and layer.strokes[0].item.tolist() == [7] * len(layer.strokes[0])
+
+
+@pytest.mark.parametrize(
+    ("kind", "chained"), [(LineKind.CENTRE, True), (LineKind.TRACE, True), (LineKind.CREASE, False)]
+)
+@pytest.mark.parametrize("hidden", ["none", "dashed"])
+def test_centre_lines_and_traces_are_long_dashes_and_dots(kind, chained, hidden):
+    line = replace(polylines([(0.0, 0.0), (50.0, 0.0)]), kind=np.array([int(kind)]))
+    (done,) = inked((Layer("k", Pen(), (line,)),), hidden, np.eye(4))
+    (paths,) = done.strokes
+    lengths = np.sort([np.ptp(one[:, 0]) for one in np.split(paths.points, paths.offsets[1:-1])])
+    if not chained:
+        assert lengths == pytest.approx([50.0])
+    else:
+        assert lengths[0] < 0.5 and lengths[-1] > 4.0 and len(paths) > 8
 
 
 def test_layers_without_strokes_stay_empty():

@@ -25,6 +25,8 @@ from vectorplot.words import LineKind
 DASH_MM = (2.0, 1.0)
 """Dash and gap of hidden lines."""
 
+CHAINED = (LineKind.CENTRE, LineKind.TRACE)
+"""Kinds of lines that are drawn as long dashes and dots."""
 
 MANY_PARTS = 32
 """The strokes of so many layers are joined and put in order layer by layer; those of more layers, which are small, all
@@ -69,15 +71,15 @@ def long_strokes(paths: Paths) -> Paths:
     return without_collinear_points(joined(paths, _group(paths), COINCIDENT_MM), COLLINEAR_MM)
 
 
-def centre_lines_dashed(paths: Paths, world: Floats, mm: float = 1.0) -> Paths:
-    """The strokes, of which centre lines are broken into long dashes and dots; mm: how long a millimetre is in units of
-    the page."""
-    centre = paths.kind == int(LineKind.CENTRE)
-    if not centre.any():
+def chain_lines_dashed(paths: Paths, world: Floats, mm: float = 1.0) -> Paths:
+    """The strokes, of which centre lines and traces are broken into long dashes and dots; mm: how long a millimetre is
+    in units of the page."""
+    chained = np.isin(paths.kind, CHAINED)
+    if not chained.any():
         return paths
     dash, gap, dot = (mm * length for length in CHAIN_MM)
-    broken = dashed(long_strokes(chosen(paths, centre)), dash, gap, world, dot_mm=dot)
-    return concatenated((chosen(paths, ~centre), broken))
+    broken = dashed(long_strokes(chosen(paths, chained)), dash, gap, world, dot_mm=dot)
+    return concatenated((chosen(paths, ~chained), broken))
 
 
 def _group(paths: Paths) -> Ints:
@@ -111,11 +113,11 @@ def _drawn(paths: Paths, pen: Pen, hidden: str, world: Floats, thinned: bool) ->
         long = thinned_ends(long, pen.width_mm, world)
     if pen.dash_mm is not None:
         return dashed(long, *pen.dash_mm, world) if any(pen.dash_mm) else long
-    centre = np.isin(long.kind, (LineKind.CENTRE, LineKind.TRACE))
-    behind = (((long.hidden_by > 0) & (hidden == "dashed")) | (long.kind == int(LineKind.GHOST))) & ~centre
-    parts = [chosen(long, ~(behind | centre))]
+    chained = np.isin(long.kind, CHAINED)
+    behind = (((long.hidden_by > 0) & (hidden == "dashed")) | (long.kind == int(LineKind.GHOST))) & ~chained
+    parts = [chosen(long, ~(behind | chained))]
     if behind.any():
         parts.append(dashed(chosen(long, behind), *DASH_MM, world))
-    if centre.any():
-        parts.append(centre_lines_dashed(chosen(long, centre), world))
+    if chained.any():
+        parts.append(chain_lines_dashed(chosen(long, chained), world))
     return concatenated(tuple(parts)) if len(parts) > 1 else long
