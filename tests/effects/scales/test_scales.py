@@ -70,7 +70,7 @@ def test_a_line_of_a_level_along_sides_has_no_comb():
 @pytest.mark.parametrize(
     ("by", "low", "high"),
     [("z", -1.0, 1.0), ("height", -1.0, 1.0), ("x*x", 0.0, 1.0), ("slope", 0.0, 90.0), (lambda p: p[:, 1], -1.0, 1.0)],
-    ids=str,
+    ids=["z", "height", "formula", "slope", "function"],
 )
 def test_the_bar_has_the_numbers_of_the_scene(by, low, high):
     scene, bar = coloured(vp.Scene((vp.Item("BALL", Sphere()),)), Colouring(by, steps=6))
