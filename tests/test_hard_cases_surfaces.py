@@ -109,6 +109,19 @@ def test_the_cuspidal_edge_of_a_swallowtail_keeps_its_cusp() -> None:
     assert distance(knots(drawing), on_page(drawing, np.zeros(3))) < 1e-6, "no curve is bent round the cusp"
 
 
+@pytest.mark.hard(49)
+@pytest.mark.parametrize("eye", [(-6.0, -4.0, 2.0), (4.0, -6.0, 3.0), (-5.0, -6.0, 5.0)])
+def test_the_cuspidal_edge_of_a_swallowtail_is_not_hidden_by_its_own_wings(eye) -> None:
+    """From these eyes nothing is in front of the edge: sight lines through nine million triangles tell. The wings have
+    no second order there, so it must not tell where a sight line meets them again."""
+    tail = surface_of_function(lambda u, v: (u, 4.0 * v**3 + 2.0 * u * v, -3.0 * v**4 - u * v * v), SQUARE)
+    drawing = vp.draw(
+        vp.Scene((vp.Item("tail", tail),)), vp.Camera(eye, (0.0, 0.0, 0.0)), lines="crease", hidden="solid"
+    )
+    lengths = {layer.name: sum(len(paths) for paths in layer.strokes) for layer in drawing.layers}
+    assert lengths["visible"] > 0 and not lengths.get("hidden")
+
+
 @pytest.mark.slow
 @pytest.mark.hard(49)
 def test_the_edge_of_the_tangents_of_a_helix_is_drawn_whole() -> None:

@@ -19,10 +19,13 @@ from vectorplot.visibility.smooth.chord_parts import ChordParts
 from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.smooth_lines import cut_lines_and_chords, whole_lines_and_chords
 from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
-from vectorplot.words import LineKind
+from vectorplot.words import FEATURE_KINDS, LineKind
 
 SCENES = single_surfaces() | implicit_surfaces() | mixed_scenes()
 STEP = 1e-3
+
+KINDS = frozenset(LineKind) - set(FEATURE_KINDS)
+"""Chords of feature lines may be too short to tell a direction by differences."""
 
 
 def apart(one, two):
@@ -51,7 +54,7 @@ def test_directions_are_those_of_the_curves(name):
     turn = list(SCENES).index(name) % 2
     for number, camera in enumerate(list(views(scene, 2, seed=len(name)))[turn :: several(2, long=1)]):
         view = look(scene, camera)
-        traced = traced_scene(scene, view, scene_sheets(scene, view), frozenset(LineKind), 1e-4)
+        traced = traced_scene(scene, view, scene_sheets(scene, view), KINDS, 1e-4)
         chords = whole_lines_and_chords(view, traced, joined_lines([])).chords
         random = np.random.default_rng(number)
         begin, end = np.sort(random.uniform(0.0, 1.0, (2, len(chords.chord))), axis=0)

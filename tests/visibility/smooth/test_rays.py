@@ -16,7 +16,8 @@ def test_points_behind_inside_in_front_and_beside() -> None:
     sheets = Sheets((sheet,))
     points = radius * np.array([[0.3, 0.2, -2.0], [0.3, 0.2, 0.0], [0.3, 0.2, 2.0], [1.2, 0.0, -2.0]])
     none, nowhere = np.full(4, -1), np.full((4, 3), np.nan)
-    samples = Samples(points, none, nowhere, none, nowhere, np.zeros(4, dtype=np.bool_))
+    no = np.zeros(4, dtype=np.bool_)
+    samples = Samples(points, none, nowhere, none, nowhere, no, no)
     assert counts_in_front(view, sheets, targets_of(view, sheets), samples, 1, USUAL.pairs)[0][:, 0].tolist() == [
         2,
         1,
@@ -30,7 +31,7 @@ def test_a_sphere_hides_its_own_lower_half() -> None:
     sheets = Sheets((sheet,))
     latitude = np.radians([-80.0, -30.0, -2.0, 2.0, 30.0, 80.0])
     places = np.stack([np.full(6, 0.7), latitude, np.zeros(6)], axis=1)
-    points, none = sheet.points(places), np.full(6, -1)
-    samples = Samples(points, np.zeros(6, np.intp), places, none, np.full((6, 3), np.nan), np.zeros(6, dtype=np.bool_))
+    points, none, no = sheet.points(places), np.full(6, -1), np.zeros(6, dtype=np.bool_)
+    samples = Samples(points, np.zeros(6, np.intp), places, none, np.full((6, 3), np.nan), no, no)
     found = counts_in_front(view, sheets, targets_of(view, sheets), samples, 1, USUAL.pairs)[0][:, 0]
     assert np.array_equal(found > 0, points[:, 2] < 0.0)

@@ -18,6 +18,7 @@ from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.targets import Targets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+from vectorplot.words import LineKind
 
 CANDIDATES = (0.5, 0.3, 0.7, 0.12, 0.88)
 """Parts of a piece at which its safest point is looked for."""
@@ -193,8 +194,10 @@ def _safest(
 def samples_at(curves: Curves, edge_on: Bools, chord: Ints, part: Floats) -> Samples:
     """Points of curves, to look from."""
     found, curve = curves.at(chord, part), curves.owner[chord]
+    second = curves.second_sheet[curve]
+    cuspidal = (curves.kind[curve] == LineKind.CREASE) & (second < 0)
     return Samples(
-        found.points, curves.sheet[curve], found.places, curves.second_sheet[curve], found.second_places, edge_on[curve]
+        found.points, curves.sheet[curve], found.places, second, found.second_places, edge_on[curve], cuspidal
     )
 
 

@@ -37,7 +37,7 @@ _Found = tuple[Ints, Ints, Ints]
 @dataclass(frozen=True, eq=False)
 class Samples:
     """Points (k,3) to look from; own sheet (k,) or -1 and place (k,3) there; second sheet and place likewise; contour
-    (k,): whether the point lies on the contour of its own sheet."""
+    (k,): whether the point lies on the contour of its own sheet; cuspidal (k,): whether on a cuspidal edge of it."""
 
     points: Floats
     sheet: Ints
@@ -45,6 +45,7 @@ class Samples:
     second: Ints
     second_places: Floats
     contour: Bools
+    cuspidal: Bools
 
     def __len__(self) -> int:
         return len(self.points)
@@ -113,7 +114,8 @@ def _in_front(
         edge, near = contour[sample[mine]], distance[mine]
         front[mine] &= ~(edge & ((near < CONTACT_MEETING) | (apart < CONTACT_PLACES)))
         # The sheet itself and its second meeting nearby: the one is no meeting, the other is told below.
-        here = np.flatnonzero(looked_at[own] & ~contour)
+        # Both wings of a cuspidal edge leave it bent without bound: to second order tells nothing, and they end there.
+        here = np.flatnonzero(looked_at[own] & ~contour & ~samples.cuspidal)
         again = np.full(len(samples), np.inf)
         again[here] = _second_meeting(sheets, own[here], way[here], own_places[here]) * long[here]
         nearby = np.abs(again) < LOCAL_MEETING
