@@ -95,7 +95,7 @@ class StackedSurfaces:
 
 @dataclass(frozen=True, eq=False)
 class SurfaceRows:
-    """Surfaces of a stack, one for each of k pairs of parameters: a surface that is asked for arrays (k,) only."""
+    """Surfaces of a stack, one for each of k pairs of parameters: a surface that is asked for arrays (...,k) only."""
 
     stack: StackedSurfaces
     row: Ints
@@ -112,22 +112,22 @@ class SurfaceRows:
         return cast(Domain, DomainRows(u_start, u_end, v_start, v_end, first.closed_u, first.closed_v))
 
     def points(self, u: Floats, v: Floats) -> Floats:
-        """(k,3) points."""
+        """(...,k,3) points."""
         (at_home,) = self._asked(lambda surface, u, v: (surface.points(u, v),), 1, u, v)
         return self._turned(at_home) + self.stack.shifts[self.row]
 
     def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
-        """(k,3) derivatives by u and by v."""
+        """(...,k,3) derivatives by u and by v."""
         by_u, by_v = self._asked(lambda surface, u, v: surface.partials(u, v), 2, u, v)
         return self._turned(by_u), self._turned(by_v)
 
     def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
-        """(k,3) second derivatives: by u twice, by u and v, by v twice."""
+        """(...,k,3) second derivatives: by u twice, by u and v, by v twice."""
         uu, uv, vv = self._asked(lambda surface, u, v: surface.second_partials(u, v), 3, u, v)
         return self._turned(uu), self._turned(uv), self._turned(vv)
 
     def _turned(self, vectors: Floats) -> Floats:
-        return np.asarray(np.einsum("ki,kij->kj", vectors, self._matrices))
+        return np.asarray(np.einsum("...ki,kij->...kj", vectors, self._matrices))
 
     @cached_property
     def _matrices(self) -> Floats:
@@ -137,17 +137,17 @@ class SurfaceRows:
     def _asked(
         self, question: Callable[[Surface, Floats, Floats], Sequence[Floats]], answers: int, u: Floats, v: Floats
     ) -> Sequence[Floats]:
-        """What the surfaces say before they are placed, so many arrays (k,3), each kind asked once."""
+        """What the surfaces say before they are placed, so many arrays (...,k,3), each kind asked once."""
         kinds = self.stack.kinds
         if len(kinds) == 1:
             return question(kinds[0].at(self.row), u, v)
-        result = [np.empty((len(self.row), 3)) for _ in range(answers)]
+        result = [np.empty((*np.shape(u), 3)) for _ in range(answers)]
         of = self.stack.kind[self.row]
         order = np.argsort(of, kind="stable")
         for own in np.split(order, np.flatnonzero(np.diff(of[order])) + 1) if len(order) else ():
-            found = question(kinds[of[own[0]]].at(self.row[own]), u[own], v[own])
+            found = question(kinds[of[own[0]]].at(self.row[own]), u[..., own], v[..., own])
             for whole, part in zip(result, found, strict=True):
-                whole[own] = part
+                whole[..., own, :] = part
         return result
 
 

@@ -96,6 +96,17 @@ def test_faces_of_cuts_have_the_area_of_the_true_section(shape, text, area):
     assert found / 2.0 == pytest.approx(area, rel=2e-4)
 
 
+def test_smooth_surfaces_that_are_cut_alike_are_drawn_each_in_its_place():
+    places, tube = (-4.0, 4.0), 0.5
+    rings = [vp.Item(f"R{x}", Torus(2.0, tube).moved(x, 0, 0.1 * x), lines=("contour",)) for x in places]
+    drawing = vp.draw(vp.cut(vp.Scene(tuple(rings)), "y < 0"), CAMERA)
+    found = strokes(drawing, "cut").reshape(-1, 3)
+    middles = np.array([(x + side, 0.0, 0.1 * x) for x in places for side in (-2.0, 2.0)])
+    far = np.linalg.norm(found[:, None] - middles, axis=2)
+    assert np.abs(found[:, 1]).max() < 1e-6 and np.abs(far.min(axis=1) - tube).max() < 1e-3
+    assert set(np.argmin(far, axis=1)) == set(range(len(middles)))
+
+
 def test_parts_that_touch_are_hatched_otherwise_and_parts_in_parts_are_cut_out():
     items = [vp.Item(f"P{k}", box((1, 1, 1)).moved(k, 0, 0)) for k in range(4)]
     items += [vp.Item("inner", box((0.5, 1, 0.5)).moved(0.25, 0, 0.25))]

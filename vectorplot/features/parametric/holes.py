@@ -6,6 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.parametric.wrapping import wrapped
+from vectorplot.surfaces.stacked import of_some
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_parameters import (
     AROUND_RIM,
@@ -84,10 +85,11 @@ def beside_rim_chords(surface: Surface, start: Floats, end: Floats, part: Floats
     low, high = np.concatenate([[0.0, 0.0], aside])[first], aside[first]
     row = np.flatnonzero(found)
     low, high = low[row], high[row]
-    low, high = last_alike(surface, base[row], across[row], low, high)
+    own = of_some(surface, row)
+    low, high = last_alike(own, base[row], across[row], low, high)
     result = np.where(there[:, None], base, np.where((part < 0.5)[:, None], start, end))
     inwards = np.where(there[row], -np.sign(high), np.sign(high))[:, None] * across[row]
-    result[row] = just_inside(surface, base[row] + np.where(there[row], low, high)[:, None] * across[row], inwards)
+    result[row] = just_inside(own, base[row] + np.where(there[row], low, high)[:, None] * across[row], inwards)
     return result, found
 
 
