@@ -106,7 +106,8 @@ def _by_sheets(scene: Scene, view: View, points: Floats, items: int) -> Bools:
     sheets = Sheets(scene_sheets(scene, view, frozenset(range(items)) - frozenset(near)))
     count = points.shape[1]
     nothing, nowhere = np.full(count, -1), np.full((count, 3), np.nan)
-    samples = Samples(points.T, nothing, nowhere, nothing, nowhere, np.zeros(count, dtype=np.bool_))
+    no = np.zeros(count, dtype=np.bool_)
+    samples = Samples(points.T, nothing, nowhere, nothing, nowhere, no, no)
     counts, _ = counts_in_front(view, sheets, targets_of(view, sheets), samples, items, USUAL.pairs)
     return np.asarray(counts > 0, dtype=np.bool_)
 
