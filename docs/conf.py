@@ -45,8 +45,8 @@ CONTENTS = {
         "gallery/README",
     ),
     "What it does": (
-        *("drawing", "labels", "hatching", "paint", "render", "scene-language", "molecules", "landscapes"),
-        "textbook",
+        *("drawing", "feature-lines", "cuts", "labels", "hatching", "paint", "render", "colour-maps"),
+        *("scene-language", "molecules", "landscapes", "textbook"),
     ),
     "Reference": ("command", "python", "reference/vectorplot", *(f"reference/{room}" for room in ROOMS)),
     "How exact, how fast": ("accuracy-and-limits", "accuracy", "stability", "speed", "tolerances"),

@@ -35,6 +35,7 @@ ARROW_MM, HEAD_MM, SLOPE = 9.0, 4.0, 0.18
 """The lengths of arrows and their heads, and half of the width of heads as a part of their length."""
 
 LETTERS_MM = 5.0
+"""The height of the letters of sections."""
 
 ROOM_MM = 14.0
 """What a cutting line needs on each side of the part, and the letters over a section view."""

@@ -97,6 +97,7 @@ def test_paint_names_what_is_transparent_and_what_lacks_its_shadows() -> None:
     """What is transparent itself shows no shadows of what is."""
     crowd = Item("CROWD", plates(), "blue", vp.Material("transparent"))
     scene = Scene((crowd, Item("OTHERS", plates(0.5), "red")), lights=LAMPS[:1])
-    itself, others = lines_of(scene, budget=1e-4)
+    blended, itself, others = lines_of(scene, budget=1e-4)
+    assert blended.startswith("CROWD: too much that is transparent ")
     assert itself.startswith("OTHERS: more shadows on itself ")
     assert others.startswith("CROWD: more shadows on OTHERS ") and "LOW" in others and "--budget" in others

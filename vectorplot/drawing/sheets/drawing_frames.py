@@ -33,6 +33,7 @@ SHORTEST_ZONE = 0.25
 """What is left at an end is a zone of its own where it is no shorter, as a part of a whole one."""
 
 LETTERS_MM = 3.5
+"""The height of the names of zones."""
 
 LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ"
 """The names of zones from the top down, without I and O, which look like figures."""

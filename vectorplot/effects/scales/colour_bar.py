@@ -31,6 +31,7 @@ LETTERS_MM = 2.5
 """The height of capitals."""
 
 TICK_MM = 1.2
+"""The length of ticks."""
 
 TICKS = 6
 """About so many."""
