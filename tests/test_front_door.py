@@ -69,9 +69,10 @@ def test_no_name_of_a_room_is_also_a_file_or_a_folder_there(room):
 
 def test_every_room_with_stages_of_the_walk_has_a_front_door():
     folders = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
-    # Command and speed are for the shell, charts for what they measure, the stages of paint and of sheets for the
-    # verbs, the table of tolerances for the package.
-    assert folders - ROOMS == {"charts", "cli", "painting", "speed", "technical", "tolerances"}
+    # Command and speed are for the shell, charts for what they measure, stages and those of single verbs for these,
+    # the table of tolerances for the package.
+    stages = {"linework", "painting", "rendering", "stages", "technical"}
+    assert folders - ROOMS == {*stages, "charts", "cli", "speed", "tolerances"}
 
 
 def test_examples_and_pages_import_no_deeper_than_a_room():

@@ -248,7 +248,7 @@ MILLION = """
 import sys
 import numpy as np
 import vectorplot as vp
-from vectorplot.plan import peak_mb
+from vectorplot.stages.walk import peak_mb
 from vectorplot.testing import visible_by_rays
 from vectorplot.testing.curved_meshes import grid_graph
 sys.path.insert(0, sys.argv[1])

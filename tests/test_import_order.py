@@ -23,7 +23,8 @@ ORDER = [
     *("drawing", "charts", "effects", "animation", "textbook", "backends"),
     *("verbs", "testing", "accuracy", "speed", "cli"),
 ]
-VERBS = {"draw", "paint", "painting", "panorama", "read", "render", "save", "plan", "technical"}
+VERBS = {"draw", "paint", "panorama", "read", "render", "save", "plan"}
+STAGES = {"linework", "painting", "rendering", "stages", "technical"}
 
 # Pictures show themselves in a notebook and save themselves; the import happens when they are asked to.
 ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "verbs"), ("shading/raster/image.py", "verbs")}
@@ -58,7 +59,7 @@ FILES = sorted(path.relative_to(PACKAGE).as_posix() for path in PACKAGE.rglob("*
 
 def room(parts: tuple[str, ...]) -> str:
     name = parts[0].removesuffix(".py")
-    return "verbs" if name in VERBS else "cli" if name == "__main__" else name
+    return "verbs" if name in VERBS | STAGES else "cli" if name == "__main__" else name
 
 
 def imported_modules(tree: ast.AST, package: tuple[str, ...]) -> set[tuple[str, ...]]:

@@ -15,9 +15,9 @@ from vectorplot.draw import draw
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.io.read_file import read
 from vectorplot.paint import paint
-from vectorplot.plan import Stage, StageReport, Walk
 from vectorplot.render import render
 from vectorplot.scene.scene import Item, Light, Material, Pattern, Scene
+from vectorplot.stages.walk import Stage, StageReport, Walk
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing.shapes import box

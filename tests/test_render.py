@@ -14,13 +14,13 @@ from support.rendered import SIZE, SUN, coloured_boxes, grown, levels, sphere
 import vectorplot as vp
 from vectorplot import render as render_verb
 from vectorplot.errors import InputError
-from vectorplot.plan import StageReport
 from vectorplot.render import render
 from vectorplot.save import write
 from vectorplot.scene.point_of_view import default_camera
 from vectorplot.shading.light.illumination import AMBIENT, DARK_SIDE, DIRECT_SHARE, FINISHES
 from vectorplot.shading.light.palettes import PALETTE_LIMITS, palette
 from vectorplot.shading.raster import scene_pixels
+from vectorplot.stages.walk import StageReport
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing.shapes import box
 
@@ -122,7 +122,7 @@ def test_pictures_in_bands_are_the_whole_ones(monkeypatch):
     scene = replace(coloured_boxes(), lights=(SUN,))
     options = {"size": (97, 61), "samples": 3, "shadows": "buffer"}
     whole = render(scene, **options)
-    monkeypatch.setattr(sys.modules["vectorplot.render"], "BAND_PIXELS", 97 * 9 * 4)
+    monkeypatch.setattr(sys.modules["vectorplot.rendering.pixel_bands"], "BAND_PIXELS", 97 * 9 * 4)
     monkeypatch.setattr(scene_pixels, "POINTS_AT_ONCE", 500)
     bands = render(scene, **options)
     assert (whole.pixels == bands.pixels).all()

@@ -91,7 +91,7 @@ def stage_names(scene, *, shadows="none", lines=False):
 
 @pytest.mark.slow
 def test_progress_never_goes_back(monkeypatch):
-    monkeypatch.setattr(sys.modules["vectorplot.render"], "BAND_PIXELS", 240 * 20)
+    monkeypatch.setattr(sys.modules["vectorplot.rendering.pixel_bands"], "BAND_PIXELS", 240 * 20)
     told = []
     scene = replace(coloured_boxes(), lights=(SUN,))
     render(scene, size=SIZE, progress=lambda stage, part: told.append((part, stage)))

@@ -8,7 +8,6 @@ from typing import Literal
 
 import numpy as np
 
-from vectorplot.draw import beside_bar, chart_of, left_of_bar, seen_part, titled
 from vectorplot.drawing.drawing import Drawing, Layer
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.painted_fills import placement_of_faces
@@ -19,28 +18,27 @@ from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.chunks import threads_of
-from vectorplot.io.anything import scene_of
+from vectorplot.linework.ruler import PEN, Ruler
 from vectorplot.painting.coloured import coloured
 from vectorplot.painting.erased import erased
 from vectorplot.painting.ordered_faces import ordered_faces, seen_on_page
 from vectorplot.painting.painted_paper import background as background_of
 from vectorplot.painting.painted_paper import paper
-from vectorplot.painting.ruler import PEN, Ruler
-from vectorplot.plan import StageReport, Walk, accuracy_of_paint, plan_paint, with_accuracy
+from vectorplot.plan import accuracy_of_paint, plan_paint, with_accuracy
 from vectorplot.scene.fitted_pages import FittedPage
 from vectorplot.scene.naming.annotations import annotation_points
-from vectorplot.scene.naming.label_anchors import label_anchors
 from vectorplot.scene.placement import allowed_in_space
-from vectorplot.scene.point_of_view import camera_of, page_of
+from vectorplot.scene.point_of_view import page_of
 from vectorplot.scene.scene import Light, Page
-from vectorplot.scene.seamless_scene import without_seams
 from vectorplot.scene.twins import without_twins
-from vectorplot.scene.unbounded_items import tell_what_is_cut_off
 from vectorplot.shading.light.face_shades import view_lights
 from vectorplot.shading.light.fineness import picture_fineness
 from vectorplot.shading.light.painted_colours import Lighting
 from vectorplot.shading.light.painted_normals import painted_normals
 from vectorplot.shading.light.palettes import PALETTE_SIZE
+from vectorplot.stages.around_picture import beside_bar, left_of_bar, room_for_labels, titled
+from vectorplot.stages.subject import subject_of
+from vectorplot.stages.walk import StageReport, Walk
 from vectorplot.words import LINE_WORDS, TEXT_WORDS, check_word, line_kinds
 
 
@@ -159,20 +157,13 @@ def paint(
     check_word("text", text, TEXT_WORDS)
     budget_of(budget)
     threads = threads_of(jobs)
-    given = scene_of(scene)
-    chart = chart_of(given, camera)
-    given, camera, bar = (given, camera, None) if chart is None else (chart.scene, chart.camera, chart.bar)
-    given = given if background is None else replace(given, background=background)
-    anchors = label_anchors(given)
-    scene = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
-    tell_what_is_cut_off(scene)
-    camera = camera_of(camera, scene)
-    scene = seen_part(scene, camera, explain, progress)
-    sheet, strip = left_of_bar(page_of(page, scene, width, fit), bar)
+    subject = subject_of(scene, camera, explain, progress, lights=lights, background=background)
+    scene = subject.scene
+    sheet, strip = left_of_bar(page_of(page, scene, width, fit), subject.bar)
     kinds = line_kinds(lines)
     stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
     walk = Walk(stages, explain, progress, threads)
-    projection = projection_of(camera, scene.bounds)
+    projection = projection_of(subject.camera, scene.bounds)
     # Lines belong to each item, polygons to what is seen.
     shown = scene if kinds or fills == "erasing" else without_twins(scene)
 
@@ -186,8 +177,8 @@ def paint(
 
     ordered = ordered_faces(walk, scene, shown, projection, demand, budget_of(budget))
     placement = placement_of_faces(ordered.view, ordered.faces, sheet, fit, annotation_points(scene))
-    if chart is not None and fit:
-        placement = chart.around(placement, ordered.view, sheet)
+    if fit:
+        placement = subject.around(placement, ordered.view, sheet)
     seen, plane = seen_on_page(walk, ordered, placement, budget_of(budget))
     view, true = seen.view, ordered.facets.normals
     page, world = placement.page, placement.page_from_world
@@ -199,7 +190,7 @@ def paint(
         # Pens have no gradients: meshes and planes keep one shade for each of their faces.
         normals = painted_normals(view, scene.items, (), true, plane, 0.0)
     lighting = Lighting(scene.items, here, normals, plane, palette)
-    ruler = Ruler(scene, seen, crease_angle_deg, tolerance_mm, budget)
+    ruler = Ruler(scene, view, seen.projected, seen.placement, crease_angle_deg, tolerance_mm, budget)
     if walk.calls_for("erasing"):
         polygons = erased(walk, seen, scene, ruler, kinds or line_kinds(LINE_WORDS), palette)
     else:
@@ -216,7 +207,7 @@ def paint(
     found = walk.run("lines", ruler.found, kinds, walk.fraction("lines")) if walk.calls_for("lines") else None
     labels = None
     if walk.calls_for("labels"):
-        labels = walk.run("labels", ruler.labels, anchors, found, text)
+        labels = walk.run("labels", ruler.labels, subject.anchors, found, text)
         found = found and labels.interrupted(found, world)
         from vectorplot.drawing.fills_without_overlaps import cut_out
 
@@ -227,16 +218,14 @@ def paint(
         layers += ruler.layers(found)
     if labels is not None:
         layers = labels.on_top(layers, False, None, world)
+        layers, placement = room_for_labels(layers, placement, labels, sheet)
         if isinstance(sheet, FittedPage):
-            from vectorplot.drawing.lettering.room_for_labels import with_room
-
-            layers, placement = with_room(layers, placement, labels.boxes)
             page, world = placement.page, placement.page_from_world
             layers = (replace(layers[0], marks=(*background_of(scene, page), *layers[0].marks)), *layers[1:])
     layers = titled(layers, placement, title, frame, text=text)
     names = tuple(item.name for item in scene.items)
     drawing = Drawing(page.width_mm, page.height_mm, layers, names, scene.title, world)
-    return beside_bar(drawing, bar, strip, scene.background)
+    return beside_bar(drawing, subject.bar, strip, scene.background)
 
 
 def _check_options(

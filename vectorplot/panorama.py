@@ -6,15 +6,11 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
-from vectorplot.draw import lines_in_place, titled
 from vectorplot.drawing.drawing import Drawing, Layer, Paths
-from vectorplot.drawing.layers import FRAME_PEN, letter_pen
-from vectorplot.drawing.pens.paper import sheet_layer
-from vectorplot.drawing.pens.pen_rules import Pens, frame_pen, pen_of, pen_rules
-from vectorplot.drawing.pens.sorted_layers import line_list, not_plotted, sorted_layers
+from vectorplot.drawing.pens.pen_rules import Pens, pen_rules
+from vectorplot.drawing.pens.sorted_layers import line_list, sorted_layers
 from vectorplot.drawing.pens.style_file import style_of
 from vectorplot.drawing.pens.styles import Style
-from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.effects.panoramas.standing import eye_of
 from vectorplot.effects.panoramas.strips import panorama_on_page
 from vectorplot.errors import InputError
@@ -22,14 +18,17 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.panorama import Panorama
 from vectorplot.geometry.chunks import threads_of
 from vectorplot.io.anything import scene_of
-from vectorplot.plan import StageReport, Walk, plan_panorama
+from vectorplot.linework.finish import Finish
+from vectorplot.linework.lines_in_place import lines_in_place
+from vectorplot.plan import plan_panorama
 from vectorplot.scene.placement import field_of_vision
 from vectorplot.scene.point_of_view import page_of
 from vectorplot.scene.scene import Page, Scene
 from vectorplot.scene.seamless_scene import without_seams
 from vectorplot.scene.view import look
+from vectorplot.stages.walk import StageReport, Walk
 from vectorplot.visibility.projected_faces import project_faces
-from vectorplot.words import DRAWN, LineKind, check_colour, line_kinds
+from vectorplot.words import DRAWN, LineKind, line_kinds
 
 
 def panorama(
@@ -103,7 +102,19 @@ def panorama(
     chosen = style_of(style)
     if chosen.look != "plain":
         raise InputError(f"panorama: a picture in the style {chosen.look} shows all lines, and a panorama those seen")
-    allowed, threads = budget, threads_of(jobs)
+    finish = Finish(
+        look=chosen.look,
+        hidden="none",
+        layers=chosen.layers if layers is None else layers,
+        rules=(*chosen.rules, *pen_rules(pens, dashes)),
+        background=chosen.background if background is None else background,
+        curved_mm=tolerance_mm if curves == "bezier" else None,
+        longest_mm=longest_mm,
+        title=title,
+        frame=frame,
+        unplotted=line_list(unplotted),
+    )
+    threads = threads_of(jobs)
     round_about = place if isinstance(place, Panorama) else Panorama(tuple(place))
     kinds = line_kinds(DRAWN if lines is None else lines)
     seamless = without_seams(scene_of(scene))
@@ -116,28 +127,18 @@ def panorama(
         kinds=kinds,
         crease_angle_deg=crease_angle_deg,
         tolerance_mm=tolerance_mm,
-        budget=allowed,
+        budget=budget,
     )
     strokes, marks, placement = walk.run(
         "panorama", panorama_on_page, round_about, eye, sheet, tolerance_mm, trace, walk.fraction("panorama")
     )
-    rules = (*chosen.rules, *pen_rules(pens, dashes))
-    names, colours = ([getattr(item, field) for item in seamless.items] for field in ("name", "colour"))
-    shared = chosen.layers if layers is None else layers
-    found = walk.run("layers", sorted_layers, strokes, names, colours, shared, rules)
-    curved = tolerance_mm if curves == "bezier" else None
-    world = placement.page_from_world
-    inks = walk.run("pen", inked, found, "none", world, curved, longest_mm, False)
-    letters = pen_of(rules, letter_pen(found), int(LineKind.LABEL), False, "")
-    border = frame_pen(rules, replace(FRAME_PEN, colour=letters.colour))
-    inks = titled((*inks, Layer("bearings", letters, (marks,))), placement, title, frame, border, longest_mm)
-    paper = chosen.background if background is None else background
-    if paper is not None:
-        check_colour(paper, "background: ")
-        inks = (sheet_layer(paper, placement.page), *inks)
-    inks = not_plotted(inks, line_list(unplotted), (*names, *colours))
-    sheet = placement.page
-    return Drawing(sheet.width_mm, sheet.height_mm, inks, tuple(names), seamless.title, world)
+    found = walk.run("layers", sorted_layers, strokes, *_names_and_colours(seamless), finish.layers, finish.rules)
+    inks, letters = finish.inked(walk, found, placement), finish.letters(found)
+    return finish.drawing((*inks, Layer("bearings", letters, (marks,))), placement, seamless, letters)
+
+
+def _names_and_colours(scene: Scene) -> tuple[list[str], list[str]]:
+    return [item.name for item in scene.items], [item.colour for item in scene.items]
 
 
 def _seen_by(

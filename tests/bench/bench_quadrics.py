@@ -10,12 +10,12 @@ import pytest
 
 from vectorplot.draw import draw
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.plan import StageReport
 from vectorplot.scene.added_lines import even_sections, with_lines
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Item, Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, even_cosines
 from vectorplot.speed.clock import cpu_seconds
+from vectorplot.stages.walk import StageReport
 from vectorplot.surfaces.families.capped import Capped, rod
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere

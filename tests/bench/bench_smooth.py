@@ -7,10 +7,10 @@ import pytest
 
 from vectorplot.draw import draw
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.plan import StageReport
 from vectorplot.scene.scene import Item, Light, Scene
 from vectorplot.scene.surface_lines import SurfaceLines, even_cosines
 from vectorplot.speed.clock import cpu_seconds
+from vectorplot.stages.walk import StageReport
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
 

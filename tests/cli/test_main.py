@@ -259,15 +259,15 @@ def test_a_reader_that_went_away_is_no_traceback(cube):
 
 SLOW = """
 import sys, time
-import vectorplot.plan as plan
+import vectorplot.stages.walk as walk
 from vectorplot.cli.main import run
-real = plan.Walk.run
+real = walk.Walk.run
 def slow(self, name, function, *args, **kwargs):
     if name == "write":
         print("working", flush=True)
         time.sleep(30)
     return real(self, name, function, *args, **kwargs)
-plan.Walk.run = slow
+walk.Walk.run = slow
 sys.exit(run(sys.argv[1:]))
 """
 

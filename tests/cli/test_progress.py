@@ -4,7 +4,7 @@ import warnings
 
 from vectorplot.cli import progress
 from vectorplot.errors import InputWarning
-from vectorplot.plan import StageReport
+from vectorplot.stages.walk import StageReport
 
 
 class Terminal(io.StringIO):

@@ -21,8 +21,8 @@ from support.paths import ROOT
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.cli.stopping import stoppable
-from vectorplot.plan import Walk
 from vectorplot.save import write
+from vectorplot.stages.walk import Walk
 
 SCENE = """
 light LAMP position 4 -6 9

@@ -19,9 +19,9 @@ from vectorplot.errors import InputError, InputWarning
 
 if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Drawing
-    from vectorplot.plan import StageReport
     from vectorplot.scene.scene import Scene
     from vectorplot.shading.raster.image import Image
+    from vectorplot.stages.walk import StageReport
 
 
 AFTER_A_NAME = (": ", ", ", " and ")
@@ -82,8 +82,8 @@ def make_picture(
     """
     from vectorplot.drawing.drawing import Drawing
     from vectorplot.geometry.chunks import threads_of
-    from vectorplot.plan import Stage, Walk
     from vectorplot.save import write, write_for_latex
+    from vectorplot.stages.walk import Stage, Walk
 
     reports: list[StageReport] = []
     stages = (Stage("read", source.name), Stage("write", f"as {format_}"))

@@ -15,7 +15,7 @@ import click
 from vectorplot.errors import InputWarning
 
 if TYPE_CHECKING:
-    from vectorplot.plan import StageReport
+    from vectorplot.stages.walk import StageReport
 
 PATIENCE_S = 0.5
 """Work shorter than this shows no bar."""
@@ -88,7 +88,7 @@ def told_warnings(*, quiet: bool) -> Iterator[None]:
 
 def table(reports: Sequence[StageReport]) -> str:
     """What the stages cost, a line each: time, how much came out, the process's peak memory by then, and why."""
-    from vectorplot.plan import STAGE_NAME
+    from vectorplot.stages.walk import STAGE_NAME
 
     head = f"{'stage':<{STAGE_NAME}}  {'ms':>9}  {'count':>9}  {'peak MB':>8}  why"
     peak = max((report.peak_mb for report in reports), default=0.0)

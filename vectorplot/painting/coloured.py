@@ -14,11 +14,11 @@ from vectorplot.drawing.painted_fills import Overlay, fills_on_page, stacked
 from vectorplot.geometry.budget import Budget
 from vectorplot.painting.painted_paper import background, paper
 from vectorplot.painting.seen import Seen, finer, shades_of_faces
-from vectorplot.plan import Walk
 from vectorplot.scene.scene import Page
 from vectorplot.shading.light.face_shades import Shades
 from vectorplot.shading.light.painted_colours import Lighting, colours_of, opacities
 from vectorplot.shading.light.refinement import shade_error
+from vectorplot.stages.walk import Walk
 
 if TYPE_CHECKING:
     from vectorplot.effects.decals.decal_polygons import Decals

@@ -9,13 +9,13 @@ import numpy as np
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.painted_fills import fills_on_page
+from vectorplot.linework.ruler import PEN, Ruler
 from vectorplot.painting.painted_paper import paper
-from vectorplot.painting.ruler import PEN, Ruler
 from vectorplot.painting.seen import Seen
-from vectorplot.plan import Walk
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.light.face_shades import item_colours
 from vectorplot.shading.light.palettes import shaded_colours
+from vectorplot.stages.walk import Walk
 from vectorplot.words import LineKind
 
 

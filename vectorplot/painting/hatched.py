@@ -13,7 +13,7 @@ from vectorplot.geometry.budget import Budget
 from vectorplot.painting.coloured import coloured
 from vectorplot.painting.hatching_lines import followed_lines
 from vectorplot.painting.ordered_faces import ordered_faces, seen_on_page
-from vectorplot.plan import Walk, plan_paint
+from vectorplot.plan import plan_paint
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Scene
@@ -23,6 +23,7 @@ from vectorplot.shading.light.fineness import picture_fineness
 from vectorplot.shading.light.illumination import AMBIENT
 from vectorplot.shading.light.painted_colours import Lighting
 from vectorplot.shading.light.painted_normals import painted_normals
+from vectorplot.stages.walk import Walk
 
 GRAY = "gray"
 """The palette that runs from black to white."""

@@ -21,13 +21,13 @@ from vectorplot.painting.reports import (
     warn_of_single_polygons,
 )
 from vectorplot.painting.seen import Seen, without_unseen_facets
-from vectorplot.plan import Walk
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, view_of
 from vectorplot.shading.light.faceted import FacetedScene, faceted
 from vectorplot.shading.light.flat_regions import plane_numbers
 from vectorplot.shading.light.painted_colours import opacities
+from vectorplot.stages.walk import Walk
 from vectorplot.tolerances.of_the_page import SIDE_BY_SIDE_MM
 from vectorplot.visibility.painter.gathering import side_by_side
 from vectorplot.visibility.painter.height_fields import known_orders

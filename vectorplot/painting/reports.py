@@ -9,9 +9,9 @@ from vectorplot.arrays import Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.budget import unresolved
-from vectorplot.plan import Walk
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section
+from vectorplot.stages.walk import Walk
 from vectorplot.visibility.painter.painters_order import Painted
 
 MOST_NAMES = 5

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from vectorplot.plan import peak_mb
+from vectorplot.stages.walk import peak_mb
 
 _RESET = Path("/proc/self/clear_refs")
 """Where Linux forgets the peak of a process's memory so far."""

@@ -12,12 +12,12 @@ from vectorplot.draw import draw
 from vectorplot.geometry.budget import unheard
 from vectorplot.geometry.chunks import threads_of
 from vectorplot.paint import paint
-from vectorplot.plan import StageReport
 from vectorplot.render import render
 from vectorplot.speed.clock import cpu_seconds, peak_of, wall_seconds
 from vectorplot.speed.log import Log, Measured, Threads
 from vectorplot.speed.operations import array_operations, call_operations, point_cost
 from vectorplot.speed.scenes import SERIES, Series
+from vectorplot.stages.walk import StageReport
 
 VERBS: dict[str, Callable[..., object]] = {"draw": draw, "paint": paint, "render": render}
 

@@ -21,10 +21,10 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
-from vectorplot.plan import StageReport
 from vectorplot.scene.naming.joined_scenes import together
 from vectorplot.scene.point_of_view import camera_of, page_of
 from vectorplot.scene.scene import Page, Scene
+from vectorplot.stages.walk import StageReport
 from vectorplot.technical.annotations import (
     TEXT_MM,
     Annotation,

@@ -1,4 +1,4 @@
-"""The exact visible lines of a scene, in their places on a painted picture."""
+"""The exact visible lines of a scene, and its labels, in their places on a picture of its faces."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from vectorplot.draw import labels_in_place, lines_in_place, with_smooth_surfaces
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.layers import layers_by_kind
 from vectorplot.drawing.strokes.finishing import inked
-from vectorplot.painting.seen import Seen
+from vectorplot.linework.labels_in_place import labels_in_place
+from vectorplot.linework.lines_in_place import lines_in_place, with_smooth_surfaces
 from vectorplot.scene.naming.annotations import only_annotations
 from vectorplot.scene.naming.label_anchors import LabelAnchors
+from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import ProjectedFaces
@@ -25,13 +26,19 @@ if TYPE_CHECKING:
 PEN = Pen()
 """What draws lines among fills."""
 
+OUTLINES = frozenset({LineKind.CONTOUR, LineKind.BOUNDARY})
+"""What labels keep off where no lines are drawn."""
+
 
 @dataclass(frozen=True, eq=False)
 class Ruler:
-    """How the lines of a scene come to be on a picture of it, where its polygons have their place."""
+    """How the lines of a scene come to be on a picture of its faces. view: of the latter, surfaces as triangles; faces:
+    its faces in the image, where they are known; all else as of draw, in the units of the placement's page."""
 
     scene: Scene
-    seen: Seen
+    view: View
+    faces: ProjectedFaces | None
+    placement: Placement
     crease_angle_deg: float
     tolerance_mm: float
     budget: float
@@ -40,28 +47,29 @@ class Ruler:
         """The visible lines, as they come; of no kinds those of annotations."""
         return self._found(self.scene if kinds else only_annotations(self.scene), kinds, progress)
 
-    def labels(self, anchors: LabelAnchors, strokes: Paths | None, text: str) -> SceneLabels:
+    def labels(
+        self, anchors: LabelAnchors, strokes: Paths | None, text: str = "strokes", mm: float = 1.0
+    ) -> SceneLabels:
         """The labels of the scene, apart from strokes, or where there are none from its contours; text: a word of
-        LETTERS."""
-        if strokes is None:
-            strokes = self._found(self.scene, frozenset({LineKind.CONTOUR, LineKind.BOUNDARY}), None)
-        return labels_in_place(self.scene, *self._view, self.seen.placement, anchors, strokes, text=text)
+        LETTERS; mm: how long a millimetre is in units of the page."""
+        strokes = self._found(self.scene, OUTLINES, None) if strokes is None else strokes
+        return labels_in_place(self.scene, *self._view, self.placement, anchors, strokes, text=text, mm=mm)
 
     def layers(self, found: Paths) -> tuple[Layer, ...]:
         """The visible lines in layers by kind."""
-        return inked(layers_by_kind(found), "none", self.seen.placement.page_from_world, self.tolerance_mm)
+        return inked(layers_by_kind(found), "none", self.placement.page_from_world, self.tolerance_mm)
 
     def strokes(self, scene: Scene, kinds: frozenset[LineKind]) -> Paths:
         """The visible lines as polylines. scene: this one, whatever patterns it has."""
         found = self._found(scene, kinds, None)
-        (layer,) = inked((Layer("", PEN, (found,)),), "none", self.seen.placement.page_from_world)
+        (layer,) = inked((Layer("", PEN, (found,)),), "none", self.placement.page_from_world)
         return layer.strokes[0]
 
     def _found(self, scene: Scene, kinds: frozenset[LineKind], progress: Callable[[float], None] | None) -> Paths:
         return lines_in_place(
             scene,
             *self._view,
-            self.seen.placement,
+            self.placement,
             kinds,
             crease_angle_deg=self.crease_angle_deg,
             tolerance_mm=self.tolerance_mm,
@@ -71,4 +79,4 @@ class Ruler:
 
     @cached_property
     def _view(self) -> tuple[View, ProjectedFaces]:
-        return with_smooth_surfaces(self.scene, self.seen.view, self.seen.projected)
+        return with_smooth_surfaces(self.scene, self.view, self.faces)

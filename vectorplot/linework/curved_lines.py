@@ -1,0 +1,102 @@
+"""The lines of smooth surfaces, and what these hide of all lines."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from vectorplot.errors import InputWarning
+from vectorplot.geometry.budget import Budget, line_each
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import View
+from vectorplot.stages.walk import Walk
+from vectorplot.tolerances.of_extent import FINEST_CHORD_OF_EXTENT
+from vectorplot.visibility.cut_edges import with_kinds_of_cuts
+from vectorplot.visibility.polyhedra.lines import Lines
+from vectorplot.words import LineKind
+
+if TYPE_CHECKING:
+    from vectorplot.visibility.quadrics.closed_forms import ClosedForms
+    from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet
+    from vectorplot.visibility.smooth.tracing.traced import TracedScene
+
+
+def smooth_sheets(walk: Walk, scene: Scene, view: View, forms: ClosedForms | None) -> tuple[SmoothSheet, ...]:
+    """The smooth surfaces of the scene that are not drawn in closed form, if it has any."""
+    if not walk.calls_for("curves"):
+        return ()
+    from vectorplot.visibility.smooth.tracing.traced import scene_sheets
+
+    return scene_sheets(scene, view, frozenset() if forms is None else forms.items)
+
+
+def lines_and_chords(
+    walk: Walk,
+    scene: Scene,
+    view: View,
+    sheets: tuple[SmoothSheet, ...],
+    forms: ClosedForms | None,
+    kinds: frozenset[LineKind],
+    lines: Lines,
+    tolerance: float,
+    budget: Budget,
+) -> Lines:
+    """The lines and the curves of smooth surfaces, cut where one of these begins to hide them or ends, if they hide;
+    those of balls as they are seen among these."""
+    if not walk.calls_for("curves"):
+        return lines
+    from vectorplot.visibility.smooth.smooth_lines import cut_lines_and_chords, whole_lines_and_chords
+
+    if tolerance < FINEST_CHORD_OF_EXTENT:
+        text = "the picture shows so small a part of the scene that smooth curves are off by more than the tolerance"
+        warnings.warn(text, InputWarning, stacklevel=3)
+    tolerance = max(tolerance, FINEST_CHORD_OF_EXTENT)
+    done = walk.fraction("curves")
+    traced = walk.run("curves", _all_curves, scene, view, sheets, forms, kinds, tolerance, budget, done)
+    if not sheets or not walk.calls_for("smooth surfaces"):
+        _say(traced.doubts)
+        return with_kinds_of_cuts(scene, view, whole_lines_and_chords(view, traced, lines), kinds)
+    done = walk.fraction("smooth surfaces")
+    cut, unsure = walk.run("smooth surfaces", cut_lines_and_chords, view, traced, lines, tolerance, budget, done)
+    _say([*traced.doubts, *((scene.items[item].name, text) for item, text in unsure)])
+    cut = replace(cut, behind=np.where(cut.kind == LineKind.CENTRE, 0, cut.behind))
+    cut = with_kinds_of_cuts(scene, view, cut, kinds)
+    return cut if not walk.calls_for("visible lines") else cut.some(cut.behind == 0)
+
+
+def _say(doubts: Iterable[tuple[str, str]]) -> None:
+    """An InputWarning for each item, or items, of which something is in doubt, given by name."""
+    for line in line_each(doubts):
+        warnings.warn(line, InputWarning, stacklevel=4)
+
+
+def _all_curves(
+    scene: Scene,
+    view: View,
+    sheets: tuple[SmoothSheet, ...],
+    forms: ClosedForms | None,
+    kinds: frozenset[LineKind],
+    tolerance: float,
+    budget: Budget,
+    done: Callable[[float], None],
+) -> TracedScene:
+    """The curves of sheets, the arcs of what is drawn in closed form, and the curves in which the latter meet that are
+    no arcs."""
+    from vectorplot.visibility.smooth.tracing.traced import traced_scene, tracing_of
+
+    traced = traced_scene(scene, view, sheets, kinds, tolerance, budget, done)
+    if forms is None:
+        return traced
+    from vectorplot.visibility.quadrics.conic_curves import conic_curves
+
+    traced = traced.joined(conic_curves(view, forms.arcs, forms.behind, tolerance))
+    if not len(forms.traced) and not len(forms.in_faces):
+        return traced
+    from vectorplot.visibility.quadrics.traced_meetings import traced_meetings
+
+    met, doubts = traced_meetings(scene, view, forms, kinds, tracing_of(view, tolerance, budget))
+    return replace(traced.joined(met), doubts=(*traced.doubts, *doubts))

@@ -1,0 +1,28 @@
+"""Lines and blank places over a picture of pixels."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from vectorplot.backends.raster import painted
+from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
+from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.layers import layers_by_kind
+from vectorplot.drawing.strokes.finishing import long_strokes
+from vectorplot.shading.raster.png import Bytes
+
+
+def with_blanks(pixels: Bytes, blanks: Fills) -> Bytes:
+    """The picture with polygons over it."""
+    return _with_layers(pixels, (Layer("blank", Pen(), (blanks,)),))
+
+
+def with_lines(pixels: Bytes, found: Paths, width: float) -> Bytes:
+    """The picture with lines of some width in pixels over it."""
+    layers = layers_by_kind(long_strokes(found))
+    return _with_layers(pixels, tuple(replace(layer, pen=replace(layer.pen, width_mm=width)) for layer in layers))
+
+
+def _with_layers(pixels: Bytes, layers: tuple[Layer, ...]) -> Bytes:
+    rows, columns = pixels.shape[:2]
+    return painted(pixels, Drawing(float(columns), float(rows), layers))

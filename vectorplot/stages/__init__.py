@@ -1,0 +1,1 @@
+"""What the verbs have in common: the walk over stages, what a picture is of, and what stands beside it."""

@@ -1,0 +1,94 @@
+"""What a picture is of: the scene as it is seen, the camera, and what the scene was before it was cut."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.io.anything import scene_of
+from vectorplot.plan import plan_cuts
+from vectorplot.scene.naming.label_anchors import LabelAnchors, label_anchors
+from vectorplot.scene.placement import Placement
+from vectorplot.scene.point_of_view import camera_of
+from vectorplot.scene.scene import Light, Page, Scene
+from vectorplot.scene.seamless_scene import without_seams
+from vectorplot.scene.unbounded_items import tell_what_is_cut_off
+from vectorplot.scene.view import View
+from vectorplot.stages.walk import StageReport, Walk
+
+if TYPE_CHECKING:
+    from vectorplot.effects.scales.coloured_scene import ColourBar
+    from vectorplot.effects.scales.scaled_scene import Scaled
+
+
+@dataclass(frozen=True, eq=False)
+class Subject:
+    """What is seen of a scene, without seams, and from where; what labels name in the scene as it was given; and the
+    chart that its colouring and its box make of it, if it has one of these."""
+
+    scene: Scene
+    camera: Camera
+    anchors: LabelAnchors
+    chart: Scaled | None
+
+    @property
+    def bar(self) -> ColourBar | None:
+        """What explains the colours, where numbers give them."""
+        return None if self.chart is None else self.chart.bar
+
+    def around(self, placement: Placement, view: View, page: Page, border: float = 0.0) -> Placement:
+        """The place of a picture of faces that fills a page, with room for the numbers of a box, if there is one."""
+        return placement if self.chart is None else self.chart.around(placement, view, page, border)
+
+
+def subject_of(
+    scene: object,
+    camera: Camera | str | None,
+    explain: Callable[[StageReport], None] | None,
+    progress: Callable[[str, float], None] | None,
+    *,
+    lights: Sequence[Light] | None = None,
+    background: str | None = None,
+) -> Subject:
+    """What a picture of anything that has a shape is of. lights, background: in place of those of the scene.
+
+    Errors: as of scene_of, camera_of and scaled.
+    """
+    given = scene_of(scene)
+    chart = _chart_of(given, camera)
+    given, camera = (given, camera) if chart is None else (chart.scene, chart.camera)
+    given = given if background is None else replace(given, background=background)
+    seamless = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
+    tell_what_is_cut_off(seamless)
+    anchors, seen_from = label_anchors(given), camera_of(camera, seamless)
+    return Subject(_seen_part(seamless, seen_from, explain, progress), seen_from, anchors, chart)
+
+
+def _chart_of(scene: Scene, camera: Camera | str | None) -> Scaled | None:
+    """The scene with what its colouring and its box ask for, if it has one."""
+    if scene.colouring is None and scene.box is None:
+        return None
+    from vectorplot.effects.scales.scaled_scene import scaled
+
+    return scaled(scene, camera)
+
+
+def _seen_part(
+    scene: Scene,
+    camera: Camera,
+    explain: Callable[[StageReport], None] | None,
+    progress: Callable[[str, float], None] | None,
+) -> Scene:
+    """What cuts, and the camera's near and far plane, leave of a scene."""
+    walk = Walk(plan_cuts(scene, camera), explain, progress)
+    if walk.calls_for("cuts"):
+        from vectorplot.effects.cutting.cut_scenes import cut_scene
+
+        scene = walk.run("cuts", cut_scene, scene, camera)
+    if walk.calls_for("near and far"):
+        from vectorplot.effects.cuts import between_planes
+
+        scene = walk.run("near and far", between_planes, scene, camera)
+    return scene
