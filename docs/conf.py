@@ -9,8 +9,8 @@ from pathlib import Path
 from sphinx.application import Sphinx
 
 ROOMS = (
-    "geometry curves surfaces features scene io visibility shading drawing effects textbook backends testing accuracy "
-    "exact"
+    "geometry curves surfaces features scene io visibility shading drawing effects animation textbook backends "
+    "testing accuracy exact"
 ).split()
 """The rooms whose names the reference lists."""
 

@@ -1,4 +1,6 @@
 from .accuracy.verb import accuracy
+from .animation.animation import Animation
+from .animation.animation_file import read_animation
 from .draw import draw
 from .drawing.drawing import Drawing, Layer, Paths, Pen
 from .drawing.pens.styles import Style
@@ -32,6 +34,7 @@ __version__: str
 
 __all__ = [
     "Along",
+    "Animation",
     "AtVertex",
     "Camera",
     "Drawing",
@@ -78,6 +81,7 @@ __all__ = [
     "panorama",
     "radius",
     "read",
+    "read_animation",
     "render",
     "save",
     "save_for_latex",

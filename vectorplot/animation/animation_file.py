@@ -1,0 +1,196 @@
+"""Animation files: what moves in a scene, said in the manner of the scene language."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path, PurePath
+from typing import Any
+
+from vectorplot.animation.animation import Animation, check_fps, check_frames
+from vectorplot.animation.animation_words import CAMERA, STATEMENTS, AnimationWords
+from vectorplot.animation.folders import data_file
+from vectorplot.animation.keyed_motion import CameraTrack, ItemTrack, KeyedMotion, LightTrack
+from vectorplot.animation.modes import MODES
+from vectorplot.errors import InputError, printable
+from vectorplot.io.read_file import read
+from vectorplot.scene.scene import Scene
+from vectorplot.words import nearest
+
+MAX_FILE_BYTES = 4 << 20
+"""The largest animation file that is read."""
+
+ONCE = ("mode", "frames", "frames_per_second", "loop", "scene", *CAMERA)
+"""Statements that a file makes once."""
+
+
+def read_animation(path: str | os.PathLike[str], scene: Scene | None = None) -> Animation:
+    """The animation that a file describes.
+
+    Parameters
+    ----------
+    path : str or path
+        A text in UTF-8, of any suffix.
+    scene : Scene, optional
+        What moves. Where None, the one that the file names: beside it, in the current folder or in ``data/``.
+
+    Returns
+    -------
+    Animation
+        It can be pickled.
+
+    Raises
+    ------
+    InputError
+        With file, line and the word expected; for names that the scene does not have, and where nobody names a scene.
+
+    Notes
+    -----
+    The language stands in docs/animation.md.
+
+    Source: Glaeser, appendix A.4, which leaves its words open.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> from vectorplot import animation, io
+    >>> scene = io.parse_scene("DIE red box solid 2 2 2")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder, "turn.anim")
+    ...     _ = path.write_text("frames 30 loop item DIE rotation z linear at 0 0 at 1 90")
+    ...     animation.read_animation(path, scene)
+    <Animation: 30 frames, 25 a second, lines>
+    """
+    file, name = Path(path), printable(str(path))
+    try:
+        if file.stat().st_size > MAX_FILE_BYTES:
+            raise InputError(f"larger than {MAX_FILE_BYTES >> 20} MiB: this is no animation file", file=name)
+        text = file.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError:
+        raise InputError("not UTF-8: this is no animation file", file=name) from None
+    except (OSError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(getattr(error, "strerror", None) or "cannot be read", file=name) from None
+    return _Reader(AnimationWords(text, name), file.parent).animation(scene)
+
+
+def parse_animation(text: str, scene: Scene | None = None, name: str = "<text>") -> Animation:
+    """The animation that a text describes.
+
+    Parameters
+    ----------
+    text : str
+        Statements, in any order.
+    scene : Scene, optional
+        What moves. Where None, the one that the text names, in the current folder or in ``data/``.
+    name : str
+        What messages call the text.
+
+    Returns
+    -------
+    Animation
+        It can be pickled.
+
+    Raises
+    ------
+    InputError
+        With name, line and the word expected; for names that the scene does not have, and where nobody names a scene.
+
+    Examples
+    --------
+    >>> from vectorplot import animation, io
+    >>> scene = io.parse_scene("camera eye 9 0 5  DIE red box solid 2 2 2")
+    >>> film = animation.parse_animation("frames 3  eye at 0 9 0 5  at 1 0 9 5", scene)
+    >>> [film.scene(frame).camera.eye for frame in range(3)]
+    [(9.0, 0.0, 5.0), (4.5, 4.5, 5.0), (0.0, 9.0, 5.0)]
+    """
+    return _Reader(AnimationWords(text, name), None).animation(scene)
+
+
+class _Reader:
+    """Reads statements and gathers them; folder: that of the file."""
+
+    def __init__(self, words: AnimationWords, folder: Path | None) -> None:
+        self.words, self.folder = words, folder
+        self.at = 0
+        self.given: dict[str, Any] = {}
+        self.camera: list[CameraTrack] = []
+        self.lights: list[LightTrack] = []
+        self.items: list[ItemTrack] = []
+        self.named: tuple[str, int] | None = None
+
+    def animation(self, scene: Scene | None) -> Animation:
+        """All statements up to the end of the text, and the scene that they are about."""
+        words, said = self.words, set()
+        while word := words.words[self.at]:
+            if word not in STATEMENTS:
+                words.unknown(self.at, "", STATEMENTS)
+            if word in ONCE and word in said:
+                words.fail(self.at, f"a second '{word}'")
+            said.add(word)
+            self.statement(word)
+        shown = self.scene() if scene is None else scene
+        motion = KeyedMotion(shown, tuple(self.camera), tuple(self.lights), tuple(self.items))
+        return Animation(motion, **self.given)
+
+    def statement(self, word: str) -> None:
+        """A statement, and what follows its first word."""
+        words, start = self.words, self.at
+        if word in CAMERA:
+            track, self.at = words.camera_track(self.at)
+            self.camera.append(track)
+        elif word == "light":
+            lights, self.at = words.light_tracks(self.at)
+            self.lights += lights
+        elif word == "item":
+            items, self.at = words.item_tracks(self.at)
+            self.items += items
+        elif word == "loop":
+            self.given["loop"] = True
+            self.at += 1
+        elif word == "scene":
+            if not words.words[start + 1].startswith('"'):
+                words.fail(start + 1, f"scene: expected the name of a file in quotes, got {words.shown(start + 1)}")
+            self.named = (words.string(start + 1), start + 1)
+            self.at += 2
+        else:
+            self.setting(word)
+
+    def setting(self, word: str) -> None:
+        """mode, frames or frames_per_second."""
+        words, at = self.words, self.at + 1
+        if word == "mode":
+            if words.words[at] not in MODES:
+                near = nearest(words.words[at].lower(), MODES) if words.words[at] else None
+                hint = f" (did you mean '{near}'?)" if near else ""
+                words.fail(at, f"mode: expected one of {', '.join(MODES)}, got {words.shown(at)}{hint}")
+            self.given["mode"] = words.words[at]
+        else:
+            owner = f"{word}: "
+            try:
+                if word == "frames":
+                    self.given["frames"] = words.whole(at, owner, word)
+                    check_frames(self.given["frames"])
+                else:
+                    self.given["fps"] = words.number(at, owner, word)
+                    check_fps(self.given["fps"])
+            except InputError as error:
+                if error.file is not None:
+                    raise
+                words.fail(at, error.cause)
+        self.at += 2
+
+    def scene(self) -> Scene:
+        """The scene that the file names: a file beside it, or a data file."""
+        if self.named is None:
+            raise InputError("no scene: expected one beside the animation, or 'scene' in it", file=self.words.name)
+        name, at = self.named
+        pure = PurePath(name)
+        if pure.is_absolute() or ".." in pure.parts:
+            self.words.fail(at, f"scene: {name!r} lies elsewhere: expected a name beside the animation or in data/")
+        beside = None if self.folder is None else self.folder / name
+        try:
+            found = beside if beside is not None and beside.is_file() else data_file(name)
+        except (InputError, OSError, ValueError):
+            self.words.fail(at, f"scene: {name!r}: no such file, nor in data/")
+        return read(found)
