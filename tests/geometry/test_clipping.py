@@ -8,7 +8,9 @@ from hypothesis import strategies as st
 from vectorplot.errors import InputError
 from vectorplot.geometry import clipping as cl
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.projection import CoordinateSystem, PixelWindow, collineate, depth_of
+from vectorplot.geometry.cameras.collineation import collineate, depth_of
+from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
+from vectorplot.geometry.cameras.pixel_window import PixelWindow
 from vectorplot.geometry.clipping import Box, Polygons, Window
 from vectorplot.textbook.frustum import Frustum
 

@@ -4,7 +4,7 @@ import pytest
 from vectorplot.draw import draw
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.projection import CoordinateSystem
+from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.pools import pools
 from vectorplot.scene.scene import Item, Light, Scene

@@ -13,7 +13,8 @@ from vectorplot.backends.page.page_marks import page_marks
 from vectorplot.errors import InputError
 from vectorplot.geometry import clipping
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.projection import CoordinateSystem, PixelWindow
+from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
+from vectorplot.geometry.cameras.pixel_window import PixelWindow
 from vectorplot.geometry.clipping import Box, Window
 from vectorplot.shading.light.depth_cueing import LEAST, depth_shades
 from vectorplot.testing.shapes import box

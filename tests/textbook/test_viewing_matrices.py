@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.projection import CoordinateSystem, PixelWindow
+from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
+from vectorplot.geometry.cameras.pixel_window import PixelWindow
 from vectorplot.textbook import viewing_matrices as vw
 from vectorplot.textbook.viewing_matrices import ViewVolume
 

@@ -2,17 +2,10 @@ from . import ragged
 from .bodies_of_revolution import revolution
 from .budget import Budget, budget_of
 from .cameras.camera import Camera
+from .cameras.collineation import collineate, project, uncollineate, unproject
+from .cameras.coordinate_system import CoordinateSystem, changed_coordinates, with_target_as_origin
 from .cameras.lens import diagonal_field_of_vision_deg, field_of_vision_deg, focal_length_mm, lens_advice
-from .cameras.projection import (
-    CoordinateSystem,
-    PixelWindow,
-    changed_coordinates,
-    collineate,
-    project,
-    uncollineate,
-    unproject,
-    with_target_as_origin,
-)
+from .cameras.pixel_window import PixelWindow
 from .cameras.unit_projection import Projection, projection_of
 from .clipping import (
     Box,

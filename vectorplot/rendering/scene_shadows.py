@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from vectorplot.arrays import Bools, Ints
-from vectorplot.geometry.cameras.projection import CoordinateSystem
+from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.plan import casts_shadow, dims_light
 from vectorplot.scene.scene import Light, Scene
 from vectorplot.scene.view import View

@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.projection import CoordinateSystem, depth_of
+from vectorplot.geometry.cameras.collineation import depth_of
+from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.clipping import Box
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.tolerances.of_numbers import INFINITE

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry.cameras.projection import CoordinateSystem
+from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.shading.depth.coplanar import CoplanarFaces, ranked
 from vectorplot.shading.depth.depth_buffer import DepthBuffer, layers_before, strip

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.projection import CoordinateSystem, PixelWindow
+from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
+from vectorplot.geometry.cameras.pixel_window import PixelWindow
 from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture
 from vectorplot.scene.scene import Page
 from vectorplot.scene.view import View

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.projection import CoordinateSystem, depth_of
+from vectorplot.geometry.cameras.collineation import depth_of
+from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.shading.raster.screen import HalfSpace, screen_triangles
 from vectorplot.shading.shadows.trapezoid import FOCUS_LINE
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT

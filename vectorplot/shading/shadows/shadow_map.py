@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.projection import CoordinateSystem
+from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.shading.depth.depth_buffer import depth_codes
 from vectorplot.shading.depth.depth_code import DepthCode

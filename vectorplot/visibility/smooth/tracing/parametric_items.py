@@ -29,7 +29,7 @@ from vectorplot.features.parametric.sections import plane_sections
 from vectorplot.features.parametric.stacked_conditions import stacked, stacks
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.features.parametric.surface_paths import surface_path
-from vectorplot.features.zeros.zero_manifold import JUMPS
+from vectorplot.features.zeros.zero_doubts import JUMPS
 from vectorplot.geometry.budget import unheard
 from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.scene import Item, Scene

@@ -7,9 +7,10 @@ from hypothesis import strategies as st
 
 import vectorplot as vp
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras import projection as pr
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.projection import CoordinateSystem, PixelWindow
+from vectorplot.geometry.cameras.collineation import collineate, project
+from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem, changed_coordinates, with_target_as_origin
+from vectorplot.geometry.cameras.pixel_window import PixelWindow
 from vectorplot.geometry.solids import box
 
 EYE, TARGET, P = (10.0, 5.0, 7.0), (1.0, 2.0, -1.0), np.array([3.0, -2.0, 4.0])
@@ -22,77 +23,6 @@ point3 = st.tuples(component, component, component).map(np.array)
 
 def cloud(count=200, seed=7):
     return np.random.default_rng(seed).uniform(-3, 3, (count, 3))
-
-
-@pytest.mark.capability("G2.3-T1")
-def test_tv06_t1_image():
-    image = CoordinateSystem.of_image(BOOK).from_world(P)
-    assert np.allclose(image, (-4.5919961582411, 6.51712353182474, 3.70678563451675), rtol=0, atol=1e-12)
-    assert np.allclose(pr.project(ROTATED, BOOK.distance), image, rtol=0, atol=1e-12)
-
-
-@pytest.mark.capability("G2.3-T1")
-def test_t1_with_an_infinite_centre_is_the_orthogonal_image():
-    points = cloud()
-    assert np.array_equal(pr.project(points, np.inf), points)
-    assert np.array_equal(pr.unproject(points, np.inf), points)
-    assert np.allclose(pr.unproject(pr.project(points, 5.0), 5.0), points, atol=1e-14)
-
-
-@pytest.mark.capability("G2.3-T2")
-def test_tv07_t2_image():
-    image = pr.collineate(CoordinateSystem.of_image(BOOK).rotated(P), BOOK.distance)
-    assert np.allclose(image, (-4.5919961582411, 6.51712353182474, 0.425925925925926), rtol=0, atol=1e-12)
-
-
-@pytest.mark.capability("G2.3-T2")
-@pytest.mark.parametrize("k", [None, 1.0, 1 / 7, -0.4, 3.0])
-def test_t2_carries_planes_to_planes_and_fixes_the_image_plane(k):
-    d = 7.0
-    rng = np.random.default_rng(8)
-    n, c = np.array([0.3, -0.8, 0.5]), 1.3
-    points = rng.uniform(-3, 3, (100, 3))
-    points += ((c - points @ n) / (n @ n))[:, None] * n
-    images = pr.collineate(points, d, k)
-    singular = np.linalg.svd(images - images.mean(axis=0), compute_uv=False)
-    assert singular[2] < 1e-13 * singular[0] * len(points)
-    ground = points * (1, 1, 0)
-    assert np.allclose(pr.collineate(ground, d, k), ground, atol=1e-15)
-    # Erratum G2-04: joining lines meet in (0, 0, d (1 - k)).
-    factor = 1 / d if k is None else k
-    centre = np.array([0, 0, d * (1 - factor)])
-    assert np.abs(np.cross(points - centre, images - centre)).max() < 1e-11
-    assert np.allclose(pr.uncollineate(images, d, k), points, atol=1e-13)
-
-
-@pytest.mark.capability("G2.3-T2")
-@given(st.floats(-50, 6.9), st.floats(-50, 6.9))
-def test_t2_keeps_the_order_of_depths(z, w):
-    first, second = (float(pr.collineate(np.array([0.0, 0.0, x]), 7.0)[2]) for x in (z, w))
-    assert first > -1.0
-    if abs(z - w) > 1e-9:
-        assert (first < second) == (z < w)
-
-
-@pytest.mark.capability("G2.3-undoT2")
-def test_tv08_depths_of_the_initial_near_and_far_planes():
-    z = pr.depth_of([-0.8, 4.0], BOOK.distance)
-    assert np.allclose(z, (-49.6386945839634, 9.92773891679269), rtol=0, atol=1e-12)
-    assert np.allclose(z / BOOK.distance, (-4.0, 0.8), atol=1e-15)
-
-
-@pytest.mark.capability("G2.3-undoT2")
-@given(point3)
-def test_t2_and_back(p):
-    assert np.allclose(pr.uncollineate(pr.collineate(p, 5.0), 5.0), p, atol=1e-13)
-    star = pr.collineate(p, 5.0)[2]
-    assert pr.depth_of(star, 5.0) == pytest.approx(p[2], abs=1e-13)
-    assert np.array_equal(pr.collineate(p, np.inf), p)
-
-
-def test_a_collineation_needs_a_factor():
-    with pytest.raises(InputError):
-        pr.collineate(P, 5.0, 0.0)
 
 
 @pytest.mark.capability("G2.1-project")
@@ -156,7 +86,7 @@ def test_world_to_screen_and_back(p, ratio, parallel):
     # The same by one product of matrices, and one division.
     *pixel, depth, weight = screen.homogeneous(p)
     assert np.allclose(np.array(pixel) / weight, screen.from_world(p)[:2], rtol=0, atol=1e-8) and weight > 0.0
-    star = screen.rotated(p)[2] if parallel else pr.collineate(screen.rotated(p), screen.distance)[2]
+    star = screen.rotated(p)[2] if parallel else collineate(screen.rotated(p), screen.distance)[2]
     assert depth / weight == pytest.approx(star, abs=1e-12)
 
 
@@ -217,7 +147,7 @@ def test_tv10_tv11_light_system():
     light = CoordinateSystem.of_light((4, -6, 9), TARGET)
     shadow = light.from_world(P)
     assert np.allclose(shadow, (0.952852633643793, -0.271665165901552, 6.69051610717341), rtol=0, atol=1e-12)
-    star = pr.collineate(light.rotated(P), light.distance)[2]
+    star = collineate(light.rotated(P), light.distance)[2]
     assert star == pytest.approx(1.03529411764706, abs=1e-12)
     assert light.distance == pytest.approx(13.1529464379659, abs=1e-12)
 
@@ -256,10 +186,10 @@ def test_the_shadow_lies_on_the_ray_from_the_lamp(p):
 def test_direct_switch_equals_the_way_through_the_world(p):
     screen = CoordinateSystem.of_screen(BOOK, WINDOW)
     light = CoordinateSystem.of_light((4, -6, 9), TARGET)
-    there = pr.changed_coordinates(screen.from_world(p), screen, light)
+    there = changed_coordinates(screen.from_world(p), screen, light)
     assert np.allclose(there, light.from_world(p), atol=1e-11)
-    assert np.allclose(pr.changed_coordinates(there, light, screen), screen.from_world(p), atol=1e-8)
-    assert np.allclose(pr.changed_coordinates(p, CoordinateSystem.world(), light), light.from_world(p), atol=1e-15)
+    assert np.allclose(changed_coordinates(there, light, screen), screen.from_world(p), atol=1e-8)
+    assert np.allclose(changed_coordinates(p, CoordinateSystem.world(), light), light.from_world(p), atol=1e-15)
 
 
 @pytest.mark.capability("G2.4-switch")
@@ -271,14 +201,14 @@ def test_a_point_has_the_same_number_in_the_pools_of_all_systems():
     for one, here in zip(systems, pools, strict=True):
         for other, there in zip(systems, pools, strict=True):
             # By number from pool to pool, or point by point by way of the world.
-            assert np.allclose(pr.changed_coordinates(here, one, other), there, rtol=0, atol=1e-8)
-            assert np.allclose(pr.changed_coordinates(here[7], one, other), there[7], rtol=0, atol=1e-8)
+            assert np.allclose(changed_coordinates(here, one, other), there, rtol=0, atol=1e-8)
+            assert np.allclose(changed_coordinates(here[7], one, other), there[7], rtol=0, atol=1e-8)
 
 
 @pytest.mark.capability("G2.4-target-origin")
 def test_scene_and_centres_move_so_that_the_target_is_the_origin():
     pool, centres = cloud(), np.array([EYE, (4, -6, 9)])
-    moved_pool, moved_centres, target = pr.with_target_as_origin(TARGET, pool, centres, TARGET)
+    moved_pool, moved_centres, target = with_target_as_origin(TARGET, pool, centres, TARGET)
     assert np.array_equal(target, np.zeros(3))
     before = CoordinateSystem.of_light(centres[1], TARGET).from_world(pool)
     assert np.allclose(CoordinateSystem.of_light(moved_centres[1]).from_world(moved_pool), before, atol=1e-12)
@@ -298,7 +228,7 @@ def roller():
 def test_the_roller_and_its_two_doubles_have_the_same_image():
     system = CoordinateSystem.of_image(Camera(eye=(4, 5, 2)))
     rotated = system.rotated(roller())
-    bent, straight = pr.project(rotated, system.distance), pr.collineate(rotated, system.distance)
+    bent, straight = project(rotated, system.distance), collineate(rotated, system.distance)
     image = system.from_world(roller())[..., :2]
     assert np.allclose(bent[..., :2], image, rtol=0, atol=1e-12)
     assert np.allclose(straight[..., :2], image, rtol=0, atol=1e-12)
