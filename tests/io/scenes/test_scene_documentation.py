@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 from support.paths import DOCS
 
+from vectorplot.io.scenes.items.item_reader import HANDLERS
+from vectorplot.io.scenes.items.scene_item import CAP_WORDS
 from vectorplot.io.scenes.reserved_words import RESERVED
-from vectorplot.io.scenes.scene_item import CAP_WORDS
 from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_reader import HANDLERS
 from vectorplot.io.scenes.scene_words import FORM_WORDS, ITEM_WORDS
 from vectorplot.words import COLOURS, MATERIALS, PALETTES
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from vectorplot.io.scenes.items.scene_item import CAP_WORDS
 from vectorplot.io.scenes.scene_families import CURVES, SLOT_WORDS, SURFACES
-from vectorplot.io.scenes.scene_item import CAP_WORDS
 from vectorplot.io.scenes.scene_words import FORM_WORDS, ITEM_WORDS, SCENE_WORDS
 from vectorplot.io.scenes.statements.annotation_statements import FIELD_WORDS
 from vectorplot.words import COLOURS, MATERIALS

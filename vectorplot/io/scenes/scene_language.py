@@ -16,8 +16,8 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import IDENTITY
 from vectorplot.io.meshes.mesh_file import shown
 from vectorplot.io.named_files import DEEPEST, NamedFiles
-from vectorplot.io.scenes.scene_item import Draft, finished
-from vectorplot.io.scenes.scene_reader import ItemReader
+from vectorplot.io.scenes.items.item_reader import ItemReader
+from vectorplot.io.scenes.items.scene_item import Draft, finished
 from vectorplot.io.scenes.scene_statements import (
     read_box_axes,
     read_camera,

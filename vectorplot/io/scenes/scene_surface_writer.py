@@ -84,7 +84,7 @@ def lines_text(curves: SurfaceLines, lights: Sequence[Light]) -> str:
             words.append(f"{word} normal {_numbers(section.normal)} at {_list(section.offsets)}{index}")
     words += [f"surface_curve {_quoted(path.function)} t {_numbers((path.start, path.end))}" for path in curves.paths]
     if curves.integral:
-        from vectorplot.io.scenes.scene_integral import integral_text
+        from vectorplot.io.scenes.items.scene_integral import integral_text
 
         words += [integral_text(lines) for lines in curves.integral]
     words += [_terrain_text(asked) for asked in curves.terrain]

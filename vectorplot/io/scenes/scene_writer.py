@@ -12,8 +12,8 @@ from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.io.scenes.items.scene_hatching import hatch_text
 from vectorplot.io.scenes.reserved_words import RESERVED
-from vectorplot.io.scenes.scene_hatching import hatch_text
 from vectorplot.io.scenes.scene_words import bare_word
 from vectorplot.scene.cuts.cut import Cut
 from vectorplot.scene.fitted_pages import FittedPage, PageOfWidth

@@ -123,7 +123,7 @@ def read_integral_lines(
     words: Words, at: int, owner: str, draft: CurveDraft, kind: str | None
 ) -> tuple[CurveDraft, int]:
     """Integral curves: of a field of directions, or geodesics; kind: of the item, where that was said already."""
-    from vectorplot.io.scenes.scene_integral import read_integral
+    from vectorplot.io.scenes.items.scene_integral import read_integral
 
     smooth = (kind or _kind_ahead(words, at)) in ("surface", "curve")
     lines, after = read_integral(words, at, owner, draft.lines.integral, ON_SURFACES if smooth else ON_MESHES)

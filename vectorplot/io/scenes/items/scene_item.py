@@ -27,8 +27,8 @@ from vectorplot.geometry.solids import (
     swept_polygon,
     turned_outwards,
 )
-from vectorplot.io.scenes.scene_curves import CurveDraft
-from vectorplot.io.scenes.scene_placement import Placement
+from vectorplot.io.scenes.items.scene_curves import CurveDraft
+from vectorplot.io.scenes.items.scene_placement import Placement
 from vectorplot.io.scenes.scene_words import Words
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.scene import Item, Material, Pattern
